@@ -1,0 +1,41 @@
+#pragma once
+#include <placegraph/graph/core/log.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/pose_graph.h>
+
+namespace placegraph {
+
+/// How the rotation part of a relative-pose error is written: one .g2o file has several costs.
+enum class RotationError {
+  kLog,         ///< Log of SE(2) / SE(3) / Sim(3): the default
+  kQuaternion,  ///< g2o: translation of the error pose, vector part of its quaternion (half angle)
+};
+
+struct PoseGraphOptions {
+  RotationError rotation_error = RotationError::kLog;
+  int max_iterations = 200;
+  double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
+  void check() const;
+};
+void visit(OptionVisitor& field, PoseGraphOptions& options);
+
+struct PoseGraphReport {
+  Outcome outcome;
+  PoseGraph graph;             ///< with the optimized poses
+  double chi2_initial = 0;     ///< sum of e^T Omega e in the chosen convention, without kernels
+  double chi2_final = 0;
+  int iterations = 0;
+  std::vector<double> chi2_by_constraint;  ///< final, in the order of graph.constraints
+};
+
+/// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed; if a connected component has no
+/// fixed node its first one is held. SE(2), SE(3) and Sim(3) graphs. Throws as PoseGraph::check.
+[[nodiscard]] PoseGraphReport optimize_pose_graph(const PoseGraph& graph,
+                                                  const PoseGraphOptions& options,
+                                                  const LogSink& log = {});
+
+/// Sum of e^T Omega e over all relative-pose constraints (and positions), without kernels.
+double chi2(const PoseGraph& graph, RotationError rotation_error);
+
+}  // namespace placegraph

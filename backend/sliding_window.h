@@ -1,0 +1,95 @@
+#pragma once
+#include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/core/outcome.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+struct SlidingWindowOptions {
+  int max_keyframes = 8;         ///< the oldest is marginalized beyond this
+  int max_iterations = 10;
+  double huber_px = 2.0;         ///< width of the Huber kernel on reprojection errors, in sigmas
+  double relative_decrease = 1e-4;  ///< of the cost, to stop
+  void check() const;
+};
+void visit(OptionVisitor& field, SlidingWindowOptions& options);
+
+/// A landmark seen in a keyframe. The inverse depth (1 / z in the camera frame) comes from stereo
+/// (disparity / (f b)) or a depth camera.
+struct WindowObservation {
+  std::int64_t keyframe = 0;
+  std::int64_t landmark = 0;
+  Eigen::Vector2d px = Eigen::Vector2d::Zero();
+  double sigma_px = 1;
+  std::optional<double> inverse_depth;  ///< [1/m]
+  double sigma_inverse_depth = 1;       ///< [1/m]
+};
+
+/// A metric length: |t| of T_from_to, as the ground plane under a camera of known height gives it.
+struct DistanceObservation {
+  std::int64_t from = 0, to = 0;
+  double distance_m = 0;
+  double sigma_m = 1;
+};
+
+struct WindowSummary {
+  Outcome outcome;
+  double cost_initial = 0, cost_final = 0;  ///< half the robust sum of squares
+  int iterations = 0;
+};
+
+/// Bundle adjustment over the last keyframes; what leaves is marginalized into a linear prior by
+/// Schur complement, with first-estimate Jacobians for the states that stay in it. Undistorted
+/// pinhole camera. Residuals: reprojection (px / sigma, Huber), inverse depth, distances, the prior.
+/// Deterministic; single-threaded.
+class SlidingWindow {
+ public:
+  SlidingWindow(const SlidingWindowOptions& options, const Camera& camera);
+  ~SlidingWindow();
+  SlidingWindow(SlidingWindow&&) noexcept;
+  SlidingWindow& operator=(SlidingWindow&&) noexcept;
+
+  /// Keyframe ids must be new and ascending; the first one fixes the gauge of position and heading
+  /// (and, when neither depth nor a distance says otherwise, the scale is held by the prior).
+  void add_keyframe(std::int64_t id, const SE3& T_map_cam);
+  void add_landmark(std::int64_t id, const Eigen::Vector3d& p_map);
+  void add_observation(const WindowObservation& observation);
+  void add_distance(const DistanceObservation& observation);
+  /// Forgets a landmark with its observations (an outlier).
+  void remove_landmark(std::int64_t id);
+  void remove_observation(std::int64_t keyframe, std::int64_t landmark);
+
+  [[nodiscard]] WindowSummary optimize();
+  /// Marginalizes the oldest keyframes until at most max_keyframes are left: landmarks that the
+  /// newest keyframe no longer sees are marginalized with them, observations of the others in the
+  /// leaving keyframe are dropped. Returns the ids of keyframes that left.
+  std::vector<std::int64_t> marginalize();
+  /// Multiplies all positions, landmarks and the prior's linearization by `scale` (> 0) about the
+  /// oldest keyframe: for a mono map whose metric scale becomes known. Throws if a distance or an
+  /// inverse depth is in the window already.
+  void rescale(double scale);
+
+  std::vector<std::int64_t> keyframes() const;  ///< ascending
+  std::vector<std::int64_t> landmarks() const;  ///< ascending
+  SE3 pose(std::int64_t keyframe) const;        ///< T_map_cam
+  std::optional<Eigen::Vector3d> landmark(std::int64_t id) const;
+  const std::vector<WindowObservation>& observations(std::int64_t landmark) const;
+  /// Reprojection error [px] of an observation at the current estimate; nothing behind the camera.
+  std::optional<Eigen::Vector2d> residual_px(const WindowObservation& observation) const;
+
+  /// Information (6x6, tangent of T_from_to on the right) of the relative pose between two
+  /// keyframes of the window, from the normal equations of everything in the window with all else
+  /// marginalized. Semi-definite where a direction is unobservable.
+  Matrix6d relative_information(std::int64_t from, std::int64_t to) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,42 @@
+#pragma once
+#include <placegraph/graph/core/lie.h>
+#include <placegraph/graph/core/robust_kernel.h>
+
+#include <cstdint>
+#include <variant>
+
+namespace placegraph {
+
+/// A pose of the graph, `T_world_node`. All nodes of one graph are of one kind.
+using Pose = std::variant<SE2, SE3, Sim3>;
+enum class PoseKind { kSE2, kSE3, kSim3 };  ///< in the order of Pose's alternatives
+
+inline PoseKind kind_of(const Pose& pose) { return static_cast<PoseKind>(pose.index()); }
+int degrees_of_freedom(PoseKind kind);
+
+/// Symmetric, positive semi-definite, of any rank; order of the tangent: translation, rotation,
+/// log scale. At most 7x7, without heap.
+using Information = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
+
+enum class ConstraintSource { kOdometry, kLoop, kOther };
+
+/// Node `to` seen from node `from`: error = Log(T_from_to^-1 * T_world_from^-1 * T_world_to).
+struct RelativePoseConstraint {
+  std::int64_t from = 0, to = 0;
+  Pose T_from_to;
+  Information information;
+  ConstraintSource source = ConstraintSource::kOdometry;
+  RobustKernel kernel;
+};
+
+/// The position of a node [m], as from a GPS receiver: error = position of node - position_world.
+struct PositionConstraint {
+  std::int64_t node = 0;
+  Eigen::Vector3d position_world = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
+  RobustKernel kernel;
+};
+
+using Constraint = std::variant<RelativePoseConstraint, PositionConstraint>;
+
+}  // namespace placegraph

@@ -1,0 +1,16 @@
+#pragma once
+#include <functional>
+#include <string>
+
+namespace placegraph {
+
+enum class LogLevel { kDebug, kInfo, kWarning };
+
+/// Where messages go: handed to whoever wants to speak, never global. Empty means silence.
+using LogSink = std::function<void(LogLevel, const std::string&)>;
+
+inline void log(const LogSink& sink, LogLevel level, const std::string& message) {
+  if (sink) sink(level, message);
+}
+
+}  // namespace placegraph

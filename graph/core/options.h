@@ -1,0 +1,117 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// The closed interval an option may lie in.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+};
+
+/// Visits the fields of an options struct: the one protocol from which come strict YAML reading,
+/// `placegraph config`, `--set a.b.c=v`, range checks and docs/options.md.
+///
+/// Each `XOptions` aggregate has one free function beside it that lists key, member, doc, range:
+///
+///     void visit(OptionVisitor& field, KltOptions& o) {
+///       field("window_px", o.window_px, "side of the square window", {5, 63});
+///       field.choice("metric", o.metric, {"ssd", "zncc"}, "similarity");   // enum class, 0-based
+///       field.group("ransac", o.ransac, "outlier rejection");              // nested options
+///     }
+class OptionVisitor {
+ public:
+  virtual ~OptionVisitor() = default;
+
+  virtual void operator()(const char* key, bool& value, const char* doc) = 0;
+  virtual void operator()(const char* key, int& value, const char* doc, Range range = {}) = 0;
+  virtual void operator()(const char* key, std::uint64_t& value, const char* doc) = 0;
+  virtual void operator()(const char* key, double& value, const char* doc, Range range = {}) = 0;
+  virtual void operator()(const char* key, std::string& value, const char* doc) = 0;
+  virtual void operator()(const char* key, std::vector<double>& value, const char* doc,
+                          Range range = {}) = 0;
+
+  /// An enum class whose enumerators are 0, 1, ... in the order of `names`.
+  template <class Enum>
+  void choice(const char* key, Enum& value, const std::vector<std::string>& names,
+              const char* doc) {
+    int index = static_cast<int>(value);
+    choice_index(key, index, names, doc);
+    value = static_cast<Enum>(index);
+  }
+
+  template <class Options>
+  void group(const char* key, Options& options, const char* doc) {
+    begin_group(key, doc);
+    visit(*this, options);
+    end_group();
+  }
+
+ protected:
+  virtual void choice_index(const char* key, int& index, const std::vector<std::string>& names,
+                            const char* doc) = 0;
+  virtual void begin_group(const char* key, const char* doc) = 0;
+  virtual void end_group() = 0;
+};
+
+/// One field of an options struct, flattened: what `placegraph config` and docs/options.md print.
+struct OptionEntry {
+  std::string path;                  ///< "frontend.tracker.window_px"
+  std::string value;                 ///< the present value, as YAML would write it
+  std::string doc;                   ///< one line
+  std::string type;                  ///< bool | int | uint | double | string | list | choice | group
+  Range range;                       ///< int, double, list elements
+  std::vector<std::string> choices;  ///< of a choice
+};
+
+namespace internal {
+/// Collects entries; `check` throws ArgumentError "path: value outside [min, max]".
+class OptionCollector : public OptionVisitor {
+ public:
+  using OptionVisitor::operator();
+  explicit OptionCollector(bool check) : check_(check) {}
+  void operator()(const char* key, bool& value, const char* doc) override;
+  void operator()(const char* key, int& value, const char* doc, Range range) override;
+  void operator()(const char* key, std::uint64_t& value, const char* doc) override;
+  void operator()(const char* key, double& value, const char* doc, Range range) override;
+  void operator()(const char* key, std::string& value, const char* doc) override;
+  void operator()(const char* key, std::vector<double>& value, const char* doc,
+                  Range range) override;
+  std::vector<OptionEntry> entries;
+
+ protected:
+  void choice_index(const char* key, int& index, const std::vector<std::string>& names,
+                    const char* doc) override;
+  void begin_group(const char* key, const char* doc) override;
+  void end_group() override;
+
+ private:
+  void add(const char* key, std::string value, const char* doc, const char* type, Range range = {},
+           std::vector<std::string> choices = {});
+  void check_range(const char* key, double value, Range range) const;
+  std::vector<std::string> prefix_;
+  bool check_;
+};
+}  // namespace internal
+
+/// All fields of `options`, groups included, in the order `visit` lists them.
+template <class Options>
+std::vector<OptionEntry> list_options(const Options& options) {
+  internal::OptionCollector collector(false);
+  Options copy = options;
+  visit(collector, copy);
+  return collector.entries;
+}
+
+/// Throws ArgumentError naming the first field that is NaN or outside its range.
+template <class Options>
+void check_ranges(const Options& options) {
+  internal::OptionCollector collector(true);
+  Options copy = options;
+  visit(collector, copy);
+}
+
+}  // namespace placegraph

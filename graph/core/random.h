@@ -1,0 +1,25 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+namespace placegraph {
+
+/// PCG32 (O'Neill 2014): small, seeded, the same numbers on every platform and library. Streams of
+/// one seed are independent, so parallel work takes one stream per item.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
+
+  std::uint32_t next();                       ///< uniform over 32 bits
+  int index(int n);                           ///< uniform in [0, n), n >= 1, unbiased
+  double uniform(double min = 0, double max = 1);  ///< uniform in [min, max)
+  double normal(double mean = 0, double sigma = 1);
+  /// `k` different indices of [0, n), k <= n, into `out` (resized). Throws ArgumentError if k > n.
+  void sample(int n, int k, std::vector<int>& out);
+
+ private:
+  std::uint64_t state_;
+  std::uint64_t increment_;
+};
+
+}  // namespace placegraph

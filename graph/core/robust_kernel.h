@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// rho(s) for a squared, whitened error s, in the scaling of Ceres: rho(s) ~ s for small s.
+struct RobustKernel {
+  enum class Kind { kNone, kHuber, kCauchy, kTukey, kGemanMcClure, kDcs };
+  Kind kind = Kind::kNone;
+  double width = 1;  ///< in standard deviations: Huber's k, Cauchy's c, Tukey's c, DCS's sqrt(Phi)
+
+  /// {rho, rho', rho''} at s >= 0. Weight of an error in reweighted least squares = rho'.
+  struct Value {
+    double rho, first, second;
+  };
+  Value evaluate(double s) const;
+};
+
+/// Names in the order of RobustKernel::Kind: for OptionVisitor::choice.
+const std::vector<std::string>& robust_kernel_names();
+
+}  // namespace placegraph

@@ -1,0 +1,47 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace placegraph {
+
+/// The 3x3 matrix with hat(a) * b = a x b.
+Eigen::Matrix3d hat(const Eigen::Vector3d& a);
+
+/// A rotation `R_a_b`: p_a = R_a_b * p_b. Held as a unit quaternion. Tangent: rotation vector [rad],
+/// perturbed on the right: R [+] w = R * exp(w).
+class SO3 {
+ public:
+  static constexpr int kDof = 3;
+  using Tangent = Eigen::Vector3d;
+  using Jacobian = Eigen::Matrix3d;
+  using Point = Eigen::Vector3d;
+
+  SO3() : q_(Eigen::Quaterniond::Identity()) {}
+  /// Normalizes `q`; throws ArgumentError if it is zero or not finite.
+  explicit SO3(const Eigen::Quaterniond& q);
+  /// The rotation nearest to `R` in the Frobenius norm; throws ArgumentError if `R` is not finite
+  /// or further than 1e-2 (largest singular value of R^T R - I) from a rotation.
+  static SO3 from_matrix(const Eigen::Matrix3d& R);
+
+  static SO3 exp(const Tangent& w);
+  Tangent log() const;  ///< |log| <= pi
+
+  SO3 inverse() const;
+  SO3 operator*(const SO3& other) const;  ///< renormalized
+  Point operator*(const Point& p) const { return q_ * p; }
+  SO3 plus(const Tangent& w) const { return *this * exp(w); }
+
+  Eigen::Matrix3d matrix() const { return q_.toRotationMatrix(); }
+  const Eigen::Quaterniond& quaternion() const { return q_; }
+  Jacobian adjoint() const { return matrix(); }
+
+  static Jacobian ad(const Tangent& w) { return hat(w); }  ///< little adjoint
+  /// d log(exp(w)^-1 exp(w + dw)) / d dw at 0 (Sola et al. 2018, eq. 143).
+  static Jacobian right_jacobian(const Tangent& w);
+  static Jacobian right_jacobian_inverse(const Tangent& w);
+
+ private:
+  Eigen::Quaterniond q_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,35 @@
+#pragma once
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// 256 bits of a binary descriptor (ORB, BRIEF).
+using BinaryDescriptor = std::array<std::uint64_t, 4>;
+
+/// Number of differing bits.
+int hamming_distance(const BinaryDescriptor& a, const BinaryDescriptor& b);
+
+/// A described image point of a keyframe; `point_cam` [m], in the keyframe's camera frame, where
+/// its depth is known.
+struct Feature {
+  Eigen::Vector2f px = Eigen::Vector2f::Zero();
+  float angle_rad = 0;  ///< orientation of the patch
+  int octave = 0;       ///< pyramid level it was found at
+  BinaryDescriptor descriptor{};
+  std::optional<Eigen::Vector3f> point_cam;
+};
+
+/// A point of the scene, as the map keeps it: relative to the keyframe that first saw it.
+struct PointLandmark {
+  std::int64_t id = 0;
+  std::int64_t keyframe = 0;
+  Eigen::Vector3d point_cam = Eigen::Vector3d::Zero();  ///< [m], in that keyframe's camera frame
+  int observations = 0;
+};
+
+}  // namespace placegraph

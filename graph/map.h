@@ -1,0 +1,49 @@
+#pragma once
+#include <placegraph/graph/core/trajectory.h>
+#include <placegraph/graph/place_graph.h>
+
+namespace placegraph {
+
+/// A keyframe as the map keeps it; its pose is its place's times T_place_keyframe.
+struct Keyframe {
+  std::int64_t id = 0;
+  std::int64_t frame = 0;
+  std::int64_t stamp_ns = 0;
+  std::int64_t place = 0;
+  SE3 T_place_keyframe;
+  std::vector<Feature> features;
+};
+
+/// Every input frame, relative to its keyframe; nothing where it is lost.
+struct FrameRecord {
+  std::int64_t frame = 0;
+  std::int64_t stamp_ns = 0;
+  std::int64_t keyframe = -1;
+  std::optional<SE3> T_keyframe_frame;
+};
+
+/// What became of a loop candidate.
+struct LoopRecord {
+  std::int64_t query_frame = 0, match_frame = 0;
+  int inliers = 0;
+  bool accepted = false;
+  std::string stage;  ///< the test that decided: "retrieval", "geometry", "consistency", "accepted"
+  SE3 T_match_query;  ///< of accepted ones
+};
+
+/// All that a run leaves behind. A plain value: a copy is a snapshot.
+struct Map {
+  std::vector<Keyframe> keyframes;
+  std::vector<PointLandmark> landmarks;
+  PlaceGraph place_graph;
+  std::vector<FrameRecord> frames;
+  std::vector<LoopRecord> loops;
+  Trajectory trajectory_online;  ///< as each frame's pose stood when the frame had been processed
+
+  const Keyframe* find_keyframe(std::int64_t id) const;
+  /// Every frame's pose through keyframe and place, T_map_cam. Frames of other components than the
+  /// first are posed only if constraints join them to it; otherwise they count as lost here.
+  Trajectory trajectory_optimized() const;
+};
+
+}  // namespace placegraph

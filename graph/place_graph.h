@@ -1,0 +1,45 @@
+#pragma once
+#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/pose_graph.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// A keyframe hangs on its place: moving the place moves the keyframe.
+struct PlaceMember {
+  std::int64_t keyframe = 0;
+  SE3 T_place_keyframe;
+};
+
+/// How a place looks: tf-idf weights of visual words, L1-normalized, by ascending word.
+struct Appearance {
+  std::vector<std::pair<std::uint32_t, float>> words;
+};
+
+/// A topological place: the frame of its anchor keyframe, and what was seen from there.
+struct Place {
+  std::int64_t id = 0;
+  std::int64_t anchor_keyframe = 0;
+  SE3 T_map_place;  ///< pose of the anchor keyframe's camera
+  int component = 0;  ///< sub-map; a new one begins after a loss that nothing bridged
+  std::vector<PlaceMember> members;  ///< the anchor is the first, at identity
+  Appearance appearance;
+  std::vector<std::string> labels;
+};
+
+/// Places and the constraints between them; ids of constraint nodes are place ids.
+struct PlaceGraph {
+  std::vector<Place> places;
+  std::vector<RelativePoseConstraint> constraints;
+
+  const Place* find(std::int64_t id) const;
+  /// The same as a pose graph over SE(3); the first place of every component is fixed.
+  PoseGraph pose_graph() const;
+  /// Takes over the node poses of an optimized `pose_graph()`.
+  void set_poses(const PoseGraph& optimized);
+};
+
+}  // namespace placegraph

@@ -1,0 +1,36 @@
+#pragma once
+#include <placegraph/graph/constraint.h>
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace placegraph {
+
+struct PoseNode {
+  std::int64_t id = 0;
+  Pose T_world_node;
+  bool fixed = false;
+};
+
+/// Poses and what is known of them. A plain value; ids are any integers, order is kept.
+struct PoseGraph {
+  std::vector<PoseNode> nodes;
+  std::vector<Constraint> constraints;
+
+  PoseKind kind() const;  ///< of the first node; SE3 if there is none
+
+  /// Throws ArgumentError: mixed kinds, duplicate ids, a constraint on an unknown node, non-finite
+  /// values, information of the wrong size, asymmetric, indefinite (smallest eigenvalue below -1e-9
+  /// of the largest) or all zero.
+  void check() const;
+  /// id -> position in `nodes`.
+  std::unordered_map<std::int64_t, int> index_by_id() const;
+  /// For every node the number of its connected component; numbers count from 0 in node order.
+  std::vector<int> components() const;
+  /// For every node the constraint that reaches it in a breadth-first spanning forest, odometry
+  /// constraints preferred; -1 for roots.
+  std::vector<int> spanning_tree() const;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,21 @@
+#pragma once
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace placegraph::test {
+
+/// The folder of research data: PLACEGRAPH_DATA, else ../shared/data beside the project; empty if
+/// neither exists.
+inline std::string data_dir() {
+  if (const char* dir = std::getenv("PLACEGRAPH_DATA")) return dir;
+  const std::string beside = std::string(PLACEGRAPH_SOURCE_DIR) + "/../shared/data";
+  return std::filesystem::is_directory(beside) ? beside : std::string();
+}
+
+}  // namespace placegraph::test
+
+/// Skips the test with a message unless data_dir()/relative exists; defines `name` as its path.
+#define PLACEGRAPH_DATA_OR_SKIP(name, relative)                                              \
+  const std::string name = placegraph::test::data_dir() + "/" + (relative);                  \
+  if (!std::filesystem::exists(name)) GTEST_SKIP() << "research data absent: " << (relative)
