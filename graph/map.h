@@ -42,7 +42,8 @@ struct Map {
 
   const Keyframe* find_keyframe(std::int64_t id) const;
   /// Every frame's pose through keyframe and place, T_map_cam. Frames of other components than the
-  /// first are posed only if constraints join them to it; otherwise they count as lost here.
+  /// first are posed only if constraints join them to it; otherwise they count as lost here. Throws
+  /// ArgumentError if a posed frame's keyframe or that one's place is not in the map.
   Trajectory trajectory_optimized() const;
 };
 

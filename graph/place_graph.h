@@ -23,7 +23,7 @@ struct Appearance {
 struct Place {
   std::int64_t id = 0;
   std::int64_t anchor_keyframe = 0;
-  SE3 T_map_place;  ///< pose of the anchor keyframe's camera
+  SE3 T_map_place;    ///< pose of the anchor keyframe's camera
   int component = 0;  ///< sub-map; a new one begins after a loss that nothing bridged
   std::vector<PlaceMember> members;  ///< the anchor is the first, at identity
   Appearance appearance;
@@ -36,7 +36,11 @@ struct PlaceGraph {
   std::vector<RelativePoseConstraint> constraints;
 
   const Place* find(std::int64_t id) const;
-  /// The same as a pose graph over SE(3); the first place of every component is fixed.
+  /// For every place the number of its component after joining: places of one `component` and
+  /// places that a constraint joins belong together. Numbers count from 0 in the order of `places`.
+  std::vector<int> joined_components() const;
+  /// The same as a pose graph over SE(3); the first place of every joined component is
+  /// fixed.
   PoseGraph pose_graph() const;
   /// Takes over the node poses of an optimized `pose_graph()`.
   void set_poses(const PoseGraph& optimized);

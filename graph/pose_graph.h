@@ -20,7 +20,8 @@ struct PoseGraph {
 
   PoseKind kind() const;  ///< of the first node; SE3 if there is none
 
-  /// Throws ArgumentError: mixed kinds, duplicate ids, a constraint on an unknown node, non-finite
+  /// Throws ArgumentError: mixed kinds, duplicate ids, a constraint on an unknown node or
+  /// of a node with itself, a kernel of no positive width, non-finite
   /// values, information of the wrong size, asymmetric, indefinite (smallest eigenvalue below -1e-9
   /// of the largest) or all zero.
   void check() const;
@@ -28,8 +29,9 @@ struct PoseGraph {
   std::unordered_map<std::int64_t, int> index_by_id() const;
   /// For every node the number of its connected component; numbers count from 0 in node order.
   std::vector<int> components() const;
-  /// For every node the constraint that reaches it in a breadth-first spanning forest, odometry
-  /// constraints preferred; -1 for roots.
+  /// For every node the constraint that reaches it in a breadth-first spanning forest; -1 for
+  /// roots, which are the first nodes of the components. Other constraints than odometry are used
+  /// only where odometry leads no further.
   std::vector<int> spanning_tree() const;
 };
 

@@ -14,7 +14,7 @@ enum class Distortion {
 
 /// A pinhole camera: x right, y down, z forward; pixel centres at integer coordinates.
 struct Camera {
-  int width = 0, height = 0;           ///< [px]
+  int width = 0, height = 0;              ///< [px]
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< [px]
   Distortion distortion = Distortion::kNone;
   std::array<double, 5> coefficients{};  ///< in the order of the distortion model; the rest 0
@@ -41,15 +41,15 @@ struct Camera {
 /// The depth sensor of an RGB-D camera: depth images need not be registered to the colour image.
 struct DepthCamera {
   Camera camera;
-  SE3 T_cam_depth;            ///< maps depth-camera coordinates into the colour camera's
+  SE3 T_cam_depth;             ///< maps depth-camera coordinates into the colour camera's
   double sigma_at_1m = 0.005;  ///< depth noise [m] at 1 m; grows with the square of the depth
 };
 
 /// What is known of the sensors before the first frame. The (left) camera's frame is "cam".
 struct Calibration {
-  Camera camera;                     ///< the left or only eye, of the images as they are handed over
-  double baseline_m = 0;             ///< > 0: there is a right eye, rectified, same intrinsics
-  std::optional<DepthCamera> depth;  ///< there is a depth image
+  Camera camera;          ///< the left or only eye, of the images as they are handed over
+  double baseline_m = 0;  ///< > 0: there is a right eye, rectified, same intrinsics
+  std::optional<DepthCamera> depth;       ///< there is a depth image
   std::optional<double> camera_height_m;  ///< height of the camera above the ground it drives on
 
   void check() const;

@@ -59,11 +59,11 @@ class OptionVisitor {
 
 /// One field of an options struct, flattened: what `placegraph config` and docs/options.md print.
 struct OptionEntry {
-  std::string path;                  ///< "frontend.tracker.window_px"
-  std::string value;                 ///< the present value, as YAML would write it
-  std::string doc;                   ///< one line
-  std::string type;                  ///< bool | int | uint | double | string | list | choice | group
-  Range range;                       ///< int, double, list elements
+  std::string path;   ///< "frontend.tracker.window_px"
+  std::string value;  ///< the present value, as YAML would write it
+  std::string doc;    ///< one line
+  std::string type;   ///< bool | int | uint | double | string | list | choice | group
+  Range range;        ///< int, double, list elements
   std::vector<std::string> choices;  ///< of a choice
 };
 

@@ -10,12 +10,12 @@ namespace placegraph {
 struct [[nodiscard]] Outcome {
   enum class Code {
     kOk,
-    kTooFewData,     ///< fewer measurements than the method needs
-    kNoConsensus,    ///< RANSAC found no model with enough support
-    kDegenerate,     ///< the measurements leave the wanted quantity unobservable
-    kNotConverged,   ///< the iteration stopped without reaching a minimum
-    kInconsistent,   ///< an estimate exists but contradicts a prior or a gate
-    kNotAttempted,   ///< the default: nothing was computed yet
+    kTooFewData,    ///< fewer measurements than the method needs
+    kNoConsensus,   ///< RANSAC found no model with enough support
+    kDegenerate,    ///< the measurements leave the wanted quantity unobservable
+    kNotConverged,  ///< the iteration stopped without reaching a minimum
+    kInconsistent,  ///< an estimate exists but contradicts a prior or a gate
+    kNotAttempted,  ///< the default: nothing was computed yet
   };
 
   Code code = Code::kNotAttempted;

@@ -10,11 +10,12 @@ class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
 
-  std::uint32_t next();                       ///< uniform over 32 bits
-  int index(int n);                           ///< uniform in [0, n), n >= 1, unbiased
+  std::uint32_t next();                            ///< uniform over 32 bits
+  int index(int n);                                ///< uniform in [0, n), n >= 1, unbiased
   double uniform(double min = 0, double max = 1);  ///< uniform in [min, max)
   double normal(double mean = 0, double sigma = 1);
-  /// `k` different indices of [0, n), k <= n, into `out` (resized). Throws ArgumentError if k > n.
+  /// `k` different indices of [0, n), 0 <= k <= n, into `out` (resized); every set is equally
+  /// likely, its order is not random. Throws ArgumentError otherwise.
   void sample(int n, int k, std::vector<int>& out);
 
  private:

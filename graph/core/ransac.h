@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/options.h>
+#include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>
@@ -25,9 +25,9 @@ int ransac_iterations(double inlier_ratio, int sample_size, double confidence, i
 template <class Model>
 struct RansacResult {
   Outcome outcome;
-  Model model;                ///< meaningful only if outcome
-  std::vector<int> inliers;   ///< indices, ascending
-  double score = 0;           ///< MSAC cost of the model
+  Model model;               ///< meaningful only if outcome
+  std::vector<int> inliers;  ///< indices, ascending
+  double score = 0;          ///< MSAC cost of the model
   int iterations = 0;
 };
 

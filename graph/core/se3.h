@@ -6,8 +6,8 @@ namespace placegraph {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// A rigid motion `T_a_b`: p_a = T_a_b * p_b = R p_b + t. Tangent [translation, rotation], perturbed
-/// on the right: T [+] xi = T * exp(xi).
+/// A rigid motion `T_a_b`: p_a = T_a_b * p_b = R p_b + t. Tangent [translation, rotation],
+/// perturbed on the right: T [+] xi = T * exp(xi).
 class SE3 {
  public:
   static constexpr int kDof = 6;
@@ -26,7 +26,10 @@ class SE3 {
   static SE3 exp(const Tangent& xi);
   Tangent log() const;
 
-  SE3 inverse() const;
+  SE3 inverse() const {
+    const SO3 R_inverse = R_.inverse();
+    return SE3(R_inverse, -(R_inverse * t_));
+  }
   SE3 operator*(const SE3& other) const { return SE3(R_ * other.R_, t_ + R_ * other.t_); }
   Point operator*(const Point& p) const { return R_ * p + t_; }
   SE3 plus(const Tangent& xi) const { return *this * exp(xi); }

@@ -17,8 +17,13 @@ class SO2 {
   Tangent log() const { return Tangent(angle()); }
   double angle() const;
 
-  SO2 inverse() const;
-  SO2 operator*(const SO2& other) const;
+  SO2 inverse() const { return SO2(c_, -s_); }
+  SO2 operator*(const SO2& other) const {  ///< renormalized
+    const double c = c_ * other.c_ - s_ * other.s_;
+    const double s = s_ * other.c_ + c_ * other.s_;
+    const double factor = 1.5 - 0.5 * (c * c + s * s);  // one Newton step towards 1 / norm
+    return SO2(factor * c, factor * s);
+  }
   Point operator*(const Point& p) const { return {c_ * p[0] - s_ * p[1], s_ * p[0] + c_ * p[1]}; }
   SO2 plus(const Tangent& w) const { return *this * exp(w); }
 
@@ -29,6 +34,7 @@ class SO2 {
   static Jacobian right_jacobian_inverse(const Tangent&) { return Jacobian::Identity(); }
 
  private:
+  SO2(double c, double s) : c_(c), s_(s) {}
   double c_, s_;
 };
 

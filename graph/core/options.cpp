@@ -1,0 +1,113 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/options.h>
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace placegraph::internal {
+namespace {
+
+/// The shortest text that reads back as the same number, in YAML's spelling.
+std::string to_text(double value) {
+  if (std::isnan(value)) return ".nan";
+  if (std::isinf(value)) return value < 0 ? "-.inf" : ".inf";
+  char buffer[32];
+  const auto result = std::to_chars(buffer, buffer + sizeof(buffer), value);
+  return std::string(buffer, result.ptr);
+}
+
+std::string to_text(const std::vector<double>& values) {
+  std::string text = "[";
+  for (const double value : values) text += (text.size() > 1 ? ", " : "") + to_text(value);
+  return text + "]";
+}
+
+/// In double quotes unless it is a plain word that YAML cannot take for anything else.
+std::string quoted(const std::string& value) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '/' || c == '.';
+  };
+  bool is_plain = !value.empty() && ((value[0] >= 'a' && value[0] <= 'z') || value[0] == '/') &&
+                  value != "true" && value != "false" && value != "null" && value != "yes" &&
+                  value != "no" && value != "on" && value != "off" && value != "y" && value != "n";
+  for (const char c : value) is_plain = is_plain && plain(c);
+  if (is_plain) return value;
+  std::string text = "\"";
+  for (const char c : value) {
+    if (c == '"' || c == '\\') text += '\\';
+    if (c == '\n')
+      text += "\\n";
+    else if (c == '\t')
+      text += "\\t";
+    else
+      text += c;
+  }
+  return text + "\"";
+}
+
+std::string join(const std::vector<std::string>& prefix, const char* key) {
+  std::string path;
+  for (const std::string& group : prefix) path += group + ".";
+  return path + key;
+}
+
+}  // namespace
+
+void OptionCollector::operator()(const char* key, bool& value, const char* doc) {
+  add(key, value ? "true" : "false", doc, "bool");
+}
+
+void OptionCollector::operator()(const char* key, int& value, const char* doc, Range range) {
+  check_range(key, value, range);
+  add(key, std::to_string(value), doc, "int", range);
+}
+
+void OptionCollector::operator()(const char* key, std::uint64_t& value, const char* doc) {
+  add(key, std::to_string(value), doc, "uint");
+}
+
+void OptionCollector::operator()(const char* key, double& value, const char* doc, Range range) {
+  check_range(key, value, range);
+  add(key, to_text(value), doc, "double", range);
+}
+
+void OptionCollector::operator()(const char* key, std::string& value, const char* doc) {
+  add(key, quoted(value), doc, "string");
+}
+
+void OptionCollector::operator()(const char* key, std::vector<double>& value, const char* doc,
+                                 Range range) {
+  for (const double element : value) check_range(key, element, range);
+  add(key, to_text(value), doc, "list", range);
+}
+
+void OptionCollector::choice_index(const char* key, int& index,
+                                   const std::vector<std::string>& names, const char* doc) {
+  const bool known = index >= 0 && index < static_cast<int>(names.size());
+  if (check_ && !known)
+    throw ArgumentError(join(prefix_, key) + ": " + std::to_string(index) + " is no choice of " +
+                        std::to_string(names.size()));
+  add(key, known ? names[index] : std::to_string(index), doc, "choice", {}, names);
+}
+
+void OptionCollector::begin_group(const char* key, const char* doc) {
+  add(key, "", doc, "group");
+  prefix_.push_back(key);
+}
+
+void OptionCollector::end_group() { prefix_.pop_back(); }
+
+void OptionCollector::add(const char* key, std::string value, const char* doc, const char* type,
+                          Range range, std::vector<std::string> choices) {
+  entries.push_back({join(prefix_, key), std::move(value), doc, type, range, std::move(choices)});
+}
+
+void OptionCollector::check_range(const char* key, double value, Range range) const {
+  if (!check_ || (value >= range.min && value <= range.max)) return;
+  throw ArgumentError(join(prefix_, key) + ": " + to_text(value) + " outside [" +
+                      to_text(range.min) + ", " + to_text(range.max) + "]");
+}
+
+}  // namespace placegraph::internal

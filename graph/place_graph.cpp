@@ -1,0 +1,76 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/place_graph.h>
+
+#include <algorithm>
+#include <numeric>
+#include <unordered_map>
+
+namespace placegraph {
+
+const Place* PlaceGraph::find(std::int64_t id) const {
+  // Ids usually count from 0.
+  if (id >= 0 && id < static_cast<std::int64_t>(places.size()) && places[id].id == id)
+    return &places[id];
+  for (const Place& place : places)
+    if (place.id == id) return &place;
+  return nullptr;
+}
+
+std::vector<int> PlaceGraph::joined_components() const {
+  std::vector<int> parent(places.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  // The lower index stays the root, so that a component is first met at its root.
+  const auto join = [&](int i, int j) {
+    i = root(i), j = root(j);
+    parent[std::max(i, j)] = std::min(i, j);
+  };
+  std::unordered_map<int, int> first_of_component;
+  std::unordered_map<std::int64_t, int> index;
+  for (int i = 0; i < static_cast<int>(places.size()); ++i) {
+    join(first_of_component.emplace(places[i].component, i).first->second, i);
+    index.emplace(places[i].id, i);
+  }
+  for (const RelativePoseConstraint& constraint : constraints) {
+    const auto from = index.find(constraint.from), to = index.find(constraint.to);
+    if (from == index.end() || to == index.end())
+      throw ArgumentError("place graph: constraint " + std::to_string(constraint.from) + " -> " +
+                          std::to_string(constraint.to) + ": unknown place");
+    join(from->second, to->second);
+  }
+  std::vector<int> component(places.size());
+  int count = 0;
+  for (int i = 0; i < static_cast<int>(places.size()); ++i)
+    component[i] = root(i) == i ? count++ : component[root(i)];
+  return component;
+}
+
+PoseGraph PlaceGraph::pose_graph() const {
+  PoseGraph graph;
+  const std::vector<int> component = joined_components();
+  int seen = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool first = component[i] == seen;
+    seen += first;
+    graph.nodes.push_back({places[i].id, places[i].T_map_place, first});
+  }
+  graph.constraints.assign(constraints.begin(), constraints.end());
+  return graph;
+}
+
+void PlaceGraph::set_poses(const PoseGraph& optimized) {
+  const auto index = optimized.index_by_id();
+  for (Place& place : places) {
+    const auto node = index.find(place.id);
+    if (node == index.end())
+      throw ArgumentError("place graph: the pose graph lacks place " + std::to_string(place.id));
+    const SE3* T_map_place = std::get_if<SE3>(&optimized.nodes[node->second].T_world_node);
+    require(T_map_place, "place graph: the pose graph is not over SE(3)");
+    place.T_map_place = *T_map_place;
+  }
+}
+
+}  // namespace placegraph
