@@ -4,9 +4,10 @@
 
 namespace placegraph {
 
-/// Writes to `path` + a temporary suffix in the same folder and renames on commit(): a reader sees
-/// the old file or the whole new one. Without commit() the temporary is removed.
-/// Throws FileError if it cannot be opened, written or renamed.
+/// Writes to a temporary file beside `path` (its name with a suffix before the extension, so that
+/// libraries that go by the extension can write it too) and renames it on commit(): a reader sees
+/// the old file or the whole new one. Without commit() the temporary is removed. Throws FileError
+/// if it cannot be opened, written or renamed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -15,7 +16,9 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   std::ofstream& stream() { return stream_; }
-  const std::string& temporary_path() const { return temporary_; }  ///< for libraries that open files
+  const std::string& temporary_path() const {
+    return temporary_;
+  }  ///< for libraries that open files
   void commit();
 
  private:
@@ -23,5 +26,13 @@ class AtomicFile {
   std::ofstream stream_;
   bool committed_ = false;
 };
+
+/// Throws ArgumentError saying that `--force` is needed if `path` exists and `force` is not set.
+void refuse_to_overwrite(const std::string& path, bool force);
+
+/// Makes the folder and its parents. One that exists and holds anything is taken only with `force`,
+/// and nothing in it is removed. Throws ArgumentError if it is not empty or not a folder, FileError
+/// if it cannot be made.
+void make_output_folder(const std::string& path, bool force);
 
 }  // namespace placegraph

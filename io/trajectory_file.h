@@ -11,12 +11,14 @@ enum class TrajectoryFormat {
   kEuroc,  ///< "t_ns,px,py,pz,qw,qx,qy,qz,..." (CSV, extra columns ignored), T_world_body
 };
 
-/// By its first data line (12 numbers | 8 numbers | commas); extension plays no part. Throws FileError.
+/// By its first data line (12 numbers | 8 numbers | commas); extension plays no part. Throws
+/// FileError.
 TrajectoryFormat detect_trajectory_format(const std::string& path);
 
-/// Reads any of the three; KITTI has no times of its own: `times_path` (one number [s] a line, as many
-/// as poses), else stamps are indices and has_times is false. Throws FileError with the line: missing,
-/// empty, wrong count, not a number, times not increasing, quaternion not of unit length (1e-2).
+/// Reads any of the three; KITTI has no times of its own: `times_path` (one number [s] a line, as
+/// many as poses), else stamps are indices and has_times is false. Throws FileError with the line:
+/// missing, empty, wrong count, not a number, times not increasing, quaternion not of unit length
+/// (1e-2).
 Trajectory read_trajectory(const std::string& path, const std::string& times_path = {});
 
 /// Atomically, 9 digits after the point for metres, nanoseconds kept exactly. Lost frames as above.

@@ -1,0 +1,27 @@
+#pragma once
+#include <placegraph/graph/core/image.h>
+
+#include <string>
+
+namespace placegraph {
+
+/// A picture from a file: `grey` CV_8UC1, and `colour` CV_8UC3 BGR where the file has colour.
+struct GreyAndColour {
+  Image grey, colour;
+};
+
+/// Reads PNG, JPEG, PGM/PPM, TIFF or BMP; pixels as stored (EXIF orientation is not applied).
+/// Throws FileError if the file is missing, truncated or no image.
+GreyAndColour read_image(const std::string& path);
+
+/// Reads a 16-bit depth image into CV_32FC1 metres: value * unit_m; 0 and 65535 (nothing measured)
+/// become 0. Throws FileError, also if the file has another pixel type.
+Image read_depth(const std::string& path, double unit_m);
+
+/// The grey version of a BGR or grey image; grey ones are shared, not copied.
+Image to_grey(const Image& image);
+
+/// Throws FileError unless the image is `width` x `height`.
+void require_size(const std::string& path, const Image& image, int width, int height);
+
+}  // namespace placegraph

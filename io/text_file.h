@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace placegraph {
+
+/// A text file read whole and handed out line by line. It keeps the line number, so that whoever
+/// parses a line can say `file:line` in its error. Throws FileError if the file is missing, a
+/// folder, unreadable or larger than 2 GiB. What is read is what the file holds: no count found
+/// inside it ever sizes an allocation.
+class TextFile {
+ public:
+  explicit TextFile(std::string path);
+
+  /// The next line without its line end; false at the end of the file.
+  bool next(std::string_view& line);
+  /// The next line that is neither blank nor a comment (first character `#`).
+  bool next_data(std::string_view& line);
+
+  int line() const { return line_; }  ///< of the line handed out last, from 1; 0 before the first
+  const std::string& path() const { return path_; }
+  /// Throws FileError "path:line: message" for the line handed out last.
+  [[noreturn]] void fail(const std::string& message) const;
+
+  /// Number parsing with `file:line: what: ...` errors; whole field, C locale. `number` refuses nan
+  /// and infinity.
+  double number(std::string_view field, const char* what) const;
+  double number_or_nan(std::string_view field, const char* what) const;
+  std::int64_t integer(std::string_view field, const char* what) const;
+  /// Decimal seconds, with or without exponent, as the nearest nanosecond: exact, not through
+  /// double.
+  std::int64_t seconds_as_ns(std::string_view field, const char* what) const;
+
+ private:
+  std::string path_, text_;
+  std::size_t position_ = 0;
+  int line_ = 0;
+};
+
+/// Splits at blanks and tabs into `fields`, empty fields dropped.
+void split_blank(std::string_view line, std::vector<std::string_view>& fields);
+/// Splits at every comma; blanks around a field are dropped, empty fields kept.
+void split_comma(std::string_view line, std::vector<std::string_view>& fields);
+
+/// The whole field as a number (nan and infinity included), nothing if it is not one or overflows.
+std::optional<double> parse_double(std::string_view field);
+std::optional<std::int64_t> parse_integer(std::string_view field);
+std::optional<std::int64_t> parse_seconds_as_ns(std::string_view field);
+
+/// The text in quotes as error messages show it: at most 40 characters, unprintable ones as '?'.
+std::string in_quotes(std::string_view text);
+
+/// One time [s] a line, strictly increasing, at least one. Throws FileError with the line.
+std::vector<std::int64_t> read_times(const std::string& path);
+
+}  // namespace placegraph

@@ -1,0 +1,84 @@
+#include <placegraph/io/atomic_file.h>
+
+#include "temporary_folder.h"
+
+namespace placegraph {
+namespace {
+
+using test::message_of;
+using test::read_text;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::ptrdiff_t entries_in(const std::string& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+TEST(AtomicFile, LeavesTheOldFileUntilCommit) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.txt", "old");
+  AtomicFile file(path);
+  file.stream() << "new";
+  file.stream().flush();
+  EXPECT_EQ(read_text(path), "old");
+  file.commit();
+  EXPECT_EQ(read_text(path), "new");
+  EXPECT_EQ(entries_in(folder.path()), 1);
+}
+
+TEST(AtomicFile, LeavesNothingBehindWithoutCommit) {
+  const TemporaryFolder folder;
+  { AtomicFile(folder / "a.txt").stream() << "half"; }
+  EXPECT_EQ(entries_in(folder.path()), 0);
+}
+
+TEST(AtomicFile, KeepsTheExtensionForLibrariesThatGoByIt) {
+  const TemporaryFolder folder;
+  const AtomicFile file(folder / "plot.png");
+  EXPECT_EQ(fs::path(file.temporary_path()).extension(), ".png");
+}
+
+TEST(AtomicFile, GivesTwoWritersDifferentTemporaries) {
+  const TemporaryFolder folder;
+  AtomicFile a(folder / "a.txt"), b(folder / "a.txt");
+  EXPECT_NE(a.temporary_path(), b.temporary_path());
+  a.stream() << "a";
+  b.stream() << "b";
+  a.commit();
+  b.commit();
+  EXPECT_EQ(read_text(folder / "a.txt"), "b");
+}
+
+TEST(AtomicFile, SaysWhichFileCannotBeWritten) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(message_of([&] { AtomicFile(folder / "none/a.txt"); }), HasSubstr("none/a.txt: "));
+  EXPECT_THAT(message_of([&] { AtomicFile{folder.path()}; }), HasSubstr("is a folder"));
+  EXPECT_THROW(AtomicFile(""), ArgumentError);
+}
+
+TEST(OutputFolder, IsMadeWithItsParentsAndRefusedWhenFull) {
+  const TemporaryFolder folder;
+  make_output_folder(folder / "a/b", false);
+  EXPECT_TRUE(fs::is_directory(folder / "a/b"));
+  make_output_folder(folder / "a/b", false);  // empty: fine
+  folder.write("a/b/x", "1");
+  EXPECT_THAT(message_of<ArgumentError>([&] { make_output_folder(folder / "a/b", false); }),
+              HasSubstr("--force"));
+  make_output_folder(folder / "a/b", true);
+  EXPECT_EQ(read_text(folder / "a/b/x"), "1");
+  EXPECT_THROW(make_output_folder(folder / "a/b/x", true), ArgumentError);
+  EXPECT_THROW(make_output_folder(folder / "a/b/x/y", true), FileError);
+}
+
+TEST(Overwriting, NeedsForce) {
+  const TemporaryFolder folder;
+  refuse_to_overwrite(folder / "new", false);
+  const std::string path = folder.write("old", "");
+  EXPECT_THAT(message_of<ArgumentError>([&] { refuse_to_overwrite(path, false); }),
+              HasSubstr("old: exists; --force"));
+  refuse_to_overwrite(path, true);
+}
+
+}  // namespace
+}  // namespace placegraph
