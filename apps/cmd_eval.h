@@ -1,0 +1,9 @@
+#pragma once
+#include <CLI/App.hpp>
+
+namespace placegraph::apps {
+
+/// `placegraph eval GT EST...`: figures of estimated trajectories against ground truth.
+void add_eval_command(CLI::App& app);
+
+}  // namespace placegraph::apps

@@ -1,0 +1,45 @@
+// The command line: `placegraph <command> ...`. Exit codes: 0 ok, 1 the data allowed no answer,
+// 2 usage, configuration or file error.
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "apps/cmd_eval.h"
+#include "apps/cmd_optimize.h"
+#include "apps/help.h"
+#include "apps/output.h"
+
+namespace {
+
+constexpr int kNoAnswer = 1, kUsage = 2;
+
+int complain(int code, const std::string& message) {
+  std::fprintf(stderr, "placegraph: %s\n", placegraph::apps::one_line(message).c_str());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace placegraph::apps;
+  CLI::App app("Visual odometry, place recognition and pose graphs.", "placegraph");
+  try {
+    app.formatter(std::make_shared<ExampleFormatter>());
+    app.footer("placegraph eval poses.txt trajectory_optimized.kitti --align se3");
+    app.set_version_flag("--version", "placegraph " PLACEGRAPH_VERSION);
+    app.require_subcommand(1);
+    add_eval_command(app);
+    add_optimize_command(app);
+    app.parse(argc, argv);
+    return 0;
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return app.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    return complain(kUsage, std::string(error.what()) + " (see " + help_command(app) + ")");
+  } catch (const NoAnswer& reason) {
+    return complain(kNoAnswer, reason.what());
+  } catch (const std::exception& error) {
+    return complain(kUsage, error.what());
+  }
+}

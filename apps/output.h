@@ -1,0 +1,29 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace placegraph::apps {
+
+/// The data allowed no answer: `main` prints the reason and ends with exit code 1.
+class NoAnswer : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws ArgumentError if something stands at `path` already and `force` is not given. To be
+/// called before the work whose result goes there.
+void require_free(const std::string& path, bool force);
+
+/// The same for a folder of outputs: it may exist if it is empty.
+void require_free_folder(const std::string& path, bool force);
+
+/// Writes a whole file, atomically; bytes as they are. Throws FileError.
+void write_file(const std::string& path, const std::string& content);
+
+/// "warning: ..." as one line on stderr.
+void warn(const std::string& message);
+
+/// The text in one line: what `main` does to foreign messages.
+std::string one_line(const std::string& text);
+
+}  // namespace placegraph::apps

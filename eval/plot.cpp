@@ -1,0 +1,304 @@
+#include <fmt/format.h>
+#include <placegraph/eval/plot.h>
+#include <placegraph/eval/plot_canvas.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace placegraph {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int kHeight = 800, kWidth = 1600, kWidthWithoutErrors = 1000;
+constexpr Colour kInk = {40, 40, 40}, kGrid = {228, 228, 228}, kFrame = {120, 120, 120},
+                 kWhite = {255, 255, 255}, kReference = {150, 150, 150}, kLink = {0, 158, 115};
+// Okabe & Ito: told apart by colour-blind readers too.
+constexpr Colour kPalette[] = {{0, 114, 178}, {213, 94, 0},   {204, 121, 167},
+                               {230, 159, 0}, {86, 180, 233}, {0, 0, 0}};
+constexpr double kTextPx = 17, kTitlePx = 22;
+
+Colour palette(int estimate) {
+  return kPalette[static_cast<std::size_t>(estimate) % std::size(kPalette)];
+}
+
+struct Interval {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+  void add(double value) {
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+  double size() const { return max - min; }
+};
+
+// A rectangle of the picture and the part of the plane it shows.
+struct Panel {
+  Vector2d corner, size;
+  Interval x, y;
+
+  Vector2d px(double at_x, double at_y) const {
+    return {corner[0] + (at_x - x.min) / x.size() * size[0],
+            corner[1] + size[1] - (at_y - y.min) / y.size() * size[1]};
+  }
+};
+
+// 1, 2 or 5 times a power of ten, so that about `count` of them fill the interval.
+double nice_step(double size, int count) {
+  const double raw = size / count;
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (raw <= factor * power) return factor * power;
+  return 10 * power;
+}
+
+void widen(Interval& interval, double size) {
+  const double middle = 0.5 * (interval.min + interval.max);
+  interval.min = middle - 0.5 * size;
+  interval.max = middle + 0.5 * size;
+}
+
+// Equal scale on both axes, with a margin of 6 % on every side.
+void make_equal(Panel& panel) {
+  const double metres_per_px =
+      std::max({panel.x.size() / panel.size[0], panel.y.size() / panel.size[1], 1e-9}) * 1.12;
+  widen(panel.x, metres_per_px * panel.size[0]);
+  widen(panel.y, metres_per_px * panel.size[1]);
+}
+
+void draw_axes(PlotCanvas& canvas, const Panel& panel, const std::string& x_label,
+               const std::string& y_label, const std::string& heading) {
+  canvas.rectangle(panel.corner, panel.size, kWhite, kWhite);
+  const double bottom = panel.corner[1] + panel.size[1];
+  const double x_step = nice_step(panel.x.size(), 7), y_step = nice_step(panel.y.size(), 7);
+  for (double i = std::ceil(panel.x.min / x_step); i * x_step <= panel.x.max; ++i) {
+    const double at = panel.px(i * x_step, panel.y.min)[0];
+    canvas.line({{at, panel.corner[1]}, {at, bottom}}, kGrid, 1);
+    canvas.line({{at, bottom}, {at, bottom + 6}}, kFrame, 1);
+    canvas.text({at, bottom + 25}, fmt::format("{:g}", i * x_step + 0.0), kTextPx, kInk,
+                TextAnchor::kMiddle);
+  }
+  for (double i = std::ceil(panel.y.min / y_step); i * y_step <= panel.y.max; ++i) {
+    const double at = panel.px(panel.x.min, i * y_step)[1];
+    canvas.line({{panel.corner[0], at}, {panel.corner[0] + panel.size[0], at}}, kGrid, 1);
+    canvas.line({{panel.corner[0] - 6, at}, {panel.corner[0], at}}, kFrame, 1);
+    canvas.text({panel.corner[0] - 11, at + 6}, fmt::format("{:g}", i * y_step + 0.0), kTextPx,
+                kInk, TextAnchor::kRight);
+  }
+  canvas.text({panel.corner[0] + panel.size[0] / 2, bottom + 52}, x_label, kTextPx, kInk,
+              TextAnchor::kMiddle);
+  canvas.text({panel.corner[0] - 11, panel.corner[1] - 14}, y_label, kTextPx, kInk,
+              TextAnchor::kMiddle);
+  canvas.text({panel.corner[0] + panel.size[0] / 2, panel.corner[1] - 14}, heading, kTextPx, kInk,
+              TextAnchor::kMiddle);
+}
+
+void draw_frame(PlotCanvas& canvas, const Panel& panel) {
+  const Vector2d a = panel.corner, b = panel.corner + panel.size;
+  canvas.line({a, {b[0], a[1]}, b, {a[0], b[1]}, a}, kFrame, 1);
+}
+
+// A line with gaps where there is nothing; points nearer than 0.3 px to the last are left out.
+void draw_with_gaps(PlotCanvas& canvas, const std::vector<std::optional<Vector2d>>& points_px,
+                    Colour colour, double width_px) {
+  std::vector<Vector2d> run;
+  for (std::size_t i = 0; i <= points_px.size(); ++i) {
+    const bool here = i < points_px.size() && points_px[i].has_value();
+    if (here) {
+      const bool last = i + 1 == points_px.size() || !points_px[i + 1];
+      if (run.empty() || last || (run.back() - *points_px[i]).norm() > 0.3)
+        run.push_back(*points_px[i]);
+    } else if (!run.empty()) {
+      if (run.size() == 1) run.push_back(run.front() + Vector2d(0.5, 0));
+      canvas.line(run, colour, width_px);
+      run.clear();
+    }
+  }
+}
+
+struct LegendEntry {
+  std::string text;
+  Colour colour;
+  double width_px;
+};
+
+// In the corner of the panel that covers the fewest of the drawn points.
+void draw_legend(PlotCanvas& canvas, const Panel& panel, const std::vector<LegendEntry>& entries,
+                 const std::vector<Vector2d>& drawn_px) {
+  double width = 0;
+  for (const LegendEntry& entry : entries)
+    width = std::max(width, canvas.text_width(entry.text, kTextPx));
+  const Vector2d size(width + 74, 26.0 * static_cast<double>(entries.size()) + 14);
+  Vector2d best = panel.corner;
+  long fewest = std::numeric_limits<long>::max();
+  const Vector2d room = panel.size - size - Vector2d(20, 20);
+  for (const Vector2d& share : {Vector2d(1, 0), Vector2d(0, 0), Vector2d(1, 1), Vector2d(0, 1)}) {
+    const Vector2d corner = panel.corner + Vector2d(10, 10) + room.cwiseProduct(share);
+    const long covered = std::count_if(drawn_px.begin(), drawn_px.end(), [&](const Vector2d& p) {
+      return ((p - corner).array() > -8).all() && ((p - corner - size).array() < 8).all();
+    });
+    if (covered >= fewest) continue;
+    fewest = covered;
+    best = corner;
+  }
+  canvas.rectangle(best, size, kWhite, kGrid);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const double y = best[1] + 22 + 26.0 * static_cast<double>(i);
+    canvas.line({{best[0] + 14, y - 2}, {best[0] + 48, y - 2}}, entries[i].colour,
+                entries[i].width_px);
+    canvas.text({best[0] + 60, y + 4}, entries[i].text, kTextPx, kInk, TextAnchor::kLeft);
+  }
+}
+
+void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
+  const auto reference = std::find_if(plot.curves.begin(), plot.curves.end(),
+                                      [](const PlotCurve& curve) { return curve.reference; });
+  const PlotCurve& chooser = reference != plot.curves.end() ? *reference : plot.curves.front();
+  const auto [horizontal, vertical] = top_view_axes(chooser.positions_m);
+  for (const PlotCurve& curve : plot.curves)
+    for (const auto& p : curve.positions_m) {
+      if (!p) continue;
+      panel.x.add((*p)[horizontal]);
+      panel.y.add((*p)[vertical]);
+    }
+  if (!(panel.x.max >= panel.x.min)) panel.x = panel.y = {0, 1};
+  make_equal(panel);
+  const char* axes[] = {"x [m]", "y [m]", "z [m]"};
+  draw_axes(canvas, panel, axes[horizontal], axes[vertical], "top view");
+
+  const auto px = [&, h = horizontal, v = vertical](const Eigen::Vector3d& p) {
+    return panel.px(p[h], p[v]);
+  };
+  std::vector<LegendEntry> legend;
+  std::vector<Vector2d> drawn, starts;
+  canvas.begin_clip(panel.corner, panel.size);
+  for (const bool references : {true, false}) {
+    int estimate = 0;
+    for (const PlotCurve& curve : plot.curves) {
+      const Colour colour = curve.reference ? kReference : palette(estimate);
+      estimate += !curve.reference;
+      if (curve.reference != references) continue;
+      const double width = curve.reference ? 4 : 2;
+      std::vector<std::optional<Vector2d>> points;
+      for (const auto& p : curve.positions_m) {
+        points.push_back(p ? std::optional<Vector2d>(px(*p)) : std::nullopt);
+        if (p) drawn.push_back(*points.back());
+      }
+      draw_with_gaps(canvas, points, colour, width);
+      for (const auto& p : points)
+        if (p) {
+          starts.push_back(*p);
+          break;
+        }
+      if (std::none_of(legend.begin(), legend.end(),
+                       [&](const LegendEntry& e) { return e.text == curve.name; }))
+        legend.push_back({curve.name, colour, width});
+    }
+  }
+  for (const auto& [a, b] : plot.links_m) canvas.line({px(a), px(b)}, kLink, 1.5);
+  if (!plot.links_m.empty())
+    legend.push_back({fmt::format("{} loop closures", plot.links_m.size()), kLink, 1.5});
+  if (!starts.empty()) canvas.disc(starts.front(), 5, kWhite, kInk);
+  canvas.end_clip();
+  draw_legend(canvas, panel, legend, drawn);
+  draw_frame(canvas, panel);
+}
+
+void draw_errors(PlotCanvas& canvas, const Plot& plot, Panel panel) {
+  panel.x.add(0);
+  panel.y.add(0);
+  for (const PlotError& error : plot.errors) {
+    for (const double d : error.distance_m) panel.x.add(d);
+    for (const auto& e : error.error_m)
+      if (e) panel.y.add(*e);
+  }
+  if (!(panel.x.size() > 0)) panel.x.max = 1;
+  panel.y.max = panel.y.max > 0 ? 1.08 * panel.y.max : 1;
+  draw_axes(canvas, panel, "distance travelled [m]", "[m]", plot.error_label);
+  canvas.begin_clip(panel.corner, panel.size);
+  for (const PlotError& error : plot.errors) {
+    std::vector<std::optional<Vector2d>> points;
+    for (std::size_t i = 0; i < error.distance_m.size(); ++i)
+      points.push_back(error.error_m[i] ? std::optional<Vector2d>(
+                                              panel.px(error.distance_m[i], *error.error_m[i]))
+                                        : std::nullopt);
+    draw_with_gaps(canvas, points, palette(error.estimate), 2);
+  }
+  canvas.end_clip();
+  draw_frame(canvas, panel);
+}
+
+std::string draw(const Plot& plot, PlotCanvas& canvas, int width_px) {
+  canvas.text({width_px / 2.0, 38}, plot.title, kTitlePx, kInk, TextAnchor::kMiddle);
+  const double right = plot.errors.empty() ? width_px - 40.0 : 860.0;
+  if (!plot.curves.empty())
+    draw_top_view(canvas, plot, {{90, 92}, {right - 90, kHeight - 92.0 - 76}, {}, {}});
+  if (!plot.errors.empty())
+    draw_errors(canvas, plot, {{960, 92}, {width_px - 960.0 - 40, kHeight - 92.0 - 76}, {}, {}});
+  return canvas.encode();
+}
+
+bool same_truth(const EvaluationResult& a, const EvaluationResult& b) {
+  return a.path_m == b.path_m && a.frames == b.frames;
+}
+
+}  // namespace
+
+std::pair<int, int> top_view_axes(const std::vector<std::optional<Eigen::Vector3d>>& positions_m) {
+  Interval extent[3];
+  for (const auto& p : positions_m)
+    for (int axis = 0; p && axis < 3; ++axis) extent[axis].add((*p)[axis]);
+  int least = 1;  // of equals, the camera's y is height
+  for (const int axis : {0, 2})
+    if (extent[axis].size() < extent[least].size()) least = axis;
+  return {least == 0 ? 1 : 0, least == 2 ? 1 : 2};
+}
+
+Plot plot_of(const std::vector<EvaluationResult>& results) {
+  Plot plot;
+  const EvaluationResult* last = nullptr;
+  int estimate = 0;
+  for (const EvaluationResult& r : results) {
+    if (!r.outcome) continue;
+    PlotCurve truth, curve;
+    PlotError error;
+    truth.name = "ground truth";
+    truth.reference = true;
+    curve.name = fmt::format("{}: ATE {:.3g} m", r.name, r.ape.error_m.rmse);
+    error.estimate = estimate++;
+    error.distance_m = r.travelled_m;
+    for (const FramePair& pair : r.aligned_pairs) {
+      const Eigen::Vector3d true_m = pair.T_world_truth.translation();
+      truth.positions_m.push_back(true_m);
+      curve.positions_m.emplace_back();
+      error.error_m.emplace_back();
+      if (!pair.T_world_estimate) continue;
+      curve.positions_m.back() = pair.T_world_estimate->translation();
+      error.error_m.back() = (pair.T_world_estimate->translation() - true_m).norm();
+    }
+    if (!last || !same_truth(*last, r)) plot.curves.push_back(truth);
+    plot.curves.push_back(curve);
+    plot.errors.push_back(error);
+    last = &r;
+  }
+  if (!last) return plot;
+  plot.title = fmt::format("{} of {} frames, {:.1f} m, align {}", last->posed, last->frames,
+                           last->path_m, to_string(last->protocol.alignment));
+  if (estimate > 1)
+    plot.title =
+        fmt::format("{} estimates, align {}", estimate, to_string(last->protocol.alignment));
+  return plot;
+}
+
+std::string to_svg(const Plot& plot) {
+  const int width = plot.errors.empty() ? kWidthWithoutErrors : kWidth;
+  return draw(plot, *svg_canvas(width, kHeight), width);
+}
+
+std::string to_png(const Plot& plot) {
+  const int width = plot.errors.empty() ? kWidthWithoutErrors : kWidth;
+  return draw(plot, *png_canvas(width, kHeight), width);
+}
+
+}  // namespace placegraph
