@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/map.h>
+
+#include <numbers>
+
+namespace placegraph {
+namespace {
+
+/// Two places, the second of `component`; keyframes 100 (anchor) and 101 hang on the first, 200 on
+/// the second; frames: 0 on 100, 1 on 101, 2 lost, 3 on 200.
+Map make_map(int component) {
+  Map map;
+  const SE3 T_place_101(SO3(), {0, 0, 1});
+  map.place_graph.places = {{0, 100, SE3(), 0, {{100, SE3()}, {101, T_place_101}}, {}, {}},
+                            {1, 200, SE3(SO3(), {50, 0, 0}), component, {{200, SE3()}}, {}, {}}};
+  map.keyframes = {
+      {100, 0, 0, 0, SE3(), {}}, {101, 1, 100, 0, T_place_101, {}}, {200, 3, 300, 1, SE3(), {}}};
+  map.frames = {{0, 0, 100, SE3()},
+                {1, 100, 101, SE3(SO3(), {0.5, 0, 0})},
+                {2, 200, -1, std::nullopt},
+                {3, 300, 200, SE3()}};
+  return map;
+}
+
+void join(Map& map) {
+  RelativePoseConstraint constraint;
+  constraint.from = 0;
+  constraint.to = 1;
+  constraint.T_from_to = SE3();
+  constraint.information = Matrix6d::Identity();
+  map.place_graph.constraints.push_back(constraint);
+}
+
+TEST(Map, FindsKeyframesById) {
+  const Map map = make_map(0);
+  EXPECT_EQ(map.find_keyframe(200), &map.keyframes[2]);
+  EXPECT_EQ(map.find_keyframe(2), nullptr);
+}
+
+TEST(Map, FramesArePosedThroughKeyframeAndPlace) {
+  const Trajectory trajectory = make_map(0).trajectory_optimized();
+  ASSERT_EQ(trajectory.size(), 4u);
+  EXPECT_TRUE(trajectory.has_times);
+  EXPECT_EQ(trajectory.poses[1].stamp_ns, 100);
+  ASSERT_TRUE(trajectory.poses[1].T_world_body);
+  EXPECT_EQ(trajectory.poses[1].T_world_body->translation(), Eigen::Vector3d(0.5, 0, 1));
+  EXPECT_FALSE(trajectory.poses[2].T_world_body);
+  ASSERT_TRUE(trajectory.poses[3].T_world_body);
+  EXPECT_EQ(trajectory.poses[3].T_world_body->translation(), Eigen::Vector3d(50, 0, 0));
+}
+
+TEST(Map, AFrameMovesWithItsPlace) {
+  Map map = make_map(0);
+  map.place_graph.places[0].T_map_place = SE3(SO3::exp({0, std::numbers::pi / 2, 0}), {10, 0, 0});
+  const auto pose = map.trajectory_optimized().poses[1].T_world_body;
+  ASSERT_TRUE(pose);
+  // A quarter turn about y takes z to x and x to -z.
+  EXPECT_NEAR((pose->translation() - Eigen::Vector3d(11, 0, -0.5)).norm(), 0, 1e-14);
+}
+
+TEST(Map, AFrameMovesWithItsKeyframe) {
+  Map map = make_map(0);
+  map.keyframes[1].T_place_keyframe = SE3(SO3(), {0, 3, 1});
+  EXPECT_EQ(map.trajectory_optimized().poses[1].T_world_body->translation(),
+            Eigen::Vector3d(0.5, 3, 1));
+  EXPECT_EQ(map.trajectory_optimized().poses[0].T_world_body->translation(),
+            Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(Map, FramesOfAnotherComponentAreLostUntilAConstraintJoinsIt) {
+  Map map = make_map(1);
+  EXPECT_EQ(map.trajectory_optimized().posed(), 2u);
+  EXPECT_FALSE(map.trajectory_optimized().poses[3].T_world_body);
+  join(map);
+  EXPECT_EQ(map.trajectory_optimized().posed(), 3u);
+}
+
+TEST(Map, RefusesFramesAndKeyframesThatHangOnNothing) {
+  Map map = make_map(0);
+  map.frames[1].keyframe = 999;
+  EXPECT_THROW(map.trajectory_optimized(), ArgumentError);
+  map = make_map(0);
+  map.keyframes[1].place = 999;
+  EXPECT_THROW(map.trajectory_optimized(), ArgumentError);
+}
+
+TEST(Map, ACopyIsASnapshot) {
+  Map map = make_map(0);
+  const Map snapshot = map;
+  map.place_graph.places[0].T_map_place = SE3(SO3(), {1, 1, 1});
+  EXPECT_EQ(snapshot.trajectory_optimized().poses[0].T_world_body->translation(),
+            Eigen::Vector3d(0, 0, 0));
+}
+
+TEST(Map, OfNothingHasAnEmptyTrajectory) { EXPECT_EQ(Map().trajectory_optimized().size(), 0u); }
+
+}  // namespace
+}  // namespace placegraph
