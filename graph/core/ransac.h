@@ -31,8 +31,9 @@ struct RansacResult {
   int iterations = 0;
 };
 
-/// MSAC (Torr & Zisserman 2000) over minimal samples, with one non-minimal refinement whenever a
-/// better model appears (local optimization, Chum et al. 2003). Deterministic for a given `random`.
+/// MSAC (Torr & Zisserman 2000) over minimal samples, with non-minimal refinement, on the
+/// inliers of the model before, whenever a better model appears: as long as the score falls, four
+/// times at most (local optimization, Chum et al. 2003). Deterministic for a given `random`.
 ///
 /// `solve(sample) -> std::vector<Model>` from `sample_size` indices;
 /// `squared_error(model, i) -> double`, to be compared with `threshold_squared`;
@@ -41,6 +42,7 @@ template <class Model, class Solve, class SquaredError, class Refine>
 RansacResult<Model> ransac(int n, int sample_size, double threshold_squared,
                            const RansacOptions& options, Random& random, Solve&& solve,
                            SquaredError&& squared_error, Refine&& refine) {
+  constexpr int kRefinements = 4;
   RansacResult<Model> best;
   best.score = threshold_squared * n;
   if (n < std::max(sample_size, options.min_inliers)) {
@@ -73,8 +75,11 @@ RansacResult<Model> ransac(int n, int sample_size, double threshold_squared,
     bool improved = false;
     for (const Model& model : solve(sample)) improved |= consider(model);
     if (!improved) continue;
-    if (static_cast<int>(best.inliers.size()) > sample_size)
-      consider(refine(best.model, best.inliers));
+    // The inliers of a minimal model are a biased choice; those of the refined one less so.
+    for (int round = 0; round < kRefinements; ++round)
+      if (static_cast<int>(best.inliers.size()) <= sample_size ||
+          !consider(refine(best.model, best.inliers)))
+        break;
     needed = ransac_iterations(static_cast<double>(best.inliers.size()) / n, sample_size,
                                options.confidence, options.max_iterations);
   }
