@@ -22,15 +22,15 @@ void visit(OptionVisitor& field, PoseGraphOptions& options);
 
 struct PoseGraphReport {
   Outcome outcome;
-  PoseGraph graph;             ///< with the optimized poses
-  double chi2_initial = 0;     ///< sum of e^T Omega e in the chosen convention, without kernels
+  PoseGraph graph;          ///< with the optimized poses
+  double chi2_initial = 0;  ///< sum of e^T Omega e in the chosen convention, without kernels
   double chi2_final = 0;
   int iterations = 0;
   std::vector<double> chi2_by_constraint;  ///< final, in the order of graph.constraints
 };
 
-/// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed; if a connected component has no
-/// fixed node its first one is held. SE(2), SE(3) and Sim(3) graphs. Throws as PoseGraph::check.
+/// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed; if a connected component has
+/// no fixed node its first one is held. SE(2), SE(3) and Sim(3) graphs. Throws as PoseGraph::check.
 [[nodiscard]] PoseGraphReport optimize_pose_graph(const PoseGraph& graph,
                                                   const PoseGraphOptions& options,
                                                   const LogSink& log = {});

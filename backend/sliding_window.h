@@ -11,9 +11,9 @@
 namespace placegraph {
 
 struct SlidingWindowOptions {
-  int max_keyframes = 8;         ///< the oldest is marginalized beyond this
+  int max_keyframes = 8;  ///< the oldest is marginalized beyond this
   int max_iterations = 10;
-  double huber_px = 2.0;         ///< width of the Huber kernel on reprojection errors, in sigmas
+  double huber_px = 2.0;            ///< width of the Huber kernel on reprojection errors, in sigmas
   double relative_decrease = 1e-4;  ///< of the cost, to stop
   void check() const;
 };
@@ -45,8 +45,8 @@ struct WindowSummary {
 
 /// Bundle adjustment over the last keyframes; what leaves is marginalized into a linear prior by
 /// Schur complement, with first-estimate Jacobians for the states that stay in it. Undistorted
-/// pinhole camera. Residuals: reprojection (px / sigma, Huber), inverse depth, distances, the prior.
-/// Deterministic; single-threaded.
+/// pinhole camera. Residuals: reprojection (px / sigma, Huber), inverse depth, distances, the
+/// prior. Deterministic; single-threaded.
 class SlidingWindow {
  public:
   SlidingWindow(const SlidingWindowOptions& options, const Camera& camera);
@@ -54,8 +54,10 @@ class SlidingWindow {
   SlidingWindow(SlidingWindow&&) noexcept;
   SlidingWindow& operator=(SlidingWindow&&) noexcept;
 
-  /// Keyframe ids must be new and ascending; the first one fixes the gauge of position and heading
-  /// (and, when neither depth nor a distance says otherwise, the scale is held by the prior).
+  /// Keyframe ids must be new and ascending; the first one fixes the gauge: it is held until it is
+  /// marginalized, then the prior it leaves does so (or, if it leaves none, the next oldest is
+  /// held). When neither depth nor a distance says otherwise, the scale is held where it is: by a
+  /// soft distance to the farthest keyframe, and by the prior once that has gone into it.
   void add_keyframe(std::int64_t id, const SE3& T_map_cam);
   void add_landmark(std::int64_t id, const Eigen::Vector3d& p_map);
   void add_observation(const WindowObservation& observation);

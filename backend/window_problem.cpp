@@ -1,0 +1,231 @@
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+#include <placegraph/backend/factors/distance.h>
+#include <placegraph/backend/factors/inverse_depth.h>
+#include <placegraph/backend/factors/kernel_loss.h>
+#include <placegraph/backend/factors/point_factor.h>
+#include <placegraph/backend/factors/reprojection.h>
+#include <placegraph/backend/window_state.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <string>
+
+namespace placegraph {
+namespace {
+
+/// A free keyframe outside the prior needs this many points to be determined.
+constexpr int kMinPointsPerKeyframe = 3;
+
+/// The window as a Ceres problem. Blocks lie in arrays in the order of the ids: Ceres orders the
+/// blocks of one elimination group by address, and the order decides the last bits of the sums.
+class WindowProblem {
+ public:
+  explicit WindowProblem(const WindowState& state)
+      : state_(state),
+        loss_({RobustKernel::Kind::kHuber, state.options.huber_px}),
+        poses_(7 * state.keyframes.size()),
+        points_(3 * state.landmarks.size()),
+        points_by_keyframe_(state.keyframes.size()),
+        problem_(ownership()),
+        ordering_(std::make_shared<ceres::ParameterBlockOrdering>()) {
+    for (const auto& [id, T_map_cam] : state.keyframes) {
+      PoseBlock<SE3>::store(T_map_cam, &poses_[7 * ids_.size()]);
+      ids_.push_back(id);
+    }
+    add_points();
+    for (const DistanceObservation& distance : state.distances) add_distance(distance);
+    if (const auto reference = scale_reference(state)) add_distance(*reference);
+    if (!state.prior.empty()) add_prior();
+    for (std::size_t k = 0; k < ids_.size(); ++k) {
+      double* const pose = &poses_[7 * k];
+      if (!problem_.HasParameterBlock(pose)) continue;
+      problem_.SetManifold(pose, &manifold_);
+      ordering_->AddElementToGroup(pose, 1);
+      if (state.fixed == ids_[k]) problem_.SetParameterBlockConstant(pose);
+    }
+  }
+
+  /// Why the data determine no estimate, or ok.
+  Outcome check() const {
+    if (ids_.size() < 2) return too_few("a window of fewer than two keyframes");
+    for (std::size_t k = 0; k < ids_.size(); ++k) {
+      const auto& in_prior = state_.prior.keyframes;
+      // While a keyframe is held, the prior is too weak to determine others.
+      const bool by_prior =
+          !state_.fixed && std::binary_search(in_prior.begin(), in_prior.end(), ids_[k]);
+      if (state_.fixed == ids_[k] || by_prior || points_by_keyframe_[k] >= kMinPointsPerKeyframe)
+        continue;
+      return too_few("keyframe " + std::to_string(ids_[k]) + " sees " +
+                     std::to_string(points_by_keyframe_[k]) +
+                     " points that another keyframe sees too, " +
+                     std::to_string(kMinPointsPerKeyframe) + " needed");
+    }
+    return Outcome::ok();
+  }
+
+  ceres::Solver::Summary solve() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    options.dense_linear_algebra_library_type = ceres::EIGEN;
+    options.linear_solver_ordering = ordering_;
+    options.num_threads = 1;
+    options.max_num_iterations = state_.options.max_iterations;
+    options.function_tolerance = state_.options.relative_decrease;
+    options.gradient_tolerance = 0;
+    options.parameter_tolerance = 0;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    return summary;
+  }
+
+  bool finite() const {
+    const auto good = [](double x) { return std::isfinite(x); };
+    return std::all_of(poses_.begin(), poses_.end(), good) &&
+           std::all_of(points_.begin(), points_.end(), good);
+  }
+
+  /// Takes the estimate over. Landmarks that were not in the problem move with the keyframe that
+  /// saw them last.
+  void read_back(WindowState& state) const {
+    const std::map<std::int64_t, SE3> before = state.keyframes;
+    std::size_t k = 0;
+    for (auto& [id, T_map_cam] : state.keyframes) {
+      double const* const pose = &poses_[7 * k++];
+      if (problem_.HasParameterBlock(pose) && state.fixed != id)
+        T_map_cam = PoseBlock<SE3>::load(pose);
+    }
+    std::size_t i = 0;
+    for (auto& [id, landmark] : state.landmarks) {
+      double const* const point = &points_[3 * i++];
+      if (problem_.HasParameterBlock(point)) {
+        landmark.p_map = Eigen::Map<const Eigen::Vector3d>(point);
+      } else if (!landmark.observations.empty()) {
+        const std::int64_t seen = landmark.observations.back().keyframe;
+        landmark.p_map = state.keyframes.at(seen) * (before.at(seen).inverse() * landmark.p_map);
+      }
+    }
+  }
+
+ private:
+  static ceres::Problem::Options ownership() {
+    ceres::Problem::Options options;
+    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.disable_all_safety_checks = true;
+    return options;
+  }
+  static Outcome too_few(const std::string& reason) {
+    return Outcome::failure(Outcome::Code::kTooFewData, reason);
+  }
+  std::size_t position(std::int64_t keyframe) const {
+    return static_cast<std::size_t>(std::lower_bound(ids_.begin(), ids_.end(), keyframe) -
+                                    ids_.begin());
+  }
+
+  void add_points() {
+    double* point = points_.data();
+    for (const auto& [id, landmark] : state_.landmarks) {
+      Eigen::Map<Eigen::Vector3d>{point} = landmark.p_map;
+      const auto usable = usable_observations(state_, landmark);
+      for (const WindowObservation* o : usable) {
+        const std::size_t k = position(o->keyframe);
+        double* const pose = &poses_[7 * k];
+        ++points_by_keyframe_[k];
+        problem_.AddResidualBlock(
+            &reprojections_.emplace_back(Reprojection(state_.camera, o->px, o->sigma_px)), &loss_,
+            pose, point);
+        if (!o->inverse_depth) continue;
+        problem_.AddResidualBlock(
+            &inverse_depths_.emplace_back(InverseDepth(*o->inverse_depth, o->sigma_inverse_depth)),
+            &loss_, pose, point);
+      }
+      if (!usable.empty()) ordering_->AddElementToGroup(point, 0);
+      point += 3;
+    }
+  }
+  void add_distance(const DistanceObservation& d) {
+    problem_.AddResidualBlock(&distances_.emplace_back(Distance(d.distance_m, d.sigma_m)), &loss_,
+                              &poses_[7 * position(d.from)], &poses_[7 * position(d.to)]);
+  }
+  void add_prior() {
+    std::vector<double*> blocks;
+    for (const std::int64_t id : state_.prior.keyframes)
+      blocks.push_back(&poses_[7 * position(id)]);
+    problem_.AddResidualBlock(&prior_.emplace(state_.prior), nullptr, blocks);
+  }
+
+  const WindowState& state_;
+  KernelLoss loss_;
+  PoseManifold<SE3> manifold_;
+  std::vector<std::int64_t> ids_;  ///< of keyframes, ascending
+  std::vector<double> poses_, points_;
+  std::vector<int> points_by_keyframe_;
+  std::deque<PointFactor<Reprojection>> reprojections_;
+  std::deque<PointFactor<InverseDepth>> inverse_depths_;
+  std::deque<DistanceFactor> distances_;
+  std::optional<MarginalPriorFactor> prior_;
+  ceres::Problem problem_;  // after all it points to
+  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
+};
+
+}  // namespace
+
+std::vector<const WindowObservation*> usable_observations(const WindowState& state,
+                                                          const WindowLandmark& landmark) {
+  std::vector<const WindowObservation*> usable;
+  if (landmark.observations.size() < 2) return usable;
+  usable.reserve(landmark.observations.size());
+  for (const WindowObservation& o : landmark.observations) {
+    const SE3& T_map_cam = state.keyframes.at(o.keyframe);
+    const Eigen::Vector3d offset_map = landmark.p_map - T_map_cam.translation();
+    const double depth_m = T_map_cam.rotation().matrix().col(2).dot(offset_map);
+    if (depth_m > kMinDepth_m && depth_m < 1e12) usable.push_back(&o);
+  }
+  if (usable.size() < 2) usable.clear();
+  return usable;
+}
+
+bool has_metric_observation(const WindowState& state) {
+  if (!state.distances.empty()) return true;
+  for (const auto& [id, landmark] : state.landmarks)
+    for (const WindowObservation& o : landmark.observations)
+      if (o.inverse_depth) return true;
+  return false;
+}
+
+std::optional<DistanceObservation> scale_reference(const WindowState& state) {
+  if (!state.fixed || state.prior_holds_scale || has_metric_observation(state)) return std::nullopt;
+  const Eigen::Vector3d first = state.keyframes.at(*state.fixed).translation();
+  DistanceObservation farthest{*state.fixed, *state.fixed, 0, 1};
+  for (const auto& [id, T_map_cam] : state.keyframes) {
+    const double distance_m = (T_map_cam.translation() - first).norm();
+    if (distance_m > farthest.distance_m)
+      farthest = {*state.fixed, id, distance_m, 0.01 * distance_m};
+  }
+  if (farthest.distance_m < 1e-9) return std::nullopt;
+  return farthest;
+}
+
+WindowSummary optimize_window(WindowState& state) {
+  WindowSummary summary;
+  WindowProblem problem(state);
+  summary.outcome = problem.check();
+  if (!summary.outcome) return summary;
+  const ceres::Solver::Summary solved = problem.solve();
+  summary.cost_initial = solved.initial_cost;
+  summary.cost_final = solved.final_cost;
+  summary.iterations = std::max(0, static_cast<int>(solved.iterations.size()) - 1);
+  if (!solved.IsSolutionUsable() || !problem.finite()) {
+    summary.cost_final = summary.cost_initial;
+    summary.outcome = Outcome::failure(Outcome::Code::kNotConverged, solved.message);
+    return summary;
+  }
+  problem.read_back(state);
+  return summary;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,202 @@
+#include <gtest/gtest.h>
+#include <placegraph/backend/factors/distance.h>
+#include <placegraph/backend/factors/inverse_depth.h>
+#include <placegraph/backend/factors/kernel_loss.h>
+#include <placegraph/backend/factors/marginal_prior.h>
+#include <placegraph/backend/factors/point_factor.h>
+#include <placegraph/backend/factors/position.h>
+#include <placegraph/backend/factors/relative_pose.h>
+#include <placegraph/backend/factors/reprojection.h>
+
+#include "tests/support/jacobian_check.h"
+#include "tests/support/window_world.h"
+
+namespace placegraph {
+namespace {
+
+using test::Block;
+using test::pose_block;
+
+template <class Group>
+Group random_element(Random& random, double sigma, double sigma_rad) {
+  typename Group::Tangent xi;
+  constexpr int dim = Group::kDof == 3 ? 2 : 3;
+  for (int i = 0; i < Group::kDof; ++i) xi[i] = random.normal() * (i < dim ? sigma : sigma_rad);
+  if (Group::kDof == 7) xi[Group::kDof - 1] *= 0.3;
+  return Group::exp(xi);
+}
+
+class PointFactors : public testing::Test {
+ protected:
+  PoseManifold<SE3> manifold_;
+  SE3 T_map_cam_{SO3::exp({0.3, -0.5, 0.2}), Eigen::Vector3d(1, -2, 0.5)};
+  std::vector<Block> blocks(const Eigen::Vector3d& p_cam) const {
+    const Eigen::Vector3d p_map = T_map_cam_ * p_cam;
+    return {pose_block(T_map_cam_, manifold_), Block{{p_map[0], p_map[1], p_map[2]}}};
+  }
+};
+
+TEST_F(PointFactors, ReprojectionIsTheCamerasProjectionInSigmas) {
+  const Camera camera = test::window_camera();
+  const Eigen::Vector3d p_cam(1.5, -0.4, 7);
+  const Eigen::Vector2d px(700, 100);
+  const PointFactor<Reprojection> factor(Reprojection(camera, px, 0.5));
+  const auto b = blocks(p_cam);
+  const Eigen::Vector2d expected = (*camera.project(p_cam) - px) / 0.5;
+  EXPECT_LT((test::evaluate(factor, {b[0].x, b[1].x}) - expected).norm(), 1e-9);
+}
+
+TEST_F(PointFactors, ReprojectionHasTheJacobiansOfFiniteDifferences) {
+  const PointFactor<Reprojection> factor(Reprojection(test::window_camera(), {700, 100}, 0.7));
+  for (const double depth_m : {2.0, 10.0, 80.0})
+    test::expect_jacobians_match(factor, blocks({0.4 * depth_m, -0.2 * depth_m, depth_m}), 1e-7);
+}
+
+TEST_F(PointFactors, InverseDepthHasTheJacobiansOfFiniteDifferences) {
+  const PointFactor<InverseDepth> factor(InverseDepth(0.1, 0.01));
+  const auto b = blocks({1, 2, 5});
+  const Eigen::VectorXd r = test::evaluate(factor, {b[0].x, b[1].x});
+  EXPECT_NEAR(r[0], (0.2 - 0.1) / 0.01, 1e-12);
+  EXPECT_EQ(r[1], 0);
+  for (const double depth_m : {2.0, 10.0, 80.0})
+    test::expect_jacobians_match(factor, blocks({0.4 * depth_m, -0.2 * depth_m, depth_m}));
+}
+
+TEST_F(PointFactors, APointBehindTheCameraIsDearAndPullsNowhere) {
+  const PointFactor<Reprojection> factor(Reprojection(test::window_camera(), {700, 100}, 0.7));
+  for (const Eigen::Vector3d& p_cam :
+       {Eigen::Vector3d(1, 1, -5), Eigen::Vector3d(1, 1, 0), Eigen::Vector3d(0, 0, 1e200)}) {
+    const auto b = blocks(p_cam);
+    double J_pose[14], J_point[6];
+    std::vector<double*> jacobians{J_pose, J_point};
+    const Eigen::VectorXd r = test::evaluate(factor, {b[0].x, b[1].x}, &jacobians);
+    EXPECT_EQ(r, Eigen::Vector2d(kUnprojectableResidual, 0));
+    for (const double j : J_pose) EXPECT_EQ(j, 0);
+    for (const double j : J_point) EXPECT_EQ(j, 0);
+  }
+}
+
+TEST(DistanceFactor, HasTheJacobiansOfFiniteDifferences) {
+  PoseManifold<SE3> manifold;
+  const SE3 T_map_a(SO3::exp({0.1, 2, 0.3}), Eigen::Vector3d(1, 2, 3));
+  const SE3 T_map_b(SO3::exp({-1, 0.2, 0.3}), Eigen::Vector3d(2, 1, 4));
+  const DistanceFactor factor(Distance(1.5, 0.1));
+  const std::vector<Block> blocks{pose_block(T_map_a, manifold), pose_block(T_map_b, manifold)};
+  EXPECT_NEAR(test::evaluate(factor, {blocks[0].x, blocks[1].x})[0], (std::sqrt(3.0) - 1.5) / 0.1,
+              1e-12);
+  test::expect_jacobians_match(factor, blocks);
+}
+
+TEST(DistanceFactor, OfCoincidentCamerasIsFinite) {
+  const SE3 T_map_a;
+  Eigen::Matrix<double, 1, 6> J;
+  EXPECT_EQ(Distance(1, 0.5).residual(T_map_a, T_map_a, &J), -2);
+  EXPECT_EQ(J, J.Zero());
+}
+
+TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesAlsoFarFromItsLinearizationPoint) {
+  Random random(3);
+  PoseManifold<SE3> manifold;
+  for (const double size : {0.0, 0.01, 1.0}) {
+    MarginalPrior prior;
+    std::vector<Block> blocks;
+    for (int k = 0; k < 3; ++k) {
+      prior.keyframes.push_back(k);
+      prior.T_map_cam_lin.push_back(random_element<SE3>(random, 2, 1));
+      blocks.push_back(pose_block(
+          prior.T_map_cam_lin.back() * random_element<SE3>(random, size, size), manifold));
+    }
+    prior.J = Eigen::MatrixXd::Zero(11, 18);
+    for (Eigen::Index i = 0; i < prior.J.size(); ++i) prior.J.data()[i] = random.normal();
+    prior.e = Eigen::VectorXd::LinSpaced(11, -1, 1);
+    test::expect_jacobians_match(MarginalPriorFactor(prior), blocks);
+  }
+}
+
+TEST(KernelLoss, GivesTheKernelsValues) {
+  const RobustKernel kernel{RobustKernel::Kind::kCauchy, 1.7};
+  double rho[3];
+  KernelLoss(kernel).Evaluate(2.5, rho);
+  const RobustKernel::Value value = kernel.evaluate(2.5);
+  EXPECT_EQ(rho[0], value.rho);
+  EXPECT_EQ(rho[1], value.first);
+  EXPECT_EQ(rho[2], value.second);
+}
+
+template <class Group>
+class PoseFactors : public testing::Test {};
+using Groups = testing::Types<SE2, SE3, Sim3>;
+TYPED_TEST_SUITE(PoseFactors, Groups);
+
+TYPED_TEST(PoseFactors, TheManifoldPerturbsOnTheRightAndMinusUndoesPlus) {
+  using Group = TypeParam;
+  Random random(5);
+  const PoseManifold<Group> manifold;
+  const Group T = random_element<Group>(random, 2, 1);
+  const typename Group::Tangent xi = random_element<Group>(random, 1, 0.5).log();
+  const Block block = pose_block(T, manifold);
+  const std::vector<double> moved = block.plus(xi);
+  const Group expected = T.plus(xi);
+  EXPECT_LT((PoseBlock<Group>::load(moved.data()).inverse() * expected).log().norm(), 1e-12);
+  typename Group::Tangent back;
+  manifold.Minus(moved.data(), block.x.data(), back.data());
+  EXPECT_LT((back - xi).norm(), 1e-12);
+}
+
+TYPED_TEST(PoseFactors, RelativePoseHasTheJacobiansOfFiniteDifferencesAtAnySizeOfTheError) {
+  using Group = TypeParam;
+  const PoseManifold<Group> manifold;
+  for (const RotationError kind : {RotationError::kLog, RotationError::kQuaternion})
+    for (const double size : {0.0, 1e-6, 0.01, 1.0}) {
+      Random random(7);
+      for (int trial = 0; trial < 20; ++trial) {
+        SCOPED_TRACE(testing::Message() << "convention " << static_cast<int>(kind) << " size "
+                                        << size << " trial " << trial);
+        const Group T_from_to = random_element<Group>(random, 2, 1);
+        const Group T_world_from = random_element<Group>(random, 2, 1);
+        const Group E = random_element<Group>(random, 3 * size, size);
+        // Beyond 2.9 rad the cut of the log at pi is too near for finite differences.
+        if (pose_error(E, RotationError::kLog).template tail<1>().norm() > 2.9 ||
+                    E.log().template segment < Group::kDof == 3
+                ? 1
+                : 3 > (Group::kDof == 3 ? 2 : 3).norm() > 2.9)
+          continue;
+        typename Group::Jacobian W = Group::Jacobian::Identity();
+        for (Eigen::Index i = 0; i < W.size(); ++i) W.data()[i] += 0.3 * random.normal();
+        const RelativePoseFactor<Group> factor(T_from_to, W, kind);
+        test::expect_jacobians_match(factor,
+                                     {pose_block(T_world_from, manifold),
+                                      pose_block(T_world_from * T_from_to * E, manifold)},
+                                     1e-7);
+      }
+    }
+}
+
+TYPED_TEST(PoseFactors, PositionHasTheJacobiansOfFiniteDifferences) {
+  using Group = TypeParam;
+  Random random(9);
+  const PoseManifold<Group> manifold;
+  Eigen::Matrix3d W;
+  W << 2, 1, 0, 0, 1, -1, 0.5, 0, 3;
+  const PositionFactor<Group> factor({1, 2, 3}, W);
+  test::expect_jacobians_match(factor, {pose_block(random_element<Group>(random, 2, 1), manifold)});
+}
+
+TEST(PoseError, InTheQuaternionConventionIsTranslationAndVectorPartWithPositiveScalar) {
+  // A rotation by 200 deg is one by -160 deg: the vector part must not jump to sin(100 deg).
+  const double angle_rad = 200 * M_PI / 180;
+  const SE3 E(SO3(Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()))),
+              Eigen::Vector3d(1, 2, 3));
+  Vector6d expected;
+  expected << 1, 2, 3, 0, 0, -std::sin(80 * M_PI / 180);
+  EXPECT_LT((pose_error(E, RotationError::kQuaternion) - expected).norm(), 1e-12);
+}
+
+TEST(PoseError, OfThePlaneInTheQuaternionConventionHasTheWholeAngle) {
+  EXPECT_LT(
+      (pose_error(SE2(1, 2, 0.3), RotationError::kQuaternion) - Eigen::Vector3d(1, 2, 0.3)).norm(),
+      1e-12);
+}
+
+}  // namespace
+}  // namespace placegraph
