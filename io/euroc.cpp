@@ -125,6 +125,8 @@ SE3 read_eyes(const fs::path& mav, RecordedSequence& sequence) {
   const ImageList left_images = read_list(mav / "cam0");
   const BodyCamera left = read_sensor(mav / "cam0");
   sequence.raw_camera = left.camera;
+  require_size(left_images.paths[0], read_image(left_images.paths[0]).grey, left.camera.width,
+               left.camera.height);
   if (!fs::exists(mav / "cam1" / "data.csv")) {
     sequence.stamps_ns = left_images.stamps_ns;
     sequence.left = left_images.paths;
@@ -162,8 +164,6 @@ std::unique_ptr<Dataset> open_euroc(const std::string& folder) {
   sequence.name = folder_name(folder);
   sequence.format = "euroc";
   const SE3 T_body_cam = read_eyes(mav, sequence);
-  require_size(sequence.left[0], read_image(sequence.left[0]).grey, sequence.raw_camera.width,
-               sequence.raw_camera.height);
 
   const fs::path truth = mav / "state_groundtruth_estimate0" / "data.csv";
   if (fs::exists(truth)) {

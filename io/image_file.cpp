@@ -65,8 +65,9 @@ Image read_depth(const std::string& path, double unit_m) {
   if (raw.type() != CV_16UC1) {
     throw FileError(path, "depth image must have one channel of 16 bits");
   }
-  cv::Mat depth;
-  raw.convertTo(depth, CV_32F, unit_m);
+  cv::Mat exact, depth;
+  raw.convertTo(exact, CV_64F, unit_m);  // 3000 mm are 3 m, not the 3.0000002 of float factors
+  exact.convertTo(depth, CV_32F);
   depth.setTo(0, raw == 65535);
   return depth;
 }

@@ -57,7 +57,7 @@ SO3 rotation_from(const cv::Mat& R) {
 Image Remap::bilinear(const Image& raw) const {
   if (is_identity()) return raw;
   Image out;
-  cv::remap(raw, out, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+  cv::remap(raw, out, map_x, map_y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return out;
 }
 

@@ -11,14 +11,15 @@ struct Remap {
       map_y;  ///< CV_32FC1: for each pixel of the output where to look in the raw image [px]
 
   bool is_identity() const { return map_x.empty(); }
-  /// Bilinear; 0 outside the raw image.
+  /// Bilinear; the border's pixels go on outside the raw image, so that no dark edge appears.
   Image bilinear(const Image& raw) const;
-  /// Nearest neighbour, for depth: neighbours across an edge are never mixed.
+  /// Nearest neighbour, for depth: neighbours across an edge are never mixed; 0 outside.
   Image nearest(const Image& raw) const;
 };
 
 /// A camera without distortion and how its images come from the raw one's. The viewing direction
-/// stays (no rotation); the image is scaled so that no pixel lies outside the raw image.
+/// stays (no rotation); the image is scaled so that no pixel lies
+/// more than about one pixel outside the raw image.
 struct UndistortedCamera {
   Camera camera;
   Remap remap;

@@ -16,15 +16,16 @@ namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
+/// With the two readers that decode the same bits everywhere and stay silent about bad files.
 cv::VideoCapture open_capture(const std::string& path) {
-  cv::VideoCapture capture;
-  try {
-    capture.open(path);
-  } catch (const cv::Exception&) {
-    capture.release();
+  for (const int reader : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG}) {
+    try {
+      cv::VideoCapture capture(path, reader);
+      if (capture.isOpened()) return capture;
+    } catch (const cv::Exception&) {  // this reader is not there, or cannot read it
+    }
   }
-  if (!capture.isOpened()) throw FileError(path, "is no readable video");
-  return capture;
+  throw FileError(path, "is no readable video");
 }
 
 class VideoDataset : public Dataset {

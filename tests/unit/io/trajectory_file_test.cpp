@@ -8,7 +8,6 @@ namespace placegraph {
 namespace {
 
 using test::message_of;
-using test::read_text;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
@@ -157,45 +156,6 @@ Trajectory some_trajectory() {
     trajectory.poses.push_back(pose);
   }
   return trajectory;
-}
-
-/// Half a step of the last digit written: 9 digits of metres, 12 of rotation entries.
-void expect_same_pose(const StampedPose& a, const StampedPose& b) {
-  ASSERT_TRUE(a.T_world_body && b.T_world_body);
-  const Eigen::Matrix4d difference = a.T_world_body->matrix() - b.T_world_body->matrix();
-  EXPECT_LT((difference.topRightCorner<3, 1>().cwiseAbs().maxCoeff()), 0.51e-9);
-  EXPECT_LT((difference.topLeftCorner<3, 3>().cwiseAbs().maxCoeff()), 1e-11);
-}
-
-TEST(Trajectory, IsTheSameAfterWritingAndReadingInKittiForm) {
-  const TemporaryFolder folder;
-  const Trajectory written = some_trajectory();
-  write_trajectory(folder / "a", written, TrajectoryFormat::kKitti);
-  const Trajectory read = read_trajectory(folder / "a");
-  ASSERT_EQ(read.size(), written.size());
-  for (std::size_t i = 0; i < read.size(); ++i) {
-    ASSERT_EQ(read.poses[i].T_world_body.has_value(), written.poses[i].T_world_body.has_value());
-    if (written.poses[i].T_world_body) expect_same_pose(read.poses[i], written.poses[i]);
-  }
-  write_trajectory(folder / "b", read, TrajectoryFormat::kKitti);
-  EXPECT_EQ(read_text(folder / "a"), read_text(folder / "b"));
-}
-
-TEST(Trajectory, IsTheSameLessItsLostFramesInTumAndEurocForm) {
-  const Trajectory written = some_trajectory();
-  for (const TrajectoryFormat format : {TrajectoryFormat::kTum, TrajectoryFormat::kEuroc}) {
-    const TemporaryFolder folder;
-    write_trajectory(folder / "a", written, format);
-    EXPECT_EQ(detect_trajectory_format(folder / "a"), format);
-    const Trajectory read = read_trajectory(folder / "a");
-    ASSERT_EQ(read.size(), written.posed());
-    std::size_t i = 0;
-    for (const StampedPose& pose : written.poses) {
-      if (!pose.T_world_body) continue;
-      EXPECT_EQ(read.poses[i].stamp_ns, pose.stamp_ns);
-      expect_same_pose(read.poses[i++], pose);
-    }
-  }
 }
 
 TEST(Trajectory, WritesTimesBeforeTheEpochWithTheirSign) {
