@@ -1,0 +1,95 @@
+#include <placegraph/frontend/features/matcher.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+struct Best {
+  int index = -1, distance = 257, second = 257;
+  void offer(int i, int d) {
+    if (d < distance) {
+      second = distance;
+      distance = d;
+      index = i;
+    } else if (d < second) {
+      second = d;
+    }
+  }
+};
+
+/// Keeps mutual best matches that pass both tests; `best_a[i]` looks into b, `best_b[j]` into a.
+std::vector<FeatureMatch> mutual(const std::vector<Best>& best_a, const std::vector<Best>& best_b,
+                                 const MatcherOptions& options) {
+  std::vector<FeatureMatch> matches;
+  for (int i = 0; i < static_cast<int>(best_a.size()); ++i) {
+    const Best& best = best_a[i];
+    if (best.index < 0 || best.distance > options.max_distance) continue;
+    if (best.distance > options.max_ratio * best.second) continue;
+    if (best_b[best.index].index != i) continue;
+    matches.push_back({i, best.index, best.distance});
+  }
+  return matches;
+}
+
+}  // namespace
+
+void MatcherOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, MatcherOptions& o) {
+  field("max_distance", o.max_distance, "differing bits of 256", {1, 256});
+  field("max_ratio", o.max_ratio, "best over second best distance", {0.1, 1});
+}
+
+std::vector<FeatureMatch> match_features(const std::vector<Feature>& a,
+                                         const std::vector<Feature>& b,
+                                         const MatcherOptions& options,
+                                         const std::vector<bool>& use_b) {
+  std::vector<Best> best_a(a.size()), best_b(b.size());
+  for (int i = 0; i < static_cast<int>(a.size()); ++i)
+    for (int j = 0; j < static_cast<int>(b.size()); ++j) {
+      if (!use_b.empty() && !use_b[j]) continue;
+      const int d = hamming_distance(a[i].descriptor, b[j].descriptor);
+      best_a[i].offer(j, d);
+      best_b[j].offer(i, d);
+    }
+  return mutual(best_a, best_b, options);
+}
+
+std::vector<FeatureMatch> match_epipolar(const Camera& camera, const std::vector<Feature>& a,
+                                         const std::vector<Feature>& b, const SE3& T_a_b,
+                                         double band_px, const MatcherOptions& options) {
+  const SE3 T_b_a = T_a_b.inverse();
+  const Eigen::Matrix3d K_inverse = camera.K().inverse();
+  // l_b = F x_a with F = K^-T [t]x R K^-1 of T_b_a.
+  const Eigen::Matrix3d F = K_inverse.transpose() * hat(T_b_a.translation()) *
+                            T_b_a.rotation().matrix() * K_inverse;
+  const Eigen::Matrix3d H_infinity = camera.K() * T_b_a.rotation().matrix() * K_inverse;
+  std::vector<Best> best_a(a.size()), best_b(b.size());
+  for (int i = 0; i < static_cast<int>(a.size()); ++i) {
+    const Eigen::Vector3d x_a = a[i].px.cast<double>().homogeneous();
+    Eigen::Vector3d line = F * x_a;
+    line /= line.head<2>().norm();
+    const Eigen::Vector3d infinity = H_infinity * x_a;
+    if (infinity.z() <= 0 || !line.allFinite()) continue;
+    const Eigen::Vector2d px_infinity = infinity.hnormalized();
+    // From the point at infinity a nearer point moves along the line in the direction in which the
+    // epipole pulls or pushes.
+    const Eigen::Vector3d Kt = camera.K() * T_b_a.translation();
+    const Eigen::Vector2d direction =
+        (Kt.head<2>() - Kt.z() * px_infinity).normalized();
+    for (int j = 0; j < static_cast<int>(b.size()); ++j) {
+      if (std::abs(a[i].octave - b[j].octave) > 2) continue;
+      const Eigen::Vector2d px_b = b[j].px.cast<double>();
+      if (std::abs(line.dot(px_b.homogeneous())) > band_px) continue;
+      if (direction.dot(px_b - px_infinity) < -band_px) continue;
+      const int d = hamming_distance(a[i].descriptor, b[j].descriptor);
+      best_a[i].offer(j, d);
+      best_b[j].offer(i, d);
+    }
+  }
+  return mutual(best_a, best_b, options);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,84 @@
+#include <placegraph/frontend/features/triangulation.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+
+TriangulationResult triangulate(const Camera& camera, const std::vector<Sighting>& sightings,
+                                double min_parallax_rad, double max_error_px) {
+  using Code = Outcome::Code;
+  TriangulationResult result;
+  if (sightings.size() < 2) {
+    result.outcome = Outcome::failure(Code::kTooFewData, "two sightings needed");
+    return result;
+  }
+  std::vector<SE3> T_cam_ref;
+  std::vector<Eigen::Vector3d> rays_ref;
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  for (const Sighting& s : sightings) {
+    T_cam_ref.push_back(s.T_ref_cam.inverse());
+    const auto ray = camera.unproject(s.px);
+    if (!ray) {
+      result.outcome = Outcome::failure(Code::kDegenerate, "pixel without viewing ray");
+      return result;
+    }
+    rays_ref.push_back((s.T_ref_cam.rotation() * *ray).normalized());
+    const Eigen::Matrix4d P = T_cam_ref.back().matrix();
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::RowVector4d row = (*ray)[axis] * P.row(2) - P.row(axis);
+      normal.noalias() += row.transpose() * row;
+    }
+  }
+  for (std::size_t i = 0; i < rays_ref.size(); ++i)
+    for (std::size_t j = i + 1; j < rays_ref.size(); ++j)
+      result.parallax_rad = std::max(
+          result.parallax_rad,
+          std::atan2(rays_ref[i].cross(rays_ref[j]).norm(), rays_ref[i].dot(rays_ref[j])));
+  if (result.parallax_rad < min_parallax_rad) {
+    result.outcome = Outcome::failure(Code::kDegenerate, "too little parallax");
+    return result;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(normal);
+  const Eigen::Vector4d h = eigen.eigenvectors().col(0);
+  if (std::abs(h[3]) < 1e-9) {
+    result.outcome = Outcome::failure(Code::kDegenerate, "the point lies at infinity");
+    return result;
+  }
+  Eigen::Vector3d p = h.head<3>() / h[3];
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < sightings.size(); ++i) {
+      Eigen::Matrix<double, 2, 3> J_px_cam;
+      const auto px = camera.project(T_cam_ref[i] * p, &J_px_cam);
+      if (!px) {
+        result.outcome = Outcome::failure(Code::kDegenerate, "the point lies behind a camera");
+        return result;
+      }
+      const Eigen::Matrix<double, 2, 3> J = J_px_cam * T_cam_ref[i].rotation().matrix();
+      H.noalias() += J.transpose() * J;
+      g.noalias() += J.transpose() * (*px - sightings[i].px);
+    }
+    const Eigen::Vector3d step = -(H + 1e-12 * H.trace() * Eigen::Matrix3d::Identity()).ldlt().solve(g);
+    if (!step.allFinite()) break;
+    p += step;
+    if (step.norm() < 1e-6 * p.norm()) break;
+  }
+  for (std::size_t i = 0; i < sightings.size(); ++i) {
+    const auto px = camera.project(T_cam_ref[i] * p);
+    if (!px) {
+      result.outcome = Outcome::failure(Code::kDegenerate, "the point lies behind a camera");
+      return result;
+    }
+    result.max_error_px = std::max(result.max_error_px, (*px - sightings[i].px).norm());
+  }
+  result.point_ref = p;
+  result.outcome = result.max_error_px <= max_error_px
+                       ? Outcome::ok()
+                       : Outcome::failure(Code::kInconsistent, "reprojection error too large");
+  return result;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,30 @@
+#pragma once
+#include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/core/outcome.h>
+
+#include <vector>
+
+namespace placegraph {
+
+/// One sighting of a point: the camera's pose in the reference frame and the pixel.
+struct Sighting {
+  SE3 T_ref_cam;
+  Eigen::Vector2d px;
+};
+
+struct TriangulationResult {
+  Outcome outcome;
+  Eigen::Vector3d point_ref = Eigen::Vector3d::Zero();  ///< meaningful only if outcome
+  double parallax_rad = 0;  ///< greatest angle between two viewing rays
+  double max_error_px = 0;  ///< greatest reprojection error
+};
+
+/// The point seen from two or more poses: linear in homogeneous coordinates (Hartley & Zisserman
+/// 2004, 12.2), then Gauss-Newton on the reprojection errors. Outcomes: too few data (< 2),
+/// degenerate (parallax below `min_parallax_rad`, or behind a camera), inconsistent (an error above
+/// `max_error_px`).
+[[nodiscard]] TriangulationResult triangulate(const Camera& camera,
+                                              const std::vector<Sighting>& sightings,
+                                              double min_parallax_rad, double max_error_px);
+
+}  // namespace placegraph

@@ -1,0 +1,131 @@
+#include <placegraph/frontend/places/loop_verifier.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+/// Matches of the query's features near the projections of the match's points.
+std::vector<FeatureMatch> match_guided(const Camera& camera, const std::vector<Feature>& query,
+                                       const std::vector<Feature>& match, const SE3& T_query_match,
+                                       double radius_px, const MatcherOptions& options) {
+  std::vector<FeatureMatch> matches;
+  std::vector<int> owner(query.size(), -1);
+  for (int j = 0; j < static_cast<int>(match.size()); ++j) {
+    if (!match[j].point_cam) continue;
+    const auto px = camera.project(T_query_match * match[j].point_cam->cast<double>());
+    if (!px || !camera.contains(*px)) continue;
+    FeatureMatch best{-1, j, options.max_distance + 1};
+    for (int i = 0; i < static_cast<int>(query.size()); ++i) {
+      if ((query[i].px.cast<double>() - *px).squaredNorm() > radius_px * radius_px) continue;
+      const int distance = hamming_distance(query[i].descriptor, match[j].descriptor);
+      if (distance < best.distance) best = {i, j, distance};
+    }
+    if (best.a < 0) continue;
+    int& owned = owner[best.a];
+    if (owned >= 0 && matches[owned].distance <= best.distance) continue;
+    if (owned >= 0) {
+      matches[owned] = best;
+    } else {
+      owned = static_cast<int>(matches.size());
+      matches.push_back(best);
+    }
+  }
+  return matches;
+}
+
+/// Share of the image covered by the box of +- 2 standard deviations of the pixels.
+double spread_of(const Camera& camera, const std::vector<Eigen::Vector2d>& px,
+                 const std::vector<int>& indices) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero(), square = Eigen::Vector2d::Zero();
+  for (int i : indices) mean += px[i] / indices.size();
+  for (int i : indices) square += (px[i] - mean).cwiseAbs2() / indices.size();
+  const Eigen::Vector2d side = 4 * square.cwiseSqrt();
+  return side.x() * side.y() / (static_cast<double>(camera.width) * camera.height);
+}
+
+}  // namespace
+
+void LoopVerifierOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, LoopVerifierOptions& o) {
+  field.group("matcher", o.matcher, "descriptor matching");
+  field.group("pose", o.pose, "relative pose from 3-D points to pixels");
+  field("min_inlier_ratio", o.min_inlier_ratio, "share of the matches that must agree", {0, 1});
+  field("min_spread", o.min_spread, "share of the image the inliers must cover", {0, 1});
+  field("max_scale_error", o.max_scale_error, "disagreement of depths seen from both sides",
+        {0, 10});
+}
+
+LoopVerification verify_loop(const Camera& camera, const std::vector<Feature>& query,
+                             const std::vector<Feature>& match, const LoopVerifierOptions& options,
+                             Random& random) {
+  using Code = Outcome::Code;
+  LoopVerification result;
+  std::vector<bool> has_depth(match.size());
+  for (std::size_t j = 0; j < match.size(); ++j) has_depth[j] = match[j].point_cam.has_value();
+
+  std::vector<FeatureMatch> matches = match_features(query, match, options.matcher, has_depth);
+  Pose3d2dResult pose;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector2d> px;
+  for (int round = 0; round < 2; ++round) {
+    points.clear();
+    px.clear();
+    for (const FeatureMatch& m : matches) {
+      points.push_back(match[m.b].point_cam->cast<double>());
+      px.push_back(query[m.a].px.cast<double>());
+    }
+    Pose3d2dOptions pose_options = options.pose;
+    if (round == 0) {
+      // A first pose may stand on fewer matches; the guided round must bring the rest.
+      pose_options.ransac.min_inliers = std::max(8, options.pose.ransac.min_inliers / 2);
+    } else {
+      pose_options.prior_inlier_ratio = options.min_inlier_ratio;
+    }
+    const SE3 prior = pose.T_ref_cam;
+    pose = estimate_pose_3d2d(camera, points, px, pose_options, random, round ? &prior : nullptr);
+    result.matches = static_cast<int>(matches.size());
+    result.inliers = static_cast<int>(pose.inliers.size());
+    if (!pose.outcome) {
+      result.outcome = pose.outcome;
+      return result;
+    }
+    if (round == 0)
+      matches = match_guided(camera, query, match, pose.T_ref_cam.inverse(),
+                             3 * options.pose.threshold_px, options.matcher);
+  }
+  result.T_match_query = pose.T_ref_cam;
+  result.information = pose.information;
+  result.rmse_px = pose.rmse_px;
+
+  if (result.inliers < options.min_inlier_ratio * result.matches) {
+    result.outcome = Outcome::failure(Code::kNoConsensus, "too small a share of inliers");
+    return result;
+  }
+  if (spread_of(camera, px, pose.inliers) < options.min_spread) {
+    result.outcome = Outcome::failure(Code::kDegenerate, "inliers crowd in one part of the image");
+    return result;
+  }
+  std::vector<double> log_ratios;
+  const SE3 T_query_match = pose.T_ref_cam.inverse();
+  for (int i : pose.inliers) {
+    const auto& own = query[matches[i].a].point_cam;
+    if (!own) continue;
+    const double z = (T_query_match * points[i]).z();
+    if (z > 0 && own->z() > 0) log_ratios.push_back(std::log(own->z() / z));
+  }
+  if (log_ratios.size() >= 8) {
+    const auto middle = log_ratios.begin() + log_ratios.size() / 2;
+    std::nth_element(log_ratios.begin(), middle, log_ratios.end());
+    if (std::abs(*middle) > options.max_scale_error) {
+      result.outcome = Outcome::failure(Code::kInconsistent, "depths of both views disagree");
+      return result;
+    }
+  }
+  result.outcome = Outcome::ok();
+  return result;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,60 @@
+#pragma once
+#include <placegraph/frontend/places/vocabulary.h>
+#include <placegraph/graph/place_graph.h>
+
+#include <functional>
+#include <vector>
+
+namespace placegraph {
+
+struct PlaceDatabaseOptions {
+  VocabularyOptions vocabulary;
+  int first_training = 20;          ///< views after which the first vocabulary is trained
+  int max_training_features = 60000;
+  void check() const;
+};
+void visit(OptionVisitor& field, PlaceDatabaseOptions& options);
+
+struct PlaceCandidate {
+  std::int64_t id = 0;
+  double score = 0;  ///< [0, 1]: sum over common words of the smaller weight
+};
+
+/// Views by their visual words. No file is needed: the vocabulary is trained from the views
+/// themselves, again whenever their number has doubled, and all views are then described anew.
+/// Retrieval by tf-idf (Sivic & Zisserman 2003) over an inverted index.
+class PlaceDatabase {
+ public:
+  PlaceDatabase(const PlaceDatabaseOptions& options, std::uint64_t seed);
+
+  /// Ids must be new.
+  void add(std::int64_t id, const std::vector<Feature>& features);
+  /// The best `count` views that `allowed` admits, best first; none before the first training.
+  std::vector<PlaceCandidate> query(const std::vector<Feature>& features, int count,
+                                    const std::function<bool(std::int64_t)>& allowed) const;
+  /// Similarity of given features to one stored view; 0 if unknown or before the first training.
+  double similarity(const std::vector<Feature>& features, std::int64_t id) const;
+  /// tf-idf weights, L1-normalized; empty before the first training.
+  Appearance describe(const std::vector<Feature>& features) const;
+  std::size_t size() const { return views_.size(); }
+
+ private:
+  struct View {
+    std::int64_t id;
+    std::vector<BinaryDescriptor> descriptors;
+    Appearance appearance;
+  };
+  void train();
+  void index(int view);
+  Appearance weigh(const std::vector<BinaryDescriptor>& descriptors) const;
+
+  PlaceDatabaseOptions options_;
+  std::uint64_t seed_;
+  Vocabulary vocabulary_;
+  std::vector<View> views_;
+  std::vector<float> idf_;
+  std::vector<std::vector<std::pair<int, float>>> inverted_;  // word -> (view, weight)
+  std::size_t trained_views_ = 0;
+};
+
+}  // namespace placegraph
