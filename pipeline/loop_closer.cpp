@@ -1,0 +1,188 @@
+#include <placegraph/frontend/features/depth_lookup.h>
+#include <placegraph/frontend/features/triangulation.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/loop_closer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+
+void LoopOptions::check() const {
+  check_ranges(*this);
+  detector.check();
+  database.check();
+  verifier.check();
+}
+
+void visit(OptionVisitor& field, LoopOptions& o) {
+  field("enabled", o.enabled, "look for revisits");
+  field.group("detector", o.detector, "features of a keyframe");
+  field.group("database", o.database, "retrieval by visual words");
+  field.group("verifier", o.verifier, "geometric verification");
+  field("min_frame_gap", o.min_frame_gap, "nearer views are neighbours, not revisits", {1, 1e6});
+  field("candidates", o.candidates, "retrieved views that are verified", {1, 100});
+  field("min_similarity", o.min_similarity,
+        "of a candidate, as a share of the similarity to the last keyframe", {0, 10});
+  field("support_window", o.support_window, "keyframes within which a second loop must agree",
+        {1, 1000});
+  field("support_translation", o.support_translation,
+        "disagreement of two loops, as a share of the median depth", {0.001, 10});
+  field("support_angle_deg", o.support_angle_deg, "disagreement of two loops", {0.01, 180});
+  field("information_scale", o.information_scale,
+        "share of a loop's information that counts: feature noise is correlated", {1e-6, 1});
+}
+
+LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibration,
+                       std::uint64_t seed)
+    : options_(options),
+      calibration_(calibration),
+      seed_(seed),
+      database_(options.database, seed) {
+  options_.check();
+}
+
+const LoopCloser::View* LoopCloser::find_view(std::int64_t keyframe) const {
+  const auto view =
+      std::lower_bound(views_.begin(), views_.end(), keyframe,
+                       [](const View& v, std::int64_t id) { return v.keyframe < id; });
+  return view != views_.end() && view->keyframe == keyframe ? &*view : nullptr;
+}
+
+void LoopCloser::lift_features(const Frame& frame, std::vector<Feature>& features) const {
+  if (!calibration_.depth || frame.depth.empty()) return;
+  std::vector<Eigen::Vector2f> px;
+  for (const Feature& feature : features) px.push_back(feature.px);
+  const auto depths = lookup_depth(frame.depth, calibration_.camera, *calibration_.depth, px);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const auto ray = calibration_.camera.unproject(features[i].px.cast<double>());
+    if (depths[i] && ray) features[i].point_cam = (*depths[i] * *ray).cast<float>();
+  }
+}
+
+void LoopCloser::add_view(std::int64_t keyframe, const Frame& frame,
+                          const std::optional<SE3>& T_previous_this) {
+  View view{keyframe, frame.id, detect_features(frame.image, options_.detector, frame.mask)};
+  lift_features(frame, view.features);
+  if (T_previous_this && !views_.empty() && !calibration_.depth) {
+    // Depth by parallax between neighbours: the same way for one eye and for two.
+    constexpr double kBandPx = 2.0, kMinParallaxRad = 0.7 * M_PI / 180;
+    std::vector<Feature>& previous = views_.back().features;
+    const SE3 T_this_previous = T_previous_this->inverse();
+    for (const FeatureMatch& m : match_epipolar(calibration_.camera, previous, view.features,
+                                                *T_previous_this, kBandPx,
+                                                options_.verifier.matcher)) {
+      const auto point = triangulate(calibration_.camera,
+                                     {{SE3(), previous[m.a].px.cast<double>()},
+                                      {*T_previous_this, view.features[m.b].px.cast<double>()}},
+                                     kMinParallaxRad, kBandPx);
+      if (!point.outcome) continue;
+      if (!previous[m.a].point_cam) previous[m.a].point_cam = point.point_ref.cast<float>();
+      view.features[m.b].point_cam = (T_this_previous * point.point_ref).cast<float>();
+    }
+  }
+  views_.push_back(std::move(view));
+}
+
+std::vector<Loop> LoopCloser::find_loops(
+    const std::function<std::optional<SE3>(std::int64_t, std::int64_t)>& T_a_b,
+    double median_depth_m) {
+  std::vector<Loop> accepted;
+  const View& query = views_.back();
+  const double similarity_to_last =
+      views_.size() < 2
+          ? 0
+          : database_.similarity(query.features, views_[views_.size() - 2].keyframe);
+  const auto candidates =
+      database_.query(query.features, options_.candidates, [&](std::int64_t id) {
+        return query.frame - find_view(id)->frame >= options_.min_frame_gap;
+      });
+  for (const PlaceCandidate& candidate : candidates) {
+    const View& match = *find_view(candidate.id);
+    LoopRecord record{query.frame, match.frame, 0, false, "retrieval", {}};
+    if (candidate.score < options_.min_similarity * similarity_to_last) {
+      records_.push_back(record);
+      break;  // the rest is less similar still
+    }
+    Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | candidate.id);
+    const LoopVerification verified = verify_loop(calibration_.camera, query.features,
+                                                  match.features, options_.verifier, random);
+    record.inliers = verified.inliers;
+    record.stage = verified.outcome ? "consistency" : "geometry";
+    records_.push_back(record);
+    if (!verified.outcome) continue;
+
+    Pending found{{query.keyframe, match.keyframe, verified.T_match_query,
+                   options_.information_scale * verified.information},
+                  records_.size() - 1,
+                  views_.size(),
+                  false};
+    // A second loop, from another view, that says the same about how then and now fit together.
+    for (Pending& other : pending_) {
+      if (other.loop.query == found.loop.query) continue;
+      if (found.view - other.view > static_cast<std::size_t>(options_.support_window)) continue;
+      const auto T_queries = T_a_b(other.loop.query, found.loop.query);
+      const auto T_matches = T_a_b(other.loop.match, found.loop.match);
+      if (!T_queries || !T_matches) continue;
+      const SE3 predicted = T_matches->inverse() * other.loop.T_match_query * *T_queries;
+      const SE3 difference = predicted.inverse() * found.loop.T_match_query;
+      const double moved = T_queries->translation().norm() + T_matches->translation().norm();
+      const double allowed = options_.support_translation * (median_depth_m + moved);
+      if (difference.translation().norm() > allowed ||
+          difference.rotation().log().norm() > options_.support_angle_deg * M_PI / 180)
+        continue;
+      found.accepted = true;
+      if (other.accepted) continue;
+      other.accepted = true;
+      records_[other.record].accepted = true;
+      records_[other.record].stage = "accepted";
+      records_[other.record].T_match_query = other.loop.T_match_query;
+      accepted.push_back(other.loop);
+    }
+    if (found.accepted) {
+      records_[found.record].accepted = true;
+      records_[found.record].stage = "accepted";
+      records_[found.record].T_match_query = found.loop.T_match_query;
+      accepted.push_back(found.loop);
+    }
+    pending_.push_back(found);
+    break;
+  }
+  while (!pending_.empty() &&
+         views_.size() - pending_.front().view > static_cast<std::size_t>(options_.support_window))
+    pending_.pop_front();
+  database_.add(query.keyframe, query.features);
+  return accepted;
+}
+
+std::optional<Loop> LoopCloser::relocalize(const Frame& frame) {
+  if (views_.empty()) return std::nullopt;
+  std::vector<Feature> features = detect_features(frame.image, options_.detector, frame.mask);
+  lift_features(frame, features);
+  // The last views first: most losses are short.
+  std::vector<std::int64_t> tries;
+  for (std::size_t back = 1; back <= 3 && back <= views_.size(); ++back)
+    tries.push_back(views_[views_.size() - back].keyframe);
+  for (const PlaceCandidate& c :
+       database_.query(features, options_.candidates, [](std::int64_t) { return true; }))
+    if (std::find(tries.begin(), tries.end(), c.id) == tries.end()) tries.push_back(c.id);
+  for (const std::int64_t id : tries) {
+    Random random(seed_, static_cast<std::uint64_t>(frame.id) << 20 | id);
+    const LoopVerification verified = verify_loop(
+        calibration_.camera, features, find_view(id)->features, options_.verifier, random);
+    if (verified.outcome)
+      return Loop{-1, id, verified.T_match_query,
+                  options_.information_scale * verified.information};
+  }
+  return std::nullopt;
+}
+
+void LoopCloser::rescale(double factor, std::int64_t first_keyframe) {
+  for (View& view : views_) {
+    if (view.keyframe < first_keyframe) continue;
+    for (Feature& feature : view.features)
+      if (feature.point_cam) *feature.point_cam *= static_cast<float>(factor);
+  }
+}
+
+}  // namespace placegraph

@@ -1,0 +1,86 @@
+#pragma once
+#include <placegraph/frontend/features/detector.h>
+#include <placegraph/frontend/places/loop_verifier.h>
+#include <placegraph/frontend/places/place_database.h>
+#include <placegraph/graph/frame.h>
+#include <placegraph/graph/map.h>
+
+#include <deque>
+#include <map>
+
+namespace placegraph {
+
+struct LoopOptions {
+  bool enabled = true;
+  DetectorOptions detector;
+  PlaceDatabaseOptions database;
+  LoopVerifierOptions verifier;
+  int min_frame_gap = 40;      ///< nearer views are neighbours, not revisits
+  int candidates = 5;          ///< retrieved views that are verified
+  double min_similarity = 0.3; ///< of a candidate, as a share of the similarity to the last keyframe
+  int support_window = 4;      ///< keyframes within which a second loop must agree
+  double support_translation = 0.05;  ///< disagreement allowed, as a share of the median depth
+  double support_angle_deg = 3;
+  double information_scale = 0.1;  ///< feature noise is correlated: information counts this much
+  void check() const;
+};
+void visit(OptionVisitor& field, LoopOptions& options);
+
+/// A verified revisit between two keyframes.
+struct Loop {
+  std::int64_t query = 0, match = 0;  ///< keyframe ids
+  SE3 T_match_query;
+  Matrix6d information = Matrix6d::Zero();
+};
+
+/// Spatial memory: describes keyframes, finds revisits by appearance, verifies them by geometry, and
+/// lets one into the graph only when a second, independent one agrees with it.
+class LoopCloser {
+ public:
+  LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed);
+
+  /// A keyframe as the closer knows it.
+  struct View {
+    std::int64_t keyframe, frame;
+    std::vector<Feature> features;
+  };
+
+  /// Describes a keyframe. `T_previous_this`, if there is a predecessor in the same run of tracking,
+  /// gives depth to the features both see.
+  void add_view(std::int64_t keyframe, const Frame& frame,
+                const std::optional<SE3>& T_previous_this);
+  /// Revisits that the newest view completes. `T_odom_keyframe(id)` gives odometry poses to compare
+  /// loops with each other (nothing where no common frame exists).
+  std::vector<Loop> find_loops(
+      const std::function<std::optional<SE3>(std::int64_t, std::int64_t)>& T_a_b,
+      double median_depth_m);
+  /// Where a frame that is lost stands relative to a known keyframe.
+  std::optional<Loop> relocalize(const Frame& frame);
+
+  const std::vector<View>& views() const { return views_; }
+  const std::vector<LoopRecord>& records() const { return records_; }
+  Appearance describe(const std::vector<Feature>& features) const {
+    return database_.describe(features);
+  }
+  /// The scale of the map became known: depths of all features grow with it.
+  void rescale(double factor, std::int64_t first_keyframe);
+
+ private:
+  struct Pending {
+    Loop loop;
+    std::size_t record, view;
+    bool accepted;
+  };
+  void lift_features(const Frame& frame, std::vector<Feature>& features) const;
+  const View* find_view(std::int64_t keyframe) const;
+
+  LoopOptions options_;
+  Calibration calibration_;
+  std::uint64_t seed_;
+  PlaceDatabase database_;
+  std::vector<View> views_;
+  std::vector<LoopRecord> records_;
+  std::deque<Pending> pending_;
+};
+
+}  // namespace placegraph

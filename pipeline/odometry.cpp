@@ -1,0 +1,449 @@
+#include <placegraph/frontend/features/depth_lookup.h>
+#include <placegraph/frontend/features/triangulation.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/odometry.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace placegraph {
+namespace {
+
+template <class T>
+T median_of(std::vector<T> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+Odometry::Odometry(const OdometryOptions& options, const Calibration& calibration,
+                   std::uint64_t seed, LogSink log)
+    : options_(options),
+      calibration_(calibration),
+      seed_(seed),
+      log_(std::move(log)),
+      tracker_(options.tracker),
+      window_(options.window, calibration.camera) {
+  options_.check();
+  calibration_.check();
+  require(calibration.camera.distortion == Distortion::kNone,
+          "calibration.camera: undistorted images needed (rectify them first)");
+  scale_known_ = calibration_.baseline_m > 0 || calibration_.depth;
+  if (!scale_known_ && calibration_.camera_height_m && options_.ground.enabled)
+    ground_.emplace(options_.ground, calibration_.camera, *calibration_.camera_height_m);
+}
+
+void Odometry::restart(const SE3& T_odom_cam) {
+  tracker_.reset();
+  window_ = SlidingWindow(options_.window, calibration_.camera);
+  state_ = TrackingState::kWaiting;
+  started_ = false;
+  scale_known_ = calibration_.baseline_m > 0 || calibration_.depth;
+  T_odom_start_ = T_odom_last_ = T_odom_cam;
+  T_last_cur_ = SE3();
+  first_keyframe_ = next_keyframe_;
+  last_keyframe_ = -1;
+  sightings_.clear();
+  keyframe_poses_.clear();
+  links_.clear();
+  views_.clear();
+}
+
+OdometryUpdate Odometry::add_frame(const Frame& frame) {
+  if (!started_) return begin(frame);
+  const PointTracker before = tracker_;
+  tracker_.track(frame.image, state_ == TrackingState::kWaiting
+                                  ? std::vector<Eigen::Vector2f>{}
+                                  : predict(T_odom_last_ * T_last_cur_));
+  OdometryUpdate update =
+      state_ == TrackingState::kWaiting ? try_initialize(frame) : track(frame);
+  if (update.state == TrackingState::kLost) {
+    // The next frame may still be found from the last good one.
+    tracker_ = before;
+    T_last_cur_ = SE3();
+  }
+  return update;
+}
+
+OdometryUpdate Odometry::begin(const Frame& frame) {
+  started_ = true;
+  tracker_.track(frame.image);
+  OdometryUpdate update;
+  if (scale_known_) {  // stereo and RGB-D have their landmarks at once
+    add_keyframe(frame, T_odom_start_, update);
+    if (window_.landmarks().size() < static_cast<std::size_t>(options_.pose.ransac.min_inliers)) {
+      update.new_keyframes.clear();
+      next_keyframe_ = last_keyframe_;
+      restart(T_odom_start_);
+      return update;
+    }
+    state_ = update.state = TrackingState::kTracking;
+    update.T_odom_cam = T_odom_last_ = window_.pose(last_keyframe_);
+    update.keyframe = last_keyframe_;
+    return update;
+  }
+  tracker_.detect(frame.mask);
+  reference_frame_ = frame;
+  views_.clear();
+  View view{frame.id, {}};
+  for (const PointTrack& track : tracker_.tracks()) view.px[track.id] = track.px.cast<double>();
+  views_.push_back(std::move(view));
+  return update;
+}
+
+OdometryUpdate Odometry::try_initialize(const Frame& frame) {
+  OdometryUpdate update;
+  const View& reference = views_.front();
+  View view{frame.id, {}};
+  std::vector<std::int64_t> ids;
+  std::map<std::int64_t, int> index;
+  std::vector<Eigen::Vector2d> px_ref, px_cur;
+  for (const PointTrack& track : tracker_.tracks()) {
+    view.px[track.id] = track.px.cast<double>();
+    index[track.id] = static_cast<int>(ids.size());
+    ids.push_back(track.id);
+    px_ref.push_back(reference.px.at(track.id));
+    px_cur.push_back(track.px.cast<double>());
+  }
+  views_.push_back(view);
+  if (static_cast<int>(ids.size()) < 2 * options_.initializer.min_points) {
+    // Too few points have survived since the reference: this frame takes its place.
+    started_ = false;
+    tracker_.reset();
+    return begin(frame);
+  }
+  std::vector<PartialView> between;
+  for (std::size_t v = 1; v + 1 < views_.size(); ++v) {
+    between.emplace_back();
+    for (const auto& [id, px] : views_[v].px)
+      if (const auto i = index.find(id); i != index.end()) between.back().emplace_back(i->second, px);
+  }
+  Random random(seed_, frame.id);
+  MonoInitialization start = initialize_mono(calibration_.camera, px_ref, px_cur, between,
+                                             options_.initializer, random);
+  if (!start.outcome) {
+    log(log_, LogLevel::kDebug, "initialization waits: " + start.outcome.reason);
+    return update;
+  }
+  // Scale: the ground if it shows, else the median depth is one unit.
+  std::vector<double> depths;
+  for (const auto& point : start.points_ref)
+    if (point) depths.push_back(point->z());
+  double scale = 10 / median_of(depths);
+  if (ground_) {
+    if (const auto length = ground_->find(frame.image, reference_frame_.image, start.T_ref_cur)) {
+      scale = length->factor;
+      scale_known_ = true;
+    }
+  }
+  const SE3 T_ref_cur(start.T_ref_cur.rotation(), scale * start.T_ref_cur.translation());
+  const std::int64_t ref = next_keyframe_++, cur = next_keyframe_++;
+  window_.add_keyframe(ref, T_odom_start_);
+  window_.add_keyframe(cur, T_odom_start_ * T_ref_cur);
+  std::vector<bool> keep(ids.size(), true);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    sightings_[ids[i]] = {{ref, px_ref[i]}, {cur, px_cur[i]}};
+    if (!start.points_ref[i]) continue;
+    window_.add_landmark(ids[i], T_odom_start_ * (scale * *start.points_ref[i]));
+    add_observation(ref, ids[i], px_ref[i], std::nullopt);
+    add_observation(cur, ids[i], px_cur[i], std::nullopt);
+  }
+  if (scale_known_) {
+    const double length = T_ref_cur.translation().norm();
+    window_.add_distance({ref, cur, length, options_.ground.sigma_relative * length});
+  }
+  last_keyframe_ = cur;
+  last_keyframe_frame_ = frame;
+  refine_window();
+  update.new_keyframes = {{ref, reference_frame_}, {cur, frame}};
+
+  // Frames in between get their poses from the points.
+  for (std::size_t v = 1; v + 1 < views_.size(); ++v) {
+    std::vector<Eigen::Vector3d> points;
+    std::vector<Eigen::Vector2d> px;
+    for (const auto& [id, pixel] : views_[v].px)
+      if (const auto point = window_.landmark(id)) {
+        points.push_back(*point);
+        px.push_back(pixel);
+      }
+    const double share = static_cast<double>(v) / (views_.size() - 1);
+    const SE3 prior = T_odom_start_ * SE3::exp(share * T_ref_cur.log());
+    const auto pose =
+        estimate_pose_3d2d(calibration_.camera, points, px, options_.pose, random, &prior);
+    if (pose.outcome) update.filled.emplace_back(views_[v].frame, pose.T_ref_cam);
+  }
+  const double steps = static_cast<double>(views_.size() - 1);
+  views_.clear();
+  tracker_.detect(frame.mask);
+  px_at_keyframe_.clear();
+  for (const PointTrack& track : tracker_.tracks()) {
+    px_at_keyframe_[track.id] = track.px.cast<double>();
+    auto& seen = sightings_[track.id];
+    if (seen.empty()) seen.push_back({cur, track.px.cast<double>()});
+  }
+  landmarks_at_keyframe_ = static_cast<int>(window_.landmarks().size());
+  frames_since_keyframe_ = 0;
+  T_odom_last_ = window_.pose(cur);
+  T_last_cur_ = SE3::exp((window_.pose(ref).inverse() * T_odom_last_).log() / steps);
+  state_ = update.state = TrackingState::kTracking;
+  update.T_odom_cam = T_odom_last_;
+  update.keyframe = cur;
+  update.inliers = landmarks_at_keyframe_;
+  return update;
+}
+
+std::vector<Eigen::Vector2f> Odometry::predict(const SE3& T_odom_cam) const {
+  const SE3 T_cam_odom = T_odom_cam.inverse();
+  const Camera& camera = calibration_.camera;
+  std::vector<Eigen::Vector2f> predicted;
+  for (const PointTrack& track : tracker_.tracks()) {
+    predicted.push_back(track.px);
+    auto point = window_.landmark(track.id);
+    if (!point) {
+      const auto ray = camera.unproject(track.px.cast<double>());
+      if (!ray) continue;
+      point = T_odom_last_ * Eigen::Vector3d(median_depth_m_ * *ray);
+    }
+    const auto px = camera.project(T_cam_odom * *point);
+    if (px && camera.contains(*px, 2)) predicted.back() = px->cast<float>();
+  }
+  return predicted;
+}
+
+OdometryUpdate Odometry::track(const Frame& frame) {
+  OdometryUpdate update;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector2d> px;
+  std::vector<int> track_of;
+  const auto& tracks = tracker_.tracks();
+  for (int i = 0; i < static_cast<int>(tracks.size()); ++i)
+    if (const auto point = window_.landmark(tracks[i].id)) {
+      points.push_back(*point);
+      px.push_back(tracks[i].px.cast<double>());
+      track_of.push_back(i);
+    }
+  Random random(seed_, frame.id);
+  const SE3 prior = T_odom_last_ * T_last_cur_;
+  const Pose3d2dResult pose =
+      estimate_pose_3d2d(calibration_.camera, points, px, options_.pose, random, &prior);
+  update.inliers = static_cast<int>(pose.inliers.size());
+  if (!pose.outcome) {
+    log(log_, LogLevel::kInfo,
+        "frame " + std::to_string(frame.id) + " lost: " + pose.outcome.reason);
+    update.state = TrackingState::kLost;
+    return update;
+  }
+  // Tracks that contradict the pose slid off their point, or their point moves.
+  std::vector<bool> keep(tracks.size(), true);
+  const SE3 T_cam_odom = pose.T_ref_cam.inverse();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto projected = calibration_.camera.project(T_cam_odom * points[k]);
+    keep[track_of[k]] = projected && (*projected - px[k]).norm() < 2 * options_.pose.threshold_px;
+  }
+  tracker_.keep(keep);
+
+  T_last_cur_ = T_odom_last_.inverse() * pose.T_ref_cam;
+  T_odom_last_ = pose.T_ref_cam;
+  ++frames_since_keyframe_;
+  if (keyframe_due(frame, update.inliers)) {
+    const SE3 T_before = T_odom_last_;
+    add_keyframe(frame, pose.T_ref_cam, update);
+    T_odom_last_ = window_.pose(last_keyframe_);
+    if (update.rescale)
+      T_last_cur_ = SE3(T_last_cur_.rotation(),
+                        update.rescale->factor * T_last_cur_.translation());
+    (void)T_before;
+  }
+  update.state = TrackingState::kTracking;
+  update.T_odom_cam = T_odom_last_;
+  update.keyframe = last_keyframe_;
+  return update;
+}
+
+bool Odometry::keyframe_due(const Frame& frame, int inliers) const {
+  const KeyframeOptions& o = options_.keyframe;
+  if (inliers < o.min_tracked_share * landmarks_at_keyframe_) return true;
+  std::vector<double> flow_px;
+  for (const PointTrack& track : tracker_.tracks()) {
+    const auto at_keyframe = px_at_keyframe_.find(track.id);
+    if (at_keyframe != px_at_keyframe_.end())
+      flow_px.push_back((track.px.cast<double>() - at_keyframe->second).norm());
+  }
+  if (flow_px.size() < 10) return true;
+  const double share = median_of(flow_px) / frame.image.cols;
+  return share > o.max_flow_share ||
+         (frames_since_keyframe_ >= o.max_interval && share > 0.1 * o.max_flow_share);
+}
+
+void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update) {
+  const std::int64_t id = next_keyframe_++;
+  window_.add_keyframe(id, T_odom_cam);
+  tracker_.detect(frame.mask);
+  observe_tracks(id, frame);
+  const std::int64_t previous = last_keyframe_;
+  last_keyframe_ = id;
+  if (ground_ && previous >= 0) measure_scale(frame, previous, update);
+  refine_window();
+  last_keyframe_frame_ = frame;
+  frames_since_keyframe_ = 0;
+  px_at_keyframe_.clear();
+  landmarks_at_keyframe_ = 0;
+  for (const PointTrack& track : tracker_.tracks()) {
+    px_at_keyframe_[track.id] = track.px.cast<double>();
+    landmarks_at_keyframe_ += window_.landmark(track.id).has_value();
+  }
+  update.new_keyframes.push_back({id, frame});
+}
+
+std::vector<std::optional<Odometry::DepthMeasurement>> Odometry::measure_depth(
+    const Frame& frame) const {
+  std::vector<Eigen::Vector2f> px;
+  for (const PointTrack& track : tracker_.tracks()) px.push_back(track.px);
+  std::vector<std::optional<DepthMeasurement>> result(px.size());
+  if (calibration_.baseline_m > 0 && !frame.right.empty()) {
+    const double per_px = 1 / (calibration_.camera.fx * calibration_.baseline_m);
+    const auto disparities = match_stereo(frame.image, frame.right, px, options_.stereo);
+    for (std::size_t i = 0; i < px.size(); ++i)
+      if (disparities[i])
+        result[i] = {*disparities[i] * per_px, options_.stereo.sigma_disparity_px * per_px};
+  } else if (calibration_.depth && !frame.depth.empty()) {
+    const auto depths = lookup_depth(frame.depth, calibration_.camera, *calibration_.depth, px);
+    for (std::size_t i = 0; i < px.size(); ++i)
+      if (depths[i]) result[i] = {1 / *depths[i], calibration_.depth->sigma_at_1m};
+  }
+  return result;
+}
+
+void Odometry::add_observation(std::int64_t keyframe, std::int64_t landmark,
+                               const Eigen::Vector2d& px,
+                               const std::optional<DepthMeasurement>& depth) {
+  WindowObservation observation;
+  observation.keyframe = keyframe;
+  observation.landmark = landmark;
+  observation.px = px;
+  observation.sigma_px = options_.sigma_px;
+  if (depth) {
+    observation.inverse_depth = depth->inverse_depth;
+    observation.sigma_inverse_depth = depth->sigma;
+  }
+  window_.add_observation(observation);
+}
+
+void Odometry::observe_tracks(std::int64_t keyframe, const Frame& frame) {
+  const Camera& camera = calibration_.camera;
+  const SE3 T_odom_cam = window_.pose(keyframe);
+  const auto depths = measure_depth(frame);
+  const auto in_window = window_.keyframes();
+  const std::int64_t oldest = in_window.front();
+  const double min_parallax_rad = options_.min_parallax_deg * M_PI / 180;
+
+  std::map<std::int64_t, std::vector<Sighting2d>> seen;
+  const auto& tracks = tracker_.tracks();
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const std::int64_t id = tracks[i].id;
+    const Eigen::Vector2d px = tracks[i].px.cast<double>();
+    std::vector<Sighting2d> sightings;
+    if (const auto old = sightings_.find(id); old != sightings_.end())
+      for (const Sighting2d& s : old->second)
+        if (s.keyframe >= oldest) sightings.push_back(s);
+    const auto& depth = depths[i];
+    if (!window_.landmark(id)) {
+      std::optional<Eigen::Vector3d> point_odom;
+      // A depth is believed at once where it is known to a fifth.
+      if (depth && depth->sigma < 0.2 * depth->inverse_depth) {
+        if (const auto ray = camera.unproject(px))
+          point_odom = T_odom_cam * Eigen::Vector3d(*ray / depth->inverse_depth);
+      } else if (!sightings.empty()) {
+        std::vector<Sighting> rays{{T_odom_cam, px}};
+        for (const Sighting2d& s : sightings) rays.push_back({window_.pose(s.keyframe), s.px});
+        const auto point = triangulate(camera, rays, min_parallax_rad, options_.outlier_px);
+        if (point.outcome) point_odom = point.point_ref;
+      }
+      if (point_odom) {
+        window_.add_landmark(id, *point_odom);
+        for (const Sighting2d& s : sightings) add_observation(s.keyframe, id, s.px, std::nullopt);
+      }
+    }
+    if (window_.landmark(id)) add_observation(keyframe, id, px, depth);
+    sightings.push_back({keyframe, px});
+    seen[id] = std::move(sightings);
+  }
+  sightings_ = std::move(seen);
+}
+
+void Odometry::measure_scale(const Frame& frame, std::int64_t previous, OdometryUpdate& update) {
+  const std::int64_t current = last_keyframe_;
+  const SE3 T_old_new = window_.pose(previous).inverse() * window_.pose(current);
+  const double length = T_old_new.translation().norm();
+  if (length < 1e-6) return;
+  if (scale_known_) {
+    if (const auto measured =
+            ground_->follow(frame.image, last_keyframe_frame_.image, T_old_new)) {
+      const double distance_m = measured->factor * length;
+      window_.add_distance({previous, current, distance_m, measured->sigma_relative * distance_m});
+      log(log_, LogLevel::kDebug,
+          "ground scale " + std::to_string(measured->factor) + " +- " +
+              std::to_string(measured->sigma_relative));
+    }
+    return;
+  }
+  const auto measured = ground_->find(frame.image, last_keyframe_frame_.image, T_old_new);
+  if (!measured) return;
+  const Eigen::Vector3d centre = window_.pose(window_.keyframes().front()).translation();
+  window_.rescale(measured->factor);
+  for (auto& [id, T_odom_keyframe] : keyframe_poses_)
+    T_odom_keyframe =
+        SE3(T_odom_keyframe.rotation(),
+            centre + measured->factor * (T_odom_keyframe.translation() - centre));
+  update.rescale = {measured->factor, centre};
+  median_depth_m_ *= measured->factor;
+  scale_known_ = true;
+  const double distance_m = measured->factor * length;
+  window_.add_distance({previous, current, distance_m, measured->sigma_relative * distance_m});
+}
+
+void Odometry::refine_window() {
+  const WindowSummary summary = window_.optimize();
+  if (!summary.outcome)
+    log(log_, LogLevel::kWarning, "window not optimized: " + summary.outcome.reason);
+  std::set<std::int64_t> live;
+  for (const PointTrack& track : tracker_.tracks()) live.insert(track.id);
+  std::vector<double> depths;
+  const SE3 T_cam_odom = window_.pose(last_keyframe_).inverse();
+  for (const std::int64_t id : window_.landmarks()) {
+    const auto& observations = window_.observations(id);
+    const auto residual =
+        observations.empty() ? std::nullopt : window_.residual_px(observations.back());
+    if (!residual || residual->norm() > options_.outlier_px) {
+      window_.remove_landmark(id);
+      sightings_.erase(id);
+      continue;
+    }
+    if (live.count(id)) depths.push_back((T_cam_odom * *window_.landmark(id)).z());
+  }
+  if (!depths.empty()) median_depth_m_ = std::max(1e-3, median_of(depths));
+  for (const std::int64_t id : window_.keyframes()) keyframe_poses_[id] = window_.pose(id);
+  // Before a keyframe leaves, what it knew of its successor is written down.
+  const auto keyframes = window_.keyframes();
+  for (std::size_t i = 0; i + 1 < keyframes.size() &&
+                          keyframes.size() - i > static_cast<std::size_t>(options_.window.max_keyframes);
+       ++i)
+    links_[keyframes[i]] = window_.relative_information(keyframes[i], keyframes[i + 1]);
+  window_.marginalize();
+}
+
+Matrix6d Odometry::link_information(std::int64_t id) const {
+  const auto link = links_.find(id);
+  return link != links_.end() ? link->second : window_.relative_information(id, id + 1);
+}
+
+std::vector<std::pair<Eigen::Vector3d, int>> Odometry::landmarks() const {
+  std::vector<std::pair<Eigen::Vector3d, int>> result;
+  for (const std::int64_t id : window_.landmarks())
+    result.emplace_back(*window_.landmark(id), static_cast<int>(window_.observations(id).size()));
+  return result;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,140 @@
+#pragma once
+#include <placegraph/backend/sliding_window.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
+#include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/frontend/odometry/mono_initializer.h>
+#include <placegraph/frontend/odometry/pose_3d2d.h>
+#include <placegraph/graph/core/log.h>
+#include <placegraph/graph/frame.h>
+#include <placegraph/pipeline/ground_scale.h>
+
+#include <map>
+
+namespace placegraph {
+
+/// When a frame becomes a keyframe.
+struct KeyframeOptions {
+  double max_flow_share = 0.03;      ///< median track displacement since the last one / image width
+  double min_tracked_share = 0.7;    ///< of the last keyframe's landmarks still followed
+  int max_interval = 20;             ///< frames, if the camera moves at all
+  void check() const;
+};
+void visit(OptionVisitor& field, KeyframeOptions& options);
+
+struct OdometryOptions {
+  PointTrackerOptions tracker;
+  Pose3d2dOptions pose;
+  MonoInitializerOptions initializer;
+  StereoMatcherOptions stereo;
+  GroundScaleOptions ground;
+  KeyframeOptions keyframe;
+  SlidingWindowOptions window;
+  double sigma_px = 0.7;            ///< noise of a track
+  double outlier_px = 4;            ///< a landmark that misses its pixel by more is dropped
+  double min_parallax_deg = 0.5;    ///< to triangulate a landmark from keyframes
+  void check() const;
+};
+void visit(OptionVisitor& field, OdometryOptions& options);
+
+enum class TrackingState { kWaiting, kTracking, kLost };
+
+/// What one frame brought.
+struct OdometryUpdate {
+  TrackingState state = TrackingState::kWaiting;
+  SE3 T_odom_cam;            ///< if tracking
+  std::int64_t keyframe = -1;  ///< reference keyframe, if tracking
+  int inliers = 0;
+
+  struct NewKeyframe {
+    std::int64_t id;
+    Frame frame;
+  };
+  std::vector<NewKeyframe> new_keyframes;
+  /// Frames before initialization, posed afterwards: frame id, T_odom_cam.
+  std::vector<std::pair<std::int64_t, SE3>> filled;
+  /// The scale became known: every earlier position p of this run of tracking is now
+  /// centre + factor (p - centre).
+  struct Rescale {
+    double factor = 1;
+    Eigen::Vector3d centre_odom = Eigen::Vector3d::Zero();
+  };
+  std::optional<Rescale> rescale;
+};
+
+/// Motion memory: follows points, poses every frame against the landmarks of a sliding window, and
+/// refines the window at keyframes. Stereo and RGB-D start with the first frame; mono waits for two
+/// views with parallax, and takes its scale from the ground where the camera height is known.
+class Odometry {
+ public:
+  Odometry(const OdometryOptions& options, const Calibration& calibration, std::uint64_t seed,
+           LogSink log);
+
+  [[nodiscard]] OdometryUpdate add_frame(const Frame& frame);
+  /// Forgets window and tracks and begins anew with the next frame, which stands at T_odom_cam.
+  /// Keyframe ids go on counting.
+  void restart(const SE3& T_odom_cam);
+
+  bool scale_known() const { return scale_known_; }
+  /// Newest estimate of a keyframe of the present run of tracking, T_odom_cam.
+  SE3 keyframe_pose(std::int64_t id) const { return keyframe_poses_.at(id); }
+  /// First keyframe of the present run of tracking.
+  std::int64_t first_keyframe() const { return first_keyframe_; }
+  /// Information of the motion between keyframes `id` and `id` + 1.
+  Matrix6d link_information(std::int64_t id) const;
+  /// Landmarks of the window, in odometry coordinates, with their number of sightings.
+  std::vector<std::pair<Eigen::Vector3d, int>> landmarks() const;
+  double median_depth_m() const { return median_depth_m_; }
+
+ private:
+  struct View {  // a frame while mono waits for its second view
+    std::int64_t frame;
+    std::map<std::int64_t, Eigen::Vector2d> px;
+  };
+  struct Sighting2d {
+    std::int64_t keyframe;
+    Eigen::Vector2d px;
+  };
+  struct DepthMeasurement {
+    double inverse_depth, sigma;
+  };
+
+  OdometryUpdate begin(const Frame& frame);
+  OdometryUpdate try_initialize(const Frame& frame);
+  OdometryUpdate track(const Frame& frame);
+  std::vector<Eigen::Vector2f> predict(const SE3& T_odom_cam) const;
+  Pose3d2dResult estimate_pose(const SE3& prior);
+  bool keyframe_due(const Frame& frame, int inliers) const;
+  void add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);
+  void observe_tracks(std::int64_t keyframe, const Frame& frame);
+  void measure_scale(const Frame& frame, std::int64_t keyframe, OdometryUpdate& update);
+  void refine_window();
+  std::vector<std::optional<DepthMeasurement>> measure_depth(const Frame& frame) const;
+  std::optional<double> window_observation_depth(const WindowObservation& observation) const;
+  void add_observation(std::int64_t keyframe, std::int64_t landmark, const Eigen::Vector2d& px,
+                       const std::optional<DepthMeasurement>& depth);
+
+  OdometryOptions options_;
+  Calibration calibration_;
+  std::uint64_t seed_;
+  LogSink log_;
+  PointTracker tracker_;
+  SlidingWindow window_;
+  std::optional<GroundScale> ground_;
+  TrackingState state_ = TrackingState::kWaiting;
+  bool started_ = false;      // the first frame of this run has been seen
+  bool scale_known_ = false;
+
+  SE3 T_odom_start_, T_odom_last_, T_last_cur_;  // the last one: velocity over one frame
+  std::int64_t next_keyframe_ = 0, first_keyframe_ = 0, last_keyframe_ = -1;
+  int landmarks_at_keyframe_ = 0, frames_since_keyframe_ = 0;
+  Frame last_keyframe_frame_;
+  std::map<std::int64_t, Eigen::Vector2d> px_at_keyframe_;
+  std::map<std::int64_t, std::vector<Sighting2d>> sightings_;  // of live tracks, in the window
+  std::map<std::int64_t, SE3> keyframe_poses_;
+  std::map<std::int64_t, Matrix6d> links_;  // of keyframes that left the window
+  std::vector<View> views_;
+  Frame reference_frame_;
+  double median_depth_m_ = 10;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,39 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/odometry.h>
+
+namespace placegraph {
+
+void KeyframeOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, KeyframeOptions& o) {
+  field("max_flow_share", o.max_flow_share,
+        "median displacement since the last keyframe over the image width", {0.001, 1});
+  field("min_tracked_share", o.min_tracked_share,
+        "landmarks of the last keyframe that must still be followed", {0, 1});
+  field("max_interval", o.max_interval, "frames between keyframes while the camera moves",
+        {1, 100000});
+}
+
+void OdometryOptions::check() const {
+  check_ranges(*this);
+  tracker.check();
+  ground.check();
+  window.check();
+}
+
+void visit(OptionVisitor& field, OdometryOptions& o) {
+  field.group("tracker", o.tracker, "points followed over time");
+  field.group("pose", o.pose, "pose of a frame from landmarks");
+  field.group("initializer", o.initializer, "first two views of a single eye");
+  field.group("stereo", o.stereo, "matching of the right eye");
+  field.group("ground", o.ground, "metric scale from the road");
+  field.group("keyframe", o.keyframe, "when a frame becomes a keyframe");
+  field.group("window", o.window, "bundle adjustment over the last keyframes");
+  field("sigma_px", o.sigma_px, "noise of a track", {0.05, 10});
+  field("outlier_px", o.outlier_px, "a landmark that misses its pixel by more is dropped",
+        {0.5, 100});
+  field("min_parallax_deg", o.min_parallax_deg, "to triangulate a landmark from keyframes",
+        {0.01, 45});
+}
+
+}  // namespace placegraph

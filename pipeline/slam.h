@@ -1,0 +1,59 @@
+#pragma once
+#include <placegraph/graph/map.h>
+#include <placegraph/pipeline/loop_closer.h>
+#include <placegraph/pipeline/odometry.h>
+#include <placegraph/pipeline/place_mapper.h>
+
+namespace placegraph {
+
+struct SlamOptions {
+  std::uint64_t seed = 0;       ///< of every random stream
+  OdometryOptions odometry;
+  LoopOptions loops;
+  PlaceOptions places;
+  PoseGraphOptions pose_graph{.max_iterations = 50, .relative_decrease = 1e-6};
+  int optimize_interval = 10;   ///< keyframes between optimizations while loops come in
+  int max_lost_frames = 10;     ///< then a new component of the map begins
+  void check() const;
+};
+void visit(OptionVisitor& field, SlamOptions& options);
+
+/// What became of one frame.
+struct FrameResult {
+  std::int64_t frame = 0;
+  std::optional<SE3> T_map_cam;  ///< nothing while waiting for the second view, or lost
+  bool keyframe = false;
+  int inliers = 0;
+  int component = 0;
+  int loops_accepted = 0;        ///< with this frame
+};
+
+/// The whole system: frames in, place graph and trajectory out.
+///
+///     Slam slam(options, calibration);
+///     for (frame : frames) slam.add_frame(frame);
+///     Map map = slam.finish();
+///
+/// Stereo if the calibration has a baseline, RGB-D if it has a depth camera, mono otherwise; mono is
+/// metric if it has a camera height. Objects share nothing: any number may live in one process. Same
+/// frames, options and libraries: same bits. Throws ArgumentError for options, calibration or frames
+/// that break their contract (image of another size or type, stamps that do not increase).
+class Slam {
+ public:
+  Slam(const SlamOptions& options, const Calibration& calibration, LogSink log = {});
+  ~Slam();
+  Slam(Slam&&) noexcept;
+  Slam& operator=(Slam&&) noexcept;
+
+  FrameResult add_frame(const Frame& frame);
+  /// Map and trajectories as they stand; may be called between frames.
+  Map snapshot() const;
+  /// Optimizes once more and returns the map. add_frame may not be called afterwards.
+  Map finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace placegraph
