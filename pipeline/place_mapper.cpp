@@ -177,7 +177,7 @@ std::vector<RelativePoseConstraint> PlaceMapper::constraints() const {
     const SE3 T_query_anchor = T_place_keyframe(loop.query).inverse();
     const SE3 T_from_to = T_place_keyframe(loop.match) * loop.T_match_query * T_query_anchor;
     // Information of T_match_query, carried to the anchor's tangent.
-    const Matrix6d adjoint = T_query_anchor.inverse().adjoint();
+    const Matrix6d adjoint = T_query_anchor.adjoint();
     add(from, to, T_from_to, adjoint.transpose() * loop.information * adjoint,
         ConstraintSource::kLoop);
   }
