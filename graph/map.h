@@ -38,6 +38,7 @@ struct Map {
   PlaceGraph place_graph;
   std::vector<FrameRecord> frames;
   std::vector<LoopRecord> loops;
+  bool metric = false;           ///< whether its unit is the metre
   Trajectory trajectory_online;  ///< as each frame's pose stood when the frame had been processed
 
   const Keyframe* find_keyframe(std::int64_t id) const;

@@ -260,6 +260,7 @@ Map Slam::Impl::snapshot() const {
   }
   map.frames = records;
   map.loops = closer.records();
+  map.metric = odometry.scale_known();
   map.trajectory_online = online;
   return map;
 }

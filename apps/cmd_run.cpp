@@ -1,0 +1,211 @@
+#include "apps/cmd_run.h"
+
+#include <placegraph/eval/evaluate.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/g2o.h>
+#include <placegraph/io/trajectory_file.h>
+#include <placegraph/io/yaml_config.h>
+#include <placegraph/pipeline/run.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/utility.hpp>
+
+#include "apps/output.h"
+#include "apps/progress.h"
+#include "apps/run_files.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Arguments {
+  std::string sequence, out, config;
+  std::vector<std::string> settings;
+  std::optional<std::string> sensor;
+  std::optional<double> camera_height_m;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> threads;
+  bool no_loops = false, as_json = false, force = false, verbose = false;
+};
+
+/// Defaults < file < --set < explicit flags.
+RunOptions options_of(const Arguments& arguments) {
+  RunOptions options;
+  if (!arguments.config.empty()) read_options(arguments.config, options);
+  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
+  if (arguments.camera_height_m) {
+    require(*arguments.camera_height_m > 0, "--camera-height: must be positive");
+    options.camera_height_m = *arguments.camera_height_m;
+  }
+  if (arguments.seed) options.slam.seed = *arguments.seed;
+  if (arguments.threads) options.threads = *arguments.threads;
+  if (arguments.no_loops) options.slam.loops.enabled = false;
+  options.check();
+  return options;
+}
+
+double cpu_seconds(const rusage& usage) {
+  return usage.ru_utime.tv_sec + usage.ru_stime.tv_sec +
+         1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+/// The judgement of a run whose sequence knows the truth.
+json judgement(const Trajectory& truth, const Trajectory& estimate, Alignment alignment) {
+  EvaluationOptions options;
+  options.association = Association::kIndex;
+  options.alignment = alignment;
+  const EvaluationResult result = evaluate(truth, estimate, options);
+  if (!result.outcome) return {{"refused", result.outcome.reason}};
+  json figures;
+  for (const Metric& metric : metrics(result))
+    figures[metric.key] = metric.value ? json(*metric.value) : json(nullptr);
+  return figures;
+}
+
+/// Ground truth of the frames that were run.
+std::optional<Trajectory> truth_of(const Dataset& dataset, const RunOptions& options,
+                                   std::size_t frames) {
+  if (!dataset.ground_truth() || dataset.ground_truth()->size() != dataset.size())
+    return std::nullopt;
+  Trajectory truth = *dataset.ground_truth();
+  truth.poses.erase(truth.poses.begin(), truth.poses.begin() + options.first_frame);
+  truth.poses.resize(frames);
+  return truth;
+}
+
+void write_results(const std::string& folder, const RunResult& run, const Trajectory& optimized,
+                   const std::optional<Trajectory>& truth, const std::string& title,
+                   const json& summary) {
+  const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  for (const auto& [trajectory, name] :
+       {std::pair(&run.map.trajectory_online, "trajectory_online"),
+        std::pair(&optimized, "trajectory_optimized")}) {
+    write_trajectory(path((std::string(name) + ".tum").c_str()), *trajectory,
+                     TrajectoryFormat::kTum);
+    write_trajectory(path((std::string(name) + ".kitti").c_str()), *trajectory,
+                     TrajectoryFormat::kKitti);
+  }
+  write_g2o(path("graph.g2o"), run.map.place_graph.pose_graph());
+  write_file(path("places.json"), places_json(run.map));
+  write_file(path("loops.csv"), loops_csv(run.map));
+  write_file(path("plot.png"), run_plot(run, optimized, truth, title));
+  // Last: whoever finds result.json finds all the others.
+  write_file(path("result.json"), summary.dump(1) + "\n");
+}
+
+void print_summary(const json& summary, const std::string& folder) {
+  std::printf("%-12s %s, %d of %d frames posed (%d online), %d keyframes, %d places, %d loops\n",
+              summary["sequence"].get<std::string>().c_str(),
+              summary["sensor"].get<std::string>().c_str(), summary["posed"].get<int>(),
+              summary["frames"].get<int>(), summary["posed_online"].get<int>(),
+              summary["keyframes"].get<int>(), summary["places"].get<int>(),
+              summary["loops_accepted"].get<int>());
+  if (summary.contains("evaluation"))
+    for (const auto& [name, figures] : summary["evaluation"].items())
+      if (figures.contains("ate_rmse_m") && figures["ate_rmse_m"].is_number())
+        std::printf("%-12s ATE %.4f m (%s), path %.1f m\n", "", figures["ate_rmse_m"].get<double>(),
+                    name.c_str(), summary["path_m"].get<double>());
+  std::printf("%-12s %.1f s, %.1f ms CPU a frame, results in %s\n", "",
+              summary["wall_s"].get<double>(),
+              1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(),
+              folder.c_str());
+}
+
+double path_length_m(const Trajectory& truth) {
+  double length = 0;
+  for (std::size_t i = 1; i < truth.size(); ++i)
+    if (truth.poses[i - 1].T_world_body && truth.poses[i].T_world_body)
+      length += (truth.poses[i].T_world_body->translation() -
+                 truth.poses[i - 1].T_world_body->translation())
+                    .norm();
+  return length;
+}
+
+void run(const Arguments& arguments) {
+  const RunOptions options = options_of(arguments);
+  require_free_folder(arguments.out, arguments.force);
+  const auto dataset = open_dataset(arguments.sequence);
+  cv::setNumThreads(options.threads);
+
+  const auto begin = std::chrono::steady_clock::now();
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  RunResult run;
+  {
+    Progress progress("running " + dataset->name(), static_cast<std::int64_t>(dataset->size()));
+    const LogSink log = [&](LogLevel level, const std::string& message) {
+      if (level == LogLevel::kWarning || arguments.verbose)
+        std::fprintf(stderr, "\n%s", message.c_str());
+    };
+    run = run_sequence(
+        *dataset, options,
+        [&](std::size_t done, std::size_t, const FrameResult&) {
+          progress.update(static_cast<std::int64_t>(done));
+        },
+        log);
+  }
+  getrusage(RUSAGE_SELF, &after);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+
+  const Trajectory optimized = run.map.trajectory_optimized();
+  json summary = describe_run(run, optimized);
+  summary["sequence"] = dataset->name();
+  summary["format"] = dataset->format();
+  summary["seed"] = options.slam.seed;
+  summary["threads"] = options.threads;
+  summary["wall_s"] = wall.count();
+  summary["cpu_s"] = cpu_seconds(after) - cpu_seconds(before);
+  summary["peak_mb"] = after.ru_maxrss / 1024.0;
+  const auto truth = truth_of(*dataset, options, optimized.size());
+  if (truth) {
+    summary["path_m"] = path_length_m(*truth);
+    summary["evaluation"] = {
+        {"origin", judgement(*truth, optimized, Alignment::kOrigin)},
+        {"se3", judgement(*truth, optimized, Alignment::kSe3)},
+        {"sim3", judgement(*truth, optimized, Alignment::kSim3)}};
+  }
+  fs::create_directories(arguments.out);
+  write_results(arguments.out, run, optimized, truth, dataset->name(), summary);
+  if (arguments.as_json)
+    std::printf("%s\n", summary.dump(1).c_str());
+  else
+    print_summary(summary, arguments.out);
+  if (optimized.posed() == 0) throw NoAnswer(arguments.sequence + ": no frame could be posed");
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "run", "Images in, trajectory and place graph out.");
+  command->footer("placegraph run kitti/sequences/00 --camera-height 1.65 --out out/kitti00");
+  command->add_option("SEQUENCE", arguments->sequence, "folder or video; see docs/datasets.md")
+      ->required();
+  command->add_option("--out", arguments->out, "folder for the results")->required();
+  command->add_option("--sensor", arguments->sensor, "what to run it as; default: the best it has")
+      ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}));
+  command->add_option("--camera-height", arguments->camera_height_m,
+                      "height above the ground [m]: gives a single eye its scale");
+  command->add_option("--config", arguments->config, "YAML file with options (configs/)");
+  command->add_option("--set", arguments->settings, "one option, key=value; may be repeated")
+      ->allow_extra_args(false);
+  command->add_flag("--no-loops", arguments->no_loops, "do not look for revisits");
+  command->add_option("--seed", arguments->seed, "of every random stream");
+  command->add_option("--threads", arguments->threads, "the result does not depend on it");
+  command->add_flag("--json", arguments->as_json, "print result.json");
+  command->add_flag("--force", arguments->force, "write into a folder that is not empty");
+  command->add_flag("--verbose", arguments->verbose, "log messages on stderr");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace placegraph::apps

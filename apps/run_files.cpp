@@ -1,0 +1,128 @@
+#include "apps/run_files.h"
+
+#include <placegraph/eval/evaluate.h>
+#include <placegraph/eval/plot.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+json pose_json(const SE3& T) {
+  const Eigen::Vector3d& t = T.translation();
+  const Eigen::Quaterniond& q = T.rotation().quaternion();
+  return {{"position_m", {t.x(), t.y(), t.z()}}, {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+std::vector<std::int64_t> lost_frames(const Map& map, const Trajectory& trajectory) {
+  std::vector<std::int64_t> lost;
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    if (!trajectory.poses[i].T_world_body) lost.push_back(map.frames[i].frame);
+  return lost;
+}
+
+PlotCurve curve_of(const Trajectory& trajectory, const std::string& name) {
+  PlotCurve curve{name, {}, false};
+  for (const StampedPose& pose : trajectory.poses) {
+    curve.positions_m.emplace_back();
+    if (pose.T_world_body) curve.positions_m.back() = pose.T_world_body->translation();
+  }
+  return curve;
+}
+
+}  // namespace
+
+std::string places_json(const Map& map) {
+  json places = json::array();
+  for (const Place& place : map.place_graph.places) {
+    json members = json::array();
+    for (const PlaceMember& member : place.members) {
+      const Keyframe* keyframe = map.find_keyframe(member.keyframe);
+      json entry = {{"keyframe", member.keyframe},
+                    {"T_place_keyframe", pose_json(member.T_place_keyframe)}};
+      if (keyframe) entry["frame"] = keyframe->frame;
+      members.push_back(entry);
+    }
+    places.push_back({{"id", place.id},
+                      {"anchor_keyframe", place.anchor_keyframe},
+                      {"component", place.component},
+                      {"T_map_place", pose_json(place.T_map_place)},
+                      {"members", members},
+                      {"labels", place.labels},
+                      {"visual_words", place.appearance.words.size()}});
+  }
+  json edges = json::array();
+  for (const RelativePoseConstraint& c : map.place_graph.constraints)
+    edges.push_back({{"from", c.from},
+                     {"to", c.to},
+                     {"source", c.source == ConstraintSource::kLoop ? "loop" : "odometry"}});
+  return json{{"places", places}, {"edges", edges}}.dump(1) + "\n";
+}
+
+std::string loops_csv(const Map& map) {
+  std::ostringstream csv;
+  csv << "query,match,inliers,accepted,stage\n";
+  for (const LoopRecord& loop : map.loops)
+    csv << loop.query_frame << ',' << loop.match_frame << ',' << loop.inliers << ','
+        << (loop.accepted ? 1 : 0) << ',' << loop.stage << '\n';
+  return csv.str();
+}
+
+json describe_run(const RunResult& run, const Trajectory& optimized) {
+  const Map& map = run.map;
+  int components = 0;
+  for (const Place& place : map.place_graph.places)
+    components = std::max(components, place.component + 1);
+  const auto accepted = std::count_if(map.loops.begin(), map.loops.end(),
+                                      [](const LoopRecord& loop) { return loop.accepted; });
+  return {{"sensor", to_string(run.sensor)},
+          {"frames", map.frames.size()},
+          {"posed", optimized.posed()},
+          {"posed_online", map.trajectory_online.posed()},
+          {"lost_frames", lost_frames(map, optimized)},
+          {"lost_frames_online", lost_frames(map, map.trajectory_online)},
+          {"keyframes", map.keyframes.size()},
+          {"places", map.place_graph.places.size()},
+          {"components", components},
+          {"loops_checked", map.loops.size()},
+          {"loops_accepted", accepted},
+          {"metric", map.metric}};
+}
+
+std::string run_plot(const RunResult& run, const Trajectory& optimized,
+                     const std::optional<Trajectory>& ground_truth, const std::string& title) {
+  Plot plot;
+  if (ground_truth && ground_truth->size() == optimized.size()) {
+    EvaluationOptions options;
+    options.association = Association::kIndex;
+    options.alignment = run.map.metric ? Alignment::kOrigin : Alignment::kSim3;
+    std::vector<EvaluationResult> results;
+    for (const auto& [trajectory, name] :
+         {std::pair(&run.map.trajectory_online, "online"), std::pair(&optimized, "optimized")}) {
+      EvaluationResult result = evaluate(*ground_truth, *trajectory, options, name);
+      if (result.outcome) results.push_back(std::move(result));
+    }
+    if (!results.empty()) plot = plot_of(results);
+  }
+  if (plot.curves.empty()) {
+    plot.curves = {curve_of(run.map.trajectory_online, "online"), curve_of(optimized, "optimized")};
+    const PlotCurve& curve = plot.curves.back();
+    for (const LoopRecord& loop : run.map.loops) {
+      if (!loop.accepted) continue;
+      std::optional<Eigen::Vector3d> ends[2];
+      for (std::size_t i = 0; i < run.map.frames.size(); ++i) {
+        if (run.map.frames[i].frame == loop.query_frame) ends[0] = curve.positions_m[i];
+        if (run.map.frames[i].frame == loop.match_frame) ends[1] = curve.positions_m[i];
+      }
+      if (ends[0] && ends[1]) plot.links_m.emplace_back(*ends[0], *ends[1]);
+    }
+  }
+  plot.title = title;
+  return to_png(plot);
+}
+
+}  // namespace placegraph::apps

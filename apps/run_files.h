@@ -1,0 +1,18 @@
+#pragma once
+#include <placegraph/pipeline/run.h>
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace placegraph::apps {
+
+/// What `placegraph run` leaves in its folder, as the contents of files.
+std::string places_json(const Map& map);
+std::string loops_csv(const Map& map);  ///< query,match,inliers,accepted,stage
+/// Everything result.json says of the map and its trajectories; times are the caller's.
+nlohmann::json describe_run(const RunResult& run, const Trajectory& optimized);
+/// Top view of the trajectories, loops as links, errors if there is ground truth; PNG bytes.
+std::string run_plot(const RunResult& run, const Trajectory& optimized,
+                     const std::optional<Trajectory>& ground_truth, const std::string& title);
+
+}  // namespace placegraph::apps

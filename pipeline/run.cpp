@@ -1,0 +1,94 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/run.h>
+
+#include <algorithm>
+#include <future>
+
+namespace placegraph {
+namespace {
+
+Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
+  const auto offered = dataset.sensors();
+  if (choice == SensorChoice::kAuto) return offered.front();
+  const Sensor wanted = static_cast<Sensor>(static_cast<int>(choice) - 1);
+  require(std::find(offered.begin(), offered.end(), wanted) != offered.end(),
+          dataset.name() + ": cannot be run as " + to_string(wanted));
+  return wanted;
+}
+
+/// Reads frames in order, one ahead of its user if it may have a thread for that.
+class FrameReader {
+ public:
+  FrameReader(const Dataset& dataset, Sensor sensor, std::size_t end, bool ahead)
+      : dataset_(dataset), sensor_(sensor), end_(end), ahead_(ahead) {}
+
+  Frame read(std::size_t index) {
+    Frame frame = next_.valid() ? next_.get() : dataset_.frame(index, sensor_);
+    if (ahead_ && index + 1 < end_)
+      next_ = std::async(std::launch::async,
+                         [this, index] { return dataset_.frame(index + 1, sensor_); });
+    return frame;
+  }
+
+ private:
+  const Dataset& dataset_;
+  Sensor sensor_;
+  std::size_t end_;
+  bool ahead_;
+  std::future<Frame> next_;
+};
+
+}  // namespace
+
+const char* to_string(Sensor sensor) {
+  switch (sensor) {
+    case Sensor::kMono:
+      return "mono";
+    case Sensor::kStereo:
+      return "stereo";
+    case Sensor::kRgbd:
+      return "rgbd";
+  }
+  return "";
+}
+
+void RunOptions::check() const {
+  check_ranges(*this);
+  slam.check();
+}
+
+void visit(OptionVisitor& field, RunOptions& o) {
+  field.choice("sensor", o.sensor, {"auto", "mono", "stereo", "rgbd"},
+               "what the sequence is run as; auto: the best it offers");
+  field("camera_height_m", o.camera_height_m,
+        "of the camera above the ground; 0: as the sequence says, or unknown", {0, 1000});
+  field("first_frame", o.first_frame, "frames left out at the beginning", {0, 1e9});
+  field("max_frames", o.max_frames, "frames run; 0: all", {0, 1e9});
+  field("threads", o.threads, "threads; the result does not depend on it", {1, 256});
+  visit(field, o.slam);
+}
+
+RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
+                       const RunProgress& progress, const LogSink& log) {
+  options.check();
+  RunResult result;
+  result.sensor = choose_sensor(dataset, options.sensor);
+  result.calibration = dataset.calibration(result.sensor);
+  if (options.camera_height_m > 0) result.calibration.camera_height_m = options.camera_height_m;
+  const std::size_t begin = options.first_frame;
+  require(begin < dataset.size(), "first_frame: the sequence has " +
+                                      std::to_string(dataset.size()) + " frames");
+  const std::size_t end =
+      options.max_frames > 0 ? std::min(dataset.size(), begin + options.max_frames) : dataset.size();
+
+  Slam slam(options.slam, result.calibration, log);
+  FrameReader reader(dataset, result.sensor, end, options.threads > 1);
+  for (std::size_t i = begin; i < end; ++i) {
+    const FrameResult frame_result = slam.add_frame(reader.read(i));
+    if (progress) progress(i + 1 - begin, end - begin, frame_result);
+  }
+  result.map = slam.finish();
+  return result;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,41 @@
+#pragma once
+#include <placegraph/io/dataset.h>
+#include <placegraph/pipeline/slam.h>
+
+#include <functional>
+
+namespace placegraph {
+
+enum class SensorChoice { kAuto, kMono, kStereo, kRgbd };
+
+/// A run over a recorded sequence: what `placegraph run` and configs/*.yaml set.
+struct RunOptions {
+  SensorChoice sensor = SensorChoice::kAuto;  ///< auto: the best the sequence offers
+  double camera_height_m = 0;  ///< above the ground; 0: as the sequence says, or unknown
+  int first_frame = 0;
+  int max_frames = 0;          ///< 0: all
+  int threads = 2;             ///< 2 or more: the next frame is read while this one is worked on
+  SlamOptions slam;
+  void check() const;
+};
+/// The SLAM options stand beside the others, not in a group of their own.
+void visit(OptionVisitor& field, RunOptions& options);
+
+struct RunResult {
+  Sensor sensor = Sensor::kMono;
+  Calibration calibration;
+  Map map;
+};
+
+/// Called after each frame with the number done and of all, and what became of it.
+using RunProgress = std::function<void(std::size_t done, std::size_t total, const FrameResult&)>;
+
+/// Runs the system over a sequence, every frame, never sleeping. Same result for any number of
+/// threads. Throws as Slam and the data set do.
+RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
+                       const RunProgress& progress = {}, const LogSink& log = {});
+
+/// "mono", "stereo", "rgbd".
+const char* to_string(Sensor sensor);
+
+}  // namespace placegraph
