@@ -7,6 +7,7 @@
 
 #include "apps/cmd_eval.h"
 #include "apps/cmd_optimize.h"
+#include "apps/cmd_run.h"
 #include "apps/help.h"
 #include "apps/output.h"
 
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     add_eval_command(app);
     add_optimize_command(app);
+    add_run_command(app);
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::Success& asked) {  // --help, --version
