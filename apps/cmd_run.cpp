@@ -86,9 +86,8 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
                    const std::optional<Trajectory>& truth, const std::string& title,
                    const json& summary) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
-  for (const auto& [trajectory, name] :
-       {std::pair(&run.map.trajectory_online, "trajectory_online"),
-        std::pair(&optimized, "trajectory_optimized")}) {
+  for (const auto& [trajectory, name] : {std::pair(&run.map.trajectory_online, "trajectory_online"),
+                                         std::pair(&optimized, "trajectory_optimized")}) {
     write_trajectory(path((std::string(name) + ".tum").c_str()), *trajectory,
                      TrajectoryFormat::kTum);
     write_trajectory(path((std::string(name) + ".kitti").c_str()), *trajectory,
@@ -114,10 +113,9 @@ void print_summary(const json& summary, const std::string& folder) {
       if (figures.contains("ate_rmse_m") && figures["ate_rmse_m"].is_number())
         std::printf("%-12s ATE %.4f m (%s), path %.1f m\n", "", figures["ate_rmse_m"].get<double>(),
                     name.c_str(), summary["path_m"].get<double>());
-  std::printf("%-12s %.1f s, %.1f ms CPU a frame, results in %s\n", "",
-              summary["wall_s"].get<double>(),
-              1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(),
-              folder.c_str());
+  std::printf(
+      "%-12s %.1f s, %.1f ms CPU a frame, results in %s\n", "", summary["wall_s"].get<double>(),
+      1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(), folder.c_str());
 }
 
 double path_length_m(const Trajectory& truth) {
@@ -168,10 +166,9 @@ void run(const Arguments& arguments) {
   const auto truth = truth_of(*dataset, options, optimized.size());
   if (truth) {
     summary["path_m"] = path_length_m(*truth);
-    summary["evaluation"] = {
-        {"origin", judgement(*truth, optimized, Alignment::kOrigin)},
-        {"se3", judgement(*truth, optimized, Alignment::kSe3)},
-        {"sim3", judgement(*truth, optimized, Alignment::kSim3)}};
+    summary["evaluation"] = {{"origin", judgement(*truth, optimized, Alignment::kOrigin)},
+                             {"se3", judgement(*truth, optimized, Alignment::kSe3)},
+                             {"sim3", judgement(*truth, optimized, Alignment::kSim3)}};
   }
   fs::create_directories(arguments.out);
   write_results(arguments.out, run, optimized, truth, dataset->name(), summary);
@@ -186,8 +183,7 @@ void run(const Arguments& arguments) {
 
 void add_run_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand(
-      "run", "Images in, trajectory and place graph out.");
+  CLI::App* command = app.add_subcommand("run", "Images in, trajectory and place graph out.");
   command->footer("placegraph run kitti/sequences/00 --camera-height 1.65 --out out/kitti00");
   command->add_option("SEQUENCE", arguments->sequence, "folder or video; see docs/datasets.md")
       ->required();

@@ -36,8 +36,8 @@ void GroundScale::learn(const Eigen::Vector3d& normal_cam) {
 
 std::optional<GroundScale::Length> GroundScale::find(const Image& image_new, const Image& image_old,
                                                      const SE3& T_old_new) {
-  const auto found = search_ground_plane(image_new, image_old, camera_, T_old_new, normal_cam_,
-                                         options_.plane);
+  const auto found =
+      search_ground_plane(image_new, image_old, camera_, T_old_new, normal_cam_, options_.plane);
   if (!found.outcome) return std::nullopt;
   learn(found.plane_ref.normal);
   refused_ = 0;
@@ -48,8 +48,8 @@ std::optional<GroundScale::Length> GroundScale::find(const Image& image_new, con
 std::optional<GroundScale::Length> GroundScale::follow(const Image& image_new,
                                                        const Image& image_old,
                                                        const SE3& T_old_new) {
-  const auto found = align_ground_plane(image_new, image_old, camera_, T_old_new, plane_cam(),
-                                        options_.plane);
+  const auto found =
+      align_ground_plane(image_new, image_old, camera_, T_old_new, plane_cam(), options_.plane);
   if (!found.outcome) return std::nullopt;
   const double log_factor = std::log(camera_height_m_ / found.plane_ref.distance_m);
   // Lost for long: the present scale itself may be what is wrong.
@@ -58,7 +58,8 @@ std::optional<GroundScale::Length> GroundScale::follow(const Image& image_new,
     return ++refused_ > kPatience ? find(image_new, image_old, T_old_new) : std::nullopt;
   refused_ = 0;
   learn(found.plane_ref.normal);
-  return Length{std::exp(log_factor), std::hypot(found.sigma_log_distance, options_.sigma_relative)};
+  return Length{std::exp(log_factor),
+                std::hypot(found.sigma_log_distance, options_.sigma_relative)};
 }
 
 }  // namespace placegraph

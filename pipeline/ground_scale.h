@@ -7,10 +7,10 @@ namespace placegraph {
 
 struct GroundScaleOptions {
   GroundPlaneOptions plane;
-  bool enabled = true;            ///< use the ground plane where the camera height is known
-  double sigma_relative = 0.03;   ///< of a single scale: unevenness of the road, added to its noise
+  bool enabled = true;           ///< use the ground plane where the camera height is known
+  double sigma_relative = 0.03;  ///< of a single scale: unevenness of the road, added to its noise
   double max_log_deviation = 0.25;  ///< from the present scale; more is not believed
-  double normal_gain = 0.1;       ///< of the slow filter on the mean normal (pitch and roll)
+  double normal_gain = 0.1;         ///< of the slow filter on the mean normal (pitch and roll)
   void check() const;
 };
 void visit(OptionVisitor& field, GroundScaleOptions& options);
@@ -23,7 +23,7 @@ class GroundScale {
   GroundScale(const GroundScaleOptions& options, const Camera& camera, double camera_height_m);
 
   struct Length {
-    double factor = 1;          ///< true length = factor * |t| of the motion handed over
+    double factor = 1;  ///< true length = factor * |t| of the motion handed over
     double sigma_relative = 1;
   };
   /// For a motion whose scale is unknown; nothing if the road says nothing.

@@ -35,10 +35,7 @@ void visit(OptionVisitor& field, LoopOptions& o) {
 
 LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibration,
                        std::uint64_t seed)
-    : options_(options),
-      calibration_(calibration),
-      seed_(seed),
-      database_(options.database, seed) {
+    : options_(options), calibration_(calibration), seed_(seed), database_(options.database, seed) {
   options_.check();
 }
 
@@ -69,9 +66,9 @@ void LoopCloser::add_view(std::int64_t keyframe, const Frame& frame,
     constexpr double kBandPx = 2.0, kMinParallaxRad = 0.7 * M_PI / 180;
     std::vector<Feature>& previous = views_.back().features;
     const SE3 T_this_previous = T_previous_this->inverse();
-    for (const FeatureMatch& m : match_epipolar(calibration_.camera, previous, view.features,
-                                                *T_previous_this, kBandPx,
-                                                options_.verifier.matcher)) {
+    for (const FeatureMatch& m :
+         match_epipolar(calibration_.camera, previous, view.features, *T_previous_this, kBandPx,
+                        options_.verifier.matcher)) {
       const auto point = triangulate(calibration_.camera,
                                      {{SE3(), previous[m.a].px.cast<double>()},
                                       {*T_previous_this, view.features[m.b].px.cast<double>()}},
@@ -90,9 +87,8 @@ std::vector<Loop> LoopCloser::find_loops(
   std::vector<Loop> accepted;
   const View& query = views_.back();
   const double similarity_to_last =
-      views_.size() < 2
-          ? 0
-          : database_.similarity(query.features, views_[views_.size() - 2].keyframe);
+      views_.size() < 2 ? 0
+                        : database_.similarity(query.features, views_[views_.size() - 2].keyframe);
   const auto candidates =
       database_.query(query.features, options_.candidates, [&](std::int64_t id) {
         return query.frame - find_view(id)->frame >= options_.min_frame_gap;
@@ -105,8 +101,8 @@ std::vector<Loop> LoopCloser::find_loops(
       break;  // the rest is less similar still
     }
     Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | candidate.id);
-    const LoopVerification verified = verify_loop(calibration_.camera, query.features,
-                                                  match.features, options_.verifier, random);
+    const LoopVerification verified =
+        verify_loop(calibration_.camera, query.features, match.features, options_.verifier, random);
     record.inliers = verified.inliers;
     record.stage = verified.outcome ? "consistency" : "geometry";
     records_.push_back(record);

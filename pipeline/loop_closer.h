@@ -15,10 +15,11 @@ struct LoopOptions {
   DetectorOptions detector;
   PlaceDatabaseOptions database;
   LoopVerifierOptions verifier;
-  int min_frame_gap = 40;      ///< nearer views are neighbours, not revisits
-  int candidates = 5;          ///< retrieved views that are verified
-  double min_similarity = 0.3; ///< of a candidate, as a share of the similarity to the last keyframe
-  int support_window = 4;      ///< keyframes within which a second loop must agree
+  int min_frame_gap = 40;  ///< nearer views are neighbours, not revisits
+  int candidates = 5;      ///< retrieved views that are verified
+  double min_similarity =
+      0.3;                 ///< of a candidate, as a share of the similarity to the last keyframe
+  int support_window = 4;  ///< keyframes within which a second loop must agree
   double support_translation = 0.05;  ///< disagreement allowed, as a share of the median depth
   double support_angle_deg = 3;
   double information_scale = 0.1;  ///< feature noise is correlated: information counts this much
@@ -33,8 +34,8 @@ struct Loop {
   Matrix6d information = Matrix6d::Zero();
 };
 
-/// Spatial memory: describes keyframes, finds revisits by appearance, verifies them by geometry, and
-/// lets one into the graph only when a second, independent one agrees with it.
+/// Spatial memory: describes keyframes, finds revisits by appearance, verifies them by geometry,
+/// and lets one into the graph only when a second, independent one agrees with it.
 class LoopCloser {
  public:
   LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed);
@@ -45,8 +46,8 @@ class LoopCloser {
     std::vector<Feature> features;
   };
 
-  /// Describes a keyframe. `T_previous_this`, if there is a predecessor in the same run of tracking,
-  /// gives depth to the features both see.
+  /// Describes a keyframe. `T_previous_this`, if there is a predecessor in the same run of
+  /// tracking, gives depth to the features both see.
   void add_view(std::int64_t keyframe, const Frame& frame,
                 const std::optional<SE3>& T_previous_this);
   /// Revisits that the newest view completes. `T_odom_keyframe(id)` gives odometry poses to compare

@@ -57,8 +57,7 @@ OdometryUpdate Odometry::add_frame(const Frame& frame) {
   tracker_.track(frame.image, state_ == TrackingState::kWaiting
                                   ? std::vector<Eigen::Vector2f>{}
                                   : predict(T_odom_last_ * T_last_cur_));
-  OdometryUpdate update =
-      state_ == TrackingState::kWaiting ? try_initialize(frame) : track(frame);
+  OdometryUpdate update = state_ == TrackingState::kWaiting ? try_initialize(frame) : track(frame);
   if (update.state == TrackingState::kLost) {
     // The next frame may still be found from the last good one.
     tracker_ = before;
@@ -118,11 +117,12 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame) {
   for (std::size_t v = 1; v + 1 < views_.size(); ++v) {
     between.emplace_back();
     for (const auto& [id, px] : views_[v].px)
-      if (const auto i = index.find(id); i != index.end()) between.back().emplace_back(i->second, px);
+      if (const auto i = index.find(id); i != index.end())
+        between.back().emplace_back(i->second, px);
   }
   Random random(seed_, frame.id);
-  MonoInitialization start = initialize_mono(calibration_.camera, px_ref, px_cur, between,
-                                             options_.initializer, random);
+  MonoInitialization start =
+      initialize_mono(calibration_.camera, px_ref, px_cur, between, options_.initializer, random);
   if (!start.outcome) {
     log(log_, LogLevel::kDebug, "initialization waits: " + start.outcome.reason);
     return update;
@@ -252,8 +252,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
     add_keyframe(frame, pose.T_ref_cam, update);
     T_odom_last_ = window_.pose(last_keyframe_);
     if (update.rescale)
-      T_last_cur_ = SE3(T_last_cur_.rotation(),
-                        update.rescale->factor * T_last_cur_.translation());
+      T_last_cur_ = SE3(T_last_cur_.rotation(), update.rescale->factor * T_last_cur_.translation());
     (void)T_before;
   }
   update.state = TrackingState::kTracking;
@@ -379,8 +378,7 @@ void Odometry::measure_scale(const Frame& frame, std::int64_t previous, Odometry
   const double length = T_old_new.translation().norm();
   if (length < 1e-6) return;
   if (scale_known_) {
-    if (const auto measured =
-            ground_->follow(frame.image, last_keyframe_frame_.image, T_old_new)) {
+    if (const auto measured = ground_->follow(frame.image, last_keyframe_frame_.image, T_old_new)) {
       const double distance_m = measured->factor * length;
       window_.add_distance({previous, current, distance_m, measured->sigma_relative * distance_m});
       log(log_, LogLevel::kDebug,
@@ -394,9 +392,8 @@ void Odometry::measure_scale(const Frame& frame, std::int64_t previous, Odometry
   const Eigen::Vector3d centre = window_.pose(window_.keyframes().front()).translation();
   window_.rescale(measured->factor);
   for (auto& [id, T_odom_keyframe] : keyframe_poses_)
-    T_odom_keyframe =
-        SE3(T_odom_keyframe.rotation(),
-            centre + measured->factor * (T_odom_keyframe.translation() - centre));
+    T_odom_keyframe = SE3(T_odom_keyframe.rotation(),
+                          centre + measured->factor * (T_odom_keyframe.translation() - centre));
   update.rescale = {measured->factor, centre};
   median_depth_m_ *= measured->factor;
   scale_known_ = true;
@@ -427,8 +424,9 @@ void Odometry::refine_window() {
   for (const std::int64_t id : window_.keyframes()) keyframe_poses_[id] = window_.pose(id);
   // Before a keyframe leaves, what it knew of its successor is written down.
   const auto keyframes = window_.keyframes();
-  for (std::size_t i = 0; i + 1 < keyframes.size() &&
-                          keyframes.size() - i > static_cast<std::size_t>(options_.window.max_keyframes);
+  for (std::size_t i = 0;
+       i + 1 < keyframes.size() &&
+       keyframes.size() - i > static_cast<std::size_t>(options_.window.max_keyframes);
        ++i)
     links_[keyframes[i]] = window_.relative_information(keyframes[i], keyframes[i + 1]);
   window_.marginalize();

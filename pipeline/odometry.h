@@ -14,9 +14,9 @@ namespace placegraph {
 
 /// When a frame becomes a keyframe.
 struct KeyframeOptions {
-  double max_flow_share = 0.03;      ///< median track displacement since the last one / image width
-  double min_tracked_share = 0.7;    ///< of the last keyframe's landmarks still followed
-  int max_interval = 20;             ///< frames, if the camera moves at all
+  double max_flow_share = 0.03;    ///< median track displacement since the last one / image width
+  double min_tracked_share = 0.7;  ///< of the last keyframe's landmarks still followed
+  int max_interval = 20;           ///< frames, if the camera moves at all
   void check() const;
 };
 void visit(OptionVisitor& field, KeyframeOptions& options);
@@ -29,9 +29,9 @@ struct OdometryOptions {
   GroundScaleOptions ground;
   KeyframeOptions keyframe;
   SlidingWindowOptions window;
-  double sigma_px = 0.7;            ///< noise of a track
-  double outlier_px = 4;            ///< a landmark that misses its pixel by more is dropped
-  double min_parallax_deg = 0.5;    ///< to triangulate a landmark from keyframes
+  double sigma_px = 0.7;          ///< noise of a track
+  double outlier_px = 4;          ///< a landmark that misses its pixel by more is dropped
+  double min_parallax_deg = 0.5;  ///< to triangulate a landmark from keyframes
   void check() const;
 };
 void visit(OptionVisitor& field, OdometryOptions& options);
@@ -41,7 +41,7 @@ enum class TrackingState { kWaiting, kTracking, kLost };
 /// What one frame brought.
 struct OdometryUpdate {
   TrackingState state = TrackingState::kWaiting;
-  SE3 T_odom_cam;            ///< if tracking
+  SE3 T_odom_cam;              ///< if tracking
   std::int64_t keyframe = -1;  ///< reference keyframe, if tracking
   int inliers = 0;
 
@@ -121,7 +121,7 @@ class Odometry {
   SlidingWindow window_;
   std::optional<GroundScale> ground_;
   TrackingState state_ = TrackingState::kWaiting;
-  bool started_ = false;      // the first frame of this run has been seen
+  bool started_ = false;  // the first frame of this run has been seen
   bool scale_known_ = false;
 
   SE3 T_odom_start_, T_odom_last_, T_last_cur_;  // the last one: velocity over one frame

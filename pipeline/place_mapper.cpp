@@ -10,7 +10,8 @@ namespace {
 
 /// Inverse of an information of any rank: unknown directions get a large, finite variance.
 Matrix6d covariance_of(const Matrix6d& information) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(0.5 * (information + information.transpose()));
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(0.5 *
+                                                      (information + information.transpose()));
   const double floor = std::max(1e-6, 1e-9 * eigen.eigenvalues()[5]);
   const Vector6d inverse = eigen.eigenvalues().cwiseMax(floor).cwiseInverse();
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
@@ -50,8 +51,7 @@ int PlaceMapper::component_of(std::int64_t keyframe) const {
 
 std::optional<SE3> PlaceMapper::odometry(std::int64_t from, std::int64_t to) const {
   const auto a = nodes_.find(from), b = nodes_.find(to);
-  if (a == nodes_.end() || b == nodes_.end() || a->second.run != b->second.run)
-    return std::nullopt;
+  if (a == nodes_.end() || b == nodes_.end() || a->second.run != b->second.run) return std::nullopt;
   return a->second.T_run_keyframe.inverse() * b->second.T_run_keyframe;
 }
 
@@ -86,7 +86,8 @@ void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
     place.component = component_of(link->from);
   } else {
     place.T_map_place = T_map_guess;
-    for (const Place& other : places_) place.component = std::max(place.component, other.component + 1);
+    for (const Place& other : places_)
+      place.component = std::max(place.component, other.component + 1);
   }
   node.place = place.id;
   nodes_[id] = node;
@@ -125,13 +126,12 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
   const int run = nodes_.at(first).run;
   for (auto& [id, node] : nodes_)
     if (node.run == run && node.link && id > first)
-      node.link->T_from_this = SE3(node.link->T_from_this.rotation(),
-                                   factor * node.link->T_from_this.translation());
+      node.link->T_from_this =
+          SE3(node.link->T_from_this.rotation(), factor * node.link->T_from_this.translation());
   for (auto& place : places_)
     if (nodes_.at(place.anchor_keyframe).run == run)
-      place.T_map_place =
-          SE3(place.T_map_place.rotation(),
-              centre + factor * (place.T_map_place.translation() - centre));
+      place.T_map_place = SE3(place.T_map_place.rotation(),
+                              centre + factor * (place.T_map_place.translation() - centre));
   follow_links(first);
 }
 
@@ -190,9 +190,8 @@ void PlaceMapper::bring_together() {
     if (a == b) continue;
     // The younger component moves onto the older one.
     const bool query_moves = b > a;
-    const SE3 T_map_new = query_moves
-                              ? T_map_keyframe(loop.match) * loop.T_match_query
-                              : T_map_keyframe(loop.query) * loop.T_match_query.inverse();
+    const SE3 T_map_new = query_moves ? T_map_keyframe(loop.match) * loop.T_match_query
+                                      : T_map_keyframe(loop.query) * loop.T_match_query.inverse();
     const SE3 T_map_old = T_map_keyframe(query_moves ? loop.query : loop.match);
     const SE3 T_new_old = T_map_new * T_map_old.inverse();
     const int moving = std::max(a, b), staying = std::min(a, b);

@@ -7,16 +7,17 @@
 namespace placegraph {
 
 struct PlaceOptions {
-  double max_distance = 0.3;    ///< of a keyframe from its place's anchor, as a share of the median depth
-  double max_angle_deg = 20;    ///< between a keyframe and its place's anchor
+  double max_distance =
+      0.3;  ///< of a keyframe from its place's anchor, as a share of the median depth
+  double max_angle_deg = 20;  ///< between a keyframe and its place's anchor
   RobustKernel loop_kernel{RobustKernel::Kind::kCauchy, 3};
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceOptions& options);
 
-/// Gathers keyframes into topological places, keeps what is known between them, and moves the places
-/// when a loop says so. Keyframes come in odometry coordinates, which stay untouched; the map frame
-/// follows from the places.
+/// Gathers keyframes into topological places, keeps what is known between them, and moves the
+/// places when a loop says so. Keyframes come in odometry coordinates, which stay untouched; the
+/// map frame follows from the places.
 class PlaceMapper {
  public:
   explicit PlaceMapper(const PlaceOptions& options);

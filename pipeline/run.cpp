@@ -76,10 +76,11 @@ RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
   result.calibration = dataset.calibration(result.sensor);
   if (options.camera_height_m > 0) result.calibration.camera_height_m = options.camera_height_m;
   const std::size_t begin = options.first_frame;
-  require(begin < dataset.size(), "first_frame: the sequence has " +
-                                      std::to_string(dataset.size()) + " frames");
-  const std::size_t end =
-      options.max_frames > 0 ? std::min(dataset.size(), begin + options.max_frames) : dataset.size();
+  require(begin < dataset.size(),
+          "first_frame: the sequence has " + std::to_string(dataset.size()) + " frames");
+  const std::size_t end = options.max_frames > 0
+                              ? std::min(dataset.size(), begin + options.max_frames)
+                              : dataset.size();
 
   Slam slam(options.slam, result.calibration, log);
   FrameReader reader(dataset, result.sensor, end, options.threads > 1);

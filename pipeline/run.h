@@ -13,8 +13,8 @@ struct RunOptions {
   SensorChoice sensor = SensorChoice::kAuto;  ///< auto: the best the sequence offers
   double camera_height_m = 0;  ///< above the ground; 0: as the sequence says, or unknown
   int first_frame = 0;
-  int max_frames = 0;          ///< 0: all
-  int threads = 2;             ///< 2 or more: the next frame is read while this one is worked on
+  int max_frames = 0;  ///< 0: all
+  int threads = 2;     ///< 2 or more: the next frame is read while this one is worked on
   SlamOptions slam;
   void check() const;
 };

@@ -101,8 +101,8 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   records.push_back({frame.id, frame.stamp_ns, -1, std::nullopt});
 
   OdometryUpdate update = odometry.add_frame(frame);
-  if (update.state == TrackingState::kLost || (posed_once && lost_in_a_row > 0 &&
-                                               update.state == TrackingState::kWaiting))
+  if (update.state == TrackingState::kLost ||
+      (posed_once && lost_in_a_row > 0 && update.state == TrackingState::kWaiting))
     recover(frame, update);
   if (update.rescale) apply(*update.rescale);
   add_keyframes(update, result);
@@ -158,9 +158,8 @@ void Slam::Impl::apply(const OdometryUpdate::Rescale& rescale) {
   closer.rescale(rescale.factor, first);
   for (FrameRecord& record : records)
     if (record.keyframe >= first && record.T_keyframe_frame)
-      record.T_keyframe_frame =
-          SE3(record.T_keyframe_frame->rotation(),
-              rescale.factor * record.T_keyframe_frame->translation());
+      record.T_keyframe_frame = SE3(record.T_keyframe_frame->rotation(),
+                                    rescale.factor * record.T_keyframe_frame->translation());
 }
 
 void Slam::Impl::add_keyframes(const OdometryUpdate& update, FrameResult& result) {
@@ -215,9 +214,9 @@ void Slam::Impl::refresh_links() {
 }
 
 void Slam::Impl::close_loops(FrameResult& result) {
-  const auto loops = closer.find_loops(
-      [&](std::int64_t a, std::int64_t b) { return mapper.odometry(a, b); },
-      odometry.median_depth_m());
+  const auto loops =
+      closer.find_loops([&](std::int64_t a, std::int64_t b) { return mapper.odometry(a, b); },
+                        odometry.median_depth_m());
   for (const Loop& loop : loops) {
     mapper.add_loop(loop.query, loop.match, loop.T_match_query, loop.information);
     loops_waiting = true;

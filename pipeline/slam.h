@@ -7,13 +7,13 @@
 namespace placegraph {
 
 struct SlamOptions {
-  std::uint64_t seed = 0;       ///< of every random stream
+  std::uint64_t seed = 0;  ///< of every random stream
   OdometryOptions odometry;
   LoopOptions loops;
   PlaceOptions places;
   PoseGraphOptions pose_graph{.max_iterations = 50, .relative_decrease = 1e-6};
-  int optimize_interval = 10;   ///< keyframes between optimizations while loops come in
-  int max_lost_frames = 10;     ///< then a new component of the map begins
+  int optimize_interval = 10;  ///< keyframes between optimizations while loops come in
+  int max_lost_frames = 10;    ///< then a new component of the map begins
   void check() const;
 };
 void visit(OptionVisitor& field, SlamOptions& options);
@@ -25,7 +25,7 @@ struct FrameResult {
   bool keyframe = false;
   int inliers = 0;
   int component = 0;
-  int loops_accepted = 0;        ///< with this frame
+  int loops_accepted = 0;  ///< with this frame
 };
 
 /// The whole system: frames in, place graph and trajectory out.
@@ -34,10 +34,10 @@ struct FrameResult {
 ///     for (frame : frames) slam.add_frame(frame);
 ///     Map map = slam.finish();
 ///
-/// Stereo if the calibration has a baseline, RGB-D if it has a depth camera, mono otherwise; mono is
-/// metric if it has a camera height. Objects share nothing: any number may live in one process. Same
-/// frames, options and libraries: same bits. Throws ArgumentError for options, calibration or frames
-/// that break their contract (image of another size or type, stamps that do not increase).
+/// Stereo if the calibration has a baseline, RGB-D if it has a depth camera, mono otherwise; mono
+/// is metric if it has a camera height. Objects share nothing: any number may live in one process.
+/// Same frames, options and libraries: same bits. Throws ArgumentError for options, calibration or
+/// frames that break their contract (image of another size or type, stamps that do not increase).
 class Slam {
  public:
   Slam(const SlamOptions& options, const Calibration& calibration, LogSink log = {});

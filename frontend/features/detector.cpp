@@ -43,9 +43,9 @@ void visit(OptionVisitor& field, DetectorOptions& o) {
 std::vector<Feature> detect_features(const Image& image, const DetectorOptions& options,
                                      const Image& mask) {
   require(image.type() == CV_8UC1, "detect_features: grey image needed");
-  const auto orb = cv::ORB::create(2 * options.max_features,
-                                   static_cast<float>(options.scale_factor), options.octaves, 19, 0,
-                                   2, cv::ORB::HARRIS_SCORE, 31, options.fast_threshold);
+  const auto orb =
+      cv::ORB::create(2 * options.max_features, static_cast<float>(options.scale_factor),
+                      options.octaves, 19, 0, 2, cv::ORB::HARRIS_SCORE, 31, options.fast_threshold);
   std::vector<cv::KeyPoint> keypoints;
   orb->detect(image, keypoints, mask);
   keypoints = spread(std::move(keypoints), image.size(), options.max_features);

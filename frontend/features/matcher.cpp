@@ -63,8 +63,8 @@ std::vector<FeatureMatch> match_epipolar(const Camera& camera, const std::vector
   const SE3 T_b_a = T_a_b.inverse();
   const Eigen::Matrix3d K_inverse = camera.K().inverse();
   // l_b = F x_a with F = K^-T [t]x R K^-1 of T_b_a.
-  const Eigen::Matrix3d F = K_inverse.transpose() * hat(T_b_a.translation()) *
-                            T_b_a.rotation().matrix() * K_inverse;
+  const Eigen::Matrix3d F =
+      K_inverse.transpose() * hat(T_b_a.translation()) * T_b_a.rotation().matrix() * K_inverse;
   const Eigen::Matrix3d H_infinity = camera.K() * T_b_a.rotation().matrix() * K_inverse;
   std::vector<Best> best_a(a.size()), best_b(b.size());
   for (int i = 0; i < static_cast<int>(a.size()); ++i) {
@@ -77,8 +77,7 @@ std::vector<FeatureMatch> match_epipolar(const Camera& camera, const std::vector
     // From the point at infinity a nearer point moves along the line in the direction in which the
     // epipole pulls or pushes.
     const Eigen::Vector3d Kt = camera.K() * T_b_a.translation();
-    const Eigen::Vector2d direction =
-        (Kt.head<2>() - Kt.z() * px_infinity).normalized();
+    const Eigen::Vector2d direction = (Kt.head<2>() - Kt.z() * px_infinity).normalized();
     for (int j = 0; j < static_cast<int>(b.size()); ++j) {
       if (std::abs(a[i].octave - b[j].octave) > 2) continue;
       const Eigen::Vector2d px_b = b[j].px.cast<double>();

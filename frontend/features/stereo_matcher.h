@@ -11,16 +11,16 @@ namespace placegraph {
 struct StereoMatcherOptions {
   int half_width_px = 7, half_height_px = 5;  ///< of the compared patches
   double max_disparity_px = 128;
-  double min_score = 0.85;      ///< ZNCC of the best place
+  double min_score = 0.85;       ///< ZNCC of the best place
   double max_left_right_px = 1;  ///< searching back from the right eye must end this close
   double sigma_disparity_px = 0.3;
   void check() const;
 };
 void visit(OptionVisitor& field, StereoMatcherOptions& options);
 
-/// Disparity [px] (u_left - u_right, > 0) of points of the left eye of a rectified pair: ZNCC search
-/// along the row, parabola to sub-pixels, checked from right to left. Nothing where there is no
-/// distinct match.
+/// Disparity [px] (u_left - u_right, > 0) of points of the left eye of a rectified pair: ZNCC
+/// search along the row, parabola to sub-pixels, checked from right to left. Nothing where there is
+/// no distinct match.
 std::vector<std::optional<double>> match_stereo(const Image& left, const Image& right,
                                                 const std::vector<Eigen::Vector2f>& px_left,
                                                 const StereoMatcherOptions& options);

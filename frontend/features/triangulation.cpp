@@ -33,9 +33,9 @@ TriangulationResult triangulate(const Camera& camera, const std::vector<Sighting
   }
   for (std::size_t i = 0; i < rays_ref.size(); ++i)
     for (std::size_t j = i + 1; j < rays_ref.size(); ++j)
-      result.parallax_rad = std::max(
-          result.parallax_rad,
-          std::atan2(rays_ref[i].cross(rays_ref[j]).norm(), rays_ref[i].dot(rays_ref[j])));
+      result.parallax_rad =
+          std::max(result.parallax_rad,
+                   std::atan2(rays_ref[i].cross(rays_ref[j]).norm(), rays_ref[i].dot(rays_ref[j])));
   if (result.parallax_rad < min_parallax_rad) {
     result.outcome = Outcome::failure(Code::kDegenerate, "too little parallax");
     return result;
@@ -61,7 +61,8 @@ TriangulationResult triangulate(const Camera& camera, const std::vector<Sighting
       H.noalias() += J.transpose() * J;
       g.noalias() += J.transpose() * (*px - sightings[i].px);
     }
-    const Eigen::Vector3d step = -(H + 1e-12 * H.trace() * Eigen::Matrix3d::Identity()).ldlt().solve(g);
+    const Eigen::Vector3d step =
+        -(H + 1e-12 * H.trace() * Eigen::Matrix3d::Identity()).ldlt().solve(g);
     if (!step.allFinite()) break;
     p += step;
     if (step.norm() < 1e-6 * p.norm()) break;

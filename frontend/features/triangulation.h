@@ -15,8 +15,8 @@ struct Sighting {
 struct TriangulationResult {
   Outcome outcome;
   Eigen::Vector3d point_ref = Eigen::Vector3d::Zero();  ///< meaningful only if outcome
-  double parallax_rad = 0;  ///< greatest angle between two viewing rays
-  double max_error_px = 0;  ///< greatest reprojection error
+  double parallax_rad = 0;                              ///< greatest angle between two viewing rays
+  double max_error_px = 0;                              ///< greatest reprojection error
 };
 
 /// The point seen from two or more poses: linear in homogeneous coordinates (Hartley & Zisserman

@@ -73,8 +73,8 @@ void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>&
     std::size_t kept = 0;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       const cv::Point2f d = back[i] - from[i];
-      const bool inside = to[i].x >= border && to[i].y >= border &&
-                          to[i].x < image.cols - border && to[i].y < image.rows - border;
+      const bool inside = to[i].x >= border && to[i].y >= border && to[i].x < image.cols - border &&
+                          to[i].y < image.rows - border;
       if (!found[i] || !found_back[i] || !inside || d.dot(d) > limit) continue;
       PointTrack track = tracks_[i];
       track.px_previous = track.px;

@@ -95,8 +95,8 @@ MonoInitialization initialize_mono(const Camera& camera, const std::vector<Eigen
   }
   std::vector<Hypothesis> hypotheses;
   for (const SE3& T_ref_cur : motion.T_ref_cur)
-    hypotheses.push_back(triangulate_all(camera, px_ref, px_cur, motion.inliers, T_ref_cur,
-                                         options.max_error_px));
+    hypotheses.push_back(
+        triangulate_all(camera, px_ref, px_cur, motion.inliers, T_ref_cur, options.max_error_px));
   std::stable_sort(hypotheses.begin(), hypotheses.end(), [](const auto& a, const auto& b) {
     return a.parallaxes_rad.size() > b.parallaxes_rad.size();
   });
@@ -121,8 +121,8 @@ MonoInitialization initialize_mono(const Camera& camera, const std::vector<Eigen
   if (!parallaxes.empty())
     result.median_parallax_deg = parallaxes[parallaxes.size() / 2] * 180 / M_PI;
   const double limit_rad = options.min_parallax_deg * M_PI / 180;
-  const auto wide = parallaxes.end() -
-                    std::lower_bound(parallaxes.begin(), parallaxes.end(), limit_rad);
+  const auto wide =
+      parallaxes.end() - std::lower_bound(parallaxes.begin(), parallaxes.end(), limit_rad);
   result.outcome = wide >= options.min_points
                        ? Outcome::ok()
                        : Outcome::failure(Code::kDegenerate,

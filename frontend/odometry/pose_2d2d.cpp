@@ -57,8 +57,8 @@ RansacResult<Matrix3d> find_essential(const Views& views, const Pose2d2dOptions&
   };
   const auto error = [&](const Matrix3d& E, int i) { return sampson_px2(E, views, i); };
   const auto refine = [](const Matrix3d& E, const std::vector<int>&) { return E; };
-  return ransac<Matrix3d>(n, 5, options.threshold_px * options.threshold_px, options.ransac,
-                          random, solve, error, refine);
+  return ransac<Matrix3d>(n, 5, options.threshold_px * options.threshold_px, options.ransac, random,
+                          solve, error, refine);
 }
 
 Matrix3d fit_homography(const Views& views, const std::vector<int>& indices) {
@@ -107,7 +107,8 @@ std::vector<SE3> decompose_essential(const Matrix3d& E) {
   Matrix3d W;
   W << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   std::vector<SE3> motions;
-  for (const Matrix3d& R : {Matrix3d(U * W * V.transpose()), Matrix3d(U * W.transpose() * V.transpose())})
+  for (const Matrix3d& R :
+       {Matrix3d(U * W * V.transpose()), Matrix3d(U * W.transpose() * V.transpose())})
     for (double sign : {1.0, -1.0}) motions.push_back(SE3(R, sign * U.col(2)).inverse());
   return motions;
 }
@@ -126,7 +127,8 @@ void visit(OptionVisitor& field, Pose2d2dOptions& o) {
 Pose2d2dResult estimate_pose_2d2d(const Camera& camera, const std::vector<Vector2d>& px_ref,
                                   const std::vector<Vector2d>& px_cur,
                                   const Pose2d2dOptions& options, Random& random) {
-  require(px_ref.size() == px_cur.size(), "estimate_pose_2d2d: as many pixels in both views needed");
+  require(px_ref.size() == px_cur.size(),
+          "estimate_pose_2d2d: as many pixels in both views needed");
   Views views{camera, px_ref, px_cur, {}, {}};
   for (std::size_t i = 0; i < px_ref.size(); ++i) {
     views.x_ref.push_back(camera.unproject(px_ref[i]).value_or(Vector3d::UnitZ()));
@@ -143,7 +145,8 @@ Pose2d2dResult estimate_pose_2d2d(const Camera& camera, const std::vector<Vector
   const double sigma2 = options.threshold_px * options.threshold_px / 3.84;
   const double allowance = 5.99 * sigma2;
   double score_essential = 0, score_homography = 0;
-  const Matrix3d H_inverse = homography.outcome ? Matrix3d(homography.model.inverse()) : Matrix3d::Zero();
+  const Matrix3d H_inverse =
+      homography.outcome ? Matrix3d(homography.model.inverse()) : Matrix3d::Zero();
   for (int i = 0; i < static_cast<int>(px_ref.size()); ++i) {
     if (essential.outcome) {
       const double e = sampson_px2(essential.model, views, i);

@@ -8,8 +8,9 @@ namespace placegraph {
 
 struct Pose2d2dOptions {
   RansacOptions ransac{.max_iterations = 300, .confidence = 0.999, .min_inliers = 30};
-  double threshold_px = 1.0;       ///< distance to the epipolar line, or transfer by the homography
-  double homography_share = 0.45;  ///< R_H = S_H / (S_H + S_E) above which the scene counts as planar
+  double threshold_px = 1.0;  ///< distance to the epipolar line, or transfer by the homography
+  double homography_share =
+      0.45;  ///< R_H = S_H / (S_H + S_E) above which the scene counts as planar
   void check() const;
 };
 void visit(OptionVisitor& field, Pose2d2dOptions& options);
@@ -28,8 +29,8 @@ struct Pose2d2dResult {
 };
 
 /// Relative pose up to scale of two views: five-point essential matrix (Nister 2004, by OpenGV) and
-/// four-point homography, each in RANSAC; the better one by the scores of ORB-SLAM (Mur-Artal et al.
-/// 2015, sec. IV). Outcomes: too few data, no consensus.
+/// four-point homography, each in RANSAC; the better one by the scores of ORB-SLAM (Mur-Artal et
+/// al. 2015, sec. IV). Outcomes: too few data, no consensus.
 [[nodiscard]] Pose2d2dResult estimate_pose_2d2d(const Camera& camera,
                                                 const std::vector<Eigen::Vector2d>& px_ref,
                                                 const std::vector<Eigen::Vector2d>& px_cur,

@@ -51,9 +51,9 @@ Pose3d2dResult finish(const Camera& camera, const std::vector<Eigen::Vector3d>& 
   const double sigma_px = std::max(0.3, result.rmse_px);
   result.information = normal / (sigma_px * sigma_px);
   if (count < options.ransac.min_inliers) {
-    result.outcome = Outcome::failure(Outcome::Code::kNoConsensus,
-                                      std::to_string(count) + " inliers of " +
-                                          std::to_string(px.size()));
+    result.outcome =
+        Outcome::failure(Outcome::Code::kNoConsensus,
+                         std::to_string(count) + " inliers of " + std::to_string(px.size()));
     return result;
   }
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(normal, Eigen::EigenvaluesOnly);

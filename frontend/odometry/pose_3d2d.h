@@ -8,7 +8,7 @@ namespace placegraph {
 
 struct Pose3d2dOptions {
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 12};
-  double threshold_px = 2.5;      ///< inliers reproject within this
+  double threshold_px = 2.5;        ///< inliers reproject within this
   double prior_inlier_ratio = 0.7;  ///< a prior that explains this share spares the RANSAC
   void check() const;
 };

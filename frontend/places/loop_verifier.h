@@ -18,7 +18,7 @@ void visit(OptionVisitor& field, LoopVerifierOptions& options);
 
 struct LoopVerification {
   Outcome outcome;
-  SE3 T_match_query;  ///< meaningful only if outcome
+  SE3 T_match_query;                        ///< meaningful only if outcome
   Matrix6d information = Matrix6d::Zero();  ///< right tangent of T_match_query
   int matches = 0, inliers = 0;
   double rmse_px = 0;

@@ -32,8 +32,8 @@ PlaceDatabase::PlaceDatabase(const PlaceDatabaseOptions& options, std::uint64_t 
 
 void PlaceDatabase::add(std::int64_t id, const std::vector<Feature>& features) {
   views_.push_back({id, descriptors_of(features), {}});
-  const bool first = trained_views_ == 0 &&
-                     static_cast<int>(views_.size()) >= options_.first_training;
+  const bool first =
+      trained_views_ == 0 && static_cast<int>(views_.size()) >= options_.first_training;
   if (first || (trained_views_ > 0 && views_.size() >= 2 * trained_views_))
     train();
   else if (!vocabulary_.empty())
@@ -63,8 +63,7 @@ void PlaceDatabase::train() {
     }
   idf_.assign(vocabulary_.words(), 0);
   for (int w = 0; w < vocabulary_.words(); ++w)
-    idf_[w] = static_cast<float>(
-        std::log((1.0 + views_.size()) / (1.0 + views_with[w])));
+    idf_[w] = static_cast<float>(std::log((1.0 + views_.size()) / (1.0 + views_with[w])));
   inverted_.assign(vocabulary_.words(), {});
   for (int v = 0; v < static_cast<int>(views_.size()); ++v) index(v);
 }
@@ -114,8 +113,8 @@ std::vector<PlaceCandidate> PlaceDatabase::query(
 }
 
 double PlaceDatabase::similarity(const std::vector<Feature>& features, std::int64_t id) const {
-  const auto view = std::find_if(views_.begin(), views_.end(),
-                                 [id](const View& v) { return v.id == id; });
+  const auto view =
+      std::find_if(views_.begin(), views_.end(), [id](const View& v) { return v.id == id; });
   if (view == views_.end()) return 0;
   const Appearance a = describe(features);
   double score = 0;

@@ -9,7 +9,7 @@ namespace placegraph {
 
 struct PlaceDatabaseOptions {
   VocabularyOptions vocabulary;
-  int first_training = 20;          ///< views after which the first vocabulary is trained
+  int first_training = 20;  ///< views after which the first vocabulary is trained
   int max_training_features = 60000;
   void check() const;
 };

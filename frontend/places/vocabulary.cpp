@@ -39,8 +39,8 @@ int nearest(const std::vector<BinaryDescriptor>& centres, const BinaryDescriptor
 
 /// Splits `members` into at most `k` non-empty clusters.
 std::vector<std::pair<BinaryDescriptor, Indices>> cluster(
-    const std::vector<BinaryDescriptor>& descriptors, const Indices& members, int k,
-    int iterations, Random& random) {
+    const std::vector<BinaryDescriptor>& descriptors, const Indices& members, int k, int iterations,
+    Random& random) {
   std::vector<int> seeds;
   random.sample(static_cast<int>(members.size()), std::min<int>(k, members.size()), seeds);
   std::vector<BinaryDescriptor> centres;

@@ -16,8 +16,8 @@ struct VocabularyOptions {
 };
 void visit(OptionVisitor& field, VocabularyOptions& options);
 
-/// A tree of binary words: hierarchical k-majority clustering (Nister & Stewenius 2006; Galvez-Lopez
-/// & Tardos 2012). Deterministic for a given `random`.
+/// A tree of binary words: hierarchical k-majority clustering (Nister & Stewenius 2006;
+/// Galvez-Lopez & Tardos 2012). Deterministic for a given `random`.
 class Vocabulary {
  public:
   /// Clusters the descriptors; throws ArgumentError if there are none.

@@ -234,16 +234,15 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
   const double length = fit.g.norm();
   result.plane_ref = {fit.g / length, 1 / length};
   result.zncc = zncc(levels[0], R, t, fit.g, samples, nullptr);
-  const Matrix5d covariance =
-      fit.normal.ldlt().solve(Matrix5d::Identity());
+  const Matrix5d covariance = fit.normal.ldlt().solve(Matrix5d::Identity());
   const Vector3d n = result.plane_ref.normal;
   const double variance = n.dot(covariance.topLeftCorner<3, 3>() * n) / (length * length);
   result.sigma_log_distance = std::sqrt(std::max(0.0, variance));
   if (!(result.sigma_log_distance < 0.5)) {
     result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the road shows too little");
   } else if (result.zncc < options.min_zncc) {
-    result.outcome = Outcome::failure(Outcome::Code::kInconsistent,
-                                      "ZNCC " + std::to_string(result.zncc));
+    result.outcome =
+        Outcome::failure(Outcome::Code::kInconsistent, "ZNCC " + std::to_string(result.zncc));
   } else {
     result.outcome = Outcome::ok();
   }

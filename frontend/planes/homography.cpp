@@ -65,7 +65,8 @@ std::vector<HomographyMotion> decompose_homography(const Eigen::Matrix3d& K,
 
 SE3 motion_from_homography(const Eigen::Matrix3d& K, const Eigen::Matrix3d& H_cur_ref,
                            const Eigen::Vector3d& normal_ref) {
-  require(std::abs(normal_ref.norm() - 1) < 1e-6, "motion_from_homography: normal not of unit length");
+  require(std::abs(normal_ref.norm() - 1) < 1e-6,
+          "motion_from_homography: normal not of unit length");
   const Eigen::Matrix3d M = normalized(K, H_cur_ref);
   const Eigen::Vector3d u = normal_ref.unitOrthogonal();
   const Eigen::Vector3d v = normal_ref.cross(u);
