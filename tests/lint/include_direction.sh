@@ -1,0 +1,102 @@
+#!/bin/sh
+# include_direction.sh ROOT: every rule of the house that can be read off the sources, one line for
+# each violation as file:line; fails if there is one.
+#   graph/core <- graph <- {frontend, backend, io, eval} <- pipeline <- apps, tests
+#   Ceres and CHOLMOD in no header outside backend; OpenGV in no header
+#   OpenCV in headers only through graph/core/image.h, in graph and backend not at all
+#   GeographicLib only in graph/core/geodesy.cpp
+#   libraries neither print nor end the process
+set -eu
+cd "$1"
+
+files=$(for folder in graph frontend backend io eval pipeline apps; do
+  [ ! -d "$folder" ] || find "$folder/" -name '*.h' -o -name '*.cpp'
+done | LC_ALL=C sort)
+[ -n "$files" ] || { echo "$1: no sources"; exit 2; }
+
+# shellcheck disable=SC2086
+awk '
+function complain(what) { printf "%s:%d: %s\n", file, FNR, what; violations++ }
+
+# Where a path under placegraph/ belongs: "core" or its folder.
+function part(path) {
+  if (path ~ /^graph\/core\//) return "core"
+  sub(/\/.*/, "", path)
+  return path
+}
+
+BEGIN {
+  allowed["core"] = " core "
+  allowed["graph"] = " core graph "
+  split("frontend backend io eval", middle, " ")
+  for (i in middle) allowed[middle[i]] = " core graph " middle[i] " "
+  allowed["pipeline"] = " core graph frontend backend io eval pipeline "
+  allowed["apps"] = allowed["pipeline"] "apps "
+}
+
+FNR == 1 {
+  file = FILENAME
+  sub(/^\.\//, "", file)
+  here = part(file)
+  header = file ~ /\.h$/
+  block = 0
+}
+
+{
+  line = $0
+  if (line !~ /^[ \t]*#[ \t]*include/) gsub(/"([^"\\]|\\.)*"/, "\"\"", line)
+  sub(/\/\/.*/, "", line)
+  while (1) {  # block comments
+    if (block) {
+      if (!sub(/^.*\*\//, "", line)) { line = ""; break }
+      block = 0
+    }
+    gsub(/\/\*([^*]|\*+[^*\/])*\*+\//, " ", line)
+    if (!sub(/\/\*.*/, "", line)) break
+    block = 1
+    break
+  }
+}
+
+line ~ /^[ \t]*#[ \t]*include/ {
+  path = line
+  sub(/^[ \t]*#[ \t]*include[ \t]*[<"]/, "", path)
+  sub(/[>"].*/, "", path)
+  project = ""
+  if (path ~ /^placegraph\//) project = substr(path, 12)
+  else if (path ~ /^(graph|frontend|backend|io|eval|pipeline|apps|tests)\//) project = path
+  else if (line ~ /"/) {
+    if (path ~ /\.\.\//) complain("include by way of the parent folder: " path)
+  }
+  if (project != "" && index(allowed[here], " " part(project) " ") == 0)
+    complain(here " may not include " path)
+  if (path ~ /^opencv/) {
+    if (header && file != "graph/core/image.h" && here != "apps")
+      complain("OpenCV in a header: " path)
+    else if (file != "graph/core/image.h" && (here == "core" || here == "graph" || here == "backend"))
+      complain(here " may not use OpenCV: " path)
+  }
+  if ((project == "graph/core/image.h" || project == "graph/frame.h") &&
+      (here == "backend" || (!header && (here == "core" || here == "graph"))))
+    complain(here " must do without OpenCV: " path)
+  if (tolower(path) ~ /geographiclib/ && file != "graph/core/geodesy.cpp")
+    complain("GeographicLib outside graph/core/geodesy.cpp: " path)
+}
+
+header && here != "backend" && tolower(line) ~ /ceres|cholmod/ {
+  complain("a header outside backend names Ceres or CHOLMOD")
+}
+header && tolower(line) ~ /opengv/ { complain("a header names OpenGV") }
+
+here != "apps" {
+  if (line ~ /std::(cout|cerr|clog)([^A-Za-z0-9_]|$)/ || line ~ /(std|fmt)::print(ln)?[ \t]*\(/ ||
+      line ~ /(^|[^A-Za-z0-9_])(v?printf|puts|putchar|perror)[ \t]*\(/ ||
+      line ~ /(^|[^A-Za-z0-9_])(v?fprintf|fputs)[ \t]*\([^)]*std(out|err)/ ||
+      line ~ /(^|[^A-Za-z0-9_])fputs[ \t]*\(.*,[ \t]*std(out|err)/)
+    complain("a library prints")
+  if (line ~ /(^|[^A-Za-z0-9_.>])(exit|_exit|_Exit|quick_exit|abort|terminate)[ \t]*\(/)
+    complain("a library ends the process")
+}
+
+END { exit violations > 0 }
+' $files
