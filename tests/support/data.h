@@ -9,8 +9,9 @@ namespace placegraph::test {
 /// neither exists.
 inline std::string data_dir() {
   if (const char* dir = std::getenv("PLACEGRAPH_DATA")) return dir;
-  const std::string beside = std::string(PLACEGRAPH_SOURCE_DIR) + "/../shared/data";
-  return std::filesystem::is_directory(beside) ? beside : std::string();
+  const std::filesystem::path beside =
+      std::filesystem::path(PLACEGRAPH_SOURCE_DIR) / ".." / "shared" / "data";
+  return std::filesystem::is_directory(beside) ? beside.string() : std::string();
 }
 
 }  // namespace placegraph::test
