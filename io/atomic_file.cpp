@@ -57,24 +57,12 @@ void AtomicFile::commit() {
   committed_ = true;
 }
 
-void refuse_to_overwrite(const std::string& path, bool force) {
-  if (!force && fs::exists(fs::symlink_status(path))) {
-    throw ArgumentError(path + ": exists; --force overwrites it");
-  }
-}
-
-void make_output_folder(const std::string& path, bool force) {
+void make_output_folder(const std::string& path) {
   if (path.empty()) throw ArgumentError("the path of the output folder is empty");
-  if (fs::exists(path)) {
-    if (!fs::is_directory(path)) throw ArgumentError(path + ": exists and is not a folder");
-    if (!force && !fs::is_empty(path)) {
-      throw ArgumentError(path + ": exists and is not empty; --force writes into it");
-    }
-    return;
-  }
   std::error_code error;
   fs::create_directories(path, error);
   if (error) throw FileError(path, "cannot be made: " + error.message());
+  if (!fs::is_directory(path)) throw FileError(path, "exists and is not a folder");
 }
 
 }  // namespace placegraph

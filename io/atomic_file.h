@@ -27,12 +27,8 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// Throws ArgumentError saying that `--force` is needed if `path` exists and `force` is not set.
-void refuse_to_overwrite(const std::string& path, bool force);
-
-/// Makes the folder and its parents. One that exists and holds anything is taken only with `force`,
-/// and nothing in it is removed. Throws ArgumentError if it is not empty or not a folder, FileError
-/// if it cannot be made.
-void make_output_folder(const std::string& path, bool force);
+/// Makes the folder and its parents; one that exists is taken as it is (whether anything in it may
+/// be overwritten is the caller's question). Throws FileError if it cannot be made.
+void make_output_folder(const std::string& path);
 
 }  // namespace placegraph

@@ -57,27 +57,16 @@ TEST(AtomicFile, SaysWhichFileCannotBeWritten) {
   EXPECT_THROW(AtomicFile(""), ArgumentError);
 }
 
-TEST(OutputFolder, IsMadeWithItsParentsAndRefusedWhenFull) {
+TEST(OutputFolder, IsMadeWithItsParentsAndKeepsWhatItHolds) {
   const TemporaryFolder folder;
-  make_output_folder(folder / "a/b", false);
+  make_output_folder(folder / "a/b");
   EXPECT_TRUE(fs::is_directory(folder / "a/b"));
-  make_output_folder(folder / "a/b", false);  // empty: fine
   folder.write("a/b/x", "1");
-  EXPECT_THAT(message_of<ArgumentError>([&] { make_output_folder(folder / "a/b", false); }),
-              HasSubstr("--force"));
-  make_output_folder(folder / "a/b", true);
+  make_output_folder(folder / "a/b/");
   EXPECT_EQ(read_text(folder / "a/b/x"), "1");
-  EXPECT_THROW(make_output_folder(folder / "a/b/x", true), ArgumentError);
-  EXPECT_THROW(make_output_folder(folder / "a/b/x/y", true), FileError);
-}
-
-TEST(Overwriting, NeedsForce) {
-  const TemporaryFolder folder;
-  refuse_to_overwrite(folder / "new", false);
-  const std::string path = folder.write("old", "");
-  EXPECT_THAT(message_of<ArgumentError>([&] { refuse_to_overwrite(path, false); }),
-              HasSubstr("old: exists; --force"));
-  refuse_to_overwrite(path, true);
+  EXPECT_THAT(message_of([&] { make_output_folder(folder / "a/b/x"); }), HasSubstr("a/b/x: "));
+  EXPECT_THROW(make_output_folder(folder / "a/b/x/y"), FileError);
+  EXPECT_THROW(make_output_folder(""), ArgumentError);
 }
 
 }  // namespace

@@ -1,0 +1,112 @@
+#include "apps/cmd_convert.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/g2o.h>
+#include <placegraph/io/text_file.h>
+#include <placegraph/io/trajectory_file.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "apps/output.h"
+
+namespace placegraph::apps {
+namespace {
+
+struct Arguments {
+  std::string in, out, to, times;
+  bool force = false;
+};
+
+/// What a file holds; g2o, or one of the trajectory forms.
+using Form = std::optional<TrajectoryFormat>;
+constexpr Form kG2o = std::nullopt;
+
+bool is_g2o(const std::string& path) {
+  TextFile file(path);
+  std::string_view line;
+  if (!file.next_data(line)) return false;
+  return line.starts_with("VERTEX_") || line.starts_with("EDGE_") || line.starts_with("FIX") ||
+         line.starts_with("PARAMS_");
+}
+
+/// By --to, else by the extension of OUT.
+Form wanted_form(const Arguments& arguments) {
+  static const std::map<std::string, Form> by_name = {{"kitti", TrajectoryFormat::kKitti},
+                                                      {"tum", TrajectoryFormat::kTum},
+                                                      {"euroc", TrajectoryFormat::kEuroc},
+                                                      {"g2o", kG2o}};
+  static const std::map<std::string, Form> by_extension = {{".kitti", TrajectoryFormat::kKitti},
+                                                           {".txt", TrajectoryFormat::kKitti},
+                                                           {".tum", TrajectoryFormat::kTum},
+                                                           {".csv", TrajectoryFormat::kEuroc},
+                                                           {".g2o", kG2o}};
+  if (!arguments.to.empty()) return by_name.at(arguments.to);
+  const std::string extension = std::filesystem::path(arguments.out).extension().string();
+  const auto found = by_extension.find(extension);
+  if (found != by_extension.end()) return found->second;
+  throw ArgumentError(arguments.out +
+                      ": the extension says no form (.kitti .txt .tum .csv .g2o); " +
+                      "name it with --to");
+}
+
+void convert_graph(const Arguments& arguments) {
+  if (!arguments.times.empty()) throw ArgumentError("--times: a g2o file has none");
+  const PoseGraph graph = read_g2o(arguments.in);
+  write_g2o(arguments.out, graph);
+  fmt::print("{}: {} nodes, {} constraints, written to {}\n", arguments.in, graph.nodes.size(),
+             graph.constraints.size(), arguments.out);
+}
+
+void convert_trajectory(const Arguments& arguments, TrajectoryFormat to) {
+  const Trajectory trajectory = read_trajectory(arguments.in, arguments.times);
+  if (to != TrajectoryFormat::kKitti && !trajectory.has_times) {
+    throw ArgumentError(arguments.in + ": has no times, which " + arguments.out +
+                        " needs; give them with --times");
+  }
+  write_trajectory(arguments.out, trajectory, to);
+  fmt::print("{}: {} poses of {} frames, written to {}\n", arguments.in, trajectory.posed(),
+             trajectory.size(), arguments.out);
+}
+
+void run(const Arguments& arguments) {
+  const Form to = wanted_form(arguments);
+  require_free(arguments.out, arguments.force);
+  const bool graph = is_g2o(arguments.in);
+  if (graph != (to == kG2o)) {
+    throw ArgumentError(arguments.in + ": is a " + (graph ? "pose graph" : "trajectory") +
+                        ", which does not become a " + (graph ? "trajectory" : "pose graph"));
+  }
+  if (graph) {
+    convert_graph(arguments);
+  } else {
+    convert_trajectory(arguments, *to);
+  }
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  Arguments& a = *arguments;
+  CLI::App* command = app.add_subcommand(
+      "convert", "Convert trajectories between KITTI, TUM and EuRoC form; normalize a .g2o");
+  command->footer("placegraph convert poses.txt poses.tum --times times.txt");
+  command->add_option("IN", a.in, "file to read; what it is, is seen from its content")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("OUT", a.out, "file to write (.kitti .txt: KITTI, .tum, .csv: EuRoC, .g2o)")
+      ->required();
+  command->add_option("--to", a.to, "form of OUT, whatever its extension")
+      ->check(CLI::IsMember({"kitti", "tum", "euroc", "g2o"}));
+  command->add_option("--times", a.times, "times of a KITTI trajectory, one [s] a line")
+      ->check(CLI::ExistingFile);
+  command->add_flag("--force", a.force, "overwrite OUT");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace placegraph::apps
