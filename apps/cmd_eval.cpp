@@ -155,10 +155,11 @@ void run(Arguments arguments) {
   const bool single = results.size() == 1 && !folder;
   std::string text = single ? to_text(results.front()) : to_table(results, folder);
   if (arguments.json) text = single ? to_json(results.front()) : to_json(results, folder);
+  const auto refused = std::find_if(results.begin(), results.end(),
+                                    [](const EvaluationResult& r) { return !r.outcome; });
+  if (refused == results.end()) write_outputs(arguments, results);
   std::fputs(text.c_str(), stdout);
-  for (const EvaluationResult& result : results)
-    if (!result.outcome) throw NoAnswer(result.name + ": " + result.outcome.reason);
-  write_outputs(arguments, results);
+  if (refused != results.end()) throw NoAnswer(refused->name + ": " + refused->outcome.reason);
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ std::vector<Metric> metrics(const EvaluationResult& r) {
        "RMSE, " + rpe_text},
       {"rpe_rot_median_deg", "RPE rot median", "deg", when(has_rpe, r.rpe.rotation_deg.median),
        "median, " + rpe_text},
-      {"coverage", "coverage", "", r.coverage, "posed frames over judged frames"},
+      {"coverage", "coverage", "", when(ok, r.coverage), "posed frames over judged frames"},
   };
 }
 

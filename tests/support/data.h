@@ -17,6 +17,6 @@ inline std::string data_dir() {
 }  // namespace placegraph::test
 
 /// Skips the test with a message unless data_dir()/relative exists; defines `name` as its path.
-#define PLACEGRAPH_DATA_OR_SKIP(name, relative)                                              \
-  const std::string name = placegraph::test::data_dir() + "/" + (relative);                  \
+#define PLACEGRAPH_DATA_OR_SKIP(name, relative)                             \
+  const std::string name = placegraph::test::data_dir() + "/" + (relative); \
   if (!std::filesystem::exists(name)) GTEST_SKIP() << "research data absent: " << (relative)

@@ -1,0 +1,278 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/command.h"
+#include "tests/support/data.h"
+
+namespace placegraph {
+namespace {
+
+namespace fs = std::filesystem;
+using test::CommandResult;
+using test::read_file;
+using test::run_placegraph;
+using test::TemporaryFolder;
+using test::write_file;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+// A drive of `frames` poses around a circle of 20 m radius in KITTI form, 1 m a frame.
+std::string circle_kitti(int frames, double scale = 1, int lost = -1) {
+  std::ostringstream out;
+  out.precision(12);
+  for (int i = 0; i < frames; ++i) {
+    const double a = i / 20.0, c = std::cos(a), s = std::sin(a);
+    if (i == lost)
+      out << "nan nan nan nan nan nan nan nan nan nan nan nan\n";
+    else
+      out << c << " 0 " << s << " " << scale * 20 * (1 - c) << " 0 1 0 0 " << -s << " 0 " << c
+          << " " << scale * 20 * s << "\n";
+  }
+  return out.str();
+}
+
+std::string circle_tum(int frames) {
+  std::ostringstream out;
+  out.precision(12);
+  for (int i = 0; i < frames; ++i) {
+    const double a = i / 20.0;
+    out << 0.1 * i << " " << 20 * (1 - std::cos(a)) << " 0 " << 20 * std::sin(a) << " 0 "
+        << std::sin(a / 2) << " 0 " << std::cos(a / 2) << "\n";
+  }
+  return out.str();
+}
+
+const char* const kSquareGraph =
+    "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.1 0 0\nVERTEX_SE2 2 2.3 0.1 0\n"
+    "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n"
+    "EDGE_SE2 0 2 2.2 0 0 1 0 0 1 0 1\n";
+
+class Cli : public ::testing::Test {
+ protected:
+  CommandResult run(const std::string& arguments) { return run_placegraph(arguments, dir.path()); }
+  void expect_usage_error(const std::string& arguments, const std::string& message) {
+    SCOPED_TRACE(arguments);
+    const CommandResult result = run(arguments);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_THAT(result.out, IsEmpty());
+    EXPECT_THAT(result.err, StartsWith("placegraph: "));
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+  void SetUp() override {
+    write_file(dir / "gt.txt", circle_kitti(150));
+    write_file(dir / "est.txt", circle_kitti(150, 0.99, 7));
+    write_file(dir / "in.g2o", kSquareGraph);
+  }
+  TemporaryFolder dir;
+};
+
+std::vector<std::string> commands() {
+  std::istringstream help(run_placegraph("--help").out);
+  std::vector<std::string> names;
+  bool listing = false;
+  for (std::string line; std::getline(help, line);) {
+    if (line == "Subcommands:") {
+      listing = true;
+    } else if (listing && line.size() > 3 && line[2] != ' ') {
+      names.push_back(line.substr(2, line.find(' ', 2) - 2));
+    }
+  }
+  return names;
+}
+
+TEST_F(Cli, HelpOfEveryCommandBeginsWithAnExampleOfIt) {
+  EXPECT_THAT(run("--help").out, StartsWith("Example: placegraph "));
+  EXPECT_THAT(commands(), ::testing::IsSupersetOf({"eval", "optimize"}));
+  for (const std::string& name : commands()) {
+    const CommandResult help = run(name + " --help");
+    EXPECT_EQ(help.code, 0) << name;
+    EXPECT_THAT(help.out, StartsWith("Example: placegraph " + name)) << name;
+    EXPECT_THAT(help.err, IsEmpty()) << name;
+  }
+}
+
+TEST_F(Cli, EveryCommandTakesBadUsageAsExitCodeTwoAndOneLine) {
+  expect_usage_error("", "subcommand is required");
+  expect_usage_error("evaluate", "");
+  expect_usage_error("--frobnicate", "");
+  for (const std::string& name : commands()) expect_usage_error(name + " --frobnicate", "--help");
+}
+
+TEST_F(Cli, SaysItsVersion) {
+  const CommandResult result = run("--version");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_THAT(result.out, ::testing::MatchesRegex("placegraph [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+}
+
+TEST_F(Cli, EvalPrintsFiguresWithTheirProtocol) {
+  const CommandResult result = run("eval gt.txt est.txt --lengths 10,50 --step 5");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("149 of 150 frames"));
+  EXPECT_THAT(result.out, HasSubstr("align se3"));
+  EXPECT_THAT(result.out, HasSubstr("lengths 10,50 m, step 5"));
+}
+
+TEST_F(Cli, EvalJsonHasTheFixedKeysAndValues) {
+  const CommandResult result =
+      run("eval gt.txt est.txt --align origin --lengths 10,50 --step 1 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  for (const char* key : {"ate_rmse_m", "t_rel_percent", "r_rel_deg_per_100m", "rpe_trans_m",
+                          "rpe_rot_deg", "rpe_rot_median_deg"})
+    EXPECT_TRUE(json.at(key).is_number()) << key;
+  EXPECT_EQ(json.at("frames"), 150);
+  EXPECT_EQ(json.at("posed"), 149);
+  EXPECT_EQ(json.at("align"), "origin");
+  EXPECT_EQ(json.at("scale"), 1.0);
+  // A circle 1 % too small is wrong by 1 % of each step's chord.
+  EXPECT_NEAR(json.at("rpe_trans_m").get<double>(), 0.01 * 2 * 20 * std::sin(0.025), 1e-9);
+  const auto scaled = nlohmann::json::parse(run("eval gt.txt est.txt --align scale --json").out);
+  EXPECT_NEAR(scaled.at("scale").get<double>(), 1 / 0.99, 1e-9);
+  EXPECT_LT(scaled.at("ate_rmse_m").get<double>(), 1e-9);
+}
+
+TEST_F(Cli, EvalGivesNullAndAWarningForAClipThatIsTooShort) {
+  const CommandResult result = run("eval gt.txt est.txt --lengths 1000 --json");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(nlohmann::json::parse(result.out).at("t_rel_percent").is_null());
+  EXPECT_THAT(result.err, HasSubstr("warning: est.txt: no t_rel and r_rel"));
+}
+
+TEST_F(Cli, EvalRefusesToGuessTheAssociation) {
+  write_file(dir / "short.txt", circle_kitti(100));
+  const CommandResult lengths = run("eval gt.txt short.txt");
+  EXPECT_EQ(lengths.code, 1);
+  EXPECT_THAT(lengths.err, HasSubstr("the ground truth has 150, the estimate 100"));
+  write_file(dir / "est.tum", circle_tum(150));
+  const CommandResult times = run("eval gt.txt est.tum");
+  EXPECT_EQ(times.code, 1);
+  EXPECT_THAT(times.err, HasSubstr("only the estimate has times"));
+}
+
+TEST_F(Cli, EvalTakesTimesFromAFileOrFromBesideASequencesPoses) {
+  write_file(dir / "est.tum", circle_tum(150));
+  std::string times;
+  for (int i = 0; i < 150; ++i) times += std::to_string(0.1 * i) + "\n";
+  write_file(dir / "times.txt", times);
+  write_file(dir / "poses.txt", circle_kitti(150));
+  for (const char* arguments : {"eval gt.txt est.tum --times times.txt --json",
+                                "eval poses.txt est.tum --json", "eval . est.tum --json"}) {
+    const CommandResult result = run(arguments);
+    ASSERT_EQ(result.code, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json.at("association"), "time");
+    EXPECT_LT(json.at("ate_rmse_m").get<double>(), 1e-6);
+  }
+}
+
+TEST_F(Cli, EvalComparesSeveralEstimatesInOneTable) {
+  write_file(dir / "other.txt", circle_kitti(150, 1.02));
+  const CommandResult table = run("eval gt.txt est.txt other.txt");
+  EXPECT_EQ(table.code, 0);
+  EXPECT_THAT(table.out, HasSubstr("\nest.txt "));
+  EXPECT_THAT(table.out, HasSubstr("\nother.txt "));
+  const auto json = nlohmann::json::parse(run("eval gt.txt est.txt other.txt --json").out);
+  EXPECT_EQ(json.at("results").size(), 2u);
+}
+
+TEST_F(Cli, EvalPairsTheFilesOfTwoFoldersByNameAndAverages) {
+  for (const char* folder : {"gt", "run"}) fs::create_directory(dir / folder);
+  write_file(dir / "gt/00.txt", circle_kitti(150));
+  write_file(dir / "gt/01.txt", circle_kitti(140));
+  write_file(dir / "gt/02.txt", circle_kitti(140));
+  write_file(dir / "run/00.kitti", circle_kitti(150, 0.99));
+  write_file(dir / "run/01.txt", circle_kitti(140, 1.01));
+  const CommandResult result = run("eval gt run --lengths 20 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("02.txt: no file of that name"));
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("results").size(), 2u);
+  EXPECT_EQ(json.at("average").at("sequences"), 2);
+  EXPECT_THAT(run("eval gt run").out, HasSubstr("mean over all segments"));
+}
+
+TEST_F(Cli, EvalWritesItsFilesAndNeverOverwritesThemUnasked) {
+  const std::string command = "eval gt.txt est.txt --lengths 10 --csv a.csv --latex a.tex --plot ";
+  ASSERT_EQ(run(command + "a.png").code, 0);
+  EXPECT_THAT(read_file(dir / "a.csv"), HasSubstr(",segment,t_rel_percent,"));
+  EXPECT_THAT(read_file(dir / "a.tex"), HasSubstr("\\toprule"));
+  EXPECT_THAT(read_file(dir / "a.png"), StartsWith("\x89PNG"));
+  write_file(dir / "a.csv", "mine");
+  expect_usage_error(command + "b.svg", "a.csv: exists already; --force");
+  EXPECT_EQ(read_file(dir / "a.csv"), "mine");
+  EXPECT_FALSE(fs::exists(dir / "b.svg"));
+  EXPECT_EQ(run(command + "b.svg --force").code, 0);
+  EXPECT_THAT(read_file(dir / "b.svg"), StartsWith("<svg"));
+  for (const fs::directory_entry& entry : fs::directory_iterator(dir.path()))
+    EXPECT_THAT(entry.path().filename().string(), ::testing::Not(HasSubstr("tmp")));
+}
+
+TEST_F(Cli, EvalNamesFileAndLineOfMalformedInput) {
+  write_file(dir / "broken.txt", circle_kitti(3) + "1 0 0 0 0 1 0 0 0 0 1\n");
+  expect_usage_error("eval gt.txt broken.txt", "broken.txt:4:");
+  write_file(dir / "word.txt", "1 0 0 0 0 1 0 0 0 0 1 zero\n");
+  expect_usage_error("eval gt.txt word.txt", "word.txt:1:");
+  write_file(dir / "empty.txt", "");
+  expect_usage_error("eval gt.txt empty.txt", "empty.txt");
+  write_file(dir / "binary.txt", std::string("\0\1\2\n\xff\xfe\n\0", 8));
+  expect_usage_error("eval gt.txt binary.txt", "binary.txt");
+}
+
+TEST_F(Cli, EvalRefusesBadOptions) {
+  expect_usage_error("eval gt.txt", "EST is required");
+  expect_usage_error("eval gt.txt absent.txt", "absent.txt");
+  expect_usage_error("eval gt.txt est.txt --align affine", "affine");
+  expect_usage_error("eval gt.txt est.txt --lengths 10,-5", "segments.lengths_m");
+  expect_usage_error("eval gt.txt est.txt --lengths ten", "--lengths");
+  expect_usage_error("eval gt.txt est.txt --step 0", "segments.step");
+  expect_usage_error("eval gt.txt est.txt --plot a.gif", ".png or .svg");
+  expect_usage_error("eval gt.txt .", "is a folder");
+  expect_usage_error("eval gt.txt est.txt --csv no/such/folder.csv", "folder.csv");
+}
+
+TEST_F(Cli, OptimizeWritesTheGraphAndReportsBothCosts) {
+  const CommandResult result = run("optimize in.g2o -o out.g2o --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  for (const char* key : {"chi2_g2o", "chi2_log", "cpu_ms", "wall_ms"})
+    EXPECT_TRUE(json.at(key).is_number()) << key;
+  EXPECT_GT(json.at("iterations"), 0);
+  // Three measurements of two lengths, 1, 1 and 2.2 m: 0.2 m spread over three edges.
+  EXPECT_NEAR(json.at("chi2_log").get<double>(), 0.2 * 0.2 / 3, 1e-6);
+  EXPECT_THAT(read_file(dir / "out.g2o"), HasSubstr("VERTEX_SE2 2"));
+  EXPECT_EQ(run("optimize in.g2o -o other.g2o --cost g2o").code, 0);
+}
+
+TEST_F(Cli, OptimizeNeverOverwritesUnaskedAndNamesBrokenLines) {
+  write_file(dir / "out.g2o", "mine");
+  expect_usage_error("optimize in.g2o -o out.g2o", "--force");
+  EXPECT_EQ(read_file(dir / "out.g2o"), "mine");
+  EXPECT_EQ(run("optimize in.g2o -o out.g2o --force").code, 0);
+  write_file(dir / "broken.g2o", "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 one 0 0\n");
+  expect_usage_error("optimize broken.g2o -o x.g2o", "broken.g2o:2:");
+  write_file(dir / "dangling.g2o", "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 9 1 0 0 1 0 0 1 0 1\n");
+  expect_usage_error("optimize dangling.g2o -o x.g2o", "9");
+  expect_usage_error("optimize in.g2o", "required");
+  EXPECT_FALSE(fs::exists(dir / "x.g2o"));
+}
+
+TEST_F(Cli, EvalReproducesAPublishedRow) {
+  PLACEGRAPH_DATA_OR_SKIP(golden, "golden");
+  const CommandResult result =
+      run("eval " + golden + "/KITTI_00_gt.txt " + golden + "/KITTI_00_ORB.txt --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NEAR(json.at("t_rel_percent").get<double>(), 0.69973, 5e-6);
+  EXPECT_NEAR(json.at("r_rel_deg_per_100m").get<double>(), 0.25333, 5e-6);
+  EXPECT_NEAR(json.at("ate_rmse_m").get<double>(), 1.30345, 5e-6);
+}
+
+}  // namespace
+}  // namespace placegraph
