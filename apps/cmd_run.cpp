@@ -1,6 +1,7 @@
 #include "apps/cmd_run.h"
 
 #include <placegraph/eval/evaluate.h>
+#include <placegraph/eval/loop_check.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/g2o.h>
 #include <placegraph/io/trajectory_file.h>
@@ -69,6 +70,26 @@ json judgement(const Trajectory& truth, const Trajectory& estimate, Alignment al
   for (const Metric& metric : metrics(result))
     figures[metric.key] = metric.value ? json(*metric.value) : json(nullptr);
   return figures;
+}
+
+/// Accepted loops against the truth: depth measures to centimetres, other sensors to a metre.
+json loop_judgement(const Trajectory& truth, const RunResult& run) {
+  LoopCheckOptions options;
+  if (run.sensor != Sensor::kRgbd) options.max_translation_m = 1;
+  const LoopCheck check = check_loops(truth, run.map.loops, options);
+  json loops = json::array();
+  for (const CheckedLoop& loop : check.loops)
+    loops.push_back({{"query", loop.query_frame},
+                     {"match", loop.match_frame},
+                     {"translation_error_m", loop.translation_error_m},
+                     {"rotation_error_deg", loop.rotation_error_deg}});
+  return {{"max_translation_m", options.max_translation_m},
+          {"max_rotation_deg", options.max_rotation_deg},
+          {"min_frames_apart", options.min_frames_apart},
+          {"true_loops", check.correct},
+          {"false_loops", check.wrong},
+          {"too_near", check.too_near},
+          {"loops", loops}};
 }
 
 /// Ground truth of the frames that were run.
@@ -169,6 +190,7 @@ void run(const Arguments& arguments) {
     summary["evaluation"] = {{"origin", judgement(*truth, optimized, Alignment::kOrigin)},
                              {"se3", judgement(*truth, optimized, Alignment::kSe3)},
                              {"sim3", judgement(*truth, optimized, Alignment::kSim3)}};
+    if (run.map.metric) summary["loop_check"] = loop_judgement(*dataset->ground_truth(), run);
   }
   fs::create_directories(arguments.out);
   write_results(arguments.out, run, optimized, truth, dataset->name(), summary);

@@ -97,8 +97,8 @@ std::string cell(const std::optional<double>& value, const char* missing) {
 // The columns of comparison tables, by key.
 std::vector<Metric> columns(const std::vector<Metric>& all) {
   std::vector<Metric> chosen;
-  for (const char* key : {"ate_rmse_m", "t_rel_percent", "r_rel_deg_per_100m", "rpe_trans_m",
-                          "rpe_rot_deg", "rpe_rot_median_deg"})
+  for (const char* key : {"ate_rmse_m", "ate_percent_of_path", "t_rel_percent",
+                          "r_rel_deg_per_100m", "rpe_trans_m", "rpe_rot_deg", "rpe_rot_median_deg"})
     for (const Metric& metric : all)
       if (metric.key == key) chosen.push_back(metric);
   return chosen;

@@ -89,7 +89,7 @@ std::vector<std::string> commands() {
 
 TEST_F(Cli, HelpOfEveryCommandBeginsWithAnExampleOfIt) {
   EXPECT_THAT(run("--help").out, StartsWith("Example: placegraph "));
-  EXPECT_THAT(commands(), ::testing::IsSupersetOf({"eval", "optimize"}));
+  EXPECT_THAT(commands(), ::testing::IsSupersetOf({"config", "eval", "optimize", "run"}));
   for (const std::string& name : commands()) {
     const CommandResult help = run(name + " --help");
     EXPECT_EQ(help.code, 0) << name;
@@ -261,6 +261,43 @@ TEST_F(Cli, OptimizeNeverOverwritesUnaskedAndNamesBrokenLines) {
   expect_usage_error("optimize dangling.g2o -o x.g2o", "9");
   expect_usage_error("optimize in.g2o", "required");
   EXPECT_FALSE(fs::exists(dir / "x.g2o"));
+}
+
+TEST_F(Cli, ConfigDumpsWhatItTakesBack) {
+  const CommandResult dump = run("config --dump --set seed=42");
+  ASSERT_EQ(dump.code, 0) << dump.err;
+  write_file(dir / "mine.yaml", dump.out);
+  EXPECT_EQ(run("config --dump --config mine.yaml").out, dump.out);
+  EXPECT_NE(run("config --dump").out, dump.out);
+  EXPECT_THAT(run("config").out, HasSubstr("seed"));
+}
+
+TEST_F(Cli, ConfigNamesUnknownKeysAndWrongValues) {
+  write_file(dir / "unknown.yaml", "seed: 3\nno_such_option: 1\n");
+  expect_usage_error("config --config unknown.yaml", "unknown.yaml:2: no_such_option");
+  write_file(dir / "type.yaml", "seed: many\n");
+  expect_usage_error("config --config type.yaml", "type.yaml:1: seed");
+  expect_usage_error("config --set no.such.option=1", "no.such.option");
+  expect_usage_error("config --dump --markdown", "");
+  write_file(dir / "kept.yaml", "mine");
+  expect_usage_error("config --dump --out kept.yaml", "--force");
+  EXPECT_EQ(read_file(dir / "kept.yaml"), "mine");
+}
+
+TEST_F(Cli, OptionsDocumentIsTheOneConfigPrints) {
+  const CommandResult result = run("config --markdown");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(read_file(PLACEGRAPH_SOURCE_DIR "/docs/options.md"), result.out)
+      << "run `placegraph config --markdown --out docs/options.md --force`";
+}
+
+TEST_F(Cli, RunNeedsASequenceItRecognizes) {
+  fs::create_directory(dir / "nothing");
+  expect_usage_error("run nothing --out out", "nothing");
+  expect_usage_error("run nothing", "--out");
+  write_file(dir / "out", "mine");
+  expect_usage_error("run nothing --out out", "is a file");
+  EXPECT_EQ(read_file(dir / "out"), "mine");
 }
 
 TEST_F(Cli, EvalReproducesAPublishedRow) {

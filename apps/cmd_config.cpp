@@ -1,0 +1,76 @@
+#include "apps/cmd_config.h"
+
+#include <fmt/format.h>
+#include <placegraph/io/yaml_config.h>
+#include <placegraph/pipeline/run.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "apps/output.h"
+
+namespace placegraph::apps {
+namespace {
+
+struct Arguments {
+  std::string config, out;
+  std::vector<std::string> settings;
+  bool dump = false, markdown = false, force = false;
+};
+
+std::string plain_list(const RunOptions& options) {
+  const std::vector<OptionEntry> entries = list_options(options);
+  std::size_t key_width = 0, value_width = 0;
+  for (const OptionEntry& entry : entries) {
+    if (entry.type == "group") continue;
+    key_width = std::max(key_width, entry.path.size());
+    value_width = std::max(value_width, entry.value.size());
+  }
+  std::string text;
+  for (const OptionEntry& entry : entries)
+    if (entry.type != "group")
+      text += fmt::format("{:<{}}  {:<{}}  {}\n", entry.path, key_width, entry.value, value_width,
+                          entry.doc);
+  return text;
+}
+
+void run(const Arguments& arguments) {
+  if (!arguments.out.empty()) require_free(arguments.out, arguments.force);
+  RunOptions options;
+  if (!arguments.config.empty()) read_options(arguments.config, options);
+  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  options.check();
+  std::string text = plain_list(options);
+  if (arguments.dump) text = dump_options(options);
+  if (arguments.markdown)
+    text =
+        "# Options of `placegraph run`\n\nWritten by `placegraph config --markdown`; set them "
+        "in a file (`--config`) or by `--set key=value`.\n\n" +
+        options_markdown(options);
+  if (arguments.out.empty())
+    std::fputs(text.c_str(), stdout);
+  else
+    write_file(arguments.out, text);
+}
+
+}  // namespace
+
+void add_config_command(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  Arguments& a = *arguments;
+  CLI::App* command =
+      app.add_subcommand("config", "List every option of run, or write them as YAML");
+  command->footer("placegraph config --dump > my.yaml");
+  command->add_option("--config", a.config, "YAML file to start from instead of the defaults");
+  command->add_option("--set", a.settings, "one option, key=value; may be repeated")
+      ->allow_extra_args(false);
+  auto* dump = command->add_flag("--dump", a.dump, "as YAML that --config takes back");
+  command->add_flag("--markdown", a.markdown, "as docs/options.md")->excludes(dump);
+  command->add_option("--out", a.out, "write to a file instead of stdout");
+  command->add_flag("--force", a.force, "overwrite it");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace placegraph::apps
