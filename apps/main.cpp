@@ -10,6 +10,7 @@
 #include "apps/cmd_eval.h"
 #include "apps/cmd_optimize.h"
 #include "apps/cmd_run.h"
+#include "apps/cmd_synth.h"
 #include "apps/help.h"
 #include "apps/output.h"
 
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
     add_eval_command(app);
     add_optimize_command(app);
     add_run_command(app);
+    add_synth_command(app);
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -200,6 +200,19 @@ void read_ground_truth(const fs::path& folder, const Eigen::Vector3d& position_i
 
 }  // namespace
 
+KittiCalibration read_kitti_calibration(const std::string& path) {
+  const auto lines = read_calibration(path, {{"P0", 12}, {"P1", 12}});
+  const auto P0 = lines.find("P0"), P1 = lines.find("P1");
+  if (P0 == lines.end()) throw FileError(path, "has no line P0:");
+  KittiCalibration out;
+  out.camera = camera_from(path, "P0", P0->second);
+  if (P1 != lines.end()) {
+    camera_from(path, "P1", P1->second);
+    out.baseline_m = (P0->second.numbers[3] - P1->second.numbers[3]) / out.camera.fx;
+  }
+  return out;
+}
+
 bool is_kitti_odometry(const std::string& folder) {
   const fs::path path(folder);
   return fs::exists(path / "calib.txt") &&

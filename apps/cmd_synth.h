@@ -1,0 +1,9 @@
+#pragma once
+#include <CLI/App.hpp>
+
+namespace placegraph::apps {
+
+/// `placegraph synth WORLD|POSES.txt --out DIR`: renders a sequence with exact ground truth.
+void add_synth_command(CLI::App& app);
+
+}  // namespace placegraph::apps

@@ -1,0 +1,203 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/synthetic/parallel.h>
+#include <placegraph/io/synthetic/sequence_writer.h>
+#include <placegraph/io/trajectory_file.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+
+namespace placegraph {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double kOutdoorDepthUnit_m = 1.0 / 256;  // as KITTI: 256 m
+constexpr double kIndoorDepthUnit_m = 0.001;
+
+void write_image(const fs::path& path, const Image& image) {
+  // Level 1 with run lengths only: noise does not compress, and speed matters more.
+  static const std::vector<int> kFast = {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
+                                         cv::IMWRITE_PNG_STRATEGY_RLE};
+  bool written = false;
+  try {
+    written = cv::imwrite(path.string(), image, kFast);
+  } catch (const cv::Exception& error) {
+    throw FileError(path.string(), "cannot be written: " + error.err);
+  }
+  if (!written) throw FileError(path.string(), "cannot be written");
+}
+
+Image encode_depth(const Image& depth_m, double unit_m) {
+  Image out(depth_m.size(), CV_16UC1);
+  for (int v = 0; v < out.rows; ++v) {
+    for (int u = 0; u < out.cols; ++u) {
+      const double steps = std::floor(depth_m.at<float>(v, u) / unit_m + 0.5);
+      // 65535 means "nothing measured" elsewhere: not used, nor is anything beyond.
+      out.at<unsigned short>(v, u) = static_cast<unsigned short>(steps < 65535 ? steps : 0);
+    }
+  }
+  return out;
+}
+
+/// KITTI's flow form: red u * 64 + 2^15, green v, blue 1 where valid. OpenCV's order is BGR.
+Image encode_flow(const Image& flow) {
+  Image out(flow.size(), CV_16UC3, cv::Scalar::all(0));
+  for (int v = 0; v < out.rows; ++v) {
+    for (int u = 0; u < out.cols; ++u) {
+      const cv::Vec3f& f = flow.at<cv::Vec3f>(v, u);
+      const double du = std::floor(f[0] * 64.0 + 32768.5), dv = std::floor(f[1] * 64.0 + 32768.5);
+      if (f[2] < 0.5F || du < 0 || dv < 0 || du > 65535 || dv > 65535) continue;
+      out.at<cv::Vec3w>(v, u) = {1, static_cast<unsigned short>(dv),
+                                 static_cast<unsigned short>(du)};
+    }
+  }
+  return out;
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw FileError(path.string(), "cannot be written");
+}
+
+std::string projection(const char* key, const Camera& c, double baseline_m) {
+  return fmt::format("{}: {:.9e} 0 {:.9e} {:.9e} 0 {:.9e} {:.9e} 0 0 0 1 0\n", key, c.fx, c.cx,
+                     -c.fx * baseline_m, c.fy, c.cy);
+}
+
+double depth_unit_m(const SyntheticWorld& world) {
+  return world.is_indoor() ? kIndoorDepthUnit_m : kOutdoorDepthUnit_m;
+}
+
+std::string world_yaml(const SyntheticWorld& world) {
+  const SyntheticOptions& o = world.options();
+  std::string text = fmt::format(
+      "# A rendered sequence; everything here is exact.\nworld: {}\ndifficulty: {}\nseed: {}\n"
+      "frames: {}\ncamera_height_m: {}\nclasses: [",
+      world.name(), to_string(o.difficulty), o.seed, world.size(),
+      *world.calibration().camera_height_m);
+  const auto names = SyntheticWorld::class_names();
+  for (std::size_t i = 0; i < names.size(); ++i) text += (i ? ", " : "") + names[i];
+  return text + "]\n";
+}
+
+std::string readme(const SyntheticWorld& world, const SyntheticContents& contents) {
+  std::string text =
+      "Rendered by placegraph synth. KITTI odometry layout, poses.txt = T_world_cam0, exact.\n"
+      "The camera is camera_height_m (world.yaml) above the rendered ground, measured vertically.\n"
+      "image_0, image_1: left and right eye, 8-bit grey, rectified, without distortion.\n";
+  if (contents.depth)
+    text += fmt::format(
+        "depth_0: 16-bit, one step = {} m along the optical axis, 0 = none; same camera as "
+        "image_0.\n",
+        depth_unit_m(world));
+  if (contents.labels) text += "labels_0: 8-bit, index into `classes` of world.yaml.\n";
+  if (contents.planes)
+    text +=
+        "planes_0: 16-bit, line of planes.txt counted from 0 (0 = none); a line is nx ny nz d,\n"
+        "  n . p = d in the frame of poses.txt.\n";
+  if (contents.flow)
+    text +=
+        "flow_0: to the next frame, KITTI's 16-bit form: (R, G) = 64 * (du, dv) + 2^15, B = "
+        "valid.\n"
+        "  Moving objects are followed; hidden points are valid, points out of the image too.\n";
+  return text;
+}
+
+void write_frame(const SyntheticWorld& world, const fs::path& folder, std::size_t index,
+                 const SyntheticContents& contents) {
+  const SyntheticFrame frame = world.render(index, contents);
+  const std::string file = fmt::format("{:06d}.png", index);
+  write_image(folder / "image_0" / file, frame.frame.image);
+  if (contents.right) write_image(folder / "image_1" / file, frame.frame.right);
+  if (contents.depth)
+    write_image(folder / "depth_0" / file, encode_depth(frame.frame.depth, depth_unit_m(world)));
+  if (contents.labels) write_image(folder / "labels_0" / file, frame.labels);
+  if (contents.planes) write_image(folder / "planes_0" / file, frame.planes);
+  if (contents.flow && !frame.flow.empty())
+    write_image(folder / "flow_0" / file, encode_flow(frame.flow));
+}
+
+void write_texts(const SyntheticWorld& world, const fs::path& folder,
+                 const SyntheticContents& contents) {
+  const Calibration calibration = world.calibration();
+  write_text(folder / "calib.txt",
+             projection("P0", calibration.camera, 0) +
+                 projection("P1", calibration.camera, calibration.baseline_m));
+  if (contents.depth)
+    write_text(folder / "calib_depth.txt", projection("P0", calibration.camera, 0) +
+                                               fmt::format("unit_m: {}\n", depth_unit_m(world)));
+  std::string times;
+  for (std::size_t i = 0; i < world.size(); ++i)
+    times +=
+        fmt::format("{}.{:09d}\n", world.stamp_ns(i) / 1000000000, world.stamp_ns(i) % 1000000000);
+  write_text(folder / "times.txt", times);
+  write_trajectory((folder / "poses.txt").string(), world.ground_truth(), TrajectoryFormat::kKitti);
+  write_text(folder / "world.yaml", world_yaml(world));
+  write_text(folder / "README.txt", readme(world, contents));
+  if (!world.floor_plan().empty()) write_text(folder / "floorplan.json", world.floor_plan());
+  if (contents.planes) {
+    std::string text;
+    for (const Eigen::Vector4d& p : world.planes())
+      text += fmt::format("{:.9f} {:.9f} {:.9f} {:.9f}\n", p[0], p[1], p[2], p[3]);
+    write_text(folder / "planes.txt", text);
+  }
+}
+
+/// Removes the half-written folder unless everything went well.
+struct TemporaryFolder {
+  fs::path path;
+  bool keep = false;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    if (!keep) fs::remove_all(path, ignored);
+  }
+};
+
+}  // namespace
+
+void write_sequence(const SyntheticWorld& world, const std::string& path,
+                    const SequenceWriterOptions& options,
+                    const std::function<void(std::size_t)>& progress) {
+  fs::path target = fs::absolute(path).lexically_normal();
+  if (target.filename().empty()) target = target.parent_path();
+  if (fs::exists(target)) {
+    require(fs::is_directory(target), path + ": is a file, a folder is to be written there");
+    require(options.force || fs::is_empty(target), path + ": is not empty; --force replaces it");
+  }
+  const SyntheticContents& contents = options.contents;
+  TemporaryFolder temporary{target.parent_path() / ("." + target.filename().string() + ".partial")};
+  std::error_code failure;
+  fs::remove_all(temporary.path, failure);
+  const auto make = [&](const fs::path& folder) {
+    fs::create_directories(folder, failure);
+    if (failure) throw FileError(folder.string(), "cannot be created: " + failure.message());
+  };
+  make(temporary.path / "image_0");
+  if (contents.right) make(temporary.path / "image_1");
+  if (contents.depth) make(temporary.path / "depth_0");
+  if (contents.labels) make(temporary.path / "labels_0");
+  if (contents.planes) make(temporary.path / "planes_0");
+  if (contents.flow) make(temporary.path / "flow_0");
+  write_texts(world, temporary.path, contents);
+
+  std::mutex mutex;
+  std::size_t done = 0;
+  synthetic::parallel_for(static_cast<int>(world.size()), options.threads, [&](int index) {
+    write_frame(world, temporary.path, static_cast<std::size_t>(index), contents);
+    const std::lock_guard<std::mutex> lock(mutex);
+    ++done;
+    if (progress) progress(done);
+  });
+  fs::remove_all(target, failure);
+  fs::rename(temporary.path, target, failure);
+  if (failure) throw FileError(path, "cannot be put in place: " + failure.message());
+  temporary.keep = true;
+}
+
+}  // namespace placegraph
