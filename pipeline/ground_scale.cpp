@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace placegraph {
 
@@ -16,50 +17,78 @@ void visit(OptionVisitor& field, GroundScaleOptions& o) {
   field("enabled", o.enabled, "use the ground plane where the camera height is known");
   field("sigma_relative", o.sigma_relative,
         "noise of a single scale beyond that of the alignment: the road is not flat", {0, 1});
-  field("max_log_deviation", o.max_log_deviation,
-        "a scale further from the present one (in logarithm) is not believed", {0.01, 5});
-  field("normal_gain", o.normal_gain, "share of a new normal that enters the mean", {0.001, 1});
+  field("max_log_jump", o.max_log_jump,
+        "a scale further from the median of the last ones (in logarithm) is not believed",
+        {0.01, 5});
+  field("mounting_sigma_deg", o.mounting_sigma_deg,
+        "pitch and roll of the camera before anything was seen", {0.01, 45});
+  field("pitching_sigma_deg", o.pitching_sigma_deg, "pitch and roll of one view about the mean",
+        {0.01, 45});
+  field("mounting_drift_deg", o.mounting_drift_deg, "of the mean between measurements", {0, 10});
+  field("min_baseline_heights", o.min_baseline_heights,
+        "motion between the two views, in camera heights", {0.01, 10});
 }
 
 GroundScale::GroundScale(const GroundScaleOptions& options, const Camera& camera,
                          double camera_height_m)
-    : options_(options), camera_(camera), camera_height_m_(camera_height_m) {
+    : options_(options),
+      camera_(camera),
+      camera_height_m_(camera_height_m),
+      normal_variance_rad2_(std::pow(options.mounting_sigma_deg * M_PI / 180, 2)) {
   options_.check();
   require(camera_height_m > 0, "camera_height_m: must be positive");
 }
 
-void GroundScale::learn(const Eigen::Vector3d& normal_cam) {
-  ++learned_;
-  const double gain = std::max(options_.normal_gain, 1.0 / (1 + learned_));
-  normal_cam_ = (normal_cam_ + gain * (normal_cam - normal_cam_)).normalized();
+GroundPlanePrior GroundScale::prior() const {
+  const double frame = options_.pitching_sigma_deg * M_PI / 180;
+  return {plane_cam(), std::sqrt(normal_variance_rad2_ + frame * frame)};
+}
+
+/// The view's normal is the mean plus the vehicle's nodding; what the alignment reports is its
+/// posterior under prior(), from which the mean's posterior follows.
+void GroundScale::learn(const GroundPlaneResult& found) {
+  const double frame = options_.pitching_sigma_deg * M_PI / 180;
+  const double before = normal_variance_rad2_ + frame * frame;
+  const double gain = normal_variance_rad2_ / before;
+  const double after = found.sigma_normal_rad * found.sigma_normal_rad;
+  normal_cam_ = (normal_cam_ + gain * (found.plane_ref.normal - normal_cam_)).normalized();
+  const double drift = options_.mounting_drift_deg * M_PI / 180;
+  normal_variance_rad2_ += drift * drift - gain * gain * std::max(0.0, before - after);
+}
+
+std::optional<GroundScale::Length> GroundScale::believe(const GroundPlaneResult& found) {
+  if (!found.outcome) return std::nullopt;
+  const double log_factor = std::log(camera_height_m_ / found.plane_ref.distance_m);
+  // A car's side or a kerb may be taken for the road for a moment, but not for long.
+  constexpr std::size_t kMemory = 5;
+  bool believed = true;
+  if (recent_log_factors_.size() >= 3) {
+    std::vector<double> sorted(recent_log_factors_.begin(), recent_log_factors_.end());
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    believed = std::abs(log_factor - sorted[sorted.size() / 2]) < options_.max_log_jump;
+  }
+  recent_log_factors_.push_back(log_factor);
+  if (recent_log_factors_.size() > kMemory) recent_log_factors_.pop_front();
+  if (!believed) return std::nullopt;
+  learn(found);
+  return Length{std::exp(log_factor),
+                std::hypot(found.sigma_log_distance, options_.sigma_relative)};
 }
 
 std::optional<GroundScale::Length> GroundScale::find(const Image& image_new, const Image& image_old,
                                                      const SE3& T_old_new) {
-  const auto found =
-      search_ground_plane(image_new, image_old, camera_, T_old_new, normal_cam_, options_.plane);
-  if (!found.outcome) return std::nullopt;
-  learn(found.plane_ref.normal);
-  refused_ = 0;
-  return Length{camera_height_m_ / found.plane_ref.distance_m,
-                std::hypot(found.sigma_log_distance, options_.sigma_relative)};
+  recent_log_factors_.clear();
+  const auto length = believe(
+      search_ground_plane(image_new, image_old, camera_, T_old_new, normal_cam_, options_.plane));
+  recent_log_factors_.clear();  // it belongs to another unit
+  return length;
 }
 
 std::optional<GroundScale::Length> GroundScale::follow(const Image& image_new,
                                                        const Image& image_old,
                                                        const SE3& T_old_new) {
-  const auto found =
-      align_ground_plane(image_new, image_old, camera_, T_old_new, plane_cam(), options_.plane);
-  if (!found.outcome) return std::nullopt;
-  const double log_factor = std::log(camera_height_m_ / found.plane_ref.distance_m);
-  // Lost for long: the present scale itself may be what is wrong.
-  constexpr int kPatience = 10;
-  if (std::abs(log_factor) > options_.max_log_deviation)
-    return ++refused_ > kPatience ? find(image_new, image_old, T_old_new) : std::nullopt;
-  refused_ = 0;
-  learn(found.plane_ref.normal);
-  return Length{std::exp(log_factor),
-                std::hypot(found.sigma_log_distance, options_.sigma_relative)};
+  return believe(
+      align_ground_plane(image_new, image_old, camera_, T_old_new, prior(), options_.plane));
 }
 
 }  // namespace placegraph

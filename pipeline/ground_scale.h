@@ -1,16 +1,20 @@
 #pragma once
 #include <placegraph/frontend/planes/ground_plane.h>
 
+#include <deque>
 #include <optional>
 
 namespace placegraph {
 
 struct GroundScaleOptions {
   GroundPlaneOptions plane;
-  bool enabled = true;           ///< use the ground plane where the camera height is known
-  double sigma_relative = 0.03;  ///< of a single scale: unevenness of the road, added to its noise
-  double max_log_deviation = 0.25;  ///< from the present scale; more is not believed
-  double normal_gain = 0.1;         ///< of the slow filter on the mean normal (pitch and roll)
+  bool enabled = true;            ///< use the ground plane where the camera height is known
+  double sigma_relative = 0.01;   ///< of a single scale: unevenness of the road, added to its noise
+  double max_log_jump = 0.12;     ///< from the median of the last scales; more is not believed
+  double mounting_sigma_deg = 3;  ///< pitch and roll of the camera before anything was seen
+  double pitching_sigma_deg = 0.5;    ///< of a single view about the mean: the vehicle nods
+  double mounting_drift_deg = 0.03;   ///< of the mean, from one measurement to the next
+  double min_baseline_heights = 0.6;  ///< motion between the two views; a shorter one tells little
   void check() const;
 };
 void visit(OptionVisitor& field, GroundScaleOptions& options);
@@ -31,17 +35,21 @@ class GroundScale {
   /// For a motion whose scale is roughly right.
   std::optional<Length> follow(const Image& image_new, const Image& image_old,
                                const SE3& T_old_new);
+  double min_baseline_m() const { return options_.min_baseline_heights * camera_height_m_; }
   /// Mean ground plane in the camera frame, at the camera's height.
   Plane plane_cam() const { return {normal_cam_, camera_height_m_}; }
 
  private:
-  void learn(const Eigen::Vector3d& normal_cam);
+  std::optional<Length> believe(const GroundPlaneResult& found);
+  GroundPlanePrior prior() const;
+  void learn(const GroundPlaneResult& found);
+
   GroundScaleOptions options_;
   Camera camera_;
   double camera_height_m_;
   Eigen::Vector3d normal_cam_ = Eigen::Vector3d::UnitY();
-  int learned_ = 0;
-  int refused_ = 0;  // in a row
+  double normal_variance_rad2_;
+  std::deque<double> recent_log_factors_;
 };
 
 }  // namespace placegraph

@@ -46,6 +46,7 @@ void Odometry::restart(const SE3& T_odom_cam) {
   first_keyframe_ = next_keyframe_;
   last_keyframe_ = -1;
   sightings_.clear();
+  keyframe_frames_.clear();
   keyframe_poses_.clear();
   links_.clear();
   views_.clear();
@@ -127,22 +128,15 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame) {
     log(log_, LogLevel::kDebug, "initialization waits: " + start.outcome.reason);
     return update;
   }
-  // Scale: the ground if it shows, else the median depth is one unit.
+  // The unit is arbitrary until the ground shows it.
   std::vector<double> depths;
   for (const auto& point : start.points_ref)
     if (point) depths.push_back(point->z());
-  double scale = 10 / median_of(depths);
-  if (ground_) {
-    if (const auto length = ground_->find(frame.image, reference_frame_.image, start.T_ref_cur)) {
-      scale = length->factor;
-      scale_known_ = true;
-    }
-  }
+  const double scale = 10 / median_of(depths);
   const SE3 T_ref_cur(start.T_ref_cur.rotation(), scale * start.T_ref_cur.translation());
   const std::int64_t ref = next_keyframe_++, cur = next_keyframe_++;
   window_.add_keyframe(ref, T_odom_start_);
   window_.add_keyframe(cur, T_odom_start_ * T_ref_cur);
-  std::vector<bool> keep(ids.size(), true);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     sightings_[ids[i]] = {{ref, px_ref[i]}, {cur, px_cur[i]}};
     if (!start.points_ref[i]) continue;
@@ -150,13 +144,14 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame) {
     add_observation(ref, ids[i], px_ref[i], std::nullopt);
     add_observation(cur, ids[i], px_cur[i], std::nullopt);
   }
-  if (scale_known_) {
-    const double length = T_ref_cur.translation().norm();
-    window_.add_distance({ref, cur, length, options_.ground.sigma_relative * length});
-  }
   last_keyframe_ = cur;
-  last_keyframe_frame_ = frame;
   refine_window();
+  if (ground_) {
+    keyframe_frames_[ref] = reference_frame_;
+    measure_scale(frame, update);
+    update.rescale.reset();  // nobody has heard of these keyframes yet
+    refine_window();
+  }
   update.new_keyframes = {{ref, reference_frame_}, {cur, frame}};
 
   // Frames in between get their poses from the points.
@@ -169,7 +164,8 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame) {
         px.push_back(pixel);
       }
     const double share = static_cast<double>(v) / (views_.size() - 1);
-    const SE3 prior = T_odom_start_ * SE3::exp(share * T_ref_cur.log());
+    const SE3 prior = window_.pose(ref) *
+                      SE3::exp(share * (window_.pose(ref).inverse() * window_.pose(cur)).log());
     const auto pose =
         estimate_pose_3d2d(calibration_.camera, points, px, options_.pose, random, &prior);
     if (pose.outcome) update.filled.emplace_back(views_[v].frame, pose.T_ref_cam);
@@ -248,12 +244,10 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   T_odom_last_ = pose.T_ref_cam;
   ++frames_since_keyframe_;
   if (keyframe_due(frame, update.inliers)) {
-    const SE3 T_before = T_odom_last_;
     add_keyframe(frame, pose.T_ref_cam, update);
     T_odom_last_ = window_.pose(last_keyframe_);
     if (update.rescale)
       T_last_cur_ = SE3(T_last_cur_.rotation(), update.rescale->factor * T_last_cur_.translation());
-    (void)T_before;
   }
   update.state = TrackingState::kTracking;
   update.T_odom_cam = T_odom_last_;
@@ -281,11 +275,9 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
   window_.add_keyframe(id, T_odom_cam);
   tracker_.detect(frame.mask);
   observe_tracks(id, frame);
-  const std::int64_t previous = last_keyframe_;
   last_keyframe_ = id;
-  if (ground_ && previous >= 0) measure_scale(frame, previous, update);
+  if (ground_) measure_scale(frame, update);
   refine_window();
-  last_keyframe_frame_ = frame;
   frames_since_keyframe_ = 0;
   px_at_keyframe_.clear();
   landmarks_at_keyframe_ = 0;
@@ -372,22 +364,34 @@ void Odometry::observe_tracks(std::int64_t keyframe, const Frame& frame) {
   sightings_ = std::move(seen);
 }
 
-void Odometry::measure_scale(const Frame& frame, std::int64_t previous, OdometryUpdate& update) {
+void Odometry::measure_scale(const Frame& frame, OdometryUpdate& update) {
   const std::int64_t current = last_keyframe_;
-  const SE3 T_old_new = window_.pose(previous).inverse() * window_.pose(current);
+  // The newest keyframe far enough away; any, while the unit is not the metre.
+  std::int64_t old = -1;
+  SE3 T_old_new;
+  for (const auto& [id, keyframe] : keyframe_frames_) {
+    const SE3 T = window_.pose(id).inverse() * window_.pose(current);
+    const double length = T.translation().norm();
+    if (length < (scale_known_ ? ground_->min_baseline_m() : 1e-6)) continue;
+    old = id;
+    T_old_new = T;
+  }
+  const Image image_old = old >= 0 ? keyframe_frames_.at(old).image : Image();
+  keyframe_frames_[current] = frame;
+  if (old < 0) return;
   const double length = T_old_new.translation().norm();
-  if (length < 1e-6) return;
   if (scale_known_) {
-    if (const auto measured = ground_->follow(frame.image, last_keyframe_frame_.image, T_old_new)) {
-      const double distance_m = measured->factor * length;
-      window_.add_distance({previous, current, distance_m, measured->sigma_relative * distance_m});
-      log(log_, LogLevel::kDebug,
-          "ground scale " + std::to_string(measured->factor) + " +- " +
-              std::to_string(measured->sigma_relative));
-    }
+    const auto measured = ground_->follow(frame.image, image_old, T_old_new);
+    if (!measured) return;
+    const double distance_m = measured->factor * length;
+    window_.add_distance({old, current, distance_m, measured->sigma_relative * distance_m});
+    log(log_, LogLevel::kDebug,
+        "ground " + std::to_string(keyframe_frames_.at(old).id) + " " + std::to_string(frame.id) +
+            " length " + std::to_string(length) + " measured " + std::to_string(distance_m) +
+            " +- " + std::to_string(measured->sigma_relative * distance_m));
     return;
   }
-  const auto measured = ground_->find(frame.image, last_keyframe_frame_.image, T_old_new);
+  const auto measured = ground_->find(frame.image, image_old, T_old_new);
   if (!measured) return;
   const Eigen::Vector3d centre = window_.pose(window_.keyframes().front()).translation();
   window_.rescale(measured->factor);
@@ -398,7 +402,7 @@ void Odometry::measure_scale(const Frame& frame, std::int64_t previous, Odometry
   median_depth_m_ *= measured->factor;
   scale_known_ = true;
   const double distance_m = measured->factor * length;
-  window_.add_distance({previous, current, distance_m, measured->sigma_relative * distance_m});
+  window_.add_distance({old, current, distance_m, measured->sigma_relative * distance_m});
 }
 
 void Odometry::refine_window() {
@@ -429,7 +433,7 @@ void Odometry::refine_window() {
        keyframes.size() - i > static_cast<std::size_t>(options_.window.max_keyframes);
        ++i)
     links_[keyframes[i]] = window_.relative_information(keyframes[i], keyframes[i + 1]);
-  window_.marginalize();
+  for (const std::int64_t left : window_.marginalize()) keyframe_frames_.erase(left);
 }
 
 Matrix6d Odometry::link_information(std::int64_t id) const {

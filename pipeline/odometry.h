@@ -102,14 +102,12 @@ class Odometry {
   OdometryUpdate try_initialize(const Frame& frame);
   OdometryUpdate track(const Frame& frame);
   std::vector<Eigen::Vector2f> predict(const SE3& T_odom_cam) const;
-  Pose3d2dResult estimate_pose(const SE3& prior);
   bool keyframe_due(const Frame& frame, int inliers) const;
   void add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);
   void observe_tracks(std::int64_t keyframe, const Frame& frame);
-  void measure_scale(const Frame& frame, std::int64_t keyframe, OdometryUpdate& update);
+  void measure_scale(const Frame& frame, OdometryUpdate& update);
   void refine_window();
   std::vector<std::optional<DepthMeasurement>> measure_depth(const Frame& frame) const;
-  std::optional<double> window_observation_depth(const WindowObservation& observation) const;
   void add_observation(std::int64_t keyframe, std::int64_t landmark, const Eigen::Vector2d& px,
                        const std::optional<DepthMeasurement>& depth);
 
@@ -127,7 +125,7 @@ class Odometry {
   SE3 T_odom_start_, T_odom_last_, T_last_cur_;  // the last one: velocity over one frame
   std::int64_t next_keyframe_ = 0, first_keyframe_ = 0, last_keyframe_ = -1;
   int landmarks_at_keyframe_ = 0, frames_since_keyframe_ = 0;
-  Frame last_keyframe_frame_;
+  std::map<std::int64_t, Frame> keyframe_frames_;  // of the window, where the ground is looked at
   std::map<std::int64_t, Eigen::Vector2d> px_at_keyframe_;
   std::map<std::int64_t, std::vector<Sighting2d>> sightings_;  // of live tracks, in the window
   std::map<std::int64_t, SE3> keyframe_poses_;

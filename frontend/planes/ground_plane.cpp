@@ -74,28 +74,23 @@ std::vector<Sample> collect_samples(const Level& level, const Plane& plane,
   return samples;
 }
 
-/// The pixel of a sample in the current image for g = n/d, and the derivative by g.
+/// The pixel of a sample in the current image for g = n/d; X is its point, scaled by 1 / depth.
 bool warp(const Level& level, const Matrix3d& R, const Vector3d& t, const Vector3d& g,
-          const Sample& sample, Vector2d& px, Eigen::Matrix<double, 2, 3>* J_px_g) {
+          const Sample& sample, Vector2d& px, Vector3d& X) {
   const Camera& c = level.camera;
-  const Vector3d X = R * sample.ray_ref + t * g.dot(sample.ray_ref);
+  X = R * sample.ray_ref + t * g.dot(sample.ray_ref);
   if (X.z() < 1e-3) return false;
   px = {c.fx * X.x() / X.z() + c.cx, c.fy * X.y() / X.z() + c.cy};
-  if (!(px[0] >= 1 && px[1] >= 1 && px[0] < c.width - 2 && px[1] < c.height - 2)) return false;
-  if (J_px_g) {
-    const Vector2d d((c.fx * t.x() - (px[0] - c.cx) * t.z()) / X.z(),
-                     (c.fy * t.y() - (px[1] - c.cy) * t.z()) / X.z());
-    *J_px_g = d * sample.ray_ref.transpose();
-  }
-  return true;
+  return px[0] >= 1 && px[1] >= 1 && px[0] < c.width - 2 && px[1] < c.height - 2;
 }
 
 double zncc(const Level& level, const Matrix3d& R, const Vector3d& t, const Vector3d& g,
             const std::vector<Sample>& samples, int* seen) {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
   Vector2d px;
+  Vector3d X;
   for (const Sample& sample : samples) {
-    if (!warp(level, R, t, g, sample, px, nullptr)) continue;
+    if (!warp(level, R, t, g, sample, px, X)) continue;
     const double x = sample.grey_ref, y = sample_grey(level.cur, px[0], px[1]).value;
     n += 1, a += x, b += y, aa += x * x, bb += y * y, ab += x * y;
   }
@@ -111,76 +106,140 @@ double median_of(std::vector<double>& values) {
   return *middle;
 }
 
-using Vector5d = Eigen::Matrix<double, 5, 1>;
-using Matrix5d = Eigen::Matrix<double, 5, 5>;
+/// g = n/d (3), rotation omega (3): R = exp(omega) R_start, direction of the translation (2):
+/// t = t_start + |t_start| B u with B across it, gain, bias.
+constexpr int kParameters = 10;
+using Parameters = Eigen::Matrix<double, kParameters, 1>;
+using Normal = Eigen::Matrix<double, kParameters, kParameters>;
+
+/// A motion with the directions in which it is corrected.
+struct Motion {
+  Matrix3d R;
+  Vector3d t;
+  Eigen::Matrix<double, 3, 2> across;  // B |t_start|
+  Vector3d omega = Vector3d::Zero();   // so far, for the prior
+  Vector2d u = Vector2d::Zero();
+
+  explicit Motion(const SE3& T_cur_ref)
+      : R(T_cur_ref.rotation().matrix()), t(T_cur_ref.translation()) {
+    const double length = std::max(t.norm(), 1e-12);
+    const Vector3d direction = t / length, e = direction.unitOrthogonal();
+    across << length * e, length * direction.cross(e);
+  }
+  void correct(const Vector3d& d_omega, const Vector2d& d_u) {
+    R = SO3::exp(d_omega).matrix() * R;
+    t += across * d_u;
+    omega += d_omega;
+    u += d_u;
+  }
+};
 
 /// What Gauss-Newton at one level works on and leaves behind.
 struct Fit {
   Vector3d g;  // n/d
   double gain = 1, bias = 0;
-  Matrix5d normal = Matrix5d::Zero();  // whitened by the residuals' spread, prior included
+  Normal normal = Normal::Zero();  // whitened by the residuals' spread, prior included
   int seen = 0;
 };
 
-/// Adds the prior on the direction of g: pitch and roll about n0.
-void add_prior(const Vector3d& n0, double sigma_rad, const Vector3d& g, Matrix5d& H, Vector5d& b) {
+/// Adds the priors: pitch and roll of g about the prior's normal, and the motion about its start.
+void add_priors(const GroundPlanePrior& prior, const Vector3d& g, const Motion& motion, Normal& H,
+                Parameters& b) {
+  const Vector3d& n0 = prior.plane_ref.normal;
   const double length = g.norm();
   const Vector3d n = g / length;
   const Vector3d e1 = n0.unitOrthogonal(), e2 = n0.cross(e1);
   Eigen::Matrix<double, 2, 3> basis;
   basis << e1.transpose(), e2.transpose();
-  const Vector2d r = basis * n / sigma_rad;
+  const Vector2d r = basis * n / prior.sigma_normal_rad;
   const Eigen::Matrix<double, 2, 3> J =
-      basis * (Matrix3d::Identity() - n * n.transpose()) / (length * sigma_rad);
+      basis * (Matrix3d::Identity() - n * n.transpose()) / (length * prior.sigma_normal_rad);
   H.topLeftCorner<3, 3>() += J.transpose() * J;
   b.head<3>() -= J.transpose() * r;
+
+  const double w_rotation = 1 / (prior.sigma_rotation_rad * prior.sigma_rotation_rad);
+  const double w_direction = 1 / (prior.sigma_direction_rad * prior.sigma_direction_rad);
+  H.diagonal().segment<3>(3).array() += w_rotation;
+  b.segment<3>(3) -= w_rotation * motion.omega;
+  H.diagonal().segment<2>(6).array() += w_direction;
+  b.segment<2>(6) -= w_direction * motion.u;
 }
 
-void align_level(const Level& level, const Matrix3d& R, const Vector3d& t,
-                 const std::vector<Sample>& samples, const Vector3d& n0,
-                 const GroundPlaneOptions& o, Fit& fit) {
-  const double prior_sigma_rad = o.prior_sigma_deg * M_PI / 180;
+/// Residual of one sample and its derivative; false if it is out of view.
+bool linearize(const Level& level, const Motion& motion, const Fit& fit, const Sample& sample,
+               double& residual, Parameters& J) {
+  Vector2d px;
+  Vector3d X;
+  if (!warp(level, motion.R, motion.t, fit.g, sample, px, X)) return false;
+  const Grey grey = sample_grey(level.cur, px[0], px[1]);
+  residual = grey.value - fit.gain * sample.grey_ref - fit.bias;
+  const Camera& c = level.camera;
+  const double a = grey.du * c.fx / X.z(), b = grey.dv * c.fy / X.z();
+  const Vector3d by_X(a, b, -(a * X.x() + b * X.y()) / X.z());
+  const double inverse_depth = fit.g.dot(sample.ray_ref);
+  const Vector3d rotated = X - motion.t * inverse_depth;
+  J << by_X.dot(motion.t) * sample.ray_ref, rotated.cross(by_X),
+      inverse_depth * (motion.across.transpose() * by_X), -sample.grey_ref, -1;
+  return true;
+}
+
+void align_level(const Level& level, const std::vector<Sample>& samples,
+                 const GroundPlanePrior& prior, const GroundPlaneOptions& o, Motion& motion,
+                 Fit& fit) {
   std::vector<double> residuals(samples.size()), magnitudes;
-  std::vector<Vector5d> jacobians(samples.size());
+  std::vector<Parameters> jacobians(samples.size());
   for (int iteration = 0; iteration < o.iterations; ++iteration) {
     magnitudes.clear();
-    fit.seen = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      Vector2d px;
-      Eigen::Matrix<double, 2, 3> J_px_g;
-      residuals[i] = std::numeric_limits<double>::quiet_NaN();
-      if (!warp(level, R, t, fit.g, samples[i], px, &J_px_g)) continue;
-      const Grey grey = sample_grey(level.cur, px[0], px[1]);
-      residuals[i] = grey.value - fit.gain * samples[i].grey_ref - fit.bias;
-      jacobians[i] << (grey.du * J_px_g.row(0) + grey.dv * J_px_g.row(1)).transpose(),
-          -samples[i].grey_ref, -1;
-      magnitudes.push_back(std::abs(residuals[i]));
-      ++fit.seen;
+      if (linearize(level, motion, fit, samples[i], residuals[i], jacobians[i]))
+        magnitudes.push_back(std::abs(residuals[i]));
+      else
+        residuals[i] = std::numeric_limits<double>::quiet_NaN();
     }
+    fit.seen = static_cast<int>(magnitudes.size());
     if (fit.seen < 50) return;
     const double sigma = std::max(1.0, 1.4826 * median_of(magnitudes));
     const double cut = 4.685 * sigma;
-    Matrix5d H = Matrix5d::Zero();
-    Vector5d b = Vector5d::Zero();
+    Normal H = Normal::Zero();
+    Parameters b = Parameters::Zero();
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (!(std::abs(residuals[i]) < cut)) continue;
       const double q = 1 - residuals[i] * residuals[i] / (cut * cut);
       const double weight = q * q * o.pixel_correlation / (sigma * sigma);
-      H.noalias() += weight * jacobians[i] * jacobians[i].transpose();
+      H.selfadjointView<Eigen::Lower>().rankUpdate(jacobians[i], weight);
       b.noalias() -= weight * residuals[i] * jacobians[i];
     }
-    add_prior(n0, prior_sigma_rad, fit.g, H, b);
+    H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
+    add_priors(prior, fit.g, motion, H, b);
     fit.normal = H;
-    const Vector5d step = H.ldlt().solve(b);
+    Parameters step = H.ldlt().solve(b);
     if (!step.allFinite()) return;
     // No step may move the plane by more than a fifth of its distance.
-    const double limit = 0.2 * fit.g.norm();
-    const double length = step.head<3>().norm();
-    fit.g += step.head<3>() * std::min(1.0, limit / std::max(length, 1e-12));
-    fit.gain += step[3];
-    fit.bias += step[4];
-    if (length < 1e-5 * fit.g.norm()) break;
+    const double moved = step.head<3>().norm() / fit.g.norm();
+    if (moved > 0.2) step *= 0.2 / moved;
+    fit.g += step.head<3>();
+    motion.correct(step.segment<3>(3), step.segment<2>(6));
+    fit.gain += step[8];
+    fit.bias += step[9];
+    if (moved < 1e-5) break;
   }
+}
+
+/// The distance at which the road matches best, within a factor of the prior's: Gauss-Newton alone
+/// falls into whatever dip of a fine texture lies nearest.
+double start_distance(const Level& level, const Matrix3d& R, const Vector3d& t, const Plane& prior,
+                      const GroundPlaneOptions& o) {
+  const auto samples = collect_samples(level, prior, o, 2);
+  double best = -1, best_distance = prior.distance_m;
+  for (double factor = 0.7; factor < 1.4; factor *= 1.02) {
+    const double distance = factor * prior.distance_m;
+    int seen = 0;
+    const double score = zncc(level, R, t, prior.normal / distance, samples, &seen);
+    if (seen < static_cast<int>(samples.size()) / 3 || score <= best) continue;
+    best = score;
+    best_distance = distance;
+  }
+  return best_distance;
 }
 
 }  // namespace
@@ -198,8 +257,6 @@ void visit(OptionVisitor& field, GroundPlaneOptions& o) {
   field("step_px", o.step_px, "grid of samples", {1, 32});
   field("pyramid_levels", o.pyramid_levels, "levels, coarse to fine", {1, 6});
   field("iterations", o.iterations, "Gauss-Newton steps per level", {1, 100});
-  field("prior_sigma_deg", o.prior_sigma_deg,
-        "pitch and roll of the plane vary this much about the prior", {0.01, 45});
   field("pixel_correlation", o.pixel_correlation,
         "share of the samples that counts as independent, for the covariance", {0.001, 1});
   field("min_zncc", o.min_zncc, "agreement below which nothing is said", {-1, 1});
@@ -208,7 +265,9 @@ void visit(OptionVisitor& field, GroundPlaneOptions& o) {
 
 GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_cur,
                                      const Camera& camera, const SE3& T_cur_ref,
-                                     const Plane& prior_ref, const GroundPlaneOptions& options) {
+                                     const GroundPlanePrior& prior,
+                                     const GroundPlaneOptions& options) {
+  const Plane& prior_ref = prior.plane_ref;
   require(image_ref.type() == CV_8UC1 && image_ref.size() == image_cur.size(),
           "align_ground_plane: two grey images of one size needed");
   require(prior_ref.distance_m > 0, "align_ground_plane: the prior's distance must be positive");
@@ -217,13 +276,15 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
   const Vector3d& t = T_cur_ref.translation();
 
   GroundPlaneResult result;
+  Motion motion(T_cur_ref);
   Fit fit;
-  fit.g = prior_ref.normal / prior_ref.distance_m;
+  fit.g = prior_ref.normal / start_distance(levels[std::min<std::size_t>(1, levels.size() - 1)], R,
+                                            t, prior_ref, options);
   std::vector<Sample> samples;
   for (int i = static_cast<int>(levels.size()) - 1; i >= 0; --i) {
     // As many samples on every level, or the coarse ones would have too few to hold the fit.
     samples = collect_samples(levels[i], prior_ref, options, i == 0 ? options.step_px : 1);
-    align_level(levels[i], R, t, samples, prior_ref.normal, options, fit);
+    align_level(levels[i], samples, prior, options, motion, fit);
   }
   result.samples = fit.seen;
   if (fit.seen < options.min_samples || !fit.g.allFinite()) {
@@ -232,12 +293,20 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
     return result;
   }
   const double length = fit.g.norm();
-  result.plane_ref = {fit.g / length, 1 / length};
-  result.zncc = zncc(levels[0], R, t, fit.g, samples, nullptr);
-  const Matrix5d covariance = fit.normal.ldlt().solve(Matrix5d::Identity());
+  // In the unit of the translation that was handed over, whose direction has been corrected.
+  const double stretch = motion.t.norm() / T_cur_ref.translation().norm();
+  result.plane_ref = {fit.g / length, 1 / (length * stretch)};
+  result.T_cur_ref = SE3(motion.R, motion.t / stretch);
+  result.zncc = zncc(levels[0], motion.R, motion.t, fit.g, samples, nullptr);
+  const Normal covariance = fit.normal.ldlt().solve(Normal::Identity());
   const Vector3d n = result.plane_ref.normal;
   const double variance = n.dot(covariance.topLeftCorner<3, 3>() * n) / (length * length);
   result.sigma_log_distance = std::sqrt(std::max(0.0, variance));
+  const Vector3d e1 = n.unitOrthogonal(), e2 = n.cross(e1);
+  for (const Vector3d& e : {e1, e2})
+    result.sigma_normal_rad =
+        std::max(result.sigma_normal_rad,
+                 std::sqrt(std::max(0.0, e.dot(covariance.topLeftCorner<3, 3>() * e))) / length);
   if (!(result.sigma_log_distance < 0.5)) {
     result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the road shows too little");
   } else if (result.zncc < options.min_zncc) {
@@ -284,7 +353,10 @@ GroundPlaneResult search_ground_plane(const Image& image_ref, const Image& image
     failure.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no road in view");
     return failure;
   }
-  return align_ground_plane(image_ref, image_cur, camera, T_cur_ref, best_plane, options);
+  // The search knows the pitch to its step, the roll not at all.
+  constexpr double kSigmaRad = 1.5 * M_PI / 180;
+  return align_ground_plane(image_ref, image_cur, camera, T_cur_ref, {best_plane, kSigmaRad},
+                            options);
 }
 
 }  // namespace placegraph

@@ -8,10 +8,9 @@ namespace placegraph {
 struct GroundPlaneOptions {
   /// The part of the ground that is looked at, in camera heights: it must be road.
   double near_heights = 2.5, far_heights = 12, half_width_heights = 2;
-  int step_px = 2;  ///< grid of samples in the reference image
+  int step_px = 3;  ///< grid of samples in the reference image
   int pyramid_levels = 3;
   int iterations = 12;             ///< per level
-  double prior_sigma_deg = 0.7;    ///< pitch and roll of the normal about the prior's
   double pixel_correlation = 0.1;  ///< share of the samples that counts as independent
   double min_zncc = 0.5;           ///< agreement of the warped patches below which nothing is said
   int min_samples = 400;
@@ -19,25 +18,36 @@ struct GroundPlaneOptions {
 };
 void visit(OptionVisitor& field, GroundPlaneOptions& options);
 
+/// What is known beforehand: the normal to `sigma_normal_rad` (pitch and roll alike), the motion to
+/// its sigmas; the distance is only where the search starts.
+struct GroundPlanePrior {
+  Plane plane_ref;
+  double sigma_normal_rad = 0.05;
+  double sigma_rotation_rad = 0.003;  ///< of the motion that is handed over, each axis
+  double sigma_direction_rad = 0.03;  ///< of its translation's direction
+};
+
 struct GroundPlaneResult {
   Outcome outcome;
   Plane plane_ref;                ///< in the unit of the translation that was handed over
   double sigma_log_distance = 0;  ///< standard deviation of log(distance)
+  double sigma_normal_rad = 0;    ///< of the normal, prior included; the worse of two directions
+  SE3 T_cur_ref;                  ///< the motion, corrected; its length is as it was handed over
   double zncc = 0;                ///< of the samples, after the fit
   int samples = 0;
 };
 
 /// The ground plane from two views of known motion, by direct alignment: over the samples of the
-/// road, I_cur(w(p; n/d)) = gain I_ref(p) + bias is solved for n/d (3), gain and bias by
-/// Gauss-Newton with Tukey weights, coarse to fine; the warp is H = K (R + t (n/d)^T) K^-1
-/// (Siddiqui 2014, 2.4.2; Benhimane & Malis 2007). `prior_ref` gives the start and, with
-/// prior_sigma_deg, a Gaussian prior on pitch and roll; its distance is only the start. With t up
-/// to scale, so is the distance: the known camera height over it is the metric scale. Outcomes: too
-/// few data (samples in view), degenerate (translation along nothing the ground shows),
-/// inconsistent (ZNCC below min_zncc).
+/// road, I_cur(w(p; n/d)) = gain I_ref(p) + bias is solved for n/d (3), corrections of the
+/// rotation (3) and of the direction of t (2), gain and bias by Gauss-Newton with Tukey weights,
+/// coarse to fine; the warp is H = K (R + t (n/d)^T) K^-1 (Siddiqui 2014, 2.4.2; Benhimane & Malis
+/// 2007). `prior` gives the start, after a search over distances between 0.7 and 1.4 times its own,
+/// and a Gaussian prior on pitch and roll. With t up to scale, so is the distance: the known camera
+/// height over it is the metric scale. Outcomes: too few data (samples in view), degenerate
+/// (translation along nothing the ground shows), inconsistent (ZNCC below min_zncc).
 [[nodiscard]] GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_cur,
                                                    const Camera& camera, const SE3& T_cur_ref,
-                                                   const Plane& prior_ref,
+                                                   const GroundPlanePrior& prior,
                                                    const GroundPlaneOptions& options);
 
 /// The same without a start: exhaustive search over pitch (+- 4 deg about `level_ref`) and distance
