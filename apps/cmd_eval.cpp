@@ -79,6 +79,20 @@ std::vector<Job> folder_jobs(const std::string& truth, const std::string& estima
   return jobs;
 }
 
+// The file's name, else its folder's, else its path: the first that no other estimate has too.
+std::string short_name(const std::string& estimate, const std::vector<std::string>& all) {
+  const auto folder = [](const fs::path& path) { return path.parent_path().filename(); };
+  const auto is_unique = [&](auto&& part) {
+    return 1 == std::count_if(all.begin(), all.end(), [&](const std::string& other) {
+             return part(fs::path(other)) == part(fs::path(estimate));
+           });
+  };
+  const fs::path path(estimate);
+  if (is_unique([](const fs::path& p) { return p.filename(); })) return path.filename().string();
+  if (!folder(path).empty() && is_unique(folder)) return folder(path).string();
+  return estimate;
+}
+
 std::vector<Job> jobs_of(const Arguments& arguments) {
   std::string truth = arguments.truth;
   const bool one_folder =
@@ -95,11 +109,7 @@ std::vector<Job> jobs_of(const Arguments& arguments) {
   for (const std::string& estimate : arguments.estimates) {
     require(!fs::is_directory(estimate),
             estimate + ": is a folder, and the ground truth is a file");
-    const fs::path path(estimate);
-    const auto same_name = std::count_if(
-        arguments.estimates.begin(), arguments.estimates.end(),
-        [&](const std::string& other) { return fs::path(other).filename() == path.filename(); });
-    jobs.push_back({truth, estimate, same_name > 1 ? estimate : path.filename().string()});
+    jobs.push_back({truth, estimate, short_name(estimate, arguments.estimates)});
   }
   return jobs;
 }

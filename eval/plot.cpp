@@ -123,32 +123,66 @@ struct LegendEntry {
   double width_px;
 };
 
-// In the corner of the panel that covers the fewest of the drawn points.
-void draw_legend(PlotCanvas& canvas, const Panel& panel, const std::vector<LegendEntry>& entries,
-                 const std::vector<Vector2d>& drawn_px) {
-  double width = 0;
-  for (const LegendEntry& entry : entries)
-    width = std::max(width, canvas.text_width(entry.text, kTextPx));
-  const Vector2d size(width + 74, 26.0 * static_cast<double>(entries.size()) + 14);
-  Vector2d best = panel.corner;
-  long fewest = std::numeric_limits<long>::max();
-  const Vector2d room = panel.size - size - Vector2d(20, 20);
+using Points = std::vector<std::optional<Vector2d>>;
+
+// The corner of the panel in which a box covers the fewest of the points [px], and how many.
+std::pair<Vector2d, long> best_corner(const Panel& panel, const Vector2d& box,
+                                      const std::vector<Points>& lines_px) {
+  std::pair<Vector2d, long> best(panel.corner, std::numeric_limits<long>::max());
+  const Vector2d room = panel.size - box - Vector2d(20, 20);
   for (const Vector2d& share : {Vector2d(1, 0), Vector2d(0, 0), Vector2d(1, 1), Vector2d(0, 1)}) {
     const Vector2d corner = panel.corner + Vector2d(10, 10) + room.cwiseProduct(share);
-    const long covered = std::count_if(drawn_px.begin(), drawn_px.end(), [&](const Vector2d& p) {
-      return ((p - corner).array() > -8).all() && ((p - corner - size).array() < 8).all();
-    });
-    if (covered >= fewest) continue;
-    fewest = covered;
-    best = corner;
+    const auto covered = [&](const std::optional<Vector2d>& p) {
+      return p && ((*p - corner).array() > -8).all() && ((*p - corner - box).array() < 8).all();
+    };
+    long count = 0;
+    for (const Points& line : lines_px) count += std::count_if(line.begin(), line.end(), covered);
+    if (count < best.second) best = {corner, count};
   }
-  canvas.rectangle(best, size, kWhite, kGrid);
+  return best;
+}
+
+// Shrinks what is shown so that `height_px` stay free at the top of the panel.
+void make_room_on_top(Panel& panel, double height_px) {
+  const double factor = panel.size[1] / (panel.size[1] - height_px);
+  widen(panel.x, panel.x.size() * factor);
+  panel.y.max = panel.y.min + panel.y.size() * factor;
+}
+
+void draw_legend(PlotCanvas& canvas, const Vector2d& corner, const Vector2d& size,
+                 const std::vector<LegendEntry>& entries) {
+  canvas.rectangle(corner, size, kWhite, kGrid);
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    const double y = best[1] + 22 + 26.0 * static_cast<double>(i);
-    canvas.line({{best[0] + 14, y - 2}, {best[0] + 48, y - 2}}, entries[i].colour,
+    const double y = corner[1] + 22 + 26.0 * static_cast<double>(i);
+    canvas.line({{corner[0] + 14, y - 2}, {corner[0] + 48, y - 2}}, entries[i].colour,
                 entries[i].width_px);
-    canvas.text({best[0] + 60, y + 4}, entries[i].text, kTextPx, kInk, TextAnchor::kLeft);
+    canvas.text({corner[0] + 60, y + 4}, entries[i].text, kTextPx, kInk, TextAnchor::kLeft);
   }
+}
+
+// How every curve is drawn, in their order.
+std::vector<LegendEntry> styles_of(const Plot& plot) {
+  std::vector<LegendEntry> styles;
+  int estimate = 0;
+  for (const PlotCurve& curve : plot.curves) {
+    styles.push_back({curve.name, curve.reference ? kReference : palette(estimate),
+                      curve.reference ? 4.0 : 2.0});
+    estimate += !curve.reference;
+  }
+  return styles;
+}
+
+std::vector<LegendEntry> legend_of(const Plot& plot) {
+  std::vector<LegendEntry> legend;
+  for (const LegendEntry& style : styles_of(plot))
+    if (std::none_of(legend.begin(), legend.end(),
+                     [&](const LegendEntry& entry) { return entry.text == style.text; }))
+      legend.push_back(style);
+  if (!plot.links_m.empty())
+    legend.push_back(
+        {fmt::format("{} loop closure{}", plot.links_m.size(), plot.links_m.size() == 1 ? "" : "s"),
+         kLink, 1.5});
+  return legend;
 }
 
 void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
@@ -164,44 +198,41 @@ void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
     }
   if (!(panel.x.max >= panel.x.min)) panel.x = panel.y = {0, 1};
   make_equal(panel);
-  const char* axes[] = {"x [m]", "y [m]", "z [m]"};
-  draw_axes(canvas, panel, axes[horizontal], axes[vertical], "top view");
 
   const auto px = [&, h = horizontal, v = vertical](const Eigen::Vector3d& p) {
     return panel.px(p[h], p[v]);
   };
-  std::vector<LegendEntry> legend;
-  std::vector<Vector2d> drawn, starts;
-  canvas.begin_clip(panel.corner, panel.size);
-  for (const bool references : {true, false}) {
-    int estimate = 0;
+  const auto lines_px = [&] {
+    std::vector<Points> lines;
     for (const PlotCurve& curve : plot.curves) {
-      const Colour colour = curve.reference ? kReference : palette(estimate);
-      estimate += !curve.reference;
-      if (curve.reference != references) continue;
-      const double width = curve.reference ? 4 : 2;
-      std::vector<std::optional<Vector2d>> points;
-      for (const auto& p : curve.positions_m) {
-        points.push_back(p ? std::optional<Vector2d>(px(*p)) : std::nullopt);
-        if (p) drawn.push_back(*points.back());
-      }
-      draw_with_gaps(canvas, points, colour, width);
-      for (const auto& p : points)
-        if (p) {
-          starts.push_back(*p);
-          break;
-        }
-      if (std::none_of(legend.begin(), legend.end(),
-                       [&](const LegendEntry& e) { return e.text == curve.name; }))
-        legend.push_back({curve.name, colour, width});
+      lines.emplace_back();
+      for (const auto& p : curve.positions_m)
+        lines.back().push_back(p ? std::optional<Vector2d>(px(*p)) : std::nullopt);
     }
-  }
+    return lines;
+  };
+  const std::vector<LegendEntry> legend = legend_of(plot);
+  double width = 0;
+  for (const LegendEntry& entry : legend)
+    width = std::max(width, canvas.text_width(entry.text, kTextPx));
+  const Vector2d box(width + 74, 26.0 * static_cast<double>(legend.size()) + 14);
+  if (best_corner(panel, box, lines_px()).second > 0) make_room_on_top(panel, box[1] + 20);
+
+  const char* axes[] = {"x [m]", "y [m]", "z [m]"};
+  draw_axes(canvas, panel, axes[horizontal], axes[vertical], "top view");
+  const std::vector<Points> lines = lines_px();
+  const std::vector<LegendEntry> styles = styles_of(plot);
+  canvas.begin_clip(panel.corner, panel.size);
+  for (const bool references : {true, false})
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      if (plot.curves[i].reference == references)
+        draw_with_gaps(canvas, lines[i], styles[i].colour, styles[i].width_px);
   for (const auto& [a, b] : plot.links_m) canvas.line({px(a), px(b)}, kLink, 1.5);
-  if (!plot.links_m.empty())
-    legend.push_back({fmt::format("{} loop closures", plot.links_m.size()), kLink, 1.5});
-  if (!starts.empty()) canvas.disc(starts.front(), 5, kWhite, kInk);
+  const auto start = std::find_if(chooser.positions_m.begin(), chooser.positions_m.end(),
+                                  [](const auto& p) { return p.has_value(); });
+  if (start != chooser.positions_m.end()) canvas.disc(px(**start), 5, kWhite, kInk);
   canvas.end_clip();
-  draw_legend(canvas, panel, legend, drawn);
+  draw_legend(canvas, best_corner(panel, box, lines).first, box, legend);
   draw_frame(canvas, panel);
 }
 
@@ -252,6 +283,9 @@ std::pair<int, int> top_view_axes(const std::vector<std::optional<Eigen::Vector3
   int least = 1;  // of equals, the camera's y is height
   for (const int axis : {0, 2})
     if (extent[axis].size() < extent[least].size()) least = axis;
+  // A camera that drives straight ahead: neither x nor y says much, and y is no part of a top view.
+  const double sideways = std::max(extent[0].size(), extent[1].size());
+  if (least == 0 && sideways < 0.1 * extent[2].size()) least = 1;
   return {least == 0 ? 1 : 0, least == 2 ? 1 : 2};
 }
 

@@ -182,6 +182,16 @@ TEST_F(Cli, EvalComparesSeveralEstimatesInOneTable) {
   EXPECT_EQ(json.at("results").size(), 2u);
 }
 
+TEST_F(Cli, EvalNamesEstimatesOfTheSameFileNameByTheirFolders) {
+  for (const char* folder : {"first", "second"}) {
+    fs::create_directory(dir / folder);
+    write_file(dir / (std::string(folder) + "/trajectory.kitti"), circle_kitti(150));
+  }
+  const CommandResult table = run("eval gt.txt first/trajectory.kitti second/trajectory.kitti");
+  EXPECT_THAT(table.out, HasSubstr("\nfirst "));
+  EXPECT_THAT(table.out, HasSubstr("\nsecond "));
+}
+
 TEST_F(Cli, EvalPairsTheFilesOfTwoFoldersByNameAndAverages) {
   for (const char* folder : {"gt", "run"}) fs::create_directory(dir / folder);
   write_file(dir / "gt/00.txt", circle_kitti(150));
