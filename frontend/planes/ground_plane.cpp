@@ -276,6 +276,10 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
   const Vector3d& t = T_cur_ref.translation();
 
   GroundPlaneResult result;
+  if (!(t.norm() > 0)) {
+    result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no translation");
+    return result;
+  }
   Motion motion(T_cur_ref);
   Fit fit;
   fit.g = prior_ref.normal / start_distance(levels[std::min<std::size_t>(1, levels.size() - 1)], R,
