@@ -1,0 +1,157 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/graph/core/error.h>
+
+#include <set>
+
+#include "tests/support/texture.h"
+
+namespace placegraph {
+namespace {
+
+using test::Texture;
+using test::texture_image;
+constexpr int kWidth = 240, kHeight = 180;
+const Texture kTexture{7, 24, 2, 50};
+
+PointTracker started(const PointTrackerOptions& options = {}) {
+  PointTracker tracker(options);
+  tracker.track(texture_image(kWidth, kHeight, kTexture));
+  tracker.detect();
+  return tracker;
+}
+
+TEST(PointTracker, RecoversSubpixelShiftsBelowATwentiethOfAPixel) {
+  for (const Eigen::Vector2f& shift :
+       {Eigen::Vector2f(0.37f, -0.61f), Eigen::Vector2f(6.3f, 4.45f)}) {
+    PointTracker tracker = started();
+    const std::size_t detected = tracker.tracks().size();
+    ASSERT_GT(detected, 100u);
+    tracker.track(texture_image(kWidth, kHeight, kTexture, -shift.x(), -shift.y()));
+    ASSERT_GT(tracker.tracks().size(), 0.85 * detected);
+    double worst = 0;
+    for (const PointTrack& track : tracker.tracks()) {
+      EXPECT_EQ(track.age, 1);
+      const bool inner = track.px.x() > 20 && track.px.y() > 20 && track.px.x() < kWidth - 20 &&
+                         track.px.y() < kHeight - 20;  // whole windows
+      if (inner) worst = std::max<double>(worst, (track.px - track.px_previous - shift).norm());
+    }
+    EXPECT_LT(worst, 0.05) << shift.transpose();
+  }
+}
+
+TEST(PointTracker, StartsFromThePredictionWhereTheMotionIsLarge) {
+  // 60 px are beyond four levels of a 21 px window; the prediction is 2 px off.
+  PointTracker tracker = started();
+  const std::size_t detected = tracker.tracks().size();
+  std::vector<Eigen::Vector2f> predicted;
+  for (const PointTrack& track : tracker.tracks())
+    predicted.push_back(track.px + Eigen::Vector2f(58, 1));
+  tracker.track(texture_image(kWidth, kHeight, kTexture, -60), predicted);
+  std::size_t right = 0;
+  for (const PointTrack& track : tracker.tracks())
+    right += (track.px - track.px_previous - Eigen::Vector2f(60, 0)).norm() < 0.2;
+  EXPECT_GT(right, 0.5 * detected);  // the last quarter of the image has left
+}
+
+TEST(PointTracker, DropsTracksThatLeaveTheImage) {
+  PointTracker tracker = started();
+  std::set<std::int64_t> leaving;
+  for (const PointTrack& track : tracker.tracks())
+    if (track.px.x() > kWidth - 37) leaving.insert(track.id);
+  ASSERT_GT(leaving.size(), 2u);
+  tracker.track(texture_image(kWidth, kHeight, kTexture, -40));
+  ASSERT_FALSE(tracker.tracks().empty());
+  for (const PointTrack& track : tracker.tracks()) EXPECT_FALSE(leaving.count(track.id));
+}
+
+TEST(PointTracker, DropsTracksThatDoNotComeBack) {
+  // Another texture altogether: nothing can be followed forth and back.
+  PointTracker tracker = started();
+  const std::size_t detected = tracker.tracks().size();
+  tracker.track(texture_image(kWidth, kHeight, {99, 24, 2, 50}));
+  EXPECT_LT(tracker.tracks().size(), 0.2 * detected);
+}
+
+TEST(PointTracker, CoversTheImageEvenlyEvenWhereHalfOfItIsFaint) {
+  Image image = texture_image(kWidth, kHeight, {7, 12, 2, 60});
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth / 2; ++u)
+      image.at<std::uint8_t>(v, u) =
+          static_cast<std::uint8_t>(60 + image.at<std::uint8_t>(v, u) / 2);
+  PointTrackerOptions options;
+  options.max_tracks = 80;
+  PointTracker tracker(options);
+  tracker.track(image);
+  tracker.detect();
+  EXPECT_EQ(tracker.tracks().size(), 80u);
+  int left = 0;
+  for (const PointTrack& track : tracker.tracks()) left += track.px.x() < kWidth / 2;
+  EXPECT_GE(left, 30);
+  EXPECT_LE(left, 50);
+  for (const PointTrack& a : tracker.tracks())
+    for (const PointTrack& b : tracker.tracks())
+      if (a.id < b.id) {
+        EXPECT_GE((a.px - b.px).norm(), options.min_distance_px);
+      }
+}
+
+TEST(PointTracker, NeverUsesAnIdTwice) {
+  PointTracker tracker = started();
+  std::set<std::int64_t> ids;
+  const auto collect = [&](std::size_t expected_new) {
+    std::size_t fresh = 0;
+    for (const PointTrack& track : tracker.tracks()) fresh += ids.insert(track.id).second;
+    EXPECT_EQ(fresh, expected_new);
+  };
+  collect(tracker.tracks().size());
+  std::vector<bool> flags(tracker.tracks().size());
+  for (std::size_t i = 0; i < flags.size(); i += 2) flags[i] = true;
+  tracker.keep(flags);
+  const std::size_t kept = tracker.tracks().size();
+  EXPECT_EQ(kept, (flags.size() + 1) / 2);
+  collect(0);
+  tracker.detect();
+  EXPECT_GT(tracker.tracks().size(), kept);
+  collect(tracker.tracks().size() - kept);
+  tracker.reset();
+  EXPECT_TRUE(tracker.tracks().empty());
+  tracker.track(texture_image(kWidth, kHeight, kTexture));
+  tracker.detect();
+  collect(tracker.tracks().size());
+}
+
+TEST(PointTracker, DetectsNothingUnderTheMaskAndOnFlatGround) {
+  PointTracker tracker{PointTrackerOptions{}};
+  tracker.track(texture_image(kWidth, kHeight, kTexture));
+  Image mask(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
+  mask.colRange(0, 100).setTo(0);
+  tracker.detect(mask);
+  ASSERT_FALSE(tracker.tracks().empty());
+  for (const PointTrack& track : tracker.tracks()) EXPECT_GE(track.px.x(), 100);
+  PointTracker flat{PointTrackerOptions{}};
+  flat.track(Image(kHeight, kWidth, CV_8UC1, cv::Scalar(90)));
+  flat.detect();
+  EXPECT_TRUE(flat.tracks().empty());
+}
+
+TEST(PointTracker, RefusesAnotherSizeOrTypeAndWrongCounts) {
+  PointTracker tracker = started();
+  EXPECT_THROW(tracker.track(texture_image(kWidth, kHeight + 2, kTexture)), ArgumentError);
+  EXPECT_THROW(tracker.track(Image(kHeight, kWidth, CV_8UC3)), ArgumentError);
+  const Image image = texture_image(kWidth, kHeight, kTexture);
+  EXPECT_THROW(tracker.track(image, {{1, 1}}), ArgumentError);
+  EXPECT_THROW(tracker.keep({true}), ArgumentError);
+  PointTracker fresh{PointTrackerOptions{}};
+  EXPECT_THROW(fresh.detect(), ArgumentError);
+  PointTrackerOptions even;
+  even.window_px = 20;
+  EXPECT_THROW(PointTracker{even}, ArgumentError);
+  // What was refused left no trace.
+  tracker.track(image);
+  EXPECT_FALSE(tracker.tracks().empty());
+}
+
+}  // namespace
+}  // namespace placegraph
