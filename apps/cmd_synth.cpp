@@ -73,7 +73,10 @@ void add_synth_command(CLI::App& app) {
   Arguments& a = *arguments;
   CLI::App* command = app.add_subcommand("synth", "Render a sequence with exact ground truth");
   command->footer("placegraph synth town-loop --out out/town-loop --difficulty standard");
-  command->add_option("WORLD", a.world.world, "town-loop, or a KITTI pose file")->required();
+  command
+      ->add_option("WORLD", a.world.world,
+                   "town-loop, corridor-loop, warehouse, or a KITTI pose file")
+      ->required();
   command->add_option("--out", a.out, "folder to write, in KITTI's layout")->required();
   command->add_option("--difficulty", a.difficulty, "clean, standard or hard")
       ->capture_default_str();

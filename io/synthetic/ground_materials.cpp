@@ -80,8 +80,8 @@ float shade_road(const Scene& scene, const Face& face, const Spot& spot, float c
   const RoadField::Sample at =
       scene.road ? scene.road->sample(spot.s, spot.t) : RoadField::Sample{};
   const float broad = fractal(spot, 9.0F, 1.1F, 0.75F, seed);
-  const float grain = fractal(spot, 0.50F, 0.015F, 0.85F, seed + 11);
-  float value = 0.36F + contrast * (0.030F * broad + 0.040F * grain);
+  const float grain = fractal(spot, 0.25F, 0.0075F, 1.0F, seed + 11);
+  float value = 0.36F + contrast * (0.030F * broad + 0.062F * grain);
   value = repairs(spot, value, seed + 21);
   value -= contrast * 0.30F * crack(spot, 2.7F, 0.030F, seed + 31);
   // Cracked stretches alternate with whole ones.
@@ -104,7 +104,7 @@ float shade_roadside(const Scene& scene, const Face& face, const Spot& spot, flo
   const std::uint32_t seed = face.seed;
   const float edge = scene.road ? scene.road->edge_distance(spot.s, spot.t) : 5.0F;
   const float blur = spot.major > 0.02F ? spot.major : 0.02F;
-  const float grain = fractal(spot, 1.3F, 0.02F, 0.80F, seed + 3);
+  const float grain = fractal(spot, 1.3F, 0.02F, 0.90F, seed + 3);
   // Slabs: joints every 50 cm, each slab of its own tone.
   const float joint = 1 - (1 - periodic_pulse(spot.s, 0.5F, 0.0F, 0.02F, spot.ws)) *
                               (1 - periodic_pulse(spot.t, 0.5F, 0.0F, 0.02F, spot.wt));
@@ -113,7 +113,7 @@ float shade_roadside(const Scene& scene, const Face& face, const Spot& spot, flo
   float paving = 0.50F + contrast * (0.12F * own + 0.045F * grain - 0.20F * joint);
   const float kerbstone = 0.64F + contrast * 0.05F * grain;
   paving = mix(paving, kerbstone, clamp01((0.17F - edge) / blur + 0.5F));
-  const float lawn = 0.27F + contrast * 0.085F * (grain + octave(spot, 3.1F, seed + 7));
+  const float lawn = 0.25F + contrast * 0.10F * (grain + octave(spot, 3.1F, seed + 7));
   const float border = 2.45F + 0.12F * value_noise(spot.s * 0.8, spot.t * 0.8, seed + 5);
   return mix(paving, lawn, clamp01((edge - border) / blur + 0.5F)) * shadow(spot, seed + 61);
 }

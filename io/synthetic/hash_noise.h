@@ -47,9 +47,7 @@ inline float value_noise(double x, double y, std::uint32_t seed) {
   const std::uint32_t base = static_cast<std::uint32_t>(ix) * 0x9e3779b1U +
                              static_cast<std::uint32_t>(iy) * 0x85ebca77U + seed * 0xc2b2ae3dU;
   const auto corner = [](std::uint32_t h) {
-    h ^= h >> 16;
-    h *= 0x7feb352dU;
-    h ^= h >> 13;
+    h ^= h >> 15;  // the products with x and y have mixed the bits once already
     h *= 0x846ca68bU;
     return static_cast<float>(static_cast<std::int32_t>(h)) * (1.0F / 2147483648.0F);
   };

@@ -33,7 +33,7 @@ float wall(const Face& face, const Spot& spot, float contrast) {
   const float s = static_cast<float>(spot.s), t = static_cast<float>(spot.t);
   const float grain = fractal(spot, 1.5F, 0.008F, 0.75F, face.seed);
   float value = 0.52F + 0.22F * hash_unit(static_cast<std::uint32_t>(face.style * 65536.0F) + 1U) +
-                contrast * 0.035F * grain;
+                contrast * 0.05F * grain;
   if (face.style > 0.5F) {  // a painted lower half
     value = mix(value, value * 0.65F, pulse(t, -1, 1.0F, spot.wt));
   }

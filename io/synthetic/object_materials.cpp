@@ -3,11 +3,11 @@
 namespace placegraph::synthetic {
 
 float shade_foliage(const Face& face, const Spot& spot, float contrast) {
-  const float leaves = fractal(spot, 1.1F, 0.025F, 0.92F, face.seed);
   // Leaves in the sun and holes of shade: a steep curve makes clumps with edges.
-  const float lit = clamp01(0.5F + 0.55F * leaves);
-  return 0.07F + 0.06F * hash_unit(face.seed, 1) + contrast * 0.34F * lit * lit +
-         (1 - contrast) * 0.12F;
+  const float leaves = fractal(spot, 0.8F, 0.02F, 1.0F, face.seed);
+  const float lit = clamp01(0.45F + 0.50F * leaves);
+  return 0.06F + 0.05F * hash_unit(face.seed, 1) + contrast * 0.52F * lit * lit +
+         (1 - contrast) * 0.17F;
 }
 
 float shade_sign(const Face& face, const Spot& spot, float contrast) {

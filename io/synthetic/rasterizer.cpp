@@ -109,12 +109,12 @@ class Gatherer {
       const Eigen::Vector3d& p = polygon.p[i];
       const double u = camera_.fx * p[0] / p[2] + camera_.cx,
                    v = camera_.fy * p[1] / p[2] + camera_.cy;
-      seen.x[i] = static_cast<std::int64_t>(std::floor(u * 256 + 0.5));
-      seen.y[i] = static_cast<std::int64_t>(std::floor(v * 256 + 0.5));
-      x_min = std::min(x_min, seen.x[i]);
-      x_max = std::max(x_max, seen.x[i]);
-      seen.y_min = std::min(seen.y_min, seen.y[i]);
-      seen.y_max = std::max(seen.y_max, seen.y[i]);
+      seen.x[i] = static_cast<std::int32_t>(std::floor(u * 256 + 0.5));
+      seen.y[i] = static_cast<std::int32_t>(std::floor(v * 256 + 0.5));
+      x_min = std::min<std::int64_t>(x_min, seen.x[i]);
+      x_max = std::max<std::int64_t>(x_max, seen.x[i]);
+      seen.y_min = std::min<std::int64_t>(seen.y_min, seen.y[i]);
+      seen.y_max = std::max<std::int64_t>(seen.y_max, seen.y[i]);
     }
     return x_max > -128 && x_min < camera_.width * 256 && seen.y_max > -128 &&
            seen.y_min < camera_.height * 256 && seen.y_max > seen.y_min && x_max > x_min;
@@ -147,6 +147,7 @@ class Gatherer {
 
 std::vector<SeenFace> gather_faces(const Scene& scene, const View& view) {
   std::vector<SeenFace> faces;
+  faces.reserve(16384);
   Gatherer gatherer(view, faces);
   const SE3 T_cam_scene = view.T_scene_cam.inverse();
   for (const Part& part : scene.parts) gatherer.add_part(part, T_cam_scene, -1);
@@ -186,7 +187,8 @@ void SampleBand::draw(const SeenFace& face, std::int32_t id, int first, int rows
     if (face.y[i] == face.y[j]) continue;
     const int a = face.y[i] < face.y[j] ? i : j, b = a == i ? j : i;
     edges[n++] = {face.x[a], face.y[a], face.y[b],
-                  (face.x[b] - face.x[a]) * (std::int64_t{1} << 32) / (face.y[b] - face.y[a])};
+                  (std::int64_t{face.x[b]} - face.x[a]) * (std::int64_t{1} << 32) /
+                      (std::int64_t{face.y[b]} - face.y[a])};
   }
   for (int k = 0; k < kSamples; ++k) {
     const std::int64_t dx = kOffsets[k][0], dy = kOffsets[k][1];

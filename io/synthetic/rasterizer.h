@@ -16,7 +16,7 @@ struct SeenFace {
   std::array<double, 3> iz, qs, qt;
   double s0 = 0, t0 = 0;
   int corners = 0;                    ///< of the clipped polygon
-  std::array<std::int64_t, 10> x, y;  ///< its corners [1/256 px]
+  std::array<std::int32_t, 10> x, y;  ///< its corners [1/256 px]
   std::int64_t y_min = 0, y_max = 0;
 };
 

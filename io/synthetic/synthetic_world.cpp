@@ -19,7 +19,9 @@ struct BuiltIn {
   const char* name;
   Tour (*make)(const TourRequest&);
 };
-constexpr BuiltIn kWorlds[] = {{"town-loop", synthetic::make_town_loop}};
+constexpr BuiltIn kWorlds[] = {{"town-loop", synthetic::make_town_loop},
+                               {"corridor-loop", synthetic::make_corridor_loop},
+                               {"warehouse", synthetic::make_warehouse}};
 
 Tour make_tour(const SyntheticOptions& options) {
   const TourRequest request{options.seed, synthetic::sensor_model(options.difficulty)};
@@ -55,7 +57,7 @@ void SyntheticOptions::check() const {
 }
 
 void visit(OptionVisitor& field, SyntheticOptions& o) {
-  field("world", o.world, "town-loop or a KITTI pose file");
+  field("world", o.world, "town-loop, corridor-loop, warehouse or a KITTI pose file");
   field.choice("difficulty", o.difficulty, {"clean", "standard", "hard"}, "noise, blur, traffic");
   field("seed", o.seed, "of textures, scenery, traffic and noise");
   field("frames", o.frames, "at most this many; 0 = all", {0, 1e9});

@@ -29,6 +29,10 @@ struct TourRequest {
 
 /// A drive of 10 Hz through a small grid of streets, about 650 m, parts of it twice.
 Tour make_town_loop(const TourRequest& request);
+/// Two rounds through the corridor of an office floor, past open and closed rooms, about 95 m.
+Tour make_corridor_loop(const TourRequest& request);
+/// A walk between the racks of a hall and through the offices beside it, partly twice.
+Tour make_warehouse(const TourRequest& request);
 /// A town around any KITTI pose file. Times and calibration are taken from `times.txt` and
 /// `calib.txt` beside it where they exist. The poses keep x, z and the rotation's vibration;
 /// height, mean pitch and roll follow one surface fitted to all passes; the camera is 1.65 m above

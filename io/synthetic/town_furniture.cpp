@@ -12,22 +12,22 @@ Footprint square(const Eigen::Vector2d& centre, const Eigen::Vector2d& axis, dou
   return {centre, axis, half, half};
 }
 
-/// An uneven ball of foliage: rings of quads around a vertical axis.
-void add_crown(Part& part, const Eigen::Vector3d& centre, double radius, double height,
+/// An uneven ball of foliage: rings of triangles around a vertical axis.
+void add_clump(Part& part, const Eigen::Vector3d& centre, double radius, double height,
                std::uint32_t seed) {
-  constexpr int kSides = 7, kRings = 5;
+  constexpr int kSides = 7, kRings = 4;
   static constexpr double kCos[kSides] = {1,        0.62349,  -0.22252, -0.90097,
                                           -0.90097, -0.22252, 0.62349};
   static constexpr double kSin[kSides] = {0,        0.78183,  0.97493, 0.43388,
                                           -0.43388, -0.97493, -0.78183};
-  static constexpr double kWide[kRings] = {0.35, 0.85, 1.0, 0.75, 0.25};
+  static constexpr double kWide[kRings] = {0.66, 1.0, 0.92, 0.52};
+  static constexpr double kHigh[kRings] = {-0.38, -0.12, 0.16, 0.38};
   Eigen::Vector3d ring[kRings][kSides];
   for (int r = 0; r < kRings; ++r) {
     for (int i = 0; i < kSides; ++i) {
-      const double bump = 0.72 + 0.5 * hash_unit(hash_cell(r, i, seed));
-      const double lift_m = height * (r / (kRings - 1.0) - 0.5) +
-                            0.16 * height * (hash_unit(hash_cell(r, i, seed + 1)) - 0.5);
-      ring[r][i] = centre + Eigen::Vector3d(radius * kWide[r] * bump * kCos[i], -lift_m,
+      const double bump = 0.78 + 0.34 * hash_unit(hash_cell(r, i, seed));
+      const double rise = height * (kHigh[r] + 0.14 * (hash_unit(hash_cell(r, i, seed + 1)) - 0.5));
+      ring[r][i] = centre + Eigen::Vector3d(radius * kWide[r] * bump * kCos[i], -rise,
                                             radius * kWide[r] * bump * kSin[i]);
     }
   }
@@ -42,18 +42,33 @@ void add_crown(Part& part, const Eigen::Vector3d& centre, double radius, double 
     face.origin = Eigen::Vector3d::Zero();
     face.s_axis = n[0] > n[2] && n[0] > n[1] ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
     face.t_axis = n[1] > n[0] && n[1] > n[2] ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitY();
-    face.light = outdoor_light(face.normal);
+    // Leaves scatter: light and shade of a crown differ less than those of a wall.
+    face.light = 0.35F + 0.6F * outdoor_light(face.normal);
     part.faces.push_back(face);
   };
+  const Eigen::Vector3d half(0, 0.5 * height, 0);
   for (int i = 0; i < kSides; ++i) {
     const int j = (i + 1) % kSides;
     for (int r = 0; r + 1 < kRings; ++r) {
       add(ring[r][i], ring[r][j], ring[r + 1][i]);
       add(ring[r][j], ring[r + 1][j], ring[r + 1][i]);
     }
-    const Eigen::Vector3d half(0, 0.5 * height, 0);
     add(ring[0][i], ring[0][j], centre + half);
     add(ring[kRings - 1][i], ring[kRings - 1][j], centre - half);
+  }
+}
+
+/// A crown of several clumps that reach into each other.
+void add_crown(Part& part, const Eigen::Vector3d& centre, double radius, double height,
+               std::uint32_t seed) {
+  add_clump(part, centre, 0.72 * radius, 0.9 * height, seed);
+  const int clumps = 3 + static_cast<int>(seed % 3U);
+  for (int i = 0; i < clumps; ++i) {
+    const auto unit = [&](int salt) { return hash_unit(hash_cell(i, salt, seed)) - 0.5; };
+    const double size = 0.42 + 0.2 * (unit(4) + 0.5);
+    const Eigen::Vector3d off(1.1 * radius * unit(1), 0.7 * height * unit(2),
+                              1.1 * radius * unit(3));
+    add_clump(part, centre + off, size * radius, size * height, seed + 11U * (i + 1U));
   }
 }
 
@@ -67,7 +82,7 @@ void add_tree(TownSite& site, const Eigen::Vector2d& at, const Eigen::Vector2d& 
   Part part;
   const double y = site.walkway(at);
   const Eigen::Vector3d x(axis[0], 0, axis[1]), z(-axis[1], 0, axis[0]);
-  const double width = random.uniform(0.18, 0.4);
+  const double width = random.uniform(0.16, 0.32);
   add_box(part, lift(at, y + 0.5), x, z, {width, trunk + 1.2, width}, Material::kBark,
           Material::kBark, SurfaceClass::kVegetation, seed);
   add_crown(part, lift(at, y - trunk - 0.5 * height), radius, height, seed + 5);

@@ -58,7 +58,7 @@ float outdoor_light(const Eigen::Vector3d& normal) {
   static const Eigen::Vector3d kSun = Eigen::Vector3d(0.55, -0.70, -0.45).normalized();
   const double direct = std::max(0.0, normal.dot(kSun));
   const double sky = 0.5 - 0.5 * normal[1];  // y points down
-  return static_cast<float>(0.22 + 0.68 * direct + 0.22 * sky);
+  return static_cast<float>(0.28 + 0.86 * direct + 0.26 * sky);
 }
 
 Face make_quad(const Eigen::Vector3d& o, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
