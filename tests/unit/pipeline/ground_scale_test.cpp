@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/ground_scale.h>
+
+#include "tests/support/scene.h"
+#include "tests/support/texture.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+constexpr double kHeight_m = 1.6, kStep_m = 0.8, kPitch_rad = 0.04;
+/// Half the resolution of a car's camera, looking at the road only: with 200 px focal length the
+/// far rows would be too coarse for a percent.
+Camera road_camera() {
+  Camera camera = pinhole(360, 190, 400);
+  camera.cy = 40;
+  return camera;
+}
+const Camera kCamera = road_camera();
+
+SE3 T_world_cam(double forward_m) { return pose({-kPitch_rad, 0, 0}, {0, -kHeight_m, forward_m}); }
+
+Image road(double forward_m) {
+  Eigen::Matrix3d R_world_ground;
+  R_world_ground << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  const TexturedPlane ground{
+      SE3(R_world_ground, Eigen::Vector3d::Zero()), 1e3, 1e3, {5, 1.2, 2, 60}};
+  return render(kCamera, T_world_cam(forward_m), {ground}, 2).grey;
+}
+
+/// The step between the two pictures, `factor` times too long.
+SE3 T_old_new(double factor) {
+  const SE3 metric = T_world_cam(0).inverse() * T_world_cam(kStep_m);
+  return SE3(metric.rotation(), factor * metric.translation());
+}
+
+class GroundScaleOnARoad : public testing::Test {
+ protected:
+  const Image old_ = road(0), new_ = road(kStep_m);
+  GroundScale scale_{{}, kCamera, kHeight_m};
+};
+
+TEST_F(GroundScaleOnARoad, FindsTheLengthOfAMotionKnownUpToScale) {
+  const auto length = scale_.find(new_, old_, T_old_new(1 / kStep_m));  // |t| = 1
+  ASSERT_TRUE(length);
+  EXPECT_NEAR(length->factor, kStep_m, 0.02 * kStep_m);
+  EXPECT_GE(length->sigma_relative, GroundScaleOptions{}.sigma_relative);
+  EXPECT_LT(length->sigma_relative, 0.06);
+}
+
+TEST_F(GroundScaleOnARoad, LearnsThePitchOfItsMounting) {
+  EXPECT_LT(angle_between(scale_.plane_cam().normal, Eigen::Vector3d::UnitY()), 1e-12);
+  EXPECT_DOUBLE_EQ(scale_.plane_cam().distance_m, kHeight_m);
+  ASSERT_TRUE(scale_.find(new_, old_, T_old_new(1)));
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(scale_.follow(new_, old_, T_old_new(1)));
+  const Eigen::Vector3d truth = T_world_cam(0).rotation().inverse() * Eigen::Vector3d::UnitY();
+  EXPECT_LT(angle_between(scale_.plane_cam().normal, truth), 0.5 * kPitch_rad);
+  EXPECT_DOUBLE_EQ(scale_.plane_cam().distance_m, kHeight_m);
+}
+
+TEST_F(GroundScaleOnARoad, CorrectsAScaleThatIsRoughlyRight) {
+  ASSERT_TRUE(scale_.find(new_, old_, T_old_new(1)));
+  for (const double wrong : {0.88, 1.0, 1.12}) {
+    const auto length = scale_.follow(new_, old_, T_old_new(wrong));
+    ASSERT_TRUE(length) << wrong;
+    EXPECT_NEAR(length->factor * wrong, 1, 0.02);
+  }
+}
+
+TEST_F(GroundScaleOnARoad, DoesNotBelieveAJumpUntilItLasts) {
+  GroundScaleOptions options;
+  options.max_log_jump = 0.1;
+  GroundScale scale(options, kCamera, kHeight_m);
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(scale.follow(new_, old_, T_old_new(1)));
+  EXPECT_FALSE(scale.follow(new_, old_, T_old_new(1.2)));
+  EXPECT_TRUE(scale.follow(new_, old_, T_old_new(1)));
+  int refused = 0;
+  while (refused < 10 && !scale.follow(new_, old_, T_old_new(1.2))) ++refused;
+  EXPECT_GE(refused, 1);
+  EXPECT_LT(refused, 10);
+}
+
+TEST_F(GroundScaleOnARoad, SaysNothingWithoutTextureAndRefusesNoHeight) {
+  const Image flat(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(100));
+  EXPECT_FALSE(scale_.find(flat, flat, T_old_new(1)));
+  EXPECT_FALSE(scale_.follow(flat, flat, T_old_new(1)));
+  EXPECT_THROW(GroundScale({}, kCamera, 0), ArgumentError);
+}
+
+}  // namespace
+}  // namespace placegraph
