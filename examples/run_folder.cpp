@@ -1,0 +1,40 @@
+/// Runs the system over a recorded sequence, frame by frame as a robot would, prints where the
+/// camera is and writes the trajectory: run_folder SEQUENCE OUT.tum
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/dataset.h>
+#include <placegraph/io/trajectory_file.h>
+#include <placegraph/pipeline/slam.h>
+
+#include <cstdio>
+
+using namespace placegraph;
+
+int main(int argc, char** argv) try {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: %s SEQUENCE OUT.tum\n", argv[0]);
+    return 2;
+  }
+  const auto dataset = open_dataset(argv[1]);
+  const Sensor sensor = dataset->sensors().front();  // the best it offers
+
+  Slam slam(SlamOptions{}, dataset->calibration(sensor));
+  for (std::size_t i = 0; i < dataset->size(); ++i) {
+    const FrameResult result = slam.add_frame(dataset->frame(i, sensor));
+    if (result.T_map_cam) {
+      const Eigen::Vector3d& p = result.T_map_cam->translation();
+      std::printf("frame %zu: %.3f %.3f %.3f m%s\n", i, p.x(), p.y(), p.z(),
+                  result.loops_accepted > 0 ? ", a known place" : "");
+    } else {
+      std::printf("frame %zu: no pose\n", i);
+    }
+  }
+  const Map map = slam.finish();
+  const Trajectory trajectory = map.trajectory_optimized();
+  write_trajectory(argv[2], trajectory, TrajectoryFormat::kTum);
+  std::printf("%zu of %zu frames posed, %zu places\n", trajectory.posed(), trajectory.size(),
+              map.place_graph.places.size());
+  return 0;
+} catch (const Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
+}

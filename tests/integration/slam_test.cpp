@@ -1,0 +1,273 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/eval/evaluate.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/run.h>
+
+#include <opencv2/core/utility.hpp>
+
+#include "tests/support/map_bits.h"
+#include "tests/support/street.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+constexpr int kFrames = 24;  // 9.2 m
+const StreetDataset& drive() {
+  static const StreetDataset dataset(kFrames);
+  return dataset;
+}
+
+/// Features and tracks enough for pictures of this size.
+SlamOptions small_options() {
+  SlamOptions options;
+  options.odometry.tracker.max_tracks = 250;
+  options.loops.detector.max_features = 400;
+  return options;
+}
+
+RunOptions run_as(SensorChoice sensor) {
+  RunOptions options;
+  options.sensor = sensor;
+  options.slam = small_options();
+  return options;
+}
+
+EvaluationResult judge(const StreetDataset& dataset, const Trajectory& trajectory,
+                       Alignment alignment) {
+  EvaluationOptions options;
+  options.alignment = alignment;
+  return evaluate(*dataset.ground_truth(), trajectory, options);
+}
+
+TEST(SlamOnAStreet, PosesEveryFrameWithTwoEyes) {
+  const RunResult run = run_sequence(drive(), run_as(SensorChoice::kStereo));
+  EXPECT_EQ(run.sensor, Sensor::kStereo);
+  EXPECT_TRUE(run.map.metric);
+  EXPECT_EQ(run.map.frames.size(), drive().size());
+  EXPECT_EQ(run.map.trajectory_online.posed(), drive().size());
+  const Trajectory optimized = run.map.trajectory_optimized();
+  EXPECT_EQ(optimized.posed(), drive().size());
+  // A track is good to a twentieth of a pixel of 330 px focal length; disparities set the scale:
+  // 0.1 px of 15.
+  for (const Trajectory* trajectory : {&run.map.trajectory_online, &optimized}) {
+    const EvaluationResult result = judge(drive(), *trajectory, Alignment::kOrigin);
+    ASSERT_TRUE(result.outcome) << result.outcome.reason;
+    EXPECT_LT(result.ape.error_m.rmse, 0.01 * result.path_m);
+    EXPECT_LT(result.rpe.rotation_deg.median, 0.05);
+  }
+  EXPECT_GE(run.map.keyframes.size(), 4u);
+  EXPECT_FALSE(run.map.place_graph.places.empty());
+  for (const RelativePoseConstraint& c : run.map.place_graph.constraints)
+    EXPECT_GT(c.information.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
+}
+
+TEST(SlamOnAStreet, PosesEveryFrameWithOneEyeUpToScale) {
+  const RunResult run = run_sequence(drive(), run_as(SensorChoice::kMono));
+  EXPECT_FALSE(run.map.metric);
+  const Trajectory optimized = run.map.trajectory_optimized();
+  EXPECT_EQ(optimized.posed(), drive().size());
+  EXPECT_GT(run.map.trajectory_online.posed(), kFrames / 2u);
+  const EvaluationResult result = judge(drive(), optimized, Alignment::kSim3);
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  EXPECT_LT(result.ape.error_m.rmse, 0.01 * result.path_m);
+}
+
+TEST(SlamOnAStreet, FillsInTheFramesBeforeItsSecondViewLater) {
+  // The camera stands for four frames, then drives.
+  Slam slam(small_options(), drive().calibration(Sensor::kMono));
+  for (int i = 0; i < 12; ++i) {
+    Frame frame = drive().frame(static_cast<std::size_t>(std::max(0, i - 3)), Sensor::kMono);
+    frame.id = i;
+    frame.stamp_ns = i;
+    slam.add_frame(frame);
+  }
+  const Map map = slam.finish();
+  // The first frame is the origin; online, what was unknown at its time stays unknown.
+  EXPECT_TRUE(map.trajectory_online.poses[0].T_world_body);
+  for (const std::size_t i : {1, 2, 3}) EXPECT_FALSE(map.trajectory_online.poses[i].T_world_body);
+  const Trajectory optimized = map.trajectory_optimized();
+  ASSERT_EQ(optimized.posed(), 12u);
+  const double length = optimized.poses[11].T_world_body->translation().norm();
+  EXPECT_LT(optimized.poses[3].T_world_body->translation().norm(), 0.005 * length);
+}
+
+TEST(SlamOnAStreet, IsMetricWithOneEyeOfKnownHeight) {
+  RunOptions options = run_as(SensorChoice::kMono);
+  options.camera_height_m = kStreetHeight_m;
+  const RunResult run = run_sequence(drive(), options);
+  EXPECT_TRUE(run.map.metric);
+  const Trajectory optimized = run.map.trajectory_optimized();
+  EXPECT_EQ(optimized.posed(), drive().size());
+  const EvaluationResult result = judge(drive(), optimized, Alignment::kScale);
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  EXPECT_NEAR(result.alignment.scale, 1, 0.03);  // sigma_relative of a single measurement
+}
+
+TEST(SlamOnAStreet, PosesEveryFrameWithDepth) {
+  const StreetDataset dataset(10, 0, 0, true);
+  const RunResult run = run_sequence(dataset, run_as(SensorChoice::kAuto));
+  EXPECT_EQ(run.sensor, Sensor::kRgbd);
+  const Trajectory optimized = run.map.trajectory_optimized();
+  EXPECT_EQ(optimized.posed(), dataset.size());
+  const EvaluationResult result = judge(dataset, optimized, Alignment::kOrigin);
+  EXPECT_LT(result.ape.error_m.rmse, 0.01 * result.path_m);
+}
+
+TEST(SlamOnAStreet, GivesTheSameBitsTwiceAndWithAnyNumberOfThreads) {
+  for (const SensorChoice sensor : {SensorChoice::kStereo, SensorChoice::kMono}) {
+    RunOptions options = run_as(sensor);
+    options.max_frames = 14;
+    const int before = cv::getNumThreads();
+    std::vector<std::string> bits;
+    for (const int threads : {1, 2, 2}) {
+      options.threads = threads;
+      cv::setNumThreads(threads);
+      bits.push_back(map_bits(run_sequence(drive(), options).map));
+    }
+    cv::setNumThreads(before);
+    EXPECT_TRUE(bits[0] == bits[1]) << "1 and 2 threads differ";
+    EXPECT_TRUE(bits[1] == bits[2]) << "two runs differ";
+    EXPECT_GT(bits[0].size(), 1000u);
+  }
+}
+
+TEST(SlamOnAStreet, RunsBesideAnotherAsIfAlone) {
+  constexpr int kCount = 12;
+  const auto calibration = drive().calibration(Sensor::kStereo);
+  const auto frame = [](int i) {
+    return drive().frame(static_cast<std::size_t>(i), Sensor::kStereo);
+  };
+  SlamOptions other_options = small_options();
+  other_options.seed = 7;
+  other_options.odometry.tracker.max_tracks = 150;
+  const auto alone = [&](const SlamOptions& options, int first) {
+    Slam slam(options, calibration);
+    for (int i = first; i < kCount; ++i) slam.add_frame(frame(i));
+    return map_bits(slam.finish());
+  };
+  Slam a(small_options(), calibration), b(other_options, calibration);
+  for (int i = 0; i < kCount; ++i) {
+    a.add_frame(frame(i));
+    if (i >= 2) b.add_frame(frame(i));
+  }
+  EXPECT_TRUE(map_bits(a.finish()) == alone(small_options(), 0));
+  EXPECT_TRUE(map_bits(b.finish()) == alone(other_options, 2));
+}
+
+TEST(SlamOnAStreet, CanBeLookedAtBetweenFramesWithoutChangingIt) {
+  constexpr int kCount = 12;
+  const auto calibration = drive().calibration(Sensor::kStereo);
+  Slam quiet(small_options(), calibration), watched(small_options(), calibration);
+  for (int i = 0; i < kCount; ++i) {
+    const Frame frame = drive().frame(static_cast<std::size_t>(i), Sensor::kStereo);
+    quiet.add_frame(frame);
+    const FrameResult result = watched.add_frame(frame);
+    const Map map = watched.snapshot();
+    ASSERT_EQ(map.frames.size(), static_cast<std::size_t>(i + 1));
+    EXPECT_EQ(map.trajectory_online.size(), static_cast<std::size_t>(i + 1));
+    EXPECT_EQ(map.trajectory_optimized().posed(), static_cast<std::size_t>(i + 1));
+    ASSERT_TRUE(result.T_map_cam);
+    EXPECT_LT(
+        distance_m(SE3(*map.trajectory_optimized().poses.back().T_world_body), *result.T_map_cam),
+        1e-9);
+    EXPECT_TRUE(map_bits(map) == map_bits(watched.snapshot()));
+  }
+  EXPECT_TRUE(map_bits(quiet.finish()) == map_bits(watched.finish()));
+}
+
+TEST(SlamOnAStreet, IsLostInTheDarkAndFindsItselfAgain) {
+  const StreetDataset dataset(kFrames, 12, 15);
+  std::vector<std::string> messages;
+  const RunResult run =
+      run_sequence(dataset, run_as(SensorChoice::kStereo), {},
+                   [&](LogLevel, const std::string& m) { messages.push_back(m); });
+  const Trajectory optimized = run.map.trajectory_optimized();
+  for (int i = 0; i < kFrames; ++i) {
+    const bool dark = i >= 12 && i < 15;
+    EXPECT_EQ(optimized.poses[static_cast<std::size_t>(i)].T_world_body.has_value(), !dark) << i;
+    EXPECT_EQ(run.map.trajectory_online.poses[static_cast<std::size_t>(i)].T_world_body.has_value(),
+              !dark)
+        << i;
+  }
+  EXPECT_THAT(messages, testing::Contains(testing::HasSubstr("frame 12 lost")));
+  const EvaluationResult result = judge(dataset, optimized, Alignment::kOrigin);
+  ASSERT_TRUE(result.outcome);
+  EXPECT_EQ(result.lost_frames, (std::vector<int>{12, 13, 14}));
+  EXPECT_LT(result.ape.error_m.rmse, 0.02 * result.path_m);  // the bridge adds its own error
+}
+
+TEST(SlamOnAStreet, BeginsANewComponentWhenNothingIsKnownAgain) {
+  // The second half is another street: mirrored pictures.
+  SlamOptions options = small_options();
+  options.max_lost_frames = 2;
+  Slam slam(options, drive().calibration(Sensor::kStereo));
+  for (int i = 0; i < 16; ++i) {
+    Frame frame = drive().frame(static_cast<std::size_t>(i), Sensor::kStereo);
+    if (i >= 8) {
+      cv::flip(frame.image, frame.image, 0);
+      cv::flip(frame.right, frame.right, 0);
+    }
+    slam.add_frame(frame);
+  }
+  const Map map = slam.finish();
+  int components = 0;
+  for (const Place& place : map.place_graph.places)
+    components = std::max(components, place.component + 1);
+  EXPECT_EQ(components, 2);
+  const Trajectory optimized = map.trajectory_optimized();
+  EXPECT_EQ(optimized.posed(), 8u);
+  EXPECT_GT(std::count_if(map.frames.begin(), map.frames.end(),
+                          [](const FrameRecord& f) { return f.T_keyframe_frame.has_value(); }),
+            12);
+}
+
+TEST(SlamOnAStreet, RefusesFramesThatBreakTheContract) {
+  Slam slam(small_options(), drive().calibration(Sensor::kStereo));
+  const auto refusal = [&](const Frame& frame) -> std::string {
+    try {
+      slam.add_frame(frame);
+    } catch (const ArgumentError& error) {
+      return error.what();
+    }
+    return "nothing was thrown";
+  };
+  const Frame first = drive().frame(0, Sensor::kStereo);
+  Frame wrong = first;
+  wrong.image = wrong.image.colRange(0, 300);
+  EXPECT_THAT(refusal(wrong), testing::HasSubstr("frame 0: grey image of 448x280 needed"));
+  wrong.image = Image(280, 448, CV_8UC3);
+  EXPECT_THAT(refusal(wrong), testing::HasSubstr("grey image"));
+  slam.add_frame(first);
+  EXPECT_THAT(refusal(first), testing::HasSubstr("must increase"));
+  slam.finish();
+  EXPECT_THAT(refusal(drive().frame(1, Sensor::kStereo)), testing::HasSubstr("after finish()"));
+}
+
+TEST(RunSequence, RefusesASensorThatTheSequenceLacksAndFramesBeyondItsEnd) {
+  EXPECT_THROW((void)run_sequence(drive(), run_as(SensorChoice::kRgbd)), ArgumentError);
+  RunOptions options = run_as(SensorChoice::kAuto);
+  options.first_frame = kFrames;
+  EXPECT_THROW((void)run_sequence(drive(), options), ArgumentError);
+}
+
+TEST(RunSequence, RunsAPartAndReportsItsProgress) {
+  RunOptions options = run_as(SensorChoice::kAuto);
+  options.first_frame = 3;
+  options.max_frames = 4;
+  std::vector<std::size_t> done;
+  const RunResult run = run_sequence(
+      drive(), options, [&](std::size_t d, std::size_t total, const FrameResult& result) {
+        EXPECT_EQ(total, 4u);
+        EXPECT_EQ(result.frame, static_cast<std::int64_t>(2 + d));
+        done.push_back(d);
+      });
+  EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3, 4}));
+  ASSERT_EQ(run.map.frames.size(), 4u);
+  EXPECT_EQ(run.map.frames.front().frame, 3);
+}
+
+}  // namespace
+}  // namespace placegraph
