@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+#include <placegraph/eval/evaluate.h>
+#include <placegraph/pipeline/run.h>
+
+#include "tests/support/data.h"
+#include "tests/support/scene.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+struct Judged {
+  RunResult run;
+  Trajectory optimized;
+  EvaluationResult result;
+};
+
+Judged run_and_judge(const std::string& path, const RunOptions& options,
+                     const EvaluationOptions& evaluation) {
+  const auto dataset = open_dataset(path);
+  Judged judged;
+  judged.run = run_sequence(*dataset, options);
+  judged.optimized = judged.run.map.trajectory_optimized();
+  judged.result = evaluate(*dataset->ground_truth(), judged.optimized, evaluation);
+  const EvaluationResult& r = judged.result;
+  std::cout << "posed " << r.posed << "/" << r.frames << ", ATE " << r.ape.error_m.rmse
+            << " m, t_rel " << r.segments.t_rel_percent << " %, median rotation "
+            << r.rpe.rotation_deg.median << " deg\n";
+  return judged;
+}
+
+EvaluationOptions metric_over(const std::vector<double>& lengths_m) {
+  EvaluationOptions options;
+  options.alignment = Alignment::kOrigin;
+  options.segments.lengths_m = lengths_m;
+  options.segments.step = 1;
+  return options;
+}
+
+TEST(RealData, KittiStereoDriftsLessThanTwoPercent) {
+  PLACEGRAPH_DATA_OR_SKIP(path, "sequences/kitti06_stereo51");
+  const Judged judged = run_and_judge(path, {}, metric_over({10, 20, 30, 40, 50}));
+  EXPECT_EQ(judged.run.sensor, Sensor::kStereo);
+  ASSERT_TRUE(judged.result.segments.outcome);
+  EXPECT_EQ(judged.optimized.posed(), 51u);
+  EXPECT_LE(judged.result.segments.t_rel_percent, 2);
+}
+
+TEST(RealData, KittiMonoWithCameraHeightDriftsLessThanFourPercent) {
+  PLACEGRAPH_DATA_OR_SKIP(path, "sequences/kitti00_mono200");
+  RunOptions options;
+  options.camera_height_m = 1.65;
+  const Judged judged = run_and_judge(path, options, metric_over({50, 60, 70, 80, 90, 100}));
+  EXPECT_TRUE(judged.run.map.metric);
+  ASSERT_TRUE(judged.result.segments.outcome);
+  EXPECT_EQ(judged.optimized.posed(), 200u);
+  EXPECT_LE(judged.result.segments.t_rel_percent, 4);
+  EXPECT_LE(judged.result.rpe.rotation_deg.median, 0.1);
+}
+
+TEST(RealData, SevenScenesIsFollowedToADecimetreAndClosesTrueLoops) {
+  PLACEGRAPH_DATA_OR_SKIP(path, "sequences/sevenscenes_rgbd334");
+  const Judged judged = run_and_judge(path, {}, {});
+  EXPECT_EQ(judged.run.sensor, Sensor::kRgbd);
+  EXPECT_EQ(judged.optimized.posed(), 334u);
+  EXPECT_EQ(judged.run.map.trajectory_online.posed(), 334u);
+  ASSERT_TRUE(judged.result.outcome);
+  EXPECT_LE(judged.result.ape.error_m.rmse, 0.10);
+  const Trajectory truth = *open_dataset(path)->ground_truth();
+  int accepted = 0, right = 0;
+  double worst_m = 0, worst_rad = 0;
+  for (const LoopRecord& loop : judged.run.map.loops) {
+    if (!loop.accepted) continue;
+    ++accepted;
+    const auto at = [&](std::int64_t frame) {
+      return SE3(*truth.poses.at(static_cast<std::size_t>(frame)).T_world_body);
+    };
+    const SE3 T_match_query = at(loop.match_frame).inverse() * at(loop.query_frame);
+    const double error_m = distance_m(T_match_query, loop.T_match_query);
+    const double error_rad = angle_rad(T_match_query, loop.T_match_query);
+    worst_m = std::max(worst_m, error_m), worst_rad = std::max(worst_rad, error_rad);
+    const bool is_right = std::abs(loop.query_frame - loop.match_frame) >= 33 && error_m <= 0.10 &&
+                          error_rad <= 5 * M_PI / 180;
+    right += is_right;
+    if (!is_right)
+      std::cout << "frames " << loop.query_frame << " and " << loop.match_frame << ", "
+                << loop.inliers << " inliers: " << error_m << " m, " << error_rad * 180 / M_PI
+                << " deg off\n";
+  }
+  std::cout << accepted << " loops, worst " << worst_m << " m, " << worst_rad * 180 / M_PI
+            << " deg\n";
+  EXPECT_GE(right, 20);
+}
+
+TEST(RealData, PlanarBoardIsFollowedToACentimetre) {
+  PLACEGRAPH_DATA_OR_SKIP(path, "sequences/cube_planar200");
+  EvaluationOptions evaluation;
+  evaluation.alignment = Alignment::kSim3;
+  const Judged judged = run_and_judge(path, {}, evaluation);
+  EXPECT_EQ(judged.optimized.posed(), 200u);
+  ASSERT_TRUE(judged.result.outcome);
+  EXPECT_LE(judged.result.ape.error_m.rmse, 0.01);
+}
+
+}  // namespace
+}  // namespace placegraph
