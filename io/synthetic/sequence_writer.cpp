@@ -149,13 +149,34 @@ void write_texts(const SyntheticWorld& world, const fs::path& folder,
   }
 }
 
-/// Removes the half-written folder unless everything went well.
+/// Moves a finished sequence to its place. In a folder that holds something already, only what a
+/// sequence consists of is replaced or removed.
+void put_in_place(const fs::path& from, const fs::path& target) {
+  static constexpr const char* kParts[] = {
+      "image_0",    "image_1",    "depth_0",    "labels_0",      "planes_0",
+      "flow_0",     "calib.txt",  "times.txt",  "poses.txt",     "calib_depth.txt",
+      "planes.txt", "world.yaml", "README.txt", "floorplan.json"};
+  try {
+    if (!fs::exists(target) || fs::is_empty(target)) {
+      fs::remove(target);
+      fs::rename(from, target);
+      return;
+    }
+    for (const char* part : kParts) {
+      fs::remove_all(target / part);
+      if (fs::exists(from / part)) fs::rename(from / part, target / part);
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw FileError(target.string(), "cannot be put in place: " + error.code().message());
+  }
+}
+
+/// Removes what was written and not put in place.
 struct TemporaryFolder {
   fs::path path;
-  bool keep = false;
   ~TemporaryFolder() {
     std::error_code ignored;
-    if (!keep) fs::remove_all(path, ignored);
+    fs::remove_all(path, ignored);
   }
 };
 
@@ -168,7 +189,7 @@ void write_sequence(const SyntheticWorld& world, const std::string& path,
   if (target.filename().empty()) target = target.parent_path();
   if (fs::exists(target)) {
     require(fs::is_directory(target), path + ": is a file, a folder is to be written there");
-    require(options.force || fs::is_empty(target), path + ": is not empty; --force replaces it");
+    require(options.force || fs::is_empty(target), path + ": is not empty; --force writes into it");
   }
   const SyntheticContents& contents = options.contents;
   TemporaryFolder temporary{target.parent_path() / ("." + target.filename().string() + ".partial")};
@@ -194,10 +215,7 @@ void write_sequence(const SyntheticWorld& world, const std::string& path,
     ++done;
     if (progress) progress(done);
   });
-  fs::remove_all(target, failure);
-  fs::rename(temporary.path, target, failure);
-  if (failure) throw FileError(path, "cannot be put in place: " + failure.message());
-  temporary.keep = true;
+  put_in_place(temporary.path, target);
 }
 
 }  // namespace placegraph

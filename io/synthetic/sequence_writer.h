@@ -9,7 +9,7 @@ namespace placegraph {
 struct SequenceWriterOptions {
   SyntheticContents contents;
   int threads = 1;     ///< frames rendered and written at the same time
-  bool force = false;  ///< replace a folder that is not empty
+  bool force = false;  ///< write into a folder that is not empty, replacing a sequence there
 };
 
 /// Writes a whole sequence in KITTI's layout: image_0/%06d.png, image_1, depth_0 (16-bit; its unit

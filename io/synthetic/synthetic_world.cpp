@@ -169,7 +169,7 @@ SyntheticFrame SyntheticWorld::render(std::size_t index, const SyntheticContents
   if (contents.depth) out.frame.depth = synthetic::depth_image(rendering);
   if (contents.labels) out.labels = rendering.labels;
   if (contents.planes) out.planes = rendering.planes;
-  if (contents.flow && index + 1 < tour_->T_scene_cam.size())
+  if (contents.flow && index + 1 < size())
     out.flow = synthetic::flow_image(tour_->scene, rendering, left, view(index + 1, false));
   return out;
 }

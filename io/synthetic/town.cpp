@@ -16,7 +16,7 @@ constexpr double kStep_m = 0.25;
 /// stretches are driven twice in the same direction, the last one begins a third round.
 std::vector<Eigen::Vector2d> route() {
   const double l = kLane_m, e = 70 - l, n = 120 - l, m = 60 - l;
-  return {{l, 10}, {l, n}, {e, n}, {e, l}, {l, l}, {l, m}, {e, m}, {e, l}, {l, l}, {l, 42}};
+  return {{l, 10}, {l, n}, {e, n}, {e, l}, {l, l}, {l, m}, {e, m}, {e, l}, {l, l}, {l, 50}};
 }
 
 Roadway street(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
@@ -61,7 +61,7 @@ void add_crossing_traffic(Tour& tour, const GroundMesh& ground, std::uint32_t se
 }  // namespace
 
 Tour make_town_loop(const TourRequest& request) {
-  const std::vector<Eigen::Vector2d> path = smooth_path(route(), kStep_m, 7);
+  const std::vector<Eigen::Vector2d> path = smooth_path(route(), kStep_m, 11);
   const auto seed = mix_bits(static_cast<std::uint32_t>(request.seed) + 1000U);
   TownPlan plan{{}, GroundMesh(hills(seed)), path, request.seed};
   for (const double x : kStreets_x)
