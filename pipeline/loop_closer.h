@@ -20,8 +20,8 @@ struct LoopOptions {
   double min_similarity =
       0.3;                 ///< of a candidate, as a share of the similarity to the last keyframe
   int support_window = 4;  ///< keyframes within which a second loop must agree
-  double support_translation = 0.05;  ///< disagreement allowed, as a share of the median depth
-  double support_angle_deg = 3;
+  double support_translation = 0.03;  ///< disagreement allowed, as a share of the median depth
+  double support_angle_deg = 2;
   double information_scale = 0.1;  ///< feature noise is correlated: information counts this much
   void check() const;
 };

@@ -9,7 +9,7 @@ namespace placegraph {
 std::vector<std::optional<double>> lookup_depth(const Image& depth_m, const Camera& camera,
                                                 const DepthCamera& depth_camera,
                                                 const std::vector<Eigen::Vector2f>& px,
-                                                double radius_px, double max_spread) {
+                                                const DepthLookupOptions& options) {
   require(depth_m.type() == CV_32FC1, "lookup_depth: depth image in metres (CV_32FC1) needed");
   // The depth image seen by the colour camera, nearest surface first.
   cv::Mat registered(camera.height, camera.width, CV_32FC1, cv::Scalar(0));
@@ -35,7 +35,7 @@ std::vector<std::optional<double>> lookup_depth(const Image& depth_m, const Came
     }
   }
   std::vector<std::optional<double>> depths(px.size());
-  const int reach = static_cast<int>(std::ceil(radius_px));
+  const int reach = static_cast<int>(std::ceil(options.margin_px));
   for (std::size_t i = 0; i < px.size(); ++i) {
     const int u0 = cvRound(px[i].x()), v0 = cvRound(px[i].y());
     double sum = 0, weight = 0;
@@ -44,14 +44,15 @@ std::vector<std::optional<double>> lookup_depth(const Image& depth_m, const Came
       for (int u = std::max(0, u0 - reach); u <= std::min(camera.width - 1, u0 + reach); ++u) {
         const float z = registered.at<float>(v, u);
         const double distance = std::hypot(u - px[i].x(), v - px[i].y());
-        if (z == 0 || distance > radius_px) continue;
+        if (z == 0 || distance > options.margin_px) continue;
         nearest = std::min(nearest, z);
         farthest = std::max(farthest, z);
+        if (distance > options.radius_px) continue;
         const double w = 1 / (0.5 + distance);
         sum += w * z;
         weight += w;
       }
-    if (weight > 0 && farthest - nearest < max_spread * nearest) depths[i] = sum / weight;
+    if (weight > 0 && farthest - nearest < options.max_spread * nearest) depths[i] = sum / weight;
   }
   return depths;
 }

@@ -1,6 +1,7 @@
 #include <placegraph/frontend/places/loop_verifier.h>
 
 #include <algorithm>
+#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace placegraph {
@@ -45,6 +46,64 @@ double spread_of(const Camera& camera, const std::vector<Eigen::Vector2d>& px,
   return side.x() * side.y() / (static_cast<double>(camera.width) * camera.height);
 }
 
+/// A match whose point is known from both sides, where the query has a depth of its own.
+struct TwoWayMatch {
+  Eigen::Vector3d point_match;
+  Eigen::Vector2d px_query;
+  std::optional<Eigen::Vector3d> point_query;
+  Eigen::Vector2d px_match;
+};
+
+struct TwoWayPose {
+  SE3 T_match_query;
+  Matrix6d normal = Matrix6d::Zero();  // J^T W J [1/px^2]
+  double rmse_px = 0;
+};
+
+/// Gauss-Newton on the reprojection errors in both views, Huber-weighted. An error common to all
+/// depths (a depth camera's, or of a short baseline) pulls the pose one way from one side and the
+/// other way from the other.
+TwoWayPose refine_two_way(const Camera& camera, const std::vector<TwoWayMatch>& matches,
+                          const SE3& start, double huber_px) {
+  TwoWayPose pose{start};
+  for (int iteration = 0; iteration < 10; ++iteration) {
+    const SE3 T_query_match = pose.T_match_query.inverse();
+    const Eigen::Matrix3d R_match_query = pose.T_match_query.rotation().matrix();
+    Matrix6d H = Matrix6d::Zero();
+    Vector6d g = Vector6d::Zero();
+    double sum = 0, weights = 0;
+    const auto add = [&](const Eigen::Vector3d& point_cam, const Eigen::Vector2d& px,
+                         const Eigen::Matrix<double, 3, 6>& J_cam_xi) {
+      Eigen::Matrix<double, 2, 3> J_px_cam;
+      const auto projected = camera.project(point_cam, &J_px_cam);
+      if (!projected) return;
+      const Eigen::Matrix<double, 2, 6> J = J_px_cam * J_cam_xi;
+      const Eigen::Vector2d r = *projected - px;
+      const double weight = r.norm() > huber_px ? huber_px / r.norm() : 1;
+      H.noalias() += weight * J.transpose() * J;
+      g.noalias() += weight * J.transpose() * r;
+      sum += weight * r.squaredNorm();
+      weights += 2 * weight;
+    };
+    for (const TwoWayMatch& m : matches) {
+      Eigen::Matrix<double, 3, 6> J;
+      const Eigen::Vector3d p_query = T_query_match * m.point_match;
+      J << -Eigen::Matrix3d::Identity(), hat(p_query);
+      add(p_query, m.px_query, J);
+      if (!m.point_query) continue;
+      J << R_match_query, -R_match_query * hat(*m.point_query);
+      add(pose.T_match_query * *m.point_query, m.px_match, J);
+    }
+    pose.normal = H;
+    pose.rmse_px = weights > 0 ? std::sqrt(sum / weights) : 0;
+    const Vector6d step = -(H + 1e-9 * H.trace() * Matrix6d::Identity()).ldlt().solve(g);
+    if (!step.allFinite()) break;
+    pose.T_match_query = pose.T_match_query.plus(step);
+    if (step.norm() < 1e-8) break;
+  }
+  return pose;
+}
+
 }  // namespace
 
 void LoopVerifierOptions::check() const { check_ranges(*this); }
@@ -56,6 +115,9 @@ void visit(OptionVisitor& field, LoopVerifierOptions& o) {
   field("min_spread", o.min_spread, "share of the image the inliers must cover", {0, 1});
   field("max_scale_error", o.max_scale_error, "disagreement of depths seen from both sides",
         {0, 10});
+  field("max_baseline_depths", o.max_baseline_depths,
+        "translation between the views over the median depth of the inliers", {0.01, 100});
+  field("max_angle_deg", o.max_angle_deg, "rotation between the views", {1, 180});
 }
 
 LoopVerification verify_loop(const Camera& camera, const std::vector<Feature>& query,
@@ -96,9 +158,18 @@ LoopVerification verify_loop(const Camera& camera, const std::vector<Feature>& q
       matches = match_guided(camera, query, match, pose.T_ref_cam.inverse(),
                              3 * options.pose.threshold_px, options.matcher);
   }
-  result.T_match_query = pose.T_ref_cam;
-  result.information = pose.information;
-  result.rmse_px = pose.rmse_px;
+  std::vector<TwoWayMatch> both;
+  for (int i : pose.inliers) {
+    const Feature& own = query[matches[i].a];
+    both.push_back({points[i], px[i], std::nullopt, match[matches[i].b].px.cast<double>()});
+    if (own.point_cam) both.back().point_query = own.point_cam->cast<double>();
+  }
+  const TwoWayPose refined =
+      refine_two_way(camera, both, pose.T_ref_cam, options.pose.threshold_px / 2);
+  const double sigma_px = std::max(0.3, refined.rmse_px);
+  result.T_match_query = refined.T_match_query;
+  result.information = refined.normal / (sigma_px * sigma_px);
+  result.rmse_px = refined.rmse_px;
 
   if (result.inliers < options.min_inlier_ratio * result.matches) {
     result.outcome = Outcome::failure(Code::kNoConsensus, "too small a share of inliers");
@@ -106,6 +177,15 @@ LoopVerification verify_loop(const Camera& camera, const std::vector<Feature>& q
   }
   if (spread_of(camera, px, pose.inliers) < options.min_spread) {
     result.outcome = Outcome::failure(Code::kDegenerate, "inliers crowd in one part of the image");
+    return result;
+  }
+  std::vector<double> depths;
+  for (int i : pose.inliers) depths.push_back(points[i].z());
+  std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
+  if (result.T_match_query.translation().norm() >
+          options.max_baseline_depths * depths[depths.size() / 2] ||
+      result.T_match_query.rotation().log().norm() > options.max_angle_deg * M_PI / 180) {
+    result.outcome = Outcome::failure(Code::kInconsistent, "the views differ too much");
     return result;
   }
   std::vector<double> log_ratios;
