@@ -60,7 +60,13 @@ std::string places_json(const Map& map) {
     edges.push_back({{"from", c.from},
                      {"to", c.to},
                      {"source", c.source == ConstraintSource::kLoop ? "loop" : "odometry"}});
-  return json{{"places", places}, {"edges", edges}}.dump(1) + "\n";
+  json loops = json::array();
+  for (const LoopRecord& loop : map.loops)
+    if (loop.accepted)
+      loops.push_back({{"query_frame", loop.query_frame},
+                       {"match_frame", loop.match_frame},
+                       {"T_match_query", pose_json(loop.T_match_query)}});
+  return json{{"places", places}, {"edges", edges}, {"loops", loops}}.dump(1) + "\n";
 }
 
 std::string loops_csv(const Map& map) {

@@ -27,8 +27,12 @@ void visit(OptionVisitor& field, LoopOptions& o) {
   field("support_window", o.support_window, "keyframes within which a second loop must agree",
         {1, 1000});
   field("support_translation", o.support_translation,
-        "disagreement of two loops, as a share of the median depth", {0.001, 10});
+        "disagreement of two loops over the median depth plus the way between them", {0.001, 10});
   field("support_angle_deg", o.support_angle_deg, "disagreement of two loops", {0.01, 180});
+  field("drift_translation", o.drift_translation,
+        "of the odometry over the median depth plus the way since the match", {0.001, 10});
+  field("drift_angle_deg", o.drift_angle_deg, "of the odometry, per median depth of way",
+        {0.001, 180});
   field("information_scale", o.information_scale,
         "share of a loop's information that counts: feature noise is correlated", {1e-6, 1});
 }
@@ -81,9 +85,60 @@ void LoopCloser::add_view(std::int64_t keyframe, const Frame& frame,
   views_.push_back(std::move(view));
 }
 
-std::vector<Loop> LoopCloser::find_loops(
-    const std::function<std::optional<SE3>(std::int64_t, std::int64_t)>& T_a_b,
-    double median_depth_m) {
+bool LoopCloser::agree(const Loop& a, const Loop& b, const MotionBetween& odometry,
+                       double median_depth_m) const {
+  const auto queries = odometry(a.query, b.query);
+  const auto matches = odometry(a.match, b.match);
+  if (!queries || !matches) return false;
+  const SE3 predicted = matches->T_a_b.inverse() * a.T_match_query * queries->T_a_b;
+  const SE3 difference = predicted.inverse() * b.T_match_query;
+  return difference.translation().norm() <
+             options_.support_translation * (median_depth_m + queries->way + matches->way) &&
+         difference.rotation().log().norm() < options_.support_angle_deg * M_PI / 180;
+}
+
+/// Verifies one candidate of the newest view; a loop that passes is appended to pending_.
+LoopRecord LoopCloser::verify(const PlaceCandidate& candidate, const MotionBetween& odometry,
+                              double median_depth_m) {
+  const View& query = views_.back();
+  const View& match = *find_view(candidate.id);
+  LoopRecord record{query.frame, match.frame, 0, false, "geometry", {}};
+  Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | candidate.id);
+  const LoopVerification verified =
+      verify_loop(calibration_.camera, query.features, match.features, options_.verifier, random);
+  record.inliers = verified.inliers;
+  if (!verified.outcome) return record;
+  record.stage = "drift";
+  record.T_match_query = verified.T_match_query;
+  if (const auto tracked = odometry(match.keyframe, query.keyframe)) {
+    const SE3 difference = tracked->T_a_b.inverse() * verified.T_match_query;
+    // What drifts grows with the way, and a wrong heading bends the way itself.
+    const double angle_rad =
+        (options_.support_angle_deg + options_.drift_angle_deg * tracked->way / median_depth_m) *
+        M_PI / 180;
+    const double length = options_.drift_translation * (median_depth_m + tracked->way) +
+                          std::min(angle_rad, M_PI) * 0.5 * tracked->T_a_b.translation().norm();
+    if (difference.translation().norm() > length || difference.rotation().log().norm() > angle_rad)
+      return record;
+  }
+  record.stage = "support";
+  pending_.push_back({{query.keyframe, match.keyframe, verified.T_match_query,
+                       options_.information_scale * verified.information},
+                      records_.size(),
+                      views_.size(),
+                      false});
+  return record;
+}
+
+void LoopCloser::accept(Pending& pending, std::vector<Loop>& accepted) {
+  if (pending.accepted) return;
+  pending.accepted = true;
+  records_[pending.record].accepted = true;
+  records_[pending.record].stage = "accepted";
+  accepted.push_back(pending.loop);
+}
+
+std::vector<Loop> LoopCloser::find_loops(const MotionBetween& odometry, double median_depth_m) {
   std::vector<Loop> accepted;
   const View& query = views_.back();
   const double similarity_to_last =
@@ -94,58 +149,24 @@ std::vector<Loop> LoopCloser::find_loops(
         return query.frame - find_view(id)->frame >= options_.min_frame_gap;
       });
   for (const PlaceCandidate& candidate : candidates) {
-    const View& match = *find_view(candidate.id);
-    LoopRecord record{query.frame, match.frame, 0, false, "retrieval", {}};
     if (candidate.score < options_.min_similarity * similarity_to_last) {
-      records_.push_back(record);
+      records_.push_back({query.frame, find_view(candidate.id)->frame, 0, false, "retrieval", {}});
       break;  // the rest is less similar still
     }
-    Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | candidate.id);
-    const LoopVerification verified =
-        verify_loop(calibration_.camera, query.features, match.features, options_.verifier, random);
-    record.inliers = verified.inliers;
-    record.stage = verified.outcome ? "consistency" : "geometry";
-    records_.push_back(record);
-    if (!verified.outcome) continue;
-
-    Pending found{{query.keyframe, match.keyframe, verified.T_match_query,
-                   options_.information_scale * verified.information},
-                  records_.size() - 1,
-                  views_.size(),
-                  false};
-    // A second loop, from another view, that says the same about how then and now fit together.
+    records_.push_back(verify(candidate, odometry, median_depth_m));
+    if (records_.back().stage != "support") continue;
+    Pending& found = pending_.back();
     for (Pending& other : pending_) {
-      if (other.loop.query == found.loop.query) continue;
-      if (found.view - other.view > static_cast<std::size_t>(options_.support_window)) continue;
-      const auto T_queries = T_a_b(other.loop.query, found.loop.query);
-      const auto T_matches = T_a_b(other.loop.match, found.loop.match);
-      if (!T_queries || !T_matches) continue;
-      const SE3 predicted = T_matches->inverse() * other.loop.T_match_query * *T_queries;
-      const SE3 difference = predicted.inverse() * found.loop.T_match_query;
-      const double moved = T_queries->translation().norm() + T_matches->translation().norm();
-      const double allowed = options_.support_translation * (median_depth_m + moved);
-      if (difference.translation().norm() > allowed ||
-          difference.rotation().log().norm() > options_.support_angle_deg * M_PI / 180)
+      if (other.loop.query == found.loop.query ||
+          !agree(other.loop, found.loop, odometry, median_depth_m))
         continue;
-      found.accepted = true;
-      if (other.accepted) continue;
-      other.accepted = true;
-      records_[other.record].accepted = true;
-      records_[other.record].stage = "accepted";
-      records_[other.record].T_match_query = other.loop.T_match_query;
-      accepted.push_back(other.loop);
+      accept(other, accepted);
+      accept(found, accepted);
     }
-    if (found.accepted) {
-      records_[found.record].accepted = true;
-      records_[found.record].stage = "accepted";
-      records_[found.record].T_match_query = found.loop.T_match_query;
-      accepted.push_back(found.loop);
-    }
-    pending_.push_back(found);
     break;
   }
   while (!pending_.empty() &&
-         views_.size() - pending_.front().view > static_cast<std::size_t>(options_.support_window))
+         views_.size() - pending_.front().view >= static_cast<std::size_t>(options_.support_window))
     pending_.pop_front();
   database_.add(query.keyframe, query.features);
   return accepted;
@@ -179,6 +200,8 @@ void LoopCloser::rescale(double factor, std::int64_t first_keyframe) {
     for (Feature& feature : view.features)
       if (feature.point_cam) *feature.point_cam *= static_cast<float>(factor);
   }
+  // Loops measured in the old unit may not meet those of the new one.
+  pending_.clear();
 }
 
 }  // namespace placegraph

@@ -4,6 +4,7 @@
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/pipeline/tracked_motion.h>
 
 #include <deque>
 #include <map>
@@ -20,9 +21,11 @@ struct LoopOptions {
   double min_similarity =
       0.3;                 ///< of a candidate, as a share of the similarity to the last keyframe
   int support_window = 4;  ///< keyframes within which a second loop must agree
-  double support_translation = 0.03;  ///< disagreement allowed, as a share of the median depth
+  double support_translation = 0.03;  ///< disagreement of two loops / (median depth + way between)
   double support_angle_deg = 2;
-  double information_scale = 0.1;  ///< feature noise is correlated: information counts this much
+  double drift_translation = 0.015; ///< of the odometry / (median depth + way since the match)
+  double drift_angle_deg = 1;       ///< of the odometry, per median depth of way
+  double information_scale = 0.1;   ///< feature noise is correlated: information counts this much
   void check() const;
 };
 void visit(OptionVisitor& field, LoopOptions& options);
@@ -50,11 +53,8 @@ class LoopCloser {
   /// tracking, gives depth to the features both see.
   void add_view(std::int64_t keyframe, const Frame& frame,
                 const std::optional<SE3>& T_previous_this);
-  /// Revisits that the newest view completes. `T_odom_keyframe(id)` gives odometry poses to compare
-  /// loops with each other (nothing where no common frame exists).
-  std::vector<Loop> find_loops(
-      const std::function<std::optional<SE3>(std::int64_t, std::int64_t)>& T_a_b,
-      double median_depth_m);
+  /// Revisits that the newest view completes.
+  std::vector<Loop> find_loops(const MotionBetween& odometry, double median_depth_m);
   /// Where a frame that is lost stands relative to a known keyframe.
   std::optional<Loop> relocalize(const Frame& frame);
 
@@ -72,6 +72,11 @@ class LoopCloser {
     std::size_t record, view;
     bool accepted;
   };
+  LoopRecord verify(const PlaceCandidate& candidate, const MotionBetween& odometry,
+                    double median_depth_m);
+  bool agree(const Loop& a, const Loop& b, const MotionBetween& odometry,
+             double median_depth_m) const;
+  void accept(Pending& pending, std::vector<Loop>& accepted);
   void lift_features(const Frame& frame, std::vector<Feature>& features) const;
   const View* find_view(std::int64_t keyframe) const;
 

@@ -17,6 +17,15 @@ Matrix6d covariance_of(const Matrix6d& information) {
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
 
+SE3 scaled(const SE3& T, double factor) { return SE3(T.rotation(), factor * T.translation()); }
+
+/// Information of the same motion when its unit of length shrinks by `factor`.
+Matrix6d scaled(const Matrix6d& information, double factor) {
+  Vector6d inverse;
+  inverse << Eigen::Vector3d::Constant(1 / factor), Eigen::Vector3d::Ones();
+  return inverse.asDiagonal() * information * inverse.asDiagonal();
+}
+
 }  // namespace
 
 void PlaceOptions::check() const { check_ranges(*this); }
@@ -49,21 +58,23 @@ int PlaceMapper::component_of(std::int64_t keyframe) const {
   return places_[nodes_.at(keyframe).place].component;
 }
 
-std::optional<SE3> PlaceMapper::odometry(std::int64_t from, std::int64_t to) const {
+std::optional<TrackedMotion> PlaceMapper::odometry(std::int64_t from, std::int64_t to) const {
   const auto a = nodes_.find(from), b = nodes_.find(to);
   if (a == nodes_.end() || b == nodes_.end() || a->second.run != b->second.run) return std::nullopt;
-  return a->second.T_run_keyframe.inverse() * b->second.T_run_keyframe;
+  return TrackedMotion{a->second.T_run_keyframe.inverse() * b->second.T_run_keyframe,
+                       std::abs(b->second.way - a->second.way)};
 }
 
 void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
                                const SE3& T_map_guess, double median_depth_m) {
   require(!nodes_.count(id), "PlaceMapper: keyframe id used twice");
-  Node node{0, link, SE3(), 0};
+  Node node{0, link, SE3(), 0, 0};
   const bool same_run = link && link->source == ConstraintSource::kOdometry;
   if (same_run) {
     const Node& previous = nodes_.at(link->from);
     node.run = previous.run;
     node.T_run_keyframe = previous.T_run_keyframe * link->T_from_this;
+    node.way = previous.way + link->T_from_this.translation().norm();
     const Place& place = places_[previous.place];
     const SE3 T_anchor_this =
         nodes_.at(place.anchor_keyframe).T_run_keyframe.inverse() * node.T_run_keyframe;
@@ -97,8 +108,10 @@ void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
 void PlaceMapper::follow_links(std::int64_t first) {
   for (auto node = nodes_.lower_bound(first); node != nodes_.end(); ++node) {
     const auto& link = node->second.link;
-    if (link && link->source == ConstraintSource::kOdometry)
-      node->second.T_run_keyframe = nodes_.at(link->from).T_run_keyframe * link->T_from_this;
+    if (!link || link->source != ConstraintSource::kOdometry) continue;
+    const Node& from = nodes_.at(link->from);
+    node->second.T_run_keyframe = from.T_run_keyframe * link->T_from_this;
+    node->second.way = from.way + link->T_from_this.translation().norm();
   }
 }
 
@@ -124,10 +137,16 @@ void PlaceMapper::add_loop(std::int64_t query, std::int64_t match, const SE3& T_
 void PlaceMapper::rescale(std::int64_t first, double factor) {
   const Eigen::Vector3d centre = T_map_keyframe(first).translation();
   const int run = nodes_.at(first).run;
-  for (auto& [id, node] : nodes_)
-    if (node.run == run && node.link && id > first)
-      node.link->T_from_this =
-          SE3(node.link->T_from_this.rotation(), factor * node.link->T_from_this.translation());
+  for (auto& [id, node] : nodes_) {
+    if (node.run != run || !node.link || id <= first) continue;
+    node.link->T_from_this = scaled(node.link->T_from_this, factor);
+    node.link->information = scaled(node.link->information, factor);
+  }
+  for (LoopEdge& loop : loops_) {
+    if (nodes_.at(loop.query).run != run || nodes_.at(loop.match).run != run) continue;
+    loop.T_match_query = scaled(loop.T_match_query, factor);
+    loop.information = scaled(loop.information, factor);
+  }
   for (auto& place : places_)
     if (nodes_.at(place.anchor_keyframe).run == run)
       place.T_map_place = SE3(place.T_map_place.rotation(),

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/backend/pose_graph_optimizer.h>
 #include <placegraph/graph/place_graph.h>
+#include <placegraph/pipeline/tracked_motion.h>
 
 #include <map>
 
@@ -46,7 +47,7 @@ class PlaceMapper {
   std::int64_t place_of(std::int64_t keyframe) const;
   int component_of(std::int64_t keyframe) const;
   /// Motion between two keyframes of one component by the links alone; nothing otherwise.
-  std::optional<SE3> odometry(std::int64_t from, std::int64_t to) const;
+  std::optional<TrackedMotion> odometry(std::int64_t from, std::int64_t to) const;
   /// The graph as it stands; appearances are empty.
   PlaceGraph place_graph() const;
 
@@ -56,6 +57,7 @@ class PlaceMapper {
     std::optional<Link> link;
     SE3 T_run_keyframe;  // along the links of its run of tracking
     int run;             // consecutive keyframes joined by odometry links
+    double way = 0;      // from the beginning of the run
   };
   struct LoopEdge {
     std::int64_t query, match;

@@ -9,9 +9,9 @@ namespace placegraph {
 
 /// Depth (z in the colour camera's frame [m]) at pixels of the colour image, from a depth image in
 /// its own camera's grid: every depth pixel is carried over, nearest surface first, and the mean
-/// within `radius_px` counts. Nothing where no depth falls, or where within `margin_px` near and far
-/// meet (spread above `max_spread` of the depth): there a small error of the two cameras' pose would
-/// take the wrong surface.
+/// within `radius_px` counts. Nothing where no depth falls, or where within `margin_px` near and
+/// far meet (spread above `max_spread` of the depth): there a small error of the two cameras' pose
+/// would take the wrong surface.
 struct DepthLookupOptions {
   double radius_px = 1.5;
   double margin_px = 5;

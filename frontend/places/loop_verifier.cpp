@@ -1,7 +1,7 @@
 #include <placegraph/frontend/places/loop_verifier.h>
 
-#include <algorithm>
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 namespace placegraph {

@@ -6,14 +6,15 @@ namespace placegraph {
 
 struct LoopVerifierOptions {
   MatcherOptions matcher{.max_distance = 60, .max_ratio = 0.85};
-  Pose3d2dOptions pose{.ransac = {.max_iterations = 400, .confidence = 0.9999, .min_inliers = 30},
+  Pose3d2dOptions pose{.ransac = {.max_iterations = 400, .confidence = 0.9999, .min_inliers = 40},
                        .threshold_px = 3.0,
                        .prior_inlier_ratio = 1.01};
   double min_inlier_ratio = 0.35;  ///< of the matches that agree with the pose
   double min_spread = 0.03;        ///< share of the image the inliers' box of deviations covers
   double max_scale_error = 0.15;   ///< disagreement of depths seen from both sides
-  /// Views that differ more are no revisit: what little calibration and depth are off grows with it.
-  double max_baseline_depths = 0.25;  ///< translation over the median depth of the inliers
+  /// Views that differ more are no revisit: what little calibration and depth are off grows with
+  /// it.
+  double max_baseline_depths = 0.15;  ///< translation over the median depth of the inliers
   double max_angle_deg = 40;
   void check() const;
 };
@@ -30,8 +31,8 @@ struct LoopVerification {
 /// Whether two views show one place, and from where: descriptor matches between the query's pixels
 /// and the match's points of known depth, pose by estimate_pose_3d2d, a second guided matching
 /// around the projections, then tests of the inliers' number, share and spread, and of the query's
-/// own depths against the match's (scale), and of the change of view. Outcomes: too few data, no consensus, inconsistent,
-/// degenerate.
+/// own depths against the match's (scale), and of the change of view. Outcomes: too few data, no
+/// consensus, inconsistent, degenerate.
 [[nodiscard]] LoopVerification verify_loop(const Camera& camera, const std::vector<Feature>& query,
                                            const std::vector<Feature>& match,
                                            const LoopVerifierOptions& options, Random& random);
