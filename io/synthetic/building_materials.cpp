@@ -6,7 +6,7 @@ namespace {
 /// Plain wall of a house: plaster, brick, boards or stone blocks by seed.
 float wall_surface(const Face& face, const Spot& spot, std::uint32_t look, float contrast) {
   const float tone = 0.30F + 0.55F * hash_unit(look, 1);
-  const float stains = fractal(spot, 5.0F, 0.02F, 0.85F, face.seed);
+  const float stains = fractal(spot, 2.8F, 0.02F, 0.88F, face.seed);
   float value = tone + contrast * 0.055F * stains;
   const float kind = hash_unit(look, 2);
   if (kind < 0.3F) {  // bricks in running bond

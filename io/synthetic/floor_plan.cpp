@@ -58,8 +58,11 @@ class WallBuilder {
       const Eigen::Vector3d off = (side ? 1.0 : -1.0) * across;
       add_face(lift(a, -bottom) + off, along, up, off, Material::kIndoorWall,
                SurfaceClass::kIndoorWall, planes_[side]);
-      // Wall coordinates are measured from the floor, over a door as beside it.
-      part_.faces.back().origin[1] = 0;
+      // One texture for the whole side, measured from the wall's first end and the floor.
+      Face& face = part_.faces.back();
+      face.seed = mix_bits(seed_ + 7U + static_cast<std::uint32_t>(side));
+      face.s_axis = lift(axis_, 0);
+      face.origin = lift(wall_.a, 0) + off;
     }
     for (const int end : {0, 1}) {
       const Eigen::Vector2d& at = end ? b : a;

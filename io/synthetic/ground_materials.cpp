@@ -12,9 +12,12 @@ float crack(const Spot& spot, float wavelength, float width, std::uint32_t seed)
   if (reach > wavelength * 0.4F) return 0;
   const double s = spot.s / wavelength, t = spot.t / wavelength;
   // The value changes by about 2 a wavelength: |value| / 2 * wavelength estimates the distance.
-  const float value = value_noise(s, t, seed) + 0.35F * value_noise(s * 4.1, t * 4.1, seed + 1);
-  const float distance = std::abs(value) * 0.40F * wavelength;
-  const float blur = width + reach;
+  constexpr float kWiggle = 0.35F;
+  const float blur = width + reach, scale = 0.40F * wavelength;
+  const float broad = value_noise(s, t, seed);
+  if ((std::abs(broad) - kWiggle) * scale >= blur) return 0;
+  const float distance =
+      scale * std::abs(broad + kWiggle * value_noise(s * 4.1, t * 4.1, seed + 1));
   return clamp01(1 - distance / blur) * (width / blur);
 }
 
@@ -54,9 +57,13 @@ float covers(const Spot& spot, float base, std::uint32_t seed) {
 
 /// Light and dark blotches as trees and houses throw them; soft edged, metres wide.
 float shadow(const Spot& spot, std::uint32_t seed) {
-  const float n = octave(spot, 14.0F, seed) + 0.6F * octave(spot, 4.5F, seed + 1) +
-                  0.25F * octave(spot, 1.1F, seed + 2);
-  return 1 - 0.55F * clamp01((n - 0.28F) * 5.0F);
+  constexpr float kBegin = 0.28F, kFull = 0.48F, kDepth = 0.55F, kFine = 0.25F;
+  const float broad = octave(spot, 14.0F, seed) + 0.6F * octave(spot, 4.5F, seed + 1);
+  // The finest octave matters only near a blotch's edge.
+  if (broad + kFine <= kBegin) return 1;
+  if (broad - kFine >= kFull) return 1 - kDepth;
+  const float n = broad + kFine * octave(spot, 1.1F, seed + 2);
+  return 1 - kDepth * clamp01((n - kBegin) / (kFull - kBegin));
 }
 
 float lane_marks(const RoadField::Sample& at, const Spot& spot, float base, float wear) {
@@ -79,7 +86,7 @@ float shade_road(const Scene& scene, const Face& face, const Spot& spot, float c
   const std::uint32_t seed = face.seed;
   const RoadField::Sample at =
       scene.road ? scene.road->sample(spot.s, spot.t) : RoadField::Sample{};
-  const float broad = fractal(spot, 9.0F, 1.1F, 0.75F, seed);
+  const float broad = fractal(spot, 4.5F, 1.1F, 0.75F, seed);
   const float grain = fractal(spot, 0.25F, 0.0075F, 1.0F, seed + 11);
   float value = 0.36F + contrast * (0.030F * broad + 0.062F * grain);
   value = repairs(spot, value, seed + 21);

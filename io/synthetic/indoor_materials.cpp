@@ -1,5 +1,7 @@
 #include <placegraph/io/synthetic/materials.h>
 
+#include <algorithm>
+
 namespace placegraph::synthetic {
 namespace {
 
@@ -13,11 +15,15 @@ float pictures(const Face& face, const Spot& spot, float base) {
   const float y = static_cast<float>(spot.t);
   const float w = 0.35F + 0.75F * hash_unit(h, 1), high = 0.3F + 0.6F * hash_unit(h, 2);
   const float x0 = 0.1F + (kCell - 0.2F - w) * hash_unit(h, 3), y0 = 1.05F + 0.4F * hash_unit(h, 4);
-  if (x0 + w + 0.1F > face.width - static_cast<float>(cell) * kCell) return base;
+  // Whole pictures only: this piece of the wall may end at a door or begin above one.
+  const auto along = [&](int i) { return face.s_axis.dot(face.corners[i] - face.origin); };
+  const double from = cell * static_cast<double>(kCell) + x0, a = along(0), b = along(1);
+  if (from < std::min(a, b) + 0.05 || from + w > std::max(a, b) - 0.05) return base;
+  if (face.t_axis.dot(face.corners[0] - face.origin) > 0.5) return base;
   const float frame = pulse(x, x0, x0 + w, spot.ws) * pulse(y, y0, y0 + high, spot.wt);
-  const float b = 0.03F;
-  const float inner =
-      pulse(x, x0 + b, x0 + w - b, spot.ws) * pulse(y, y0 + b, y0 + high - b, spot.wt);
+  constexpr float kFrame = 0.03F;
+  const float inner = pulse(x, x0 + kFrame, x0 + w - kFrame, spot.ws) *
+                      pulse(y, y0 + kFrame, y0 + high - kFrame, spot.wt);
   const int n = 3 + static_cast<int>(hash_unit(h, 5) * 4);
   const int i = floor_int((x - x0) * static_cast<float>(n) / w),
             j = floor_int((y - y0) * static_cast<float>(n) / high);

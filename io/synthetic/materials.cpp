@@ -14,15 +14,15 @@ void Spot::finish() {
 }
 
 float octave(const Spot& spot, float wavelength, std::uint32_t seed) {
-  constexpr int kMaxTaps = 6;
+  constexpr int kMaxTaps = 4;
   const float inverse = 1 / wavelength;
   const float across = spot.minor * inverse, along = spot.major * inverse;
   // Faded from four to two pixels a wavelength across, and where six samples along do not suffice.
   float fade = 2 - 4 * across;
   if (fade <= 0) return 0;
   if (fade > 1) fade = 1;
-  if (along > 2) {
-    fade *= 2 - 0.5F * along;
+  if (along > 1.5F) {
+    fade *= 2 - along * (1 / 1.5F);
     if (fade <= 0) return 0;
   }
   const double x = spot.s * inverse, y = spot.t * inverse;

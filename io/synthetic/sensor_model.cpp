@@ -99,6 +99,7 @@ Image expose(const Rendering& rendering, const View& view, const std::vector<Aff
       255.0F * static_cast<float>(1 + model.exposure * value_noise(view.time_s / kExposureWander_s,
                                                                    0.5, exposure_seed));
   const auto sigma = static_cast<float>(model.noise_grey);
+  const double inverse_fx = 1 / camera.fx;
   Image out(camera.height, camera.width, CV_8UC1);
   for (int v = 0; v < camera.height; ++v) {
     const auto* grey = rendering.grey.ptr<float>(v);
@@ -110,7 +111,7 @@ Image expose(const Rendering& rendering, const View& view, const std::vector<Aff
       float value = grey[u];
       if (model.shutter_s > 0) {
         const AffineMap& map = velocities[mover[u] + 1];
-        const double x = (u - camera.cx) / camera.fx;
+        const double x = (u - camera.cx) * inverse_fx;
         const Eigen::Vector3d d = map.linear * Eigen::Vector3d(x, y, 1) + map.offset * iz[u];
         value = blurred(rendering.grey, u, v,
                         static_cast<float>(camera.fx * model.shutter_s * (d[0] - x * d[2])),

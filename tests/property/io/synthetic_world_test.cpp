@@ -22,6 +22,7 @@ using synthetic::Tour;
 using synthetic::View;
 
 constexpr int kWidth = 248, kHeight = 75;
+constexpr double kClear_m = 1.5;  // of every solid's ground plan from the camera, outdoors
 
 SyntheticWorld open(const std::string& name, Difficulty difficulty = Difficulty::kClean) {
   SyntheticOptions options;
@@ -232,10 +233,10 @@ double distance(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen:
 
 /// Nothing that is rendered as a solid comes closer to any camera position than `clear_m` within
 /// the vehicle's height: judged by the faces themselves, not by the footprints they were placed by.
-void expect_free_path(const Tour& tour, double clear_m) {
+void expect_free_path(const Tour& tour, double clear_m, double footprint_clear_m) {
   for (const auto& solid : tour.scene.solids) {
     for (const SE3& T : tour.T_scene_cam)
-      ASSERT_GT(solid.distance({T.translation()[0], T.translation()[2]}), clear_m);
+      ASSERT_GT(solid.distance({T.translation()[0], T.translation()[2]}), footprint_clear_m);
   }
   for (const Part& part : tour.scene.parts) {
     std::vector<Eigen::Vector3d> near;
@@ -270,7 +271,8 @@ TEST_P(World, CameraKeepsItsHeightAboveTheRenderedGround) {
 
 TEST_P(World, NothingSolidStandsOnThePath) {
   const SyntheticWorld world = open(GetParam());
-  expect_free_path(world.tour(), world.is_indoor() ? 0.3 : synthetic::kCarHalfWidth_m);
+  const double half_m = world.is_indoor() ? 0.3 : synthetic::kCarHalfWidth_m;
+  expect_free_path(world.tour(), half_m, world.is_indoor() ? half_m : kClear_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, World,
@@ -356,7 +358,7 @@ TEST(KittiDrive, Sequence06IsRenderedOnItsOwnPathWithRealLoops) {
   ASSERT_EQ(world.size(), 1101U);
   const Tour& tour = world.tour();
   expect_camera_height(tour, 0.001);
-  expect_free_path(tour, synthetic::kCarHalfWidth_m);
+  expect_free_path(tour, synthetic::kCarHalfWidth_m, kClear_m);
   const std::vector<bool> again = revisits(tour);
   EXPECT_GT(std::count(again.begin(), again.end(), true), 200);
   const SyntheticContents contents{true, true, true, false, false};
