@@ -14,7 +14,7 @@ namespace placegraph {
 
 /// When a frame becomes a keyframe.
 struct KeyframeOptions {
-  double max_flow_share = 0.03;    ///< median track displacement since the last one / image width
+  double max_flow_share = 0.06;    ///< median track displacement since the last one / image width
   double min_tracked_share = 0.7;  ///< of the last keyframe's landmarks still followed
   int max_interval = 20;           ///< frames, if the camera moves at all
   void check() const;
@@ -28,7 +28,7 @@ struct OdometryOptions {
   StereoMatcherOptions stereo;
   GroundScaleOptions ground;
   KeyframeOptions keyframe;
-  SlidingWindowOptions window;
+  SlidingWindowOptions window{.max_keyframes = 10};
   double sigma_px = 0.7;          ///< noise of a track
   double outlier_px = 4;          ///< a landmark that misses its pixel by more is dropped
   double min_parallax_deg = 0.5;  ///< to triangulate a landmark from keyframes
