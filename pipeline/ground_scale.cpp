@@ -1,5 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/ground_scale.h>
+#include <placegraph/pipeline/median.h>
 
 #include <algorithm>
 #include <cmath>
@@ -63,9 +64,8 @@ std::optional<GroundScale::Length> GroundScale::believe(const GroundPlaneResult&
   constexpr std::size_t kMemory = 5;
   bool believed = true;
   if (recent_log_factors_.size() >= 3) {
-    std::vector<double> sorted(recent_log_factors_.begin(), recent_log_factors_.end());
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    believed = std::abs(log_factor - sorted[sorted.size() / 2]) < options_.max_log_jump;
+    const double median = median_of({recent_log_factors_.begin(), recent_log_factors_.end()});
+    believed = std::abs(log_factor - median) < options_.max_log_jump;
   }
   recent_log_factors_.push_back(log_factor);
   if (recent_log_factors_.size() > kMemory) recent_log_factors_.pop_front();

@@ -23,9 +23,9 @@ struct LoopOptions {
   int support_window = 4;  ///< keyframes within which a second loop must agree
   double support_translation = 0.03;  ///< disagreement of two loops / (median depth + way between)
   double support_angle_deg = 2;
-  double drift_translation = 0.015; ///< of the odometry / (median depth + way since the match)
-  double drift_angle_deg = 1;       ///< of the odometry, per median depth of way
-  double information_scale = 0.1;   ///< feature noise is correlated: information counts this much
+  double drift_translation = 0.015;  ///< of the odometry / (median depth + way since the match)
+  double drift_angle_deg = 1;        ///< of the odometry, per median depth of way
+  double information_scale = 0.1;    ///< feature noise is correlated: information counts this much
   void check() const;
 };
 void visit(OptionVisitor& field, LoopOptions& options);

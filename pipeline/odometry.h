@@ -6,6 +6,7 @@
 #include <placegraph/frontend/odometry/pose_3d2d.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/frame.h>
+#include <placegraph/graph/landmark.h>
 #include <placegraph/pipeline/ground_scale.h>
 
 #include <map>
@@ -81,8 +82,8 @@ class Odometry {
   std::int64_t first_keyframe() const { return first_keyframe_; }
   /// Information of the motion between keyframes `id` and `id` + 1.
   Matrix6d link_information(std::int64_t id) const;
-  /// Landmarks of the window, in odometry coordinates, with their number of sightings.
-  std::vector<std::pair<Eigen::Vector3d, int>> landmarks() const;
+  /// All landmarks of all runs of tracking, each relative to the keyframe that first saw it.
+  std::vector<PointLandmark> landmarks() const;
   double median_depth_m() const { return median_depth_m_; }
 
  private:
@@ -107,6 +108,7 @@ class Odometry {
   void observe_tracks(std::int64_t keyframe, const Frame& frame);
   void measure_scale(const Frame& frame, OdometryUpdate& update);
   void refine_window();
+  PointLandmark describe_landmark(std::int64_t id) const;
   std::vector<std::optional<DepthMeasurement>> measure_depth(const Frame& frame) const;
   void add_observation(std::int64_t keyframe, std::int64_t landmark, const Eigen::Vector2d& px,
                        const std::optional<DepthMeasurement>& depth);
@@ -129,7 +131,8 @@ class Odometry {
   std::map<std::int64_t, Eigen::Vector2d> px_at_keyframe_;
   std::map<std::int64_t, std::vector<Sighting2d>> sightings_;  // of live tracks, in the window
   std::map<std::int64_t, SE3> keyframe_poses_;
-  std::map<std::int64_t, Matrix6d> links_;  // of keyframes that left the window
+  std::map<std::int64_t, Matrix6d> links_;     // of keyframes that left the window
+  std::vector<PointLandmark> past_landmarks_;  // that left the window
   std::vector<View> views_;
   Frame reference_frame_;
   double median_depth_m_ = 10;

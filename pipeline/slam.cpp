@@ -257,6 +257,7 @@ Map Slam::Impl::snapshot() const {
     keyframe.features = view.features;
     map.keyframes.push_back(std::move(keyframe));
   }
+  map.landmarks = odometry.landmarks();
   map.frames = records;
   map.loops = closer.records();
   map.metric = odometry.scale_known();

@@ -1,0 +1,129 @@
+#include <placegraph/pipeline/median.h>
+#include <placegraph/pipeline/odometry.h>
+
+namespace placegraph {
+
+OdometryUpdate Odometry::begin(const Frame& frame) {
+  started_ = true;
+  tracker_.track(frame.image);
+  OdometryUpdate update;
+  if (scale_known_) {  // stereo and RGB-D have their landmarks at once
+    add_keyframe(frame, T_odom_start_, update);
+    if (window_.landmarks().size() < static_cast<std::size_t>(options_.pose.ransac.min_inliers)) {
+      update.new_keyframes.clear();
+      next_keyframe_ = last_keyframe_;
+      restart(T_odom_start_);
+      return update;
+    }
+    state_ = update.state = TrackingState::kTracking;
+    update.T_odom_cam = T_odom_last_ = window_.pose(last_keyframe_);
+    update.keyframe = last_keyframe_;
+    return update;
+  }
+  tracker_.detect(frame.mask);
+  reference_frame_ = frame;
+  views_.clear();
+  View view{frame.id, {}};
+  for (const PointTrack& track : tracker_.tracks()) view.px[track.id] = track.px.cast<double>();
+  views_.push_back(std::move(view));
+  return update;
+}
+
+OdometryUpdate Odometry::try_initialize(const Frame& frame) {
+  OdometryUpdate update;
+  const View& reference = views_.front();
+  View view{frame.id, {}};
+  std::vector<std::int64_t> ids;
+  std::map<std::int64_t, int> index;
+  std::vector<Eigen::Vector2d> px_ref, px_cur;
+  for (const PointTrack& track : tracker_.tracks()) {
+    view.px[track.id] = track.px.cast<double>();
+    index[track.id] = static_cast<int>(ids.size());
+    ids.push_back(track.id);
+    px_ref.push_back(reference.px.at(track.id));
+    px_cur.push_back(track.px.cast<double>());
+  }
+  views_.push_back(view);
+  if (static_cast<int>(ids.size()) < 2 * options_.initializer.min_points) {
+    // Too few points have survived since the reference: this frame takes its place.
+    started_ = false;
+    tracker_.reset();
+    return begin(frame);
+  }
+  std::vector<PartialView> between;
+  for (std::size_t v = 1; v + 1 < views_.size(); ++v) {
+    between.emplace_back();
+    for (const auto& [id, px] : views_[v].px)
+      if (const auto i = index.find(id); i != index.end())
+        between.back().emplace_back(i->second, px);
+  }
+  Random random(seed_, frame.id);
+  MonoInitialization start =
+      initialize_mono(calibration_.camera, px_ref, px_cur, between, options_.initializer, random);
+  if (!start.outcome) {
+    log(log_, LogLevel::kDebug, "initialization waits: " + start.outcome.reason);
+    return update;
+  }
+  // The unit is arbitrary until the ground shows it.
+  std::vector<double> depths;
+  for (const auto& point : start.points_ref)
+    if (point) depths.push_back(point->z());
+  const double scale = 10 / median_of(depths);
+  const SE3 T_ref_cur(start.T_ref_cur.rotation(), scale * start.T_ref_cur.translation());
+  const std::int64_t ref = next_keyframe_++, cur = next_keyframe_++;
+  window_.add_keyframe(ref, T_odom_start_);
+  window_.add_keyframe(cur, T_odom_start_ * T_ref_cur);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    sightings_[ids[i]] = {{ref, px_ref[i]}, {cur, px_cur[i]}};
+    if (!start.points_ref[i]) continue;
+    window_.add_landmark(ids[i], T_odom_start_ * (scale * *start.points_ref[i]));
+    add_observation(ref, ids[i], px_ref[i], std::nullopt);
+    add_observation(cur, ids[i], px_cur[i], std::nullopt);
+  }
+  last_keyframe_ = cur;
+  refine_window();
+  if (ground_) {
+    keyframe_frames_[ref] = reference_frame_;
+    measure_scale(frame, update);
+    update.rescale.reset();  // nobody has heard of these keyframes yet
+    refine_window();
+  }
+  update.new_keyframes = {{ref, reference_frame_}, {cur, frame}};
+
+  // Frames in between get their poses from the points.
+  for (std::size_t v = 1; v + 1 < views_.size(); ++v) {
+    std::vector<Eigen::Vector3d> points;
+    std::vector<Eigen::Vector2d> px;
+    for (const auto& [id, pixel] : views_[v].px)
+      if (const auto point = window_.landmark(id)) {
+        points.push_back(*point);
+        px.push_back(pixel);
+      }
+    const double share = static_cast<double>(v) / (views_.size() - 1);
+    const SE3 prior = window_.pose(ref) *
+                      SE3::exp(share * (window_.pose(ref).inverse() * window_.pose(cur)).log());
+    const auto pose =
+        estimate_pose_3d2d(calibration_.camera, points, px, options_.pose, random, &prior);
+    if (pose.outcome) update.filled.emplace_back(views_[v].frame, pose.T_ref_cam);
+  }
+  const double steps = static_cast<double>(views_.size() - 1);
+  views_.clear();
+  tracker_.detect(frame.mask);
+  px_at_keyframe_.clear();
+  for (const PointTrack& track : tracker_.tracks()) {
+    px_at_keyframe_[track.id] = track.px.cast<double>();
+    auto& seen = sightings_[track.id];
+    if (seen.empty()) seen.push_back({cur, track.px.cast<double>()});
+  }
+  landmarks_at_keyframe_ = static_cast<int>(window_.landmarks().size());
+  frames_since_keyframe_ = 0;
+  T_odom_last_ = window_.pose(cur);
+  T_last_cur_ = SE3::exp((window_.pose(ref).inverse() * T_odom_last_).log() / steps);
+  state_ = update.state = TrackingState::kTracking;
+  update.T_odom_cam = T_odom_last_;
+  update.keyframe = cur;
+  update.inliers = landmarks_at_keyframe_;
+  return update;
+}
+
+}  // namespace placegraph
