@@ -3,6 +3,7 @@
 #include <placegraph/eval/evaluate.h>
 #include <placegraph/eval/loop_check.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/atomic_file.h>
 #include <placegraph/io/g2o.h>
 #include <placegraph/io/trajectory_file.h>
 #include <placegraph/io/yaml_config.h>
@@ -153,6 +154,8 @@ void run(const Arguments& arguments) {
   const RunOptions options = options_of(arguments);
   require_free_folder(arguments.out, arguments.force);
   const auto dataset = open_dataset(arguments.sequence);
+  make_output_folder(arguments.out);
+  fs::remove(fs::path(arguments.out) / "result.json");  // written last: it vouches for the others
   cv::setNumThreads(options.threads);
 
   const auto begin = std::chrono::steady_clock::now();
@@ -192,12 +195,14 @@ void run(const Arguments& arguments) {
                              {"sim3", judgement(*truth, optimized, Alignment::kSim3)}};
     if (run.map.metric) summary["loop_check"] = loop_judgement(*dataset->ground_truth(), run);
   }
-  fs::create_directories(arguments.out);
   write_results(arguments.out, run, optimized, truth, dataset->name(), summary);
   if (arguments.as_json)
     std::printf("%s\n", summary.dump(1).c_str());
   else
     print_summary(summary, arguments.out);
+  if (run.broken_off)
+    throw Error(*run.broken_off + " (results of the " + std::to_string(optimized.size()) +
+                " frames before it are in " + arguments.out + ")");
   if (optimized.posed() == 0) throw NoAnswer(arguments.sequence + ": no frame could be posed");
 }
 
@@ -218,7 +223,8 @@ void add_run_command(CLI::App& app) {
   command->add_option("--set", arguments->settings, "one option, key=value; may be repeated")
       ->allow_extra_args(false);
   command->add_flag("--no-loops", arguments->no_loops, "do not look for revisits");
-  command->add_option("--seed", arguments->seed, "of every random stream");
+  command->add_option("--seed", arguments->seed, "of every random stream")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--threads", arguments->threads, "the result does not depend on it");
   command->add_flag("--json", arguments->as_json, "print result.json");
   command->add_flag("--force", arguments->force, "write into a folder that is not empty");

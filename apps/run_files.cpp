@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 namespace placegraph::apps {
@@ -59,7 +60,9 @@ std::string places_json(const Map& map) {
   for (const RelativePoseConstraint& c : map.place_graph.constraints)
     edges.push_back({{"from", c.from},
                      {"to", c.to},
-                     {"source", c.source == ConstraintSource::kLoop ? "loop" : "odometry"}});
+                     {"source", c.source == ConstraintSource::kLoop       ? "loop"
+                                : c.source == ConstraintSource::kOdometry ? "odometry"
+                                                                          : "relocalization"}});
   json loops = json::array();
   for (const LoopRecord& loop : map.loops)
     if (loop.accepted)
@@ -80,9 +83,8 @@ std::string loops_csv(const Map& map) {
 
 json describe_run(const RunResult& run, const Trajectory& optimized) {
   const Map& map = run.map;
-  int components = 0;
-  for (const Place& place : map.place_graph.places)
-    components = std::max(components, place.component + 1);
+  std::set<int> components;
+  for (const Place& place : map.place_graph.places) components.insert(place.component);
   const auto accepted = std::count_if(map.loops.begin(), map.loops.end(),
                                       [](const LoopRecord& loop) { return loop.accepted; });
   return {{"sensor", to_string(run.sensor)},
@@ -93,7 +95,7 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
           {"lost_frames_online", lost_frames(map, map.trajectory_online)},
           {"keyframes", map.keyframes.size()},
           {"places", map.place_graph.places.size()},
-          {"components", components},
+          {"components", components.size()},
           {"loops_checked", map.loops.size()},
           {"loops_accepted", accepted},
           {"metric", map.metric}};

@@ -82,6 +82,7 @@ void LoopCloser::add_view(std::int64_t keyframe, const Frame& frame,
       view.features[m.b].point_cam = (T_this_previous * point.point_ref).cast<float>();
     }
   }
+  database_.add(keyframe, view.features);
   views_.push_back(std::move(view));
 }
 
@@ -168,7 +169,6 @@ std::vector<Loop> LoopCloser::find_loops(const MotionBetween& odometry, double m
   while (!pending_.empty() &&
          views_.size() - pending_.front().view >= static_cast<std::size_t>(options_.support_window))
     pending_.pop_front();
-  database_.add(query.keyframe, query.features);
   return accepted;
 }
 
@@ -202,6 +202,11 @@ void LoopCloser::rescale(double factor, std::int64_t first_keyframe) {
   }
   // Loops measured in the old unit may not meet those of the new one.
   pending_.clear();
+  for (LoopRecord& record : records_)
+    for (const View& view : views_)
+      if (view.keyframe >= first_keyframe && view.frame == record.match_frame)
+        record.T_match_query =
+            SE3(record.T_match_query.rotation(), factor * record.T_match_query.translation());
 }
 
 }  // namespace placegraph

@@ -55,7 +55,8 @@ class LoopCloser {
                 const std::optional<SE3>& T_previous_this);
   /// Revisits that the newest view completes.
   std::vector<Loop> find_loops(const MotionBetween& odometry, double median_depth_m);
-  /// Where a frame that is lost stands relative to a known keyframe.
+  /// Where a frame stands relative to a known keyframe: T_match_query of the frame; `query` is -1,
+  /// as the frame is no keyframe.
   std::optional<Loop> relocalize(const Frame& frame);
 
   const std::vector<View>& views() const { return views_; }

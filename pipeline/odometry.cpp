@@ -26,7 +26,11 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
     ground_.emplace(options_.ground, calibration_.camera, *calibration_.camera_height_m);
 }
 
-void Odometry::restart(const SE3& T_odom_cam) {
+void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
+  in_known_map_ = in_known_map;
+  if (!in_known_map) median_depth_m_ = kUnknownDepth;
+  landmarks_at_keyframe_ = frames_since_keyframe_ = 0;
+  px_at_keyframe_.clear();
   past_landmarks_ = landmarks();
   tracker_.reset();
   window_ = SlidingWindow(options_.window, calibration_.camera);
@@ -44,13 +48,14 @@ void Odometry::restart(const SE3& T_odom_cam) {
   views_.clear();
 }
 
-OdometryUpdate Odometry::add_frame(const Frame& frame) {
+OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>& T_odom_cam_known) {
   if (!started_) return begin(frame);
   const PointTracker before = tracker_;
   tracker_.track(frame.image, state_ == TrackingState::kWaiting
                                   ? std::vector<Eigen::Vector2f>{}
                                   : predict(T_odom_last_ * T_last_cur_));
-  OdometryUpdate update = state_ == TrackingState::kWaiting ? try_initialize(frame) : track(frame);
+  OdometryUpdate update =
+      state_ == TrackingState::kWaiting ? try_initialize(frame, T_odom_cam_known) : track(frame);
   if (update.state == TrackingState::kLost) {
     // The next frame may still be found from the last good one.
     tracker_ = before;
@@ -277,8 +282,9 @@ void Odometry::measure_scale(const Frame& frame, OdometryUpdate& update) {
 }
 
 void Odometry::refine_window() {
-  const WindowSummary summary = window_.optimize();
-  if (!summary.outcome)
+  const bool alone = window_.keyframes().size() < 2;  // a first stereo or RGB-D keyframe
+  const WindowSummary summary = alone ? WindowSummary{} : window_.optimize();
+  if (!alone && !summary.outcome)
     log(log_, LogLevel::kWarning, "window not optimized: " + summary.outcome.reason);
   std::set<std::int64_t> live;
   for (const PointTrack& track : tracker_.tracks()) live.insert(track.id);

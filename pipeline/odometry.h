@@ -45,6 +45,7 @@ struct OdometryUpdate {
   SE3 T_odom_cam;              ///< if tracking
   std::int64_t keyframe = -1;  ///< reference keyframe, if tracking
   int inliers = 0;
+  bool reference = false;  ///< while waiting: this frame is the first of the two views
 
   struct NewKeyframe {
     std::int64_t id;
@@ -70,10 +71,14 @@ class Odometry {
   Odometry(const OdometryOptions& options, const Calibration& calibration, std::uint64_t seed,
            LogSink log);
 
-  [[nodiscard]] OdometryUpdate add_frame(const Frame& frame);
-  /// Forgets window and tracks and begins anew with the next frame, which stands at T_odom_cam.
+  /// `T_odom_cam_known`, where the frame has been recognized in the map, gives a single eye that
+  /// begins anew its unit and place.
+  [[nodiscard]] OdometryUpdate add_frame(const Frame& frame,
+                                         const std::optional<SE3>& T_odom_cam_known = {});
+  /// Forgets window and tracks and begins anew with the next frame, which stands at T_odom_cam. If
+  /// `in_known_map`, a single eye without ground takes its unit from frames that are recognized.
   /// Keyframe ids go on counting.
-  void restart(const SE3& T_odom_cam);
+  void restart(const SE3& T_odom_cam, bool in_known_map = false);
 
   bool scale_known() const { return scale_known_; }
   /// Newest estimate of a keyframe of the present run of tracking, T_odom_cam.
@@ -82,6 +87,8 @@ class Odometry {
   std::int64_t first_keyframe() const { return first_keyframe_; }
   /// Information of the motion between keyframes `id` and `id` + 1.
   Matrix6d link_information(std::int64_t id) const;
+  /// Whether that is final: one of the two has left the window.
+  bool link_is_final(std::int64_t id) const { return links_.count(id) > 0; }
   /// All landmarks of all runs of tracking, each relative to the keyframe that first saw it.
   std::vector<PointLandmark> landmarks() const;
   double median_depth_m() const { return median_depth_m_; }
@@ -100,7 +107,8 @@ class Odometry {
   };
 
   OdometryUpdate begin(const Frame& frame);
-  OdometryUpdate try_initialize(const Frame& frame);
+  OdometryUpdate replace_reference(const Frame& frame, const std::optional<SE3>& T_known);
+  OdometryUpdate try_initialize(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate track(const Frame& frame);
   std::vector<Eigen::Vector2f> predict(const SE3& T_odom_cam) const;
   bool keyframe_due(const Frame& frame, int inliers) const;
@@ -123,6 +131,7 @@ class Odometry {
   TrackingState state_ = TrackingState::kWaiting;
   bool started_ = false;  // the first frame of this run has been seen
   bool scale_known_ = false;
+  bool in_known_map_ = false;
 
   SE3 T_odom_start_, T_odom_last_, T_last_cur_;  // the last one: velocity over one frame
   std::int64_t next_keyframe_ = 0, first_keyframe_ = 0, last_keyframe_ = -1;
@@ -135,7 +144,8 @@ class Odometry {
   std::vector<PointLandmark> past_landmarks_;  // that left the window
   std::vector<View> views_;
   Frame reference_frame_;
-  double median_depth_m_ = 10;
+  static constexpr double kUnknownDepth = 10;  // of a map whose unit is arbitrary
+  double median_depth_m_ = kUnknownDepth;
 };
 
 }  // namespace placegraph

@@ -21,6 +21,12 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
     return update;
   }
   tracker_.detect(frame.mask);
+  if (static_cast<int>(tracker_.tracks().size()) < 2 * options_.initializer.min_points) {
+    started_ = false;  // a dark or empty frame is nothing to begin with
+    tracker_.reset();
+    return update;
+  }
+  update.reference = true;
   reference_frame_ = frame;
   views_.clear();
   View view{frame.id, {}};
@@ -29,7 +35,20 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
   return update;
 }
 
-OdometryUpdate Odometry::try_initialize(const Frame& frame) {
+/// Too few points have survived since the reference: this frame takes its place.
+OdometryUpdate Odometry::replace_reference(const Frame& frame, const std::optional<SE3>& T_known) {
+  started_ = false;
+  tracker_.reset();
+  if (in_known_map_ && !T_known) {
+    OdometryUpdate lost;
+    lost.state = TrackingState::kLost;
+    return lost;
+  }
+  if (T_known) T_odom_start_ = *T_known;
+  return begin(frame);
+}
+
+OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<SE3>& T_known) {
   OdometryUpdate update;
   const View& reference = views_.front();
   View view{frame.id, {}};
@@ -44,12 +63,8 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame) {
     px_cur.push_back(track.px.cast<double>());
   }
   views_.push_back(view);
-  if (static_cast<int>(ids.size()) < 2 * options_.initializer.min_points) {
-    // Too few points have survived since the reference: this frame takes its place.
-    started_ = false;
-    tracker_.reset();
-    return begin(frame);
-  }
+  if (static_cast<int>(ids.size()) < 2 * options_.initializer.min_points)
+    return replace_reference(frame, T_known);
   std::vector<PartialView> between;
   for (std::size_t v = 1; v + 1 < views_.size(); ++v) {
     between.emplace_back();
@@ -68,7 +83,14 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame) {
   std::vector<double> depths;
   for (const auto& point : start.points_ref)
     if (point) depths.push_back(point->z());
-  const double scale = 10 / median_of(depths);
+  double scale = kUnknownDepth / median_of(depths);
+  if (in_known_map_ && T_known) {
+    scale = (T_known->translation() - T_odom_start_.translation()).norm();
+  } else if (in_known_map_ && !ground_) {
+    log(log_, LogLevel::kDebug, "initialization waits: nothing gives the map's unit");
+    return update;
+  }
+  if (!(scale > 0)) return update;
   const SE3 T_ref_cur(start.T_ref_cur.rotation(), scale * start.T_ref_cur.translation());
   const std::int64_t ref = next_keyframe_++, cur = next_keyframe_++;
   window_.add_keyframe(ref, T_odom_start_);

@@ -8,14 +8,19 @@
 namespace placegraph {
 namespace {
 
-/// Inverse of an information of any rank: unknown directions get a large, finite variance.
-Matrix6d covariance_of(const Matrix6d& information) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(0.5 *
-                                                      (information + information.transpose()));
-  const double floor = std::max(1e-6, 1e-9 * eigen.eigenvalues()[5]);
-  const Vector6d inverse = eigen.eigenvalues().cwiseMax(floor).cwiseInverse();
+/// Inverse of a positive semi-definite matrix; eigenvalues below `floor` or 1e-12 of the largest
+/// count as that much.
+Matrix6d inverse_of(const Matrix6d& matrix, double floor) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(0.5 * (matrix + matrix.transpose()));
+  const double least = std::max(floor, 1e-12 * eigen.eigenvalues()[5]);
+  const Vector6d inverse = eigen.eigenvalues().cwiseMax(least).cwiseInverse();
   return eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
 }
+
+/// Unknown directions get a large, finite variance.
+Matrix6d covariance_of(const Matrix6d& information) { return inverse_of(information, 1e-6); }
+
+Matrix6d information_of(const Matrix6d& covariance) { return inverse_of(covariance, 1e-18); }
 
 SE3 scaled(const SE3& T, double factor) { return SE3(T.rotation(), factor * T.translation()); }
 
@@ -116,13 +121,13 @@ void PlaceMapper::follow_links(std::int64_t first) {
 }
 
 void PlaceMapper::update_link(std::int64_t id, const SE3& T_from_this,
-                              const Matrix6d& information) {
+                              const std::optional<Matrix6d>& information) {
   Node& node = nodes_.at(id);
   require(node.link.has_value(), "PlaceMapper::update_link: the keyframe has no link");
   // The place keeps its pose if the keyframe is its anchor's successor or a member: what moved is
   // the newest part of the track, so anchors follow their predecessor.
   node.link->T_from_this = T_from_this;
-  node.link->information = information;
+  if (information) node.link->information = *information;
   const std::int64_t from_place = nodes_.at(node.link->from).place;
   follow_links(id);
   if (places_[node.place].anchor_keyframe == id && from_place != node.place)
@@ -164,13 +169,16 @@ std::vector<RelativePoseConstraint> PlaceMapper::constraints() const {
     constraint.T_from_to = T_from_to;
     constraint.information = 0.5 * (information + information.transpose());
     constraint.source = source;
-    if (source == ConstraintSource::kLoop) constraint.kernel = options_.loop_kernel;
+    if (source != ConstraintSource::kOdometry) constraint.kernel = options_.loop_kernel;
     result.push_back(std::move(constraint));
   };
   // Along a run of tracking: covariances of the links add up between anchors.
   Matrix6d covariance = Matrix6d::Zero();
   for (const auto& [id, node] : nodes_) {
-    if (!node.link) continue;
+    if (!node.link) {
+      covariance.setZero();
+      continue;
+    }
     const Node& from = nodes_.at(node.link->from);
     const Place& place = places_[node.place];
     if (node.link->source != ConstraintSource::kOdometry) {
@@ -186,7 +194,7 @@ std::vector<RelativePoseConstraint> PlaceMapper::constraints() const {
     const SE3 T_anchor_anchor =
         nodes_.at(places_[from.place].anchor_keyframe).T_run_keyframe.inverse() *
         node.T_run_keyframe;
-    add(from.place, node.place, T_anchor_anchor, covariance_of(covariance),
+    add(from.place, node.place, T_anchor_anchor, information_of(covariance),
         ConstraintSource::kOdometry);
     covariance.setZero();
   }
@@ -226,7 +234,10 @@ PoseGraphReport PlaceMapper::optimize(const PoseGraphOptions& options, const Log
   bring_together();
   PlaceGraph graph = place_graph();
   PoseGraphReport report = optimize_pose_graph(graph.pose_graph(), options, log);
-  if (report.outcome) {
+  // Out of iterations is no reason to throw away what they gained.
+  if (report.outcome || (report.outcome.code == Outcome::Code::kNotConverged &&
+                         report.chi2_final < report.chi2_initial)) {
+    report.outcome = Outcome::ok();
     graph.set_poses(report.graph);
     for (std::size_t i = 0; i < places_.size(); ++i)
       places_[i].T_map_place = graph.places[i].T_map_place;

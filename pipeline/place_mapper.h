@@ -33,8 +33,11 @@ class PlaceMapper {
   /// A new keyframe; without a link it begins a component of its own at `T_map_guess`.
   void add_keyframe(std::int64_t id, const std::optional<Link>& link, const SE3& T_map_guess,
                     double median_depth_m);
-  /// A newer estimate of the motion between consecutive keyframes (their window went on).
-  void update_link(std::int64_t id, const SE3& T_from_this, const Matrix6d& information);
+  /// A newer estimate of the motion from its link's keyframe to keyframe `id` (the window went on);
+  /// `information`, of T_from_this in its right tangent, stays as it was if none is given.
+  void update_link(std::int64_t id, const SE3& T_from_this,
+                   const std::optional<Matrix6d>& information);
+  /// A revisit; `information` is that of T_match_query in its right tangent.
   void add_loop(std::int64_t query, std::int64_t match, const SE3& T_match_query,
                 const Matrix6d& information);
   /// All positions of keyframes from `first` on grow by `factor` about the first one.

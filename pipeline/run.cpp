@@ -85,7 +85,15 @@ RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
   Slam slam(options.slam, result.calibration, log);
   FrameReader reader(dataset, result.sensor, end, options.threads > 1);
   for (std::size_t i = begin; i < end; ++i) {
-    const FrameResult frame_result = slam.add_frame(reader.read(i));
+    Frame frame;
+    try {
+      frame = reader.read(i);
+    } catch (const FileError& error) {
+      if (i == begin) throw;
+      result.broken_off = error.what();
+      break;
+    }
+    const FrameResult frame_result = slam.add_frame(frame);
     if (progress) progress(i + 1 - begin, end - begin, frame_result);
   }
   result.map = slam.finish();

@@ -25,13 +25,16 @@ struct RunResult {
   Sensor sensor = Sensor::kMono;
   Calibration calibration;
   Map map;
+  /// A frame could not be read: the map holds the frames before it. The message of its FileError.
+  std::optional<std::string> broken_off;
 };
 
 /// Called after each frame with the number done and of all, and what became of it.
 using RunProgress = std::function<void(std::size_t done, std::size_t total, const FrameResult&)>;
 
 /// Runs the system over a sequence, every frame, never sleeping. Same result for any number of
-/// threads. Throws as Slam and the data set do.
+/// threads. Throws as Slam and the data set do; an unreadable frame that is not the first ends the
+/// run.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                        const RunProgress& progress = {}, const LogSink& log = {});
 

@@ -36,14 +36,15 @@ struct Slam::Impl {
 
   FrameResult add_frame(const Frame& frame);
   void check_frame(const Frame& frame) const;
-  void recover(const Frame& frame, OdometryUpdate& update);
+  void recover(const Frame& frame, std::optional<Loop> located, OdometryUpdate& update);
+  void record_pose(std::int64_t keyframe, const SE3& T_keyframe_cam, FrameResult& result);
+  SE3 T_map_located(const Loop& located) const;
   void add_keyframes(const OdometryUpdate& update, FrameResult& result);
   void add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, FrameResult& result);
-  void refresh_links();
+  void refresh_links(PlaceMapper& target, bool with_information) const;
   void close_loops(FrameResult& result);
   void optimize();
   void apply(const OdometryUpdate::Rescale& rescale);
-  SE3 T_map_cam(const OdometryUpdate& update) const;
   Map snapshot() const;
 
   SlamOptions options;
@@ -60,7 +61,9 @@ struct Slam::Impl {
   std::optional<Loop> bridge;  // how the next run of tracking hangs on the last one
   SE3 T_map_last;
   int lost_in_a_row = 0, keyframes_since_optimization = 0;
-  bool loops_waiting = false, posed_once = false, finished = false;
+  std::optional<std::size_t> origin;  // first view of a single eye, until the second comes
+  bool loops_waiting = false, posed_once = false, finished = false, metric = false;
+  bool closed_anything = false;  // the graph is more than a chain
 };
 
 Slam::Slam(const SlamOptions& options, const Calibration& calibration, LogSink log) {
@@ -76,8 +79,8 @@ FrameResult Slam::add_frame(const Frame& frame) { return impl_->add_frame(frame)
 Map Slam::snapshot() const { return impl_->snapshot(); }
 
 Map Slam::finish() {
-  impl_->refresh_links();
-  if (impl_->loops_waiting) impl_->optimize();
+  require(!impl_->finished, "Slam::finish: called twice");
+  if (impl_->loops_waiting || impl_->closed_anything) impl_->optimize();
   impl_->finished = true;
   return impl_->snapshot();
 }
@@ -89,6 +92,14 @@ void Slam::Impl::check_frame(const Frame& frame) const {
               frame.image.rows == camera.height,
           "frame " + std::to_string(frame.id) + ": grey image of " + std::to_string(camera.width) +
               "x" + std::to_string(camera.height) + " needed");
+  const auto fits = [&](const Image& image, int type, const Camera& of) {
+    return image.empty() ||
+           (image.type() == type && image.cols == of.width && image.rows == of.height);
+  };
+  require(fits(frame.right, CV_8UC1, camera) && fits(frame.mask, CV_8UC1, camera) &&
+              (!calibration.depth || fits(frame.depth, CV_32FC1, calibration.depth->camera)),
+          "frame " + std::to_string(frame.id) +
+              ": right eye, mask or depth image of another size or type than calibrated");
   require(records.empty() ||
               (frame.stamp_ns > records.back().stamp_ns && frame.id > records.back().frame),
           "frame " + std::to_string(frame.id) + ": ids and stamps must increase");
@@ -100,53 +111,75 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   result.frame = frame.id;
   records.push_back({frame.id, frame.stamp_ns, -1, std::nullopt});
 
-  OdometryUpdate update = odometry.add_frame(frame);
-  if (update.state == TrackingState::kLost ||
-      (posed_once && lost_in_a_row > 0 && update.state == TrackingState::kWaiting))
-    recover(frame, update);
+  // A single eye that begins anew within the map waits for its second view; until then every frame
+  // is looked up.
+  std::optional<Loop> located;
+  if (bridge) located = closer.relocalize(frame);
+  OdometryUpdate update =
+      odometry.add_frame(frame, located ? std::optional(T_map_located(*located)) : std::nullopt);
+  if (bridge && update.reference) bridge = located;
+  const bool waits_in_vain = posed_once && !bridge && update.state == TrackingState::kWaiting;
+  if (update.state == TrackingState::kLost || waits_in_vain) recover(frame, located, update);
   if (update.rescale) apply(*update.rescale);
   add_keyframes(update, result);
 
   if (update.state == TrackingState::kTracking) {
     lost_in_a_row = 0;
     posed_once = true;
-    records.back().keyframe = update.keyframe;
-    records.back().T_keyframe_frame =
-        odometry.keyframe_pose(update.keyframe).inverse() * update.T_odom_cam;
-    T_map_last = T_map_cam(update);
-    result.T_map_cam = T_map_last;
+    record_pose(update.keyframe,
+                odometry.keyframe_pose(update.keyframe).inverse() * update.T_odom_cam, result);
     result.inliers = update.inliers;
-    result.component = mapper.component_of(update.keyframe);
-  } else if (!posed_once && records.size() == 1) {
-    // The first frame is the origin, also while mono waits for its second view.
+  } else if (bridge && (located || lost_in_a_row > 0) && update.state == TrackingState::kWaiting) {
+    const Loop& at = located ? *located : *bridge;
+    if (located || update.reference) record_pose(at.match, at.T_match_query, result);
+  } else if (!posed_once && update.reference) {
+    // The first view is the origin while the second is waited for; if another takes its place, it
+    // has no pose after all.
+    if (origin) online.poses[*origin].T_world_body.reset();
+    origin = records.size() - 1;
     result.T_map_cam = SE3();
   }
+  result.state = result.T_map_cam ? TrackingState::kTracking
+                 : posed_once     ? TrackingState::kLost
+                                  : TrackingState::kWaiting;
+  if (odometry.first_keyframe() == 0) metric = odometry.scale_known();
   StampedPose pose{frame.stamp_ns, std::nullopt};
   if (result.T_map_cam && result.component == 0) pose.T_world_body = result.T_map_cam->isometry();
   online.poses.push_back(pose);
   return result;
 }
 
-SE3 Slam::Impl::T_map_cam(const OdometryUpdate& update) const {
-  return mapper.T_map_keyframe(update.keyframe) *
-         (odometry.keyframe_pose(update.keyframe).inverse() * update.T_odom_cam);
+void Slam::Impl::record_pose(std::int64_t keyframe, const SE3& T_keyframe_cam,
+                             FrameResult& result) {
+  records.back().keyframe = keyframe;
+  records.back().T_keyframe_frame = T_keyframe_cam;
+  T_map_last = mapper.T_map_keyframe(keyframe) * T_keyframe_cam;
+  result.T_map_cam = T_map_last;
+  result.component = mapper.component_of(keyframe);
 }
 
-void Slam::Impl::recover(const Frame& frame, OdometryUpdate& update) {
+SE3 Slam::Impl::T_map_located(const Loop& located) const {
+  return mapper.T_map_keyframe(located.match) * located.T_match_query;
+}
+
+void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, OdometryUpdate& update) {
   ++lost_in_a_row;
-  if (update.state == TrackingState::kLost) refresh_links();
-  if (const auto found = closer.relocalize(frame)) {
+  if (!located) located = closer.relocalize(frame);
+  if (located) {
     log(log_sink, LogLevel::kInfo,
         "frame " + std::to_string(frame.id) + " relocalized at frame " +
-            std::to_string(frame_of_keyframe.at(found->match)));
+            std::to_string(frame_of_keyframe.at(located->match)));
     // The new run begins here; its odometry frame is the map frame of this moment.
-    bridge = found;
-    odometry.restart(mapper.T_map_keyframe(found->match) * found->T_match_query);
-    update = odometry.add_frame(frame);
-  } else if (lost_in_a_row == options.max_lost_frames) {
+    bridge = located;
+    const SE3 T_map_frame = T_map_located(*located);
+    odometry.restart(T_map_frame, true);
+    update = odometry.add_frame(frame, T_map_frame);
+    return;
+  }
+  bridge.reset();
+  if (lost_in_a_row == options.max_lost_frames) {
     log(log_sink, LogLevel::kInfo,
         "frame " + std::to_string(frame.id) + ": a new component of the map begins");
-    bridge.reset();
     odometry.restart(T_map_last);
     update = odometry.add_frame(frame);
   }
@@ -156,6 +189,7 @@ void Slam::Impl::apply(const OdometryUpdate::Rescale& rescale) {
   const std::int64_t first = odometry.first_keyframe();
   mapper.rescale(first, rescale.factor);
   closer.rescale(rescale.factor, first);
+  T_map_last = SE3(T_map_last.rotation(), rescale.factor * T_map_last.translation());
   for (FrameRecord& record : records)
     if (record.keyframe >= first && record.T_keyframe_frame)
       record.T_keyframe_frame = SE3(record.T_keyframe_frame->rotation(),
@@ -187,8 +221,9 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
   } else if (bridge) {
     link = {bridge->match, bridge->T_match_query, bridge->information, ConstraintSource::kOther};
     bridge.reset();
+    closed_anything = true;
   }
-  refresh_links();
+  refresh_links(mapper, false);
   mapper.add_keyframe(keyframe.id, link, T_odom_keyframe, odometry.median_depth_m());
   last_keyframe = keyframe.id;
   frame_of_keyframe[keyframe.id] = keyframe.frame.id;
@@ -202,15 +237,17 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
   if (options.loops.enabled) close_loops(result);
 }
 
-/// The window goes on refining its last keyframes: their links follow.
-void Slam::Impl::refresh_links() {
-  const std::int64_t first = odometry.first_keyframe();
-  const std::int64_t from =
-      std::max(first, last_keyframe - options.odometry.window.max_keyframes - 1);
-  for (std::int64_t id = from; id < last_keyframe; ++id)
-    mapper.update_link(id + 1,
-                       odometry.keyframe_pose(id).inverse() * odometry.keyframe_pose(id + 1),
-                       odometry.link_information(id));
+/// The window goes on refining its last keyframes: their links follow. Information of links that
+/// may still change is worked out only where it is wanted.
+void Slam::Impl::refresh_links(PlaceMapper& target, bool with_information) const {
+  const std::int64_t from = std::max(odometry.first_keyframe(),
+                                     last_keyframe - options.odometry.window.max_keyframes - 2);
+  for (std::int64_t id = from; id < last_keyframe; ++id) {
+    std::optional<Matrix6d> information;
+    if (with_information || odometry.link_is_final(id)) information = odometry.link_information(id);
+    target.update_link(
+        id + 1, odometry.keyframe_pose(id).inverse() * odometry.keyframe_pose(id + 1), information);
+  }
 }
 
 void Slam::Impl::close_loops(FrameResult& result) {
@@ -218,28 +255,36 @@ void Slam::Impl::close_loops(FrameResult& result) {
       closer.find_loops([&](std::int64_t a, std::int64_t b) { return mapper.odometry(a, b); },
                         odometry.median_depth_m());
   for (const Loop& loop : loops) {
+    // Parts of a map without a common unit of length cannot be laid onto each other.
+    if (!odometry.scale_known() &&
+        mapper.component_of(loop.query) != mapper.component_of(loop.match))
+      continue;
+    closed_anything = true;
     mapper.add_loop(loop.query, loop.match, loop.T_match_query, loop.information);
     loops_waiting = true;
     ++result.loops_accepted;
   }
   ++keyframes_since_optimization;
   if (loops_waiting && keyframes_since_optimization >= options.optimize_interval) {
-    refresh_links();
     optimize();
   }
 }
 
 void Slam::Impl::optimize() {
+  refresh_links(mapper, true);
   const PoseGraphReport report = mapper.optimize(options.pose_graph, log_sink);
-  if (!report.outcome)
-    log(log_sink, LogLevel::kWarning, "place graph not optimized: " + report.outcome.reason);
-  loops_waiting = false;
   keyframes_since_optimization = 0;
+  if (report.outcome)
+    loops_waiting = false;
+  else
+    log(log_sink, LogLevel::kWarning, "place graph not optimized: " + report.outcome.reason);
 }
 
 Map Slam::Impl::snapshot() const {
   Map map;
-  map.place_graph = mapper.place_graph();
+  PlaceMapper current = mapper;
+  if (last_keyframe >= 0 && !finished) refresh_links(current, true);
+  map.place_graph = current.place_graph();
   for (Place& place : map.place_graph.places)
     for (const auto& view : closer.views())
       if (view.keyframe == place.anchor_keyframe) place.appearance = closer.describe(view.features);
@@ -260,7 +305,7 @@ Map Slam::Impl::snapshot() const {
   map.landmarks = odometry.landmarks();
   map.frames = records;
   map.loops = closer.records();
-  map.metric = odometry.scale_known();
+  map.metric = metric;
   map.trajectory_online = online;
   return map;
 }

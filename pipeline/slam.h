@@ -21,7 +21,9 @@ void visit(OptionVisitor& field, SlamOptions& options);
 /// What became of one frame.
 struct FrameResult {
   std::int64_t frame = 0;
-  std::optional<SE3> T_map_cam;  ///< nothing while waiting for the second view, or lost
+  TrackingState state =
+      TrackingState::kWaiting;   ///< waiting for the second view, tracking, or lost
+  std::optional<SE3> T_map_cam;  ///< in the frame of `component`; nothing while unknown
   bool keyframe = false;
   int inliers = 0;
   int component = 0;
@@ -48,7 +50,7 @@ class Slam {
   FrameResult add_frame(const Frame& frame);
   /// Map and trajectories as they stand; may be called between frames.
   Map snapshot() const;
-  /// Optimizes once more and returns the map. add_frame may not be called afterwards.
+  /// Optimizes once more and returns the map; neither it nor add_frame may be called afterwards.
   Map finish();
 
  private:

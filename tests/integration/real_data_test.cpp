@@ -95,7 +95,7 @@ TEST(RealData, SevenScenesClosesTrueLoopsOnly) {
 TEST(RealData, PlanarBoardIsFollowedToACentimetre) {
   PLACEGRAPH_DATA_OR_SKIP(path, "sequences/cube_planar200");
   EvaluationOptions evaluation;
-  evaluation.alignment = Alignment::kSim3;
+  evaluation.alignment = Alignment::kScale;
   const Judged judged = run_and_judge(path, {}, evaluation);
   EXPECT_EQ(judged.optimized.posed(), 200u);
   ASSERT_TRUE(judged.result.outcome);

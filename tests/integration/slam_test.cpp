@@ -199,6 +199,41 @@ TEST(SlamOnAStreet, IsLostInTheDarkAndFindsItselfAgain) {
   EXPECT_LT(result.ape.error_m.rmse, 0.02 * result.path_m);  // the bridge adds its own error
 }
 
+TEST(SlamOnAStreet, GivesFramesBeforeTheLightNoPose) {
+  const StreetDataset dataset(kFrames, 0, 3);
+  for (const SensorChoice sensor : {SensorChoice::kMono, SensorChoice::kStereo}) {
+    const RunResult run = run_sequence(dataset, run_as(sensor));
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_FALSE(run.map.trajectory_online.poses[i].T_world_body) << i;
+      EXPECT_FALSE(run.map.trajectory_optimized().poses[i].T_world_body) << i;
+    }
+    EXPECT_TRUE(run.map.trajectory_online.poses[3].T_world_body);
+    EXPECT_EQ(run.map.trajectory_optimized().posed(), static_cast<std::size_t>(kFrames - 3));
+  }
+}
+
+TEST(SlamOnAStreet, GoesOnWithOneEyeAfterAJumpToAKnownPlace) {
+  // Frames 0 to 23, then from 8 on again: the new run takes place and unit from the map.
+  Slam slam(small_options(), drive().calibration(Sensor::kMono));
+  std::vector<std::optional<SE3>> online;
+  for (int i = 0; i < kFrames + 14; ++i) {
+    const std::size_t source = i < kFrames ? i : i - kFrames + 8;
+    Frame frame = drive().frame(source, Sensor::kMono);
+    frame.id = i;
+    frame.stamp_ns = 100000000LL * i;
+    online.push_back(slam.add_frame(frame).T_map_cam);
+  }
+  const Trajectory optimized = slam.finish().trajectory_optimized();
+  const double path = optimized.poses[kFrames - 1].T_world_body->translation().norm();
+  for (int i = kFrames; i < kFrames + 14; ++i) {
+    ASSERT_TRUE(online[i]) << i;
+    const auto& again = optimized.poses[i].T_world_body;
+    ASSERT_TRUE(again) << i;
+    const Eigen::Vector3d first = optimized.poses[i - kFrames + 8].T_world_body->translation();
+    EXPECT_LT((again->translation() - first).norm(), 0.05 * path) << i;
+  }
+}
+
 TEST(SlamOnAStreet, BeginsANewComponentWhenNothingIsKnownAgain) {
   // The second half is another street: mirrored pictures.
   SlamOptions options = small_options();
@@ -240,6 +275,9 @@ TEST(SlamOnAStreet, RefusesFramesThatBreakTheContract) {
   EXPECT_THAT(refusal(wrong), testing::HasSubstr("frame 0: grey image of 448x280 needed"));
   wrong.image = Image(280, 448, CV_8UC3);
   EXPECT_THAT(refusal(wrong), testing::HasSubstr("grey image"));
+  wrong = first;
+  wrong.right = wrong.right.colRange(0, 300);
+  EXPECT_THAT(refusal(wrong), testing::HasSubstr("right eye"));
   slam.add_frame(first);
   EXPECT_THAT(refusal(first), testing::HasSubstr("must increase"));
   slam.finish();

@@ -82,6 +82,26 @@ TEST(PlaceMapper, AddsUpTheCovariancesOfTheLinksBetweenAnchors) {
   EXPECT_LT((covariance - expected).cwiseAbs().maxCoeff(), 1e-9) << covariance;
 }
 
+TEST(PlaceMapper, KeepsASharpLinkSharp) {
+  PlaceMapper mapper({});
+  mapper.add_keyframe(0, std::nullopt, {}, kDepth_m);
+  mapper.add_keyframe(1, link(0, kLong, 1e-3, 1e-5), {}, kDepth_m);
+  const Matrix6d information = mapper.place_graph().constraints.at(0).information;
+  EXPECT_NEAR(information(5, 5) * 1e-10, 1, 1e-3);
+  EXPECT_NEAR(information(0, 0) * 1e-6, 1, 1e-3);
+}
+
+TEST(PlaceMapper, BeginsEachComponentWithFreshCovariance) {
+  PlaceMapper mapper({});
+  mapper.add_keyframe(0, std::nullopt, {}, kDepth_m);
+  mapper.add_keyframe(1, link(0, kShort, 5, 1), {}, kDepth_m);  // a member: no constraint yet
+  mapper.add_keyframe(2, std::nullopt, {}, kDepth_m);
+  mapper.add_keyframe(3, link(2, kLong, 0.1, 0.01), {}, kDepth_m);
+  const PlaceGraph graph = mapper.place_graph();
+  ASSERT_EQ(graph.constraints.size(), 1u);
+  EXPECT_NEAR(graph.constraints[0].information(5, 5), 1e4, 1);
+}
+
 /// A square of 5 m sides whose odometry turns a little too much: keyframes 0 to 4, the last back at
 /// the first; 5 hangs on the place of 4.
 PlaceMapper square() {
