@@ -110,6 +110,8 @@ class Odometry {
   OdometryUpdate replace_reference(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate try_initialize(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate track(const Frame& frame);
+  void fill_between(std::int64_t ref, std::int64_t cur, Random& random,
+                    OdometryUpdate& update) const;
   std::vector<Eigen::Vector2f> predict(const SE3& T_odom_cam) const;
   bool keyframe_due(const Frame& frame, int inliers) const;
   void add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);

@@ -12,7 +12,10 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
     if (window_.landmarks().size() < static_cast<std::size_t>(options_.pose.ransac.min_inliers)) {
       update.new_keyframes.clear();
       next_keyframe_ = last_keyframe_;
-      restart(T_odom_start_);
+      // Nothing came of it: neither the keyframe nor its few landmarks belong to the map.
+      std::vector<PointLandmark> past = std::move(past_landmarks_);
+      restart(T_odom_start_, in_known_map_);
+      past_landmarks_ = std::move(past);
       return update;
     }
     state_ = update.state = TrackingState::kTracking;
@@ -48,6 +51,26 @@ OdometryUpdate Odometry::replace_reference(const Frame& frame, const std::option
   return begin(frame);
 }
 
+/// The frames between keyframes `ref` and `cur` get their poses from the points.
+void Odometry::fill_between(std::int64_t ref, std::int64_t cur, Random& random,
+                            OdometryUpdate& update) const {
+  for (std::size_t v = 1; v + 1 < views_.size(); ++v) {
+    std::vector<Eigen::Vector3d> points;
+    std::vector<Eigen::Vector2d> px;
+    for (const auto& [id, pixel] : views_[v].px)
+      if (const auto point = window_.landmark(id)) {
+        points.push_back(*point);
+        px.push_back(pixel);
+      }
+    const double share = static_cast<double>(v) / (views_.size() - 1);
+    const SE3 prior = window_.pose(ref) *
+                      SE3::exp(share * (window_.pose(ref).inverse() * window_.pose(cur)).log());
+    const auto pose =
+        estimate_pose_3d2d(calibration_.camera, points, px, options_.pose, random, &prior);
+    if (pose.outcome) update.filled.emplace_back(views_[v].frame, pose.T_ref_cam);
+  }
+}
+
 OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<SE3>& T_known) {
   OdometryUpdate update;
   const View& reference = views_.front();
@@ -66,7 +89,10 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   if (static_cast<int>(ids.size()) < 2 * options_.initializer.min_points)
     return replace_reference(frame, T_known);
   std::vector<PartialView> between;
-  for (std::size_t v = 1; v + 1 < views_.size(); ++v) {
+  // A few judges are enough, however long the camera stood still.
+  constexpr std::size_t kJudges = 16;
+  const std::size_t stride = views_.size() / kJudges + 1;
+  for (std::size_t v = 1; v + 1 < views_.size(); v += stride) {
     between.emplace_back();
     for (const auto& [id, px] : views_[v].px)
       if (const auto i = index.find(id); i != index.end())
@@ -112,22 +138,7 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   }
   update.new_keyframes = {{ref, reference_frame_}, {cur, frame}};
 
-  // Frames in between get their poses from the points.
-  for (std::size_t v = 1; v + 1 < views_.size(); ++v) {
-    std::vector<Eigen::Vector3d> points;
-    std::vector<Eigen::Vector2d> px;
-    for (const auto& [id, pixel] : views_[v].px)
-      if (const auto point = window_.landmark(id)) {
-        points.push_back(*point);
-        px.push_back(pixel);
-      }
-    const double share = static_cast<double>(v) / (views_.size() - 1);
-    const SE3 prior = window_.pose(ref) *
-                      SE3::exp(share * (window_.pose(ref).inverse() * window_.pose(cur)).log());
-    const auto pose =
-        estimate_pose_3d2d(calibration_.camera, points, px, options_.pose, random, &prior);
-    if (pose.outcome) update.filled.emplace_back(views_[v].frame, pose.T_ref_cam);
-  }
+  fill_between(ref, cur, random, update);
   const double steps = static_cast<double>(views_.size() - 1);
   views_.clear();
   tracker_.detect(frame.mask);
