@@ -1,21 +1,13 @@
 #pragma once
+#include <placegraph/backend/local_solver.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/pose_graph.h>
 
 namespace placegraph {
 
-/// How the rotation part of a relative-pose error is written: one .g2o file has several costs.
-enum class RotationError {
-  kLog,  ///< Log of SE(2) / SE(3) / Sim(3): the default
-  /// g2o: translation of the error pose, vector part of its quaternion (half the angle); in the
-  /// plane, where g2o has no quaternion, translation and angle.
-  kQuaternion,
-};
-
 struct PoseGraphOptions {
   RotationError rotation_error = RotationError::kLog;
+  PoseGraphEngine engine = PoseGraphEngine::kNative;
   int max_iterations = 200;
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
   void check() const;

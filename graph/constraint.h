@@ -29,10 +29,13 @@ struct RelativePoseConstraint {
   RobustKernel kernel;
 };
 
-/// The position of a node [m], as from a GPS receiver: error = position of node - position_world.
+/// The position of a point that a node carries [m], as of a GPS receiver's antenna:
+/// error = T_world_node * lever_arm - position_world. In the plane the third components are left
+/// out.
 struct PositionConstraint {
   std::int64_t node = 0;
   Eigen::Vector3d position_world = Eigen::Vector3d::Zero();
+  Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  ///< of the antenna, in the node's frame [m]
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
   RobustKernel kernel;
 };

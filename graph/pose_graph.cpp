@@ -135,6 +135,7 @@ void PoseGraph::check() const {
       if (!index.contains(position.node))
         refuse(subject, "unknown node " + std::to_string(position.node));
       if (!position.position_world.allFinite()) refuse(subject, "position is not finite");
+      if (!position.lever_arm.allFinite()) refuse(subject, "lever arm is not finite");
       check_information(position.information, 3, subject);
       check_kernel(position.kernel, subject);
     }

@@ -1,45 +1,33 @@
 #pragma once
 #include <ceres/sized_cost_function.h>
 #include <placegraph/backend/factors/pose_manifold.h>
+#include <placegraph/backend/factors/position_error.h>
 
 namespace placegraph {
 
-/// The position of a node [m], r = W (t_world_node - position_world), W^T W = information.
-///
-///   d r / d rho = W s R_world_node   (s = 1 but for Sim(3))
-///
-/// A node of SE(2) lies in the plane: the third component of the error is left out (zero).
+/// r = W e, W^T W = information, of a PositionConstraint.
 template <class Group>
 class PositionFactor final : public ceres::SizedCostFunction<3, PoseBlock<Group>::kSize> {
  public:
-  PositionFactor(const Eigen::Vector3d& position_world, const Eigen::Matrix3d& whitening)
-      : position_world_(position_world), W_(whitening) {}
-
-  /// t_world_node - position_world
-  static Eigen::Vector3d error(const Group& T_world_node, const Eigen::Vector3d& position_world) {
-    constexpr int dim = Group::kDof == 3 ? 2 : 3;
-    Eigen::Vector3d e = Eigen::Vector3d::Zero();
-    e.template head<dim>() = T_world_node.translation() - position_world.template head<dim>();
-    return e;
-  }
+  PositionFactor(const Eigen::Vector3d& position_world, const Eigen::Vector3d& lever_arm,
+                 const Eigen::Matrix3d& whitening)
+      : position_world_(position_world), lever_arm_(lever_arm), W_(whitening) {}
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    constexpr int dim = Group::kDof == 3 ? 2 : 3;
-    const Group T_world_node = PoseBlock<Group>::load(parameters[0]);
+    const PositionLinearization<Group> at(PoseBlock<Group>::load(parameters[0]), lever_arm_,
+                                          position_world_);
     Eigen::Map<Eigen::Vector3d> r(residuals);
-    r.noalias() = W_ * error(T_world_node, position_world_);
+    r.noalias() = W_ * at.e;
     if (!jacobians || !jacobians[0]) return true;
     Eigen::Map<Eigen::Matrix<double, 3, PoseBlock<Group>::kSize, Eigen::RowMajor>> J(jacobians[0]);
     J.setZero();
-    J.template leftCols<dim>().noalias() =
-        W_.template leftCols<dim>() * T_world_node.rotation().matrix();
-    if constexpr (Group::kDof == 7) J.template leftCols<3>() *= T_world_node.scale();
+    J.template leftCols<Group::kDof>().noalias() = W_ * at.J;
     return true;
   }
 
  private:
-  Eigen::Vector3d position_world_;
+  Eigen::Vector3d position_world_, lever_arm_;
   Eigen::Matrix3d W_;
 };
 

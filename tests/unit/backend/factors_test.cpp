@@ -178,7 +178,7 @@ TYPED_TEST(PoseFactors, PositionHasTheJacobiansOfFiniteDifferences) {
   const PoseManifold<Group> manifold;
   Eigen::Matrix3d W;
   W << 2, 1, 0, 0, 1, -1, 0.5, 0, 3;
-  const PositionFactor<Group> factor({1, 2, 3}, W);
+  const PositionFactor<Group> factor({1, 2, 3}, {0.4, -0.3, 0.2}, W);
   test::expect_jacobians_match(factor, {pose_block(random_element<Group>(random, 2, 1), manifold)});
 }
 
