@@ -2,16 +2,19 @@
 #include <placegraph/backend/ceres_solver.h>
 #include <placegraph/backend/factors/position_error.h>
 #include <placegraph/backend/local_solver.h>
+#include <placegraph/backend/native_solver.h>
 
 namespace placegraph {
 
 template <class Group>
 struct LocalSolver<Group>::Impl {
   LocalSolverOptions options;
+  NativeSolver<Group> native;
 };
 
 template <class Group>
-LocalSolver<Group>::LocalSolver(const LocalSolverOptions& options) : impl_(new Impl{options}) {
+LocalSolver<Group>::LocalSolver(const LocalSolverOptions& options)
+    : impl_(new Impl{options, NativeSolver<Group>(options)}) {
   use_one_blas_thread();
 }
 template <class Group>
@@ -19,7 +22,8 @@ LocalSolver<Group>::~LocalSolver() = default;
 
 template <class Group>
 LocalSolution LocalSolver<Group>::solve(PackedGraph<Group>& graph) {
-  return solve_with_ceres(graph, impl_->options);
+  return impl_->options.engine == PoseGraphEngine::kCeres ? solve_with_ceres(graph, impl_->options)
+                                                          : impl_->native.solve(graph);
 }
 
 template <class Group>

@@ -28,8 +28,12 @@ PoseGraphReport optimize(const PoseGraph& graph, const PoseGraphOptions& options
   PackedGraph<Group> packed = pack<Group>(graph);
   PoseGraphReport report;
   report.chi2_initial = sum(chi2_by_constraint(packed, options.rotation_error));
-  LocalSolver<Group> solver(
-      {options.engine, options.rotation_error, options.max_iterations, options.relative_decrease});
+  LocalSolver<Group> solver({.engine = options.engine,
+                             .rotation_error = options.rotation_error,
+                             .step_rule = options.step_rule,
+                             .max_iterations = options.max_iterations,
+                             .relative_decrease = options.relative_decrease,
+                             .log = log_sink});
   const LocalSolution solution = solver.solve(packed);
   report.outcome = solution.outcome;
   report.iterations = solution.iterations;
@@ -57,6 +61,8 @@ void visit(OptionVisitor& field, PoseGraphOptions& o) {
   field.choice("rotation_error", o.rotation_error, {"log", "quaternion"},
                "error of a relative pose: log of the group, or g2o's quaternion vector part");
   field.choice("engine", o.engine, {"native", "ceres"}, "which solver finds the minimum");
+  field.choice("step_rule", o.step_rule, {"dogleg", "gauss_newton", "levenberg_marquardt"},
+               "how the native engine steps");
   field("max_iterations", o.max_iterations, "steps of Levenberg-Marquardt", {1, 100000});
   field("relative_decrease", o.relative_decrease,
         "stop when the cost falls by less than this share", {0, 1});

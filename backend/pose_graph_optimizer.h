@@ -8,6 +8,7 @@ namespace placegraph {
 struct PoseGraphOptions {
   RotationError rotation_error = RotationError::kLog;
   PoseGraphEngine engine = PoseGraphEngine::kNative;
+  StepRule step_rule = StepRule::kDogleg;
   int max_iterations = 200;
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
   void check() const;

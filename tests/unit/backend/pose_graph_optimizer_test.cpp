@@ -333,7 +333,7 @@ TEST(PoseGraphOptimizer, TwoRunsGiveTheSameBitsAndTheLogIsHandedOver) {
   const PoseGraphReport a = optimize_pose_graph(
       walk.graph, {}, [&](LogLevel, const std::string& line) { lines.push_back(line); });
   const PoseGraphReport b = optimize_pose_graph(walk.graph, {});
-  EXPECT_THAT(lines, testing::ElementsAre(testing::HasSubstr("chi2")));
+  EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("chi2")));
   EXPECT_EQ(a.chi2_final, b.chi2_final);
   for (std::size_t i = 0; i < walk.truth.size(); ++i)
     EXPECT_EQ(walk.pose(a.graph, i).matrix(), walk.pose(b.graph, i).matrix());
