@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/backend/block_columns.h>
+
 #include <Eigen/Core>
 #include <memory>
 #include <utility>
@@ -23,9 +25,10 @@ BlockOrdering order_blocks(int block_count, int block_size,
                            const std::vector<std::pair<int, int>>& pairs);
 
 /// A symmetric positive definite matrix of square blocks, assembled block by block straight into
-/// the form CHOLMOD factorizes, and its Cholesky factor (supernodal where the fill is dense enough
-/// for BLAS). Ordering and symbolic analysis happen once, in the constructor; every factorization
-/// is numeric only. The same input gives the same bits.
+/// the form that is factorized, and its Cholesky factor: CHOLMOD's supernodal one where the fill is
+/// dense enough for BLAS, our block-wise one where it is thin. Ordering and symbolic analysis
+/// happen once, in the constructor; every factorization is numeric only. The same input gives the
+/// same bits.
 class BlockCholesky {
  public:
   BlockCholesky(int block_count, int block_size, const std::vector<std::pair<int, int>>& pairs);
@@ -65,19 +68,13 @@ class BlockCholesky {
   /// where the matrix is singular.
   double smallest_pivot() const;
   /// Solves with the last factor, column by column of `b` (by blocks), in place.
-  void solve(Eigen::Ref<Eigen::MatrixXd> b);
+  void solve(Eigen::Ref<Eigen::MatrixXd> b) const;
   /// Doubles in the factor, and operations of one solve against one factorization.
   double factor_size() const;
   double solves_per_factorization() const;
 
-  /// The factor L (L L^T = matrix) by blocks in the order of elimination: block column j holds the
-  /// blocks `row[start[j]] ... row[start[j + 1] - 1]` in ascending order, the diagonal one first,
-  /// each `block_size` squared doubles, column-major, one after the other in `values`.
-  struct LowerFactor {
-    std::vector<int> start, row;
-    std::vector<double> values;
-  };
-  LowerFactor lower_factor() const;
+  /// The factor by blocks in the order of elimination (BlockOrdering::position).
+  BlockFactor factor() const;
 
  private:
   struct Impl;

@@ -23,8 +23,9 @@ template <class Group>
 auto NativeSolver<Group>::newton_step() -> std::optional<Step> {
   BlockCholesky& H = equations_->matrix();
   if (H.has_factor() && relative_decrease_ < 0.5) {
-    const int affordable = static_cast<int>(0.4 * H.solves_per_factorization());
-    if (auto step = conjugate_gradients(affordable)) return step;
+    const int affordable = static_cast<int>(0.6 * H.solves_per_factorization());
+    if (affordable >= 2)
+      if (auto step = conjugate_gradients(affordable)) return step;
   }
   if (!H.factorize() || H.smallest_pivot() < kSingularPivot) return std::nullopt;
   Step step{-equations_->gradient(), 0};

@@ -1,24 +1,44 @@
 #include <placegraph/backend/packed_graph.h>
 
-#include <set>
+#include <algorithm>
+#include <numeric>
 
 namespace placegraph {
 namespace {
 
-std::vector<char> held_nodes(const PoseGraph& graph,
-                             const std::unordered_map<std::int64_t, int>& index) {
-  const std::vector<int> component = graph.components();
-  std::vector<char> held(graph.nodes.size());
-  std::set<int> anchored;
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
-    held[i] = graph.nodes[i].fixed;
-    if (held[i]) anchored.insert(component[i]);
+/// Connected pieces, by union-find with path halving.
+class Pieces {
+ public:
+  explicit Pieces(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
   }
-  for (const Constraint& constraint : graph.constraints)
-    if (const auto* position = std::get_if<PositionConstraint>(&constraint))
-      anchored.insert(component[static_cast<std::size_t>(index.at(position->node))]);
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i)
-    if (anchored.insert(component[i]).second) held[i] = true;
+  int root(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(int i, int j) {
+    i = root(i);
+    j = root(j);
+    parent_[std::max(i, j)] = std::min(i, j);  // the first node of a piece is its root
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+template <class Group>
+std::vector<char> held_nodes(const PoseGraph& graph, const PackedGraph<Group>& packed) {
+  Pieces pieces(graph.nodes.size());
+  for (const auto& edge : packed.edges) pieces.join(edge.from, edge.to);
+  std::vector<char> held(graph.nodes.size()), anchored(graph.nodes.size());
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    held[i] = graph.nodes[i].fixed;
+    if (held[i]) anchored[pieces.root(static_cast<int>(i))] = true;
+  }
+  for (const auto& position : packed.positions) anchored[pieces.root(position.node)] = true;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (const int root = pieces.root(static_cast<int>(i)); !anchored[root])
+      held[i] = anchored[root] = true;
   return held;
 }
 
@@ -31,7 +51,6 @@ PackedGraph<Group> pack(const PoseGraph& graph) {
   packed.poses.reserve(graph.nodes.size());
   for (const PoseNode& node : graph.nodes)
     packed.poses.push_back(std::get<Group>(node.T_world_node));
-  packed.held = held_nodes(graph, index);
   packed.edges.reserve(graph.constraints.size());
   for (std::size_t i = 0; i < graph.constraints.size(); ++i) {
     if (const auto* relative = std::get_if<RelativePoseConstraint>(&graph.constraints[i])) {
@@ -46,6 +65,7 @@ PackedGraph<Group> pack(const PoseGraph& graph) {
                                   position.kernel});
     }
   }
+  packed.held = held_nodes(graph, packed);
   return packed;
 }
 

@@ -23,7 +23,7 @@ double sum(const std::vector<double>& values) {
 }
 
 template <class Group>
-PoseGraphReport optimize(const PoseGraph& graph, const PoseGraphOptions& options,
+PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
                          const LogSink& log_sink) {
   PackedGraph<Group> packed = pack<Group>(graph);
   PoseGraphReport report;
@@ -37,8 +37,8 @@ PoseGraphReport optimize(const PoseGraph& graph, const PoseGraphOptions& options
   const LocalSolution solution = solver.solve(packed);
   report.outcome = solution.outcome;
   report.iterations = solution.iterations;
-  report.graph = graph;
-  unpack(packed, report.graph);
+  unpack(packed, graph);
+  report.graph = std::move(graph);
   report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
   report.chi2_final = sum(report.chi2_by_constraint);
   log(log_sink, LogLevel::kInfo,
@@ -68,19 +68,19 @@ void visit(OptionVisitor& field, PoseGraphOptions& o) {
         "stop when the cost falls by less than this share", {0, 1});
 }
 
-PoseGraphReport optimize_pose_graph(const PoseGraph& graph, const PoseGraphOptions& options,
+PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
                                     const LogSink& log) {
   options.check();
   graph.check();
   switch (graph.kind()) {
     case PoseKind::kSE2:
-      return optimize<SE2>(graph, options, log);
+      return optimize<SE2>(std::move(graph), options, log);
     case PoseKind::kSE3:
-      return optimize<SE3>(graph, options, log);
+      return optimize<SE3>(std::move(graph), options, log);
     case PoseKind::kSim3:
       break;
   }
-  return optimize<Sim3>(graph, options, log);
+  return optimize<Sim3>(std::move(graph), options, log);
 }
 
 double chi2(const PoseGraph& graph, RotationError rotation_error) {

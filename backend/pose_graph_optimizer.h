@@ -26,8 +26,7 @@ struct PoseGraphReport {
 
 /// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed; if a connected component has
 /// no fixed node its first one is held. SE(2), SE(3) and Sim(3) graphs. Throws as PoseGraph::check.
-[[nodiscard]] PoseGraphReport optimize_pose_graph(const PoseGraph& graph,
-                                                  const PoseGraphOptions& options,
+[[nodiscard]] PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
                                                   const LogSink& log = {});
 
 /// Sum of e^T Omega e over all relative-pose constraints (and positions), without kernels.
