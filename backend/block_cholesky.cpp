@@ -89,7 +89,7 @@ struct BlockCholesky::Impl {
     matrix.pattern = sorted_pattern(count, pairs);
     matrix.values.resize(matrix.pattern.row.size() * size * size);
     if (SimplicialFactor::has_kernel(size) &&
-        ordering.operations * size < kSupernodalSwitch * ordering.fill)
+        ordering.operations * size <= kSupernodalSwitch * ordering.fill)
       simplicial.emplace(matrix);
     else
       supernodal.emplace(matrix);
