@@ -26,6 +26,7 @@ class NormalEquations {
   double linearize(const PackedGraph<Group>& graph, RotationError rotation_error);
 
   BlockCholesky& matrix() { return matrix_; }
+  const BlockCholesky& matrix() const { return matrix_; }
   const Eigen::VectorXd& gradient() const { return gradient_; }  ///< g, by blocks
   /// The block of a node; -1 if it is held.
   int block_of(int node) const { return block_of_node_[static_cast<std::size_t>(node)]; }
