@@ -1,5 +1,7 @@
 #include <placegraph/backend/pose_graph_optimizer.h>
 
+#include <utility>
+
 namespace placegraph {
 namespace {
 
@@ -28,15 +30,17 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
   PackedGraph<Group> packed = pack<Group>(graph);
   PoseGraphReport report;
   report.chi2_initial = sum(chi2_by_constraint(packed, options.rotation_error));
-  LocalSolver<Group> solver({.engine = options.engine,
-                             .rotation_error = options.rotation_error,
-                             .step_rule = options.step_rule,
-                             .max_iterations = options.max_iterations,
-                             .relative_decrease = options.relative_decrease,
-                             .log = log_sink});
-  const LocalSolution solution = solver.solve(packed);
-  report.outcome = solution.outcome;
-  report.iterations = solution.iterations;
+  RobustSolution solution = solve_robustly(packed,
+                                           {.engine = options.engine,
+                                            .rotation_error = options.rotation_error,
+                                            .step_rule = options.step_rule,
+                                            .max_iterations = options.max_iterations,
+                                            .relative_decrease = options.relative_decrease,
+                                            .log = log_sink},
+                                           options.robust);
+  report.outcome = solution.local.outcome;
+  report.iterations = solution.local.iterations;
+  report.rejected = std::move(solution.rejected);
   unpack(packed, graph);
   report.graph = std::move(graph);
   report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
@@ -66,6 +70,7 @@ void visit(OptionVisitor& field, PoseGraphOptions& o) {
   field("max_iterations", o.max_iterations, "steps of Levenberg-Marquardt", {1, 100000});
   field("relative_decrease", o.relative_decrease,
         "stop when the cost falls by less than this share", {0, 1});
+  field.group("robust", o.robust, "what is done against false loops");
 }
 
 PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,

@@ -1,7 +1,5 @@
 #pragma once
-#include <placegraph/backend/local_solver.h>
-#include <placegraph/graph/core/log.h>
-#include <placegraph/graph/core/options.h>
+#include <placegraph/backend/robust_optimizer.h>
 
 namespace placegraph {
 
@@ -11,6 +9,7 @@ struct PoseGraphOptions {
   StepRule step_rule = StepRule::kDogleg;
   int max_iterations = 200;
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
+  RobustOptions robust;             ///< what is done against false loops
   void check() const;
 };
 void visit(OptionVisitor& field, PoseGraphOptions& options);
@@ -22,9 +21,13 @@ struct PoseGraphReport {
   double chi2_final = 0;
   int iterations = 0;
   std::vector<double> chi2_by_constraint;  ///< final, in the order of graph.constraints
+  /// Left out of the solution as false, by RobustOptions; in the order of graph.constraints. The
+  /// sums above count them all the same.
+  std::vector<RejectedEdge> rejected;
 };
 
-/// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed; if a connected component has
+/// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed, leaving out what
+/// `options.robust` finds to be false; if a connected component has
 /// no fixed node its first one is held. SE(2), SE(3) and Sim(3) graphs. Throws as PoseGraph::check.
 [[nodiscard]] PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
                                                   const LogSink& log = {});

@@ -32,13 +32,16 @@ RobustKernel::Value RobustKernel::evaluate(double s) const {
       const double scale = 2 * b / (b + s);
       return {b * (3 * s - b) / (b + s), scale * scale, -2 * scale * scale / (b + s)};
     }
+    case Kind::kTruncated:
+      if (s <= b) break;
+      return {b, 0, 0};
   }
   return {s, 1, 0};
 }
 
 const std::vector<std::string>& robust_kernel_names() {
-  static const std::vector<std::string> names = {"none",  "huber",         "cauchy",
-                                                 "tukey", "geman_mcclure", "dcs"};
+  static const std::vector<std::string> names = {"none",          "huber", "cauchy",   "tukey",
+                                                 "geman_mcclure", "dcs",   "truncated"};
   return names;
 }
 

@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, EveryKernel,
                          [](const auto& kind) { return robust_kernel_names()[kind.param]; });
 
 TEST(RobustKernel, HasOneNameForEveryKind) {
-  EXPECT_EQ(robust_kernel_names().size(), static_cast<std::size_t>(Kind::kDcs) + 1);
+  EXPECT_EQ(robust_kernel_names().size(), static_cast<std::size_t>(Kind::kTruncated) + 1);
 }
 
 TEST(RobustKernel, ValuesByHand) {
@@ -63,6 +63,9 @@ TEST(RobustKernel, ValuesByHand) {
   EXPECT_DOUBLE_EQ((RobustKernel{Kind::kTukey, 3}.evaluate(100).rho), 3);
   EXPECT_DOUBLE_EQ((RobustKernel{Kind::kGemanMcClure, 2}.evaluate(4).rho), 2);
   EXPECT_DOUBLE_EQ((RobustKernel{Kind::kDcs, 1}.evaluate(3).first), 0.25);  // (2 / (1 + 3))^2
+  EXPECT_EQ((RobustKernel{Kind::kTruncated, 2}.evaluate(3.9).rho), 3.9);
+  EXPECT_EQ((RobustKernel{Kind::kTruncated, 2}.evaluate(4.1).rho), 4);
+  EXPECT_EQ((RobustKernel{Kind::kTruncated, 2}.evaluate(4.1).first), 0);
 }
 
 }  // namespace

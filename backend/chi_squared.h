@@ -1,0 +1,13 @@
+#pragma once
+
+namespace placegraph {
+
+/// P(chi2 > x) for a chi-squared variable of `dof` >= 1 degrees of freedom; closed form of integer
+/// degrees (Abramowitz & Stegun 26.4.4, 26.4.5).
+double chi_squared_tail(double x, int dof);
+
+/// The x that a chi-squared variable of `dof` >= 1 degrees of freedom stays below with
+/// `probability` in (0, 1).
+double chi_squared_quantile(double probability, int dof);
+
+}  // namespace placegraph

@@ -1,0 +1,44 @@
+#pragma once
+#include <placegraph/backend/gnc.h>
+
+#include <string>
+
+namespace placegraph {
+
+enum class RobustMethod { kNone, kHuber, kDcs, kGnc };
+
+struct RobustOptions {
+  RobustMethod method = RobustMethod::kNone;
+  double kernel_width = 1;  ///< of huber and dcs, in standard deviations
+  /// Share of the true loops whose squared error lies below the gate, were their noise Gaussian.
+  double gate_probability = 0.999;
+  GncOptions gnc;
+  void check() const;
+};
+void visit(OptionVisitor& field, RobustOptions& options);
+
+/// A constraint that was left out of the solution.
+struct RejectedEdge {
+  int constraint = 0;  ///< position in PoseGraph::constraints
+  double chi2 = 0;     ///< e^T Omega e at the solution
+  std::string reason;  ///< "residual": its error at the solution lies beyond the gate
+};
+
+struct RobustSolution {
+  LocalSolution local;
+  std::vector<RejectedEdge> rejected;  ///< in the order of the constraints
+  double noise_scale = 1;  ///< variance of the noise in units of what the information claims
+};
+
+/// Minimizes a pose graph some of whose loops are false. Odometry (and measured positions) are
+/// believed; every other edge may be left out.
+///   none   all edges as they are, with the kernels they carry
+///   huber, dcs   that kernel on every loop; none is left out
+///   gnc    graduated non-convexity from the poses of the graph (gnc.h)
+/// `graph` comes out with the poses of the solution and weight 0 on what was left out.
+template <class Group>
+[[nodiscard]] RobustSolution solve_robustly(PackedGraph<Group>& graph,
+                                            const LocalSolverOptions& solver,
+                                            const RobustOptions& options);
+
+}  // namespace placegraph

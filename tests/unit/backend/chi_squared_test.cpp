@@ -1,0 +1,31 @@
+#include <gtest/gtest.h>
+#include <placegraph/backend/chi_squared.h>
+#include <placegraph/graph/core/error.h>
+
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+TEST(ChiSquared, TailsAreThoseOfTheTables) {
+  EXPECT_NEAR(chi_squared_tail(3.841458821, 1), 0.05, 1e-9);
+  EXPECT_NEAR(chi_squared_tail(4, 2), std::exp(-2.0), 1e-15);
+  EXPECT_NEAR(chi_squared_tail(7.814727903, 3), 0.05, 1e-9);
+  EXPECT_NEAR(chi_squared_tail(16.81189383, 6), 0.01, 1e-9);
+  EXPECT_NEAR(chi_squared_tail(18.47530691, 7), 0.01, 1e-9);
+}
+
+TEST(ChiSquared, QuantilesInvertTheTails) {
+  for (int dof = 1; dof <= 12; ++dof)
+    for (const double p : {0.01, 0.5, 0.95, 0.999, 0.999999})
+      EXPECT_NEAR(1 - chi_squared_tail(chi_squared_quantile(p, dof), dof), p, 1e-10);
+}
+
+TEST(ChiSquared, RefusesAProbabilityThatIsNone) {
+  EXPECT_THROW(chi_squared_quantile(0, 3), ArgumentError);
+  EXPECT_THROW(chi_squared_quantile(1, 3), ArgumentError);
+  EXPECT_THROW(chi_squared_quantile(NAN, 3), ArgumentError);
+}
+
+}  // namespace
+}  // namespace placegraph
