@@ -1,34 +1,12 @@
 #include <placegraph/backend/packed_graph.h>
-
-#include <algorithm>
-#include <numeric>
+#include <placegraph/graph/core/disjoint_sets.h>
 
 namespace placegraph {
 namespace {
 
-/// Connected pieces, by union-find with path halving.
-class Pieces {
- public:
-  explicit Pieces(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(int i, int j) {
-    i = root(i);
-    j = root(j);
-    parent_[std::max(i, j)] = std::min(i, j);  // the first node of a piece is its root
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 template <class Group>
 std::vector<char> held_nodes(const PoseGraph& graph, const PackedGraph<Group>& packed) {
-  Pieces pieces(graph.nodes.size());
+  DisjointSets pieces(graph.nodes.size());
   for (const auto& edge : packed.edges) pieces.join(edge.from, edge.to);
   std::vector<char> held(graph.nodes.size()), anchored(graph.nodes.size());
   for (std::size_t i = 0; i < held.size(); ++i) {
@@ -46,7 +24,7 @@ std::vector<char> held_nodes(const PoseGraph& graph, const PackedGraph<Group>& p
 
 template <class Group>
 PackedGraph<Group> pack(const PoseGraph& graph) {
-  const std::unordered_map<std::int64_t, int> index = graph.index_by_id();
+  const NodeIndex index = graph.index_by_id();
   PackedGraph<Group> packed;
   packed.poses.reserve(graph.nodes.size());
   for (const PoseNode& node : graph.nodes)

@@ -10,7 +10,7 @@ struct PoseMarginals::Impl {
   virtual ~Impl() = default;
 
   PoseGraph graph;
-  std::unordered_map<std::int64_t, int> index;
+  NodeIndex index;
   int dof = 0;
   Outcome outcome;
 
@@ -20,9 +20,9 @@ struct PoseMarginals::Impl {
   virtual Information adjoint(int from, int to) const = 0;
 
   int node(std::int64_t id) const {
-    const auto found = index.find(id);
-    require(found != index.end(), "PoseMarginals: unknown node " + std::to_string(id));
-    return found->second;
+    const int found = index.find(id);
+    require(found != NodeIndex::kNone, "PoseMarginals: unknown node " + std::to_string(id));
+    return found;
   }
   void require_outcome() const {
     require(static_cast<bool>(outcome),

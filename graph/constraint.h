@@ -20,6 +20,12 @@ using Information = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 
 
 enum class ConstraintSource { kOdometry, kLoop, kOther };
 
+/// What is wrong with an information matrix, as in "information is indefinite"; nullptr if nothing
+/// is. Wrong are values that are not finite, asymmetry (beyond 1e-9 of the largest entry), an
+/// eigenvalue below -1e-9 of the largest, all zeros, and any size but 3x3, 6x6 and 7x7.
+const char* fault_of(const Information& information);
+const char* fault_of(const Eigen::Matrix3d& information);
+
 /// Node `to` seen from node `from`: error = Log(T_from_to^-1 * T_world_from^-1 * T_world_to).
 struct RelativePoseConstraint {
   std::int64_t from = 0, to = 0;

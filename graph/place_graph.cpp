@@ -1,8 +1,7 @@
+#include <placegraph/graph/core/disjoint_sets.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_graph.h>
 
-#include <algorithm>
-#include <numeric>
 #include <unordered_map>
 
 namespace placegraph {
@@ -17,21 +16,11 @@ const Place* PlaceGraph::find(std::int64_t id) const {
 }
 
 std::vector<int> PlaceGraph::joined_components() const {
-  std::vector<int> parent(places.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  // The lower index stays the root, so that a component is first met at its root.
-  const auto join = [&](int i, int j) {
-    i = root(i), j = root(j);
-    parent[std::max(i, j)] = std::min(i, j);
-  };
+  DisjointSets sets(places.size());
   std::unordered_map<int, int> first_of_component;
   std::unordered_map<std::int64_t, int> index;
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
-    join(first_of_component.emplace(places[i].component, i).first->second, i);
+    sets.join(first_of_component.emplace(places[i].component, i).first->second, i);
     index.emplace(places[i].id, i);
   }
   for (const RelativePoseConstraint& constraint : constraints) {
@@ -39,13 +28,9 @@ std::vector<int> PlaceGraph::joined_components() const {
     if (from == index.end() || to == index.end())
       throw ArgumentError("place graph: constraint " + std::to_string(constraint.from) + " -> " +
                           std::to_string(constraint.to) + ": unknown place");
-    join(from->second, to->second);
+    sets.join(from->second, to->second);
   }
-  std::vector<int> component(places.size());
-  int count = 0;
-  for (int i = 0; i < static_cast<int>(places.size()); ++i)
-    component[i] = root(i) == i ? count++ : component[root(i)];
-  return component;
+  return sets.numbers();
 }
 
 PoseGraph PlaceGraph::pose_graph() const {
@@ -62,12 +47,12 @@ PoseGraph PlaceGraph::pose_graph() const {
 }
 
 void PlaceGraph::set_poses(const PoseGraph& optimized) {
-  const auto index = optimized.index_by_id();
+  const NodeIndex index = optimized.index_by_id();
   for (Place& place : places) {
-    const auto node = index.find(place.id);
-    if (node == index.end())
+    const int node = index.find(place.id);
+    if (node == NodeIndex::kNone)
       throw ArgumentError("place graph: the pose graph lacks place " + std::to_string(place.id));
-    const SE3* T_map_place = std::get_if<SE3>(&optimized.nodes[node->second].T_world_node);
+    const SE3* T_map_place = std::get_if<SE3>(&optimized.nodes[node].T_world_node);
     require(T_map_place, "place graph: the pose graph is not over SE(3)");
     place.T_map_place = *T_map_place;
   }

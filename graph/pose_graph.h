@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/graph/constraint.h>
+#include <placegraph/graph/node_index.h>
 
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 namespace placegraph {
@@ -26,7 +26,7 @@ struct PoseGraph {
   /// of the largest) or all zero.
   void check() const;
   /// id -> position in `nodes`.
-  std::unordered_map<std::int64_t, int> index_by_id() const;
+  NodeIndex index_by_id() const;
   /// For every node the number of its connected component; numbers count from 0 in node order.
   std::vector<int> components() const;
   /// For every node the constraint that reaches it in a breadth-first spanning forest; -1 for
@@ -34,5 +34,9 @@ struct PoseGraph {
   /// only where odometry leads no further.
   std::vector<int> spanning_tree() const;
 };
+
+/// Sets every pose that is not fixed by the measurements along the spanning tree, from its roots,
+/// which stay where they are. Throws ArgumentError for a constraint on an unknown node.
+void integrate_odometry(PoseGraph& graph);
 
 }  // namespace placegraph

@@ -156,11 +156,7 @@ TYPED_TEST(PoseFactors, RelativePoseHasTheJacobiansOfFiniteDifferencesAtAnySizeO
         const Group T_world_from = random_element<Group>(random, 2, 1);
         const Group E = random_element<Group>(random, 3 * size, size);
         // Beyond 2.9 rad the cut of the log at pi is too near for finite differences.
-        if (pose_error(E, RotationError::kLog).template tail<1>().norm() > 2.9 ||
-                    E.log().template segment < Group::kDof == 3
-                ? 1
-                : 3 > (Group::kDof == 3 ? 2 : 3).norm() > 2.9)
-          continue;
+        if (E.rotation().log().norm() > 2.9) continue;
         typename Group::Jacobian W = Group::Jacobian::Identity();
         for (Eigen::Index i = 0; i < W.size(); ++i) W.data()[i] += 0.3 * random.normal();
         const RelativePoseFactor<Group> factor(T_from_to, W, kind);

@@ -117,6 +117,14 @@ TEST(PoseGraphCheck, RefusesIndefiniteInformationButNotRoundingBelowZero) {
   EXPECT_EQ(complaint([](auto& g) { edge(g).information(0, 0) = -1e-12; }), "accepted");
 }
 
+TEST(PoseGraphCheck, RefusesIndefiniteInformationNearTheLargestNumber) {
+  EXPECT_THAT(complaint([](auto& g) {
+                edge(g).information *= 1e300;
+                edge(g).information(0, 1) = edge(g).information(1, 0) = 2e300;
+              }),
+              HasSubstr("indefinite"));
+}
+
 TEST(PoseGraphCheck, AcceptsInformationOfAnyRankButZero) {
   EXPECT_EQ(complaint([](auto& g) { edge(g).information.bottomRightCorner(5, 5).setZero(); }),
             "accepted");
@@ -191,6 +199,34 @@ TEST(PoseGraph, SpanningTreeIsBreadthFirst) {
 
 TEST(PoseGraph, RefusesToWalkAlongAConstraintOnAnUnknownNode) {
   EXPECT_THROW(make_graph({1}, {relative(1, 2)}).components(), ArgumentError);
+}
+
+Eigen::Vector3d position_of(const PoseGraph& graph, std::size_t node) {
+  return std::get<SE3>(graph.nodes[node].T_world_node).translation();
+}
+
+TEST(PoseGraph, OdometryIsIntegratedFromTheRootAlongTheTreeBothWays) {
+  // 1 <- 0 -> 2 -> 3, and a loop that contradicts; every edge leads a metre ahead.
+  PoseGraph graph = make_graph({1, 0, 2, 3}, {relative(0, 1), relative(0, 2), relative(2, 3),
+                                              relative(1, 3, ConstraintSource::kLoop)});
+  for (Constraint& constraint : graph.constraints)
+    std::get<RelativePoseConstraint>(constraint).T_from_to = SE3(SO3(), {1, 0, 0});
+  graph.nodes[0].T_world_node = SE3(SO3(), {10, 0, 0});
+  integrate_odometry(graph);
+  EXPECT_EQ(position_of(graph, 0), Eigen::Vector3d(10, 0, 0));
+  EXPECT_EQ(position_of(graph, 1), Eigen::Vector3d(9, 0, 0));
+  EXPECT_EQ(position_of(graph, 2), Eigen::Vector3d(10, 0, 0));
+  EXPECT_EQ(position_of(graph, 3), Eigen::Vector3d(11, 0, 0));
+}
+
+TEST(PoseGraph, OdometryIsIntegratedOnFromAFixedPoseWhichStays) {
+  PoseGraph graph = make_graph({0, 1, 2}, {relative(0, 1), relative(1, 2)});
+  for (Constraint& constraint : graph.constraints)
+    std::get<RelativePoseConstraint>(constraint).T_from_to = SE3(SO3(), {1, 0, 0});
+  graph.nodes[1] = {1, SE3(SO3(), {5, 0, 0}), true};
+  integrate_odometry(graph);
+  EXPECT_EQ(position_of(graph, 1), Eigen::Vector3d(5, 0, 0));
+  EXPECT_EQ(position_of(graph, 2), Eigen::Vector3d(6, 0, 0));
 }
 
 }  // namespace

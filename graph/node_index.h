@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace placegraph {
+
+/// Where the node of an id stands. Ids that lie close together (0..n-1 as in most files) are looked
+/// up in a table, any others in a hash map; memory is linear in the number of nodes either way.
+class NodeIndex {
+ public:
+  static constexpr int kNone = -1;
+
+  NodeIndex() = default;
+  /// Of ids that are there several times the first counts.
+  explicit NodeIndex(const std::vector<std::int64_t>& ids);
+
+  /// Position of the id, kNone if it is not there.
+  int find(std::int64_t id) const {
+    if (table_.empty()) return find_in_map(id);
+    const std::uint64_t offset = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(low_);
+    return offset < table_.size() ? table_[offset] : kNone;
+  }
+  bool contains(std::int64_t id) const { return find(id) != kNone; }
+  /// Throws ArgumentError if the id is not there.
+  int at(std::int64_t id) const;
+
+ private:
+  int find_in_map(std::int64_t id) const;
+  std::int64_t low_ = 0;
+  std::vector<int> table_;
+  std::unordered_map<std::int64_t, int> map_;
+};
+
+}  // namespace placegraph
