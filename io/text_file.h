@@ -19,6 +19,8 @@ class TextFile {
   bool next(std::string_view& line);
   /// The next line that is neither blank nor a comment (first character `#`).
   bool next_data(std::string_view& line);
+  /// Back to the begin.
+  void rewind() { position_ = 0, line_ = 0; }
 
   int line() const { return line_; }  ///< of the line handed out last, from 1; 0 before the first
   const std::string& path() const { return path_; }

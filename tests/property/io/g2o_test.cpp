@@ -21,6 +21,7 @@ Pose random_pose(Random& random, PoseKind kind) {
   }
   Vector6d xi;
   for (double& v : xi) v = random.uniform(-1.5, 1.5);
+  if (kind == PoseKind::kSim3) return Sim3(SE3::exp(xi).rotation(), xi.head<3>(), std::exp(xi[4]));
   return SE3::exp(xi);
 }
 
@@ -49,11 +50,16 @@ double difference(const Pose& a, const Pose& b) {
   if (const SE2* planar = std::get_if<SE2>(&a)) {
     return (planar->matrix() - std::get<SE2>(b).matrix()).cwiseAbs().maxCoeff();
   }
+  if (const Sim3* similar = std::get_if<Sim3>(&a)) {
+    return (similar->matrix() - std::get<Sim3>(b).matrix()).cwiseAbs().maxCoeff();
+  }
   return (std::get<SE3>(a).matrix() - std::get<SE3>(b).matrix()).cwiseAbs().maxCoeff();
 }
 
 TEST(G2o, IsTheSameAfterWritingAndReading) {
-  for (const PoseKind kind : {PoseKind::kSE2, PoseKind::kSE3}) {
+  for (const PoseKind kind : {PoseKind::kSE2, PoseKind::kSE3, PoseKind::kSim3}) {
+    // A similarity is written as its logarithm, whose own rounding comes on top.
+    const double tolerance = kind == PoseKind::kSim3 ? 1e-12 : 2e-15;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       SCOPED_TRACE("seed " + std::to_string(seed));
       const TemporaryFolder folder;
@@ -66,7 +72,7 @@ TEST(G2o, IsTheSameAfterWritingAndReading) {
       for (std::size_t i = 0; i < read.nodes.size(); ++i) {
         EXPECT_EQ(read.nodes[i].id, written.nodes[i].id);
         EXPECT_EQ(read.nodes[i].fixed, written.nodes[i].fixed);
-        EXPECT_LT(difference(read.nodes[i].T_world_node, written.nodes[i].T_world_node), 2e-15);
+        EXPECT_LT(difference(read.nodes[i].T_world_node, written.nodes[i].T_world_node), tolerance);
       }
       for (std::size_t i = 0; i < read.constraints.size(); ++i) {
         const auto& a = std::get<RelativePoseConstraint>(read.constraints[i]);
@@ -75,7 +81,7 @@ TEST(G2o, IsTheSameAfterWritingAndReading) {
         EXPECT_EQ(a.to, b.to);
         EXPECT_EQ(a.source, b.source);
         EXPECT_EQ(Eigen::MatrixXd(a.information), Eigen::MatrixXd(b.information));
-        EXPECT_LT(difference(a.T_from_to, b.T_from_to), 2e-15);
+        EXPECT_LT(difference(a.T_from_to, b.T_from_to), tolerance);
       }
     }
   }
