@@ -1,0 +1,457 @@
+#include <placegraph/backend/elimination_plan.h>
+#include <placegraph/backend/elimination_tree.h>
+#include <placegraph/backend/front_kernels.h>
+
+#include <algorithm>
+
+namespace placegraph {
+namespace {
+
+/// Zeros a front may hold for being larger.
+constexpr double kZeroShare = 0.2;
+
+}  // namespace
+
+template <int D>
+int EliminationTree<D>::add_variable() {
+  variables_.emplace_back();
+  return static_cast<int>(variables_.size()) - 1;
+}
+
+template <int D>
+void EliminationTree<D>::set_active(int variable, bool active) {
+  Variable& v = variables_[variable];
+  if (v.active == active) return;
+  // Whatever the variable is joined to has it in a separator on the way to the root, or will have.
+  for (const int t : v.terms) {
+    touch(terms_[t].a);
+    if (terms_[t].b >= 0) touch(terms_[t].b);
+  }
+  touch(variable);
+  v.active = active;
+}
+
+template <int D>
+void EliminationTree<D>::touch(int variable) {
+  touched_.push_back(variable);
+}
+
+template <int D>
+int EliminationTree<D>::add_term(int a, int b) {
+  const int t = static_cast<int>(terms_.size());
+  terms_.push_back({a, b, Block::Zero(), Block::Zero(), Block::Zero(), true});
+  variables_[a].terms.push_back(t);
+  if (b >= 0) variables_[b].terms.push_back(t);
+  if (!covered(terms_.back())) {
+    touch(a);
+    touch(b);
+  }
+  return t;
+}
+
+/// Whether some front holds all active variables of the term.
+template <int D>
+bool EliminationTree<D>::covered(const Term& term) const {
+  if (term.b < 0) return true;
+  const Variable &a = variables_[term.a], &b = variables_[term.b];
+  if (!a.active || !b.active) return true;
+  if (a.front < 0 || b.front < 0) return false;
+  if (a.front == b.front) return true;
+  const bool a_first = a.order < b.order;
+  const Front& front = fronts_[a_first ? a.front : b.front];
+  return std::find(front.separator.begin(), front.separator.end(), a_first ? term.b : term.a) !=
+         front.separator.end();
+}
+
+template <int D>
+void EliminationTree<D>::set_information(int term, const Block& H_aa, const Block& H_ab,
+                                         const Block& H_bb) {
+  Term& t = terms_[term];
+  t.H_aa = H_aa;
+  t.H_ab = H_ab;
+  t.H_bb = H_bb;
+  t.zero = false;
+  for (const int v : {t.a, t.b}) {
+    if (v < 0) continue;
+    variables_[v].diagonal_stale = true;
+    if (variables_[v].front >= 0) mark_stale(variables_[v].front, true);
+  }
+}
+
+template <int D>
+void EliminationTree<D>::set_gradient(int variable, const Vector& g) {
+  Variable& v = variables_[variable];
+  v.gradient = g;
+  if (v.front >= 0) mark_stale(v.front, false);
+}
+
+template <int D>
+void EliminationTree<D>::set_damping(double damping) {
+  if (damping == damping_) return;
+  damping_ = damping;
+  for (std::size_t v = 0; v < variables_.size(); ++v)
+    if (variables_[v].front >= 0) mark_stale(variables_[v].front, true);
+}
+
+template <int D>
+void EliminationTree<D>::mark_stale(int front, bool matrix) {
+  for (; front >= 0; front = fronts_[front].parent) {
+    Front& f = fronts_[front];
+    if (f.rhs_stale && (f.matrix_stale || !matrix)) return;  // and so are all above it
+    if (!f.rhs_stale) stale_rhs_.push_back(front);
+    f.rhs_stale = true;
+    if (!matrix || f.matrix_stale) continue;
+    f.matrix_stale = true;
+    stale_matrices_.push_back(front);
+  }
+}
+
+template <int D>
+const typename EliminationTree<D>::Block& EliminationTree<D>::diagonal(int variable) {
+  Variable& v = variables_[variable];
+  if (!v.diagonal_stale) return v.diagonal;
+  v.diagonal.setZero();
+  for (const int t : v.terms)
+    v.diagonal += terms_[t].a == variable ? terms_[t].H_aa : terms_[t].H_bb;
+  v.diagonal_stale = false;
+  return v.diagonal;
+}
+
+template <int D>
+int EliminationTree<D>::new_front() {
+  if (free_fronts_.empty()) {
+    fronts_.emplace_back();
+    return static_cast<int>(fronts_.size()) - 1;
+  }
+  const int front = free_fronts_.back();
+  free_fronts_.pop_back();
+  return front;
+}
+
+/// Takes all fronts on the way from the touched variables to their roots out of the forest; returns
+/// their active variables and those that were in no front, and the fronts that hung below.
+template <int D>
+std::vector<int> EliminationTree<D>::collect_top(std::vector<int>& orphans) {
+  std::vector<int> top, fronts;
+  for (const int t : touched_) {
+    if (variables_[t].front < 0 && variables_[t].active && variables_[t].local < 0) {
+      variables_[t].local = 0;
+      top.push_back(t);
+    }
+    for (int f = variables_[t].front; f >= 0 && !fronts_[f].in_top; f = fronts_[f].parent) {
+      fronts_[f].in_top = true;
+      fronts.push_back(f);
+    }
+  }
+  for (const int f : fronts) {
+    for (const int child : fronts_[f].children)
+      if (!fronts_[child].in_top) orphans.push_back(child);
+    for (const int v : fronts_[f].frontal) {
+      variables_[v].front = -1;
+      if (variables_[v].active) top.push_back(v);
+    }
+  }
+  const auto in_top = [&](int f) { return fronts_[f].in_top; };
+  std::erase_if(roots_, in_top);
+  std::erase_if(stale_matrices_, in_top);
+  std::erase_if(stale_rhs_, in_top);
+  for (const int f : fronts) {
+    Front& front = fronts_[f];
+    entries_ -= static_cast<std::int64_t>(front.frontal.size()) * front.blocks();
+    front.children.clear();
+    front.frontal.clear();
+    front.separator.clear();
+    front.parent = -1;
+    front.in_top = false;
+    free_fronts_.push_back(f);
+  }
+  // Older ones first, so that the order does not depend on the way they were found.
+  std::sort(top.begin(), top.end());
+  return top;
+}
+
+template <int D>
+void EliminationTree<D>::restructure() {
+  if (reorder_all_)
+    for (std::size_t v = 0; v < variables_.size(); ++v) touch(static_cast<int>(v));
+  if (touched_.empty()) return;
+  std::vector<int> orphans;
+  const std::vector<int> top = collect_top(orphans);
+  for (std::size_t i = 0; i < top.size(); ++i) variables_[top[i]].local = static_cast<int>(i);
+
+  VariableSets sets;
+  std::vector<char> late(top.size());
+  for (const int v : top)
+    for (const int t : variables_[v].terms) {
+      const Term& term = terms_[t];
+      if (term.a != v || term.b < 0 || variables_[term.b].local < 0 || !variables_[term.b].active)
+        continue;
+      sets.members.insert(sets.members.end(), {variables_[v].local, variables_[term.b].local});
+      sets.close();
+    }
+  for (const int f : orphans) {
+    for (const int v : fronts_[f].separator) sets.members.push_back(variables_[v].local);
+    sets.close();
+  }
+  if (!reorder_all_)
+    for (const int v : touched_)
+      if (variables_[v].local >= 0) late[variables_[v].local] = true;
+  const EliminationPlan plan =
+      plan_elimination(static_cast<int>(top.size()), sets, late, kZeroShare);
+
+  std::vector<int> front_of_plan;
+  for (const FrontPlan& planned : plan.fronts) {
+    const int f = new_front();
+    front_of_plan.push_back(f);
+    Front& front = fronts_[f];
+    for (const int i : planned.frontal) {
+      front.frontal.push_back(top[i]);
+      variables_[top[i]].front = f;
+      variables_[top[i]].order = next_order_++;
+    }
+    for (const int i : planned.separator) front.separator.push_back(top[i]);
+    front.matrix_stale = front.rhs_stale = true;
+    stale_matrices_.push_back(f);
+    stale_rhs_.push_back(f);
+    entries_ += static_cast<std::int64_t>(front.frontal.size()) * front.blocks();
+  }
+  const auto hang = [&](int f, int parent) {
+    fronts_[f].parent = parent;
+    (parent < 0 ? roots_ : fronts_[parent].children).push_back(f);
+  };
+  for (std::size_t i = 0; i < plan.fronts.size(); ++i) {
+    const int parent = plan.fronts[i].parent;
+    hang(front_of_plan[i], parent < 0 ? -1 : front_of_plan[parent]);
+  }
+  for (const int f : orphans) {
+    int first = fronts_[f].separator.front();
+    for (const int v : fronts_[f].separator)
+      if (variables_[v].order < variables_[first].order) first = v;
+    hang(f, variables_[first].front);
+  }
+  for (const int v : top) variables_[v].local = -1;
+  if (reorder_all_) entries_when_ordered_ = entries_;
+  reorder_all_ = false;
+  touched_.clear();
+}
+
+/// Puts the front's part of H and the Schur complements of its children into its matrix.
+template <int D>
+void EliminationTree<D>::assemble(Front& front) {
+  const int blocks = front.blocks(), rows = blocks * D;
+  front.matrix.assign(static_cast<std::size_t>(rows) * rows, 0.0);
+  front.rhs.resize(rows);
+  double* const matrix = front.matrix.data();
+  using Stride = Eigen::OuterStride<>;
+  const auto at = [&](int row, int column) {
+    return Eigen::Map<Block, 0, Stride>(
+        matrix + static_cast<std::size_t>(column) * D * rows + row * D, Stride(rows));
+  };
+  int next = 0;
+  for (const int v : front.frontal) variables_[v].local = next++;
+  for (const int v : front.separator) variables_[v].local = next++;
+
+  for (const int v : front.frontal) {
+    const int column = variables_[v].local;
+    auto own = at(column, column);
+    own += diagonal(v);
+    if (damping_ > 0) own.diagonal().array() += damping_ * variables_[v].diagonal.trace() / D;
+    for (const int t : variables_[v].terms) {
+      const Term& term = terms_[t];
+      if (term.zero || term.b < 0) continue;
+      const int other = term.a == v ? term.b : term.a;
+      const int row = variables_[other].local;
+      if (row <= column) continue;  // not in this front (-1), or this pair's turn was before
+      if (term.a == v)
+        at(row, column) += term.H_ab.transpose();
+      else
+        at(row, column) += term.H_ab;
+    }
+  }
+  for (const int c : front.children) {
+    const Front& child = fronts_[c];
+    const int child_rows = child.blocks() * D;
+    const int frontal = static_cast<int>(child.frontal.size());
+    const int size = static_cast<int>(child.separator.size());
+    for (int j = 0; j < size; ++j) {
+      const int column = variables_[child.separator[j]].local;
+      for (int i = j; i < size; ++i) {
+        const int row = variables_[child.separator[i]].local;
+        const Eigen::Map<const Block, 0, Stride> source(
+            child.matrix.data() + static_cast<std::size_t>(frontal + j) * D * child_rows +
+                (frontal + i) * D,
+            Stride(child_rows));
+        if (i == j)
+          at(row, row).template triangularView<Eigen::Lower>() += source;
+        else if (row > column)
+          at(row, column) += source;
+        else
+          at(column, row) += source.transpose();
+      }
+    }
+  }
+  for (const int v : front.frontal) variables_[v].local = -1;
+  for (const int v : front.separator) variables_[v].local = -1;
+}
+
+template <int D>
+bool EliminationTree<D>::factorize_stale() {
+  // Whoever is eliminated earlier comes first: children before parents.
+  std::sort(stale_matrices_.begin(), stale_matrices_.end(), [&](int a, int b) {
+    return variables_[fronts_[a].frontal.front()].order <
+           variables_[fronts_[b].frontal.front()].order;
+  });
+  for (const int f : stale_matrices_) {
+    Front& front = fronts_[f];
+    assemble(front);
+    const int frontal = static_cast<int>(front.frontal.size());
+    if (!FrontKernels<D>::factorize(front.matrix.data(), front.blocks() * D, frontal * D))
+      return false;
+    variables_refactored_ += frontal;
+  }
+  for (const int f : stale_matrices_) fronts_[f].matrix_stale = false;
+  stale_matrices_.clear();
+  return true;
+}
+
+template <int D>
+bool EliminationTree<D>::factorize() {
+  variables_refactored_ = 0;
+  restructure();
+  return factorize_stale();
+}
+
+template <int D>
+void EliminationTree<D>::forward(Front& front) {
+  const int frontal = static_cast<int>(front.frontal.size()), blocks = front.blocks();
+  Eigen::Map<Eigen::VectorXd> b(front.rhs.data(), blocks * D);
+  b.setZero();
+  int next = 0;
+  for (const int v : front.frontal) {
+    b.template segment<D>(next * D) = -variables_[v].gradient;
+    variables_[v].local = next++;
+  }
+  for (const int v : front.separator) variables_[v].local = next++;
+  front.decrease = 0;
+  for (const int c : front.children) {
+    const Front& child = fronts_[c];
+    front.decrease += child.decrease;
+    const double* source = child.rhs.data() + child.frontal.size() * D;
+    for (const int v : child.separator) {
+      b.template segment<D>(variables_[v].local * D) += Eigen::Map<const Vector>(source);
+      source += D;
+    }
+  }
+  FrontKernels<D>::forward(front.matrix.data(), blocks * D, frontal * D, front.rhs.data());
+  front.decrease += b.head(frontal * D).squaredNorm();
+  for (const int v : front.frontal) variables_[v].local = -1;
+  for (const int v : front.separator) variables_[v].local = -1;
+}
+
+template <int D>
+double EliminationTree<D>::model_decrease() {
+  std::sort(stale_rhs_.begin(), stale_rhs_.end(), [&](int a, int b) {
+    return variables_[fronts_[a].frontal.front()].order <
+           variables_[fronts_[b].frontal.front()].order;
+  });
+  for (const int f : stale_rhs_) {
+    forward(fronts_[f]);
+    fronts_[f].rhs_stale = false;
+  }
+  stale_rhs_.clear();
+  double decrease = 0;
+  for (const int f : roots_) decrease += fronts_[f].decrease;
+  return decrease;
+}
+
+template <int D>
+const std::vector<int>& EliminationTree<D>::solve(double threshold) {
+  for (const int v : solved_) {
+    variables_[v].delta.setZero();
+    variables_[v].significant = false;
+  }
+  solved_.clear();
+  std::vector<int> open(roots_.rbegin(), roots_.rend());
+  std::vector<double> x;
+  while (!open.empty()) {
+    const Front& front = fronts_[open.back()];
+    open.pop_back();
+    bool moved = front.decrease > threshold;
+    for (const int v : front.separator) moved |= variables_[v].significant;
+    if (!moved) continue;
+    const int frontal = static_cast<int>(front.frontal.size()), blocks = front.blocks();
+    x.assign(front.rhs.begin(), front.rhs.end());
+    double* separator = x.data() + static_cast<std::size_t>(frontal) * D;
+    for (const int v : front.separator)
+      separator = std::copy_n(variables_[v].delta.data(), D, separator);
+    FrontKernels<D>::backward(front.matrix.data(), blocks * D, frontal * D, x.data());
+    bool significant = front.decrease > threshold;
+    for (int i = 0; i < frontal; ++i) {
+      Variable& v = variables_[front.frontal[i]];
+      v.delta = Eigen::Map<const Vector>(&x[i * D]);
+      v.significant = v.delta.dot(diagonal(front.frontal[i]) * v.delta) > threshold;
+      significant |= v.significant;
+    }
+    if (!significant) {
+      for (const int v : front.frontal) variables_[v].delta.setZero();
+      continue;
+    }
+    solved_.insert(solved_.end(), front.frontal.begin(), front.frontal.end());
+    open.insert(open.end(), front.children.rbegin(), front.children.rend());
+  }
+  return solved_;
+}
+
+template <int D>
+Eigen::MatrixXd EliminationTree<D>::covariance(const std::vector<int>& variables) const {
+  // H X = E: forward from the fronts of the variables up, backward down again; nothing else
+  // matters.
+  std::vector<int> way;
+  for (const int v : variables)
+    for (int f = variables_[v].front; f >= 0; f = fronts_[f].parent) way.push_back(f);
+  const auto earlier = [&](int a, int b) {
+    return variables_[fronts_[a].frontal.front()].order <
+           variables_[fronts_[b].frontal.front()].order;
+  };
+  std::sort(way.begin(), way.end(), earlier);
+  way.erase(std::unique(way.begin(), way.end()), way.end());
+  std::vector<int> place(variables_.size(), -1), members;
+  for (const int f : way)
+    for (const int v : fronts_[f].frontal) {
+      place[v] = static_cast<int>(members.size());
+      members.push_back(v);
+    }
+  const int count = static_cast<int>(variables.size());
+  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(members.size() * D, count * D);
+  for (int i = 0; i < count; ++i)
+    X.template block<D, D>(place[variables[i]] * D, i * D).setIdentity();
+  const auto gather_and = [&](const Front& front, Eigen::Index column, auto&& solve) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(front.blocks()) * D);
+    int next = 0;
+    for (const auto* part : {&front.frontal, &front.separator})
+      for (const int v : *part)
+        x.template segment<D>(next++ * D) = X.template block<D, 1>(place[v] * D, column);
+    solve(front.matrix.data(), front.blocks() * D, static_cast<int>(front.frontal.size()) * D,
+          x.data());
+    next = 0;
+    for (const auto* part : {&front.frontal, &front.separator})
+      for (const int v : *part)
+        X.template block<D, 1>(place[v] * D, column) = x.template segment<D>(next++ * D);
+  };
+  for (Eigen::Index column = 0; column < X.cols(); ++column) {
+    for (auto f = way.begin(); f != way.end(); ++f)
+      gather_and(fronts_[*f], column, FrontKernels<D>::forward);
+    for (auto f = way.rbegin(); f != way.rend(); ++f)
+      gather_and(fronts_[*f], column, FrontKernels<D>::backward);
+  }
+  Eigen::MatrixXd covariance(count * D, count * D);
+  for (int i = 0; i < count; ++i)
+    covariance.middleRows(i * D, D) = X.middleRows(place[variables[i]] * D, D);
+  return covariance;
+}
+
+template class EliminationTree<3>;
+template class EliminationTree<6>;
+template class EliminationTree<7>;
+
+}  // namespace placegraph

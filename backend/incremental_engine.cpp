@@ -1,0 +1,403 @@
+#include <placegraph/backend/incremental_engine.h>
+#include <placegraph/backend/local_solver.h>
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace placegraph {
+namespace {
+
+/// Jacobians that are off by less than this share are as good as new ones.
+constexpr double kNegligibleChange = 1e-5;
+
+}  // namespace
+
+template <class Group>
+IncrementalEngine<Group>::IncrementalEngine(const IncrementalOptions& options) : options_(options) {
+  tree_.set_damping(damping_);
+}
+
+template <class Group>
+int IncrementalEngine<Group>::find(std::int64_t node_id) const {
+  const auto found = index_.find(node_id);
+  return found == index_.end() ? -1 : found->second;
+}
+
+// What the graph is made of.
+
+template <class Group>
+void IncrementalEngine<Group>::add_node(const PoseNode& node) {
+  index_.emplace(node.id, static_cast<int>(nodes_.size()));
+  ids_.push_back(node.id);
+  fixed_.push_back(node.fixed);
+  const auto& T_world_node = std::get<Group>(node.T_world_node);
+  nodes_.push_back({T_world_node, T_world_node, {}, {}});
+  components_.add_node(node.fixed);
+  tree_.add_variable();
+}
+
+template <class Group>
+void IncrementalEngine<Group>::add_constraints(const std::vector<Constraint>& constraints) {
+  // Odometry first, and nothing depends on the order in which the rest is given.
+  std::vector<std::tuple<int, int, int, int>> order;
+  const int first = static_cast<int>(constraints_.size());
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const int number = first + static_cast<int>(i);
+    if (const auto* relative = std::get_if<RelativePoseConstraint>(&constraints[i]))
+      order.emplace_back(relative->source != ConstraintSource::kOdometry, find(relative->from),
+                         find(relative->to), number);
+    else
+      order.emplace_back(2, find(std::get<PositionConstraint>(constraints[i]).node), 0, number);
+    constraints_.push_back(constraints[i]);
+    place_.push_back(-1);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& entry : order) {
+    const int number = std::get<3>(entry);
+    if (const auto* relative = std::get_if<RelativePoseConstraint>(&constraints_[number]))
+      add_edge(*relative, number);
+    else
+      add_position(std::get<PositionConstraint>(constraints_[number]), number);
+  }
+  apply_held();
+}
+
+template <class Group>
+void IncrementalEngine<Group>::add_edge(const RelativePoseConstraint& constraint, int number) {
+  const int e = static_cast<int>(edges_.size());
+  place_[number] = e;
+  Edge& edge = edges_.emplace_back();
+  edge.edge = {find(constraint.from),
+               find(constraint.to),
+               number,
+               constraint.source == ConstraintSource::kOdometry,
+               std::get<Group>(constraint.T_from_to).inverse(),
+               constraint.information,
+               constraint.kernel};
+  join(edge);
+  nodes_[edge.edge.from].edges.push_back(e);
+  nodes_[edge.edge.to].edges.push_back(e);
+  edge.term = tree_.add_term(edge.edge.from, edge.edge.to);
+  evaluate(e);
+  linearize(e);
+}
+
+template <class Group>
+void IncrementalEngine<Group>::add_position(const PositionConstraint& constraint, int number) {
+  const int p = static_cast<int>(positions_.size());
+  place_[number] = p;
+  Position& position = positions_.emplace_back();
+  position.position = {find(constraint.node),     number,
+                       constraint.position_world, constraint.lever_arm,
+                       constraint.information,    constraint.kernel};
+  components_.anchor(position.position.node, 1);
+  nodes_[position.position.node].positions.push_back(p);
+  position.term = tree_.add_term(position.position.node, -1);
+  evaluate_position(p);
+}
+
+template <class Group>
+void IncrementalEngine<Group>::set_weight(const ConstraintWeight& weight) {
+  const int place = place_[weight.constraint];
+  if (std::holds_alternative<PositionConstraint>(constraints_[weight.constraint])) {
+    auto& position = positions_[place].position;
+    const int count = (weight.weight > 0) - (position.weight > 0);
+    position.weight = weight.weight;
+    if (count != 0) components_.anchor(position.node, count);
+    evaluate_position(place);
+  } else {
+    Edge& edge = edges_[place];
+    const bool was = edge.edge.weight > 0, is = weight.weight > 0;
+    edge.edge.weight = weight.weight;
+    if (is && !was) join(edge);
+    if (was && !is) split(edge);
+    evaluate(place);
+    linearize(place);
+  }
+  apply_held();
+}
+
+template <class Group>
+void IncrementalEngine<Group>::join(const Edge& edge) {
+  const int from = edge.edge.from, to = edge.edge.to;
+  if (components_.together(from, to)) return;
+  const std::vector<int> moved = components_.join(from, to);
+  if (moved.empty()) return;
+  const bool from_moves = std::find(moved.begin(), moved.end(), from) != moved.end();
+  const Group &T_world_from = nodes_[from].T_world_node, &T_world_to = nodes_[to].T_world_node;
+  const Group T_new_old = from_moves
+                              ? T_world_to * edge.edge.T_to_from * T_world_from.inverse()
+                              : T_world_from * edge.edge.T_to_from.inverse() * T_world_to.inverse();
+  // No edge of the component feels it; if it has just one node it is put there exactly.
+  for (const int node : moved) nodes_[node].T_world_node = T_new_old * nodes_[node].T_world_node;
+}
+
+template <class Group>
+void IncrementalEngine<Group>::split(const Edge& edge) {
+  std::vector<char> seen(nodes_.size(), false);
+  std::vector<int> reached = {edge.edge.to};
+  seen[edge.edge.to] = true;
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    for (const int e : nodes_[reached[i]].edges) {
+      const auto& other = edges_[e].edge;
+      const int next = other.from == reached[i] ? other.to : other.from;
+      if (other.weight == 0 || seen[next]) continue;
+      seen[next] = true;
+      reached.push_back(next);
+    }
+  if (!seen[edge.edge.from]) components_.split(reached);
+}
+
+template <class Group>
+void IncrementalEngine<Group>::apply_held() {
+  for (const int node : components_.take_changed()) tree_.set_active(node, !components_.held(node));
+}
+
+// Its terms at the present poses.
+
+template <class Group>
+void IncrementalEngine<Group>::evaluate(int e) {
+  Edge& edge = edges_[e];
+  const int from = edge.edge.from, to = edge.edge.to;
+  edge.evaluate(nodes_[from].T_world_node, nodes_[to].T_world_node, options_.rotation_error);
+  for (const int node : {from, to})
+    if (!std::exchange(nodes_[node].gradient_stale, true)) gradient_stale_.push_back(node);
+}
+
+template <class Group>
+void IncrementalEngine<Group>::linearize(int e) {
+  Edge& edge = edges_[e];
+  const auto blocks = edge.linearize(nodes_[edge.edge.from].T_world_node,
+                                     nodes_[edge.edge.to].T_world_node, options_.rotation_error);
+  tree_.set_information(edge.term, blocks.from_from, blocks.from_to, blocks.to_to);
+}
+
+template <class Group>
+void IncrementalEngine<Group>::evaluate_position(int p) {
+  Position& position = positions_[p];
+  const int node = position.position.node;
+  const auto H = position.evaluate(nodes_[node].T_world_node);
+  tree_.set_information(position.term, H, H, H);
+  if (!std::exchange(nodes_[node].gradient_stale, true)) gradient_stale_.push_back(node);
+}
+
+/// Edges and positions of the nodes, which have moved.
+template <class Group>
+void IncrementalEngine<Group>::evaluate_around(const std::vector<int>& nodes) {
+  visited_.clear();
+  for (const int node : nodes) {
+    for (const int e : nodes_[node].edges)
+      if (!std::exchange(edges_[e].visited, true)) visited_.push_back(e);
+    for (const int p : nodes_[node].positions) evaluate_position(p);
+  }
+  for (const int e : visited_) {
+    edges_[e].visited = false;
+    evaluate(e);
+  }
+}
+
+template <class Group>
+void IncrementalEngine<Group>::set_gradients() {
+  for (const int node : gradient_stale_) {
+    Tangent g = Tangent::Zero();
+    for (const int e : nodes_[node].edges)
+      g += edges_[e].edge.from == node ? edges_[e].g_from : edges_[e].g_to;
+    for (const int p : nodes_[node].positions) g += positions_[p].g;
+    tree_.set_gradient(node, g);
+    nodes_[node].gradient_stale = false;
+  }
+  gradient_stale_.clear();
+}
+
+/// Linearizes those of the edges anew whose Jacobians have changed by more than `change`.
+template <class Group>
+int IncrementalEngine<Group>::relinearize(const std::vector<int>& edges, double change) {
+  int count = 0;
+  for (const int e : edges) {
+    if (edges_[e].change <= change) continue;
+    linearize(e);
+    ++count;
+  }
+  return count;
+}
+
+template <class Group>
+double IncrementalEngine<Group>::cost() const {
+  double cost = 0;
+  for (const Edge& edge : edges_) cost += edge.cost;
+  for (const Position& position : positions_) cost += position.cost;
+  return cost;
+}
+
+// Iterations.
+
+template <class Group>
+void IncrementalEngine<Group>::factorize(IncrementalStep& step) {
+  const int nodes = static_cast<int>(nodes_.size());
+  const double growth = static_cast<double>(nodes) / std::max(1, nodes_when_ordered_);
+  if (growth > 1.2 && static_cast<double>(tree_.entries()) >
+                          1.5 * growth * static_cast<double>(tree_.entries_when_ordered())) {
+    tree_.reorder();
+    nodes_when_ordered_ = nodes;
+  }
+  bool done = tree_.factorize();
+  step.nodes_refactored += tree_.variables_refactored();
+  for (double damping = 1e-8; !done && damping < 1e9; damping *= 100) {
+    tree_.set_damping(damping);
+    done = tree_.factorize();
+    step.nodes_refactored += tree_.variables_refactored();
+  }
+}
+
+/// Moves the nodes that matter. False, and nothing has moved, if the cost would not fall.
+template <class Group>
+bool IncrementalEngine<Group>::iterate(double threshold, IncrementalStep& step) {
+  const std::vector<int>& moved = tree_.solve(threshold);
+  const double cost_before = cost();
+  ++step.iterations;
+  step.nodes_moved = static_cast<int>(moved.size());
+  for (const int node : moved) {
+    Node& n = nodes_[node];
+    n.T_before = n.T_world_node;
+    n.T_world_node = n.T_world_node.plus(tree_.delta(node));
+  }
+  evaluate_around(moved);
+  step.cost = cost();
+  if (step.cost < cost_before) return true;
+  for (const int node : moved) nodes_[node].T_world_node = nodes_[node].T_before;
+  evaluate_around(moved);
+  step.cost = cost();
+  return false;
+}
+
+template <class Group>
+void IncrementalEngine<Group>::optimize(double excess, IncrementalStep& step) {
+  constexpr double kNoCost = 1e-12;
+  step.cost = cost();
+  double before = 0, share = 0.02;
+  while (true) {
+    set_gradients();
+    factorize(step);
+    step.predicted_excess = tree_.model_decrease();
+    const double allowed = excess * step.cost + kNoCost;
+    if (!(step.predicted_excess > allowed)) return;
+    if (step.iterations >= options_.max_iterations) break;
+    // Where the model does not hold what it promised it is brought up to date.
+    const bool slow = step.iterations > 0 && step.predicted_excess > 0.25 * before;
+    if (slow) {
+      share *= 0.1;
+      std::vector<int> all(edges_.size());
+      for (std::size_t e = 0; e < all.size(); ++e) all[e] = static_cast<int>(e);
+      const int count = relinearize(all, kNegligibleChange);
+      step.edges_relinearized += count;
+      if (count > 0) {
+        before = step.predicted_excess * 1e9;
+        continue;
+      }
+    }
+    before = step.predicted_excess;
+    if (!iterate(share * allowed, step)) {
+      std::vector<int> all(edges_.size());
+      for (std::size_t e = 0; e < all.size(); ++e) all[e] = static_cast<int>(e);
+      const int count = relinearize(all, kNegligibleChange);
+      step.edges_relinearized += count;
+      if (count == 0) break;
+      before = 1e300;
+      continue;
+    }
+    step.edges_relinearized += relinearize(visited_, options_.relinearization);
+  }
+  solve_from_scratch(step);
+}
+
+template <class Group>
+PackedGraph<Group> IncrementalEngine<Group>::packed() const {
+  PackedGraph<Group> graph;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    graph.poses.push_back(nodes_[n].T_world_node);
+    graph.held.push_back(components_.held(static_cast<int>(n)));
+  }
+  for (const Edge& edge : edges_)
+    if (edge.edge.weight > 0) graph.edges.push_back(edge.edge);
+  for (const Position& position : positions_)
+    if (position.position.weight > 0) graph.positions.push_back(position.position);
+  return graph;
+}
+
+template <class Group>
+void IncrementalEngine<Group>::solve_from_scratch(IncrementalStep& step) {
+  step.solved_from_scratch = true;
+  PackedGraph<Group> graph = packed();
+  LocalSolverOptions options;
+  options.rotation_error = options_.rotation_error;
+  const LocalSolution solution = LocalSolver<Group>(options).solve(graph);
+  step.outcome = solution.outcome;
+  step.iterations += solution.iterations;
+  std::vector<int> all;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    nodes_[n].T_world_node = graph.poses[n];
+    all.push_back(static_cast<int>(n));
+  }
+  evaluate_around(all);
+  step.edges_relinearized += relinearize(visited_, kNegligibleChange);
+  set_gradients();
+  factorize(step);
+  step.predicted_excess = tree_.model_decrease();
+  step.cost = cost();
+}
+
+// What it tells.
+
+template <class Group>
+PoseGraph IncrementalEngine<Group>::graph() const {
+  PoseGraph graph;
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    graph.nodes.push_back({ids_[n], nodes_[n].T_world_node, fixed_[n] != 0});
+  for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    const bool relative = std::holds_alternative<RelativePoseConstraint>(constraints_[c]);
+    const double weight =
+        relative ? edges_[place_[c]].edge.weight : positions_[place_[c]].position.weight;
+    if (weight > 0) graph.constraints.push_back(constraints_[c]);
+  }
+  return graph;
+}
+
+template <class Group>
+Eigen::MatrixXd IncrementalEngine<Group>::covariance(const std::vector<int>& nodes) const {
+  constexpr int dof = Group::kDof;
+  std::vector<int> active, place;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!tree_.active(nodes[i])) continue;
+    active.push_back(nodes[i]);
+    place.push_back(static_cast<int>(i));
+  }
+  const int size = static_cast<int>(nodes.size()) * dof;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(size, size);
+  if (active.empty()) return covariance;
+  const Eigen::MatrixXd of_active = tree_.covariance(active);
+  for (std::size_t i = 0; i < active.size(); ++i)
+    for (std::size_t j = 0; j < active.size(); ++j)
+      covariance.template block<dof, dof>(place[i] * dof, place[j] * dof) =
+          of_active.template block<dof, dof>(i * dof, j * dof);
+  return covariance;
+}
+
+template class IncrementalEngine<SE2>;
+template class IncrementalEngine<SE3>;
+template class IncrementalEngine<Sim3>;
+
+std::unique_ptr<IncrementalOptimizer::Engine> IncrementalOptimizer::Engine::make(
+    PoseKind kind, const IncrementalOptions& options) {
+  switch (kind) {
+    case PoseKind::kSE2:
+      return std::make_unique<IncrementalEngine<SE2>>(options);
+    case PoseKind::kSE3:
+      return std::make_unique<IncrementalEngine<SE3>>(options);
+    case PoseKind::kSim3:
+      break;
+  }
+  return std::make_unique<IncrementalEngine<Sim3>>(options);
+}
+
+}  // namespace placegraph
