@@ -1,7 +1,6 @@
 #include "apps/cmd_eval.h"
 
 #include <placegraph/eval/evaluate.h>
-#include <placegraph/eval/plot.h>
 #include <placegraph/eval/report.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/trajectory_file.h>
@@ -13,6 +12,7 @@
 #include <memory>
 
 #include "apps/output.h"
+#include "apps/plot_file.h"
 
 namespace placegraph::apps {
 namespace {
@@ -135,9 +135,7 @@ EvaluationResult judge(const Job& job, const Arguments& arguments) {
 void check_outputs(const Arguments& arguments) {
   for (const std::string& path : {arguments.csv, arguments.latex, arguments.plot})
     if (!path.empty()) require_free(path, arguments.force);
-  const std::string extension = fs::path(arguments.plot).extension().string();
-  require(arguments.plot.empty() || extension == ".png" || extension == ".svg",
-          arguments.plot + ": a plot ends in .png or .svg");
+  require_plot_name(arguments.plot);
   require(arguments.times.size() <= 2, "--times: one file for all, or two: ground truth, estimate");
 }
 
@@ -145,9 +143,7 @@ void write_outputs(const Arguments& arguments, const std::vector<EvaluationResul
   if (!arguments.csv.empty()) write_file(arguments.csv, to_csv(results));
   if (!arguments.latex.empty()) write_file(arguments.latex, to_latex(results));
   if (arguments.plot.empty()) return;
-  const bool svg = fs::path(arguments.plot).extension() == ".svg";
-  const Plot plot = plot_of(results);
-  write_file(arguments.plot, svg ? to_svg(plot) : to_png(plot));
+  write_plot(arguments.plot, plot_of(results));
 }
 
 void run(Arguments arguments) {

@@ -1,69 +1,156 @@
 #include "apps/cmd_optimize.h"
 
 #include <fmt/format.h>
-#include <placegraph/backend/pose_graph_optimizer.h>
+#include <placegraph/eval/pose_graph_plot.h>
+#include <placegraph/graph/core/error.h>
 #include <placegraph/io/g2o.h>
+#include <placegraph/io/pose_graph_file.h>
 #include <CLI/CLI.hpp>
 
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/graph_solution.h"
 #include "apps/output.h"
+#include "apps/plot_file.h"
 
 namespace placegraph::apps {
 namespace {
 
 struct Arguments {
-  std::string in, out, cost = "log";
-  bool json = false, force = false;
+  std::string in, out, plot, cost = "log", engine = "native";
+  bool json = false, force = false, quiet = false, components = false, drop_rejected = false;
   PoseGraphOptions options;
 };
 
-void run(Arguments arguments) {
-  arguments.options.rotation_error =
-      arguments.cost == "g2o" ? RotationError::kQuaternion : RotationError::kLog;
-  arguments.options.check();
-  require_free(arguments.out, arguments.force);
-  const PoseGraph start = read_g2o(arguments.in);
+/// chi2 of the graph in both conventions, over the constraints that are not left out.
+struct Costs {
+  double g2o, log;
+};
 
-  const auto wall_begin = std::chrono::steady_clock::now();
-  const std::clock_t cpu_begin = std::clock();
-  const PoseGraphReport report = optimize_pose_graph(start, arguments.options);
-  const double cpu_ms = 1e3 * static_cast<double>(std::clock() - cpu_begin) / CLOCKS_PER_SEC;
-  const double wall_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall_begin)
-          .count();
-  if (!report.outcome) throw NoAnswer(arguments.in + ": " + report.outcome.reason);
-  write_g2o(arguments.out, report.graph);
+PoseGraph without(PoseGraph graph, const std::vector<RejectedConstraint>& rejected) {
+  std::vector<char> is_rejected(graph.constraints.size());
+  for (const RejectedConstraint& edge : rejected) is_rejected[edge.constraint] = true;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < graph.constraints.size(); ++i)
+    if (!is_rejected[i]) std::swap(graph.constraints[kept++], graph.constraints[i]);
+  graph.constraints.resize(kept);
+  return graph;
+}
 
-  nlohmann::ordered_json json;
+Costs costs_of(const PoseGraph& graph) {
+  return {chi2(graph, RotationError::kQuaternion), chi2(graph, RotationError::kLog)};
+}
+
+using Json = nlohmann::ordered_json;
+
+Json rejected_edges(const GraphSolution& solution) {
+  Json list = Json::array();
+  for (const RejectedConstraint& rejected : solution.rejected) {
+    const auto& edge =
+        std::get<RelativePoseConstraint>(solution.graph.constraints[rejected.constraint]);
+    list.push_back({{"from", edge.from},
+                    {"to", edge.to},
+                    {"chi2", rejected.chi2},
+                    {"reason", rejected.reason}});
+  }
+  return list;
+}
+
+Json describe(const Arguments& arguments, const Costs& before, const Costs& after,
+              const GraphSolution& solution) {
+  const char* const kinds[] = {"SE2", "SE3", "Sim3"};
+  Json json;
   json["in"] = arguments.in;
   json["out"] = arguments.out;
   json["cost"] = arguments.cost;
-  json["nodes"] = report.graph.nodes.size();
-  json["constraints"] = report.graph.constraints.size();
-  json["chi2_g2o_initial"] = chi2(start, RotationError::kQuaternion);
-  json["chi2_log_initial"] = chi2(start, RotationError::kLog);
-  json["chi2_g2o"] = chi2(report.graph, RotationError::kQuaternion);
-  json["chi2_log"] = chi2(report.graph, RotationError::kLog);
-  json["iterations"] = report.iterations;
-  json["cpu_ms"] = cpu_ms;
-  json["wall_ms"] = wall_ms;
-  if (arguments.json) {
-    std::puts(json.dump(2).c_str());
-    return;
+  json["engine"] = arguments.engine;
+  json["kind"] = kinds[static_cast<int>(solution.graph.kind())];
+  json["nodes"] = solution.graph.nodes.size();
+  json["constraints"] = solution.graph.constraints.size();
+  json["components"] = solution.components;
+  json["chi2_g2o_initial"] = before.g2o;
+  json["chi2_log_initial"] = before.log;
+  json["chi2_g2o"] = after.g2o;
+  json["chi2_log"] = after.log;
+  json["iterations"] = solution.iterations;
+  json["cpu_ms"] = solution.cpu_ms;
+  json["wall_ms"] = solution.wall_ms;
+  json["peak_mb"] = solution.peak_mb;
+  json["rejected"] = solution.rejected.size();
+  json["rejected_edges"] = rejected_edges(solution);
+  return json;
+}
+
+void print(const Arguments& arguments, const Json& json) {
+  const auto number = [&](const char* key) { return json[key].get<double>(); };
+  fmt::print("{}: {}, {} nodes, {} constraints, minimized in the {} convention\n", arguments.in,
+             json["kind"].get<std::string>(), json["nodes"].get<int>(),
+             json["constraints"].get<int>(), arguments.cost);
+  if (const int components = json["components"].get<int>(); components > 1)
+    fmt::print("  {} components, each for itself\n", components);
+  fmt::print("  chi2 (g2o: half-angle quaternion) {:.6f} -> {:.6f}\n", number("chi2_g2o_initial"),
+             number("chi2_g2o"));
+  fmt::print("  chi2 (logarithm)                  {:.6f} -> {:.6f}\n", number("chi2_log_initial"),
+             number("chi2_log"));
+  if (!json["rejected_edges"].empty())
+    fmt::print("  {} constraints rejected\n", json["rejected_edges"].size());
+  fmt::print("  {} iterations, {:.1f} ms CPU, {:.1f} ms wall, {:.0f} MB at most; written to {}\n",
+             json["iterations"].get<int>(), number("cpu_ms"), number("wall_ms"), number("peak_mb"),
+             arguments.out);
+}
+
+void draw(const Arguments& arguments, const PoseGraph& before, const GraphSolution& solution,
+          const Costs& costs) {
+  std::vector<int> rejected;
+  for (const RejectedConstraint& edge : solution.rejected) rejected.push_back(edge.constraint);
+  Plot plot = plot_of(before, solution.graph, rejected);
+  plot.title = fmt::format("{} poses, {} constraints, chi2 {:.6g} (logarithm), {:.6g} (g2o)",
+                           solution.graph.nodes.size(), solution.graph.constraints.size(),
+                           costs.log, costs.g2o);
+  write_plot(arguments.plot, plot);
+}
+
+void check(Arguments& arguments) {
+  arguments.options.rotation_error =
+      arguments.cost == "g2o" ? RotationError::kQuaternion : RotationError::kLog;
+  arguments.options.engine =
+      arguments.engine == "ceres" ? PoseGraphEngine::kCeres : PoseGraphEngine::kNative;
+  arguments.options.check();
+  require_plot_name(arguments.plot);
+  require(arguments.plot.empty() || arguments.plot != arguments.out,
+          "--plot: " + arguments.plot + " is where the graph is to be written");
+  require_free(arguments.out, arguments.force);
+  if (!arguments.plot.empty()) require_free(arguments.plot, arguments.force);
+}
+
+void run(Arguments arguments) {
+  check(arguments);
+  PoseGraph start = read_pose_graph(arguments.in, {.connected = !arguments.components});
+  const Costs before = costs_of(start);
+  const PoseGraph drawn = arguments.plot.empty() ? PoseGraph() : start;
+  LogSink log;
+  if (!arguments.quiet)
+    log = [](LogLevel, const std::string& message) {
+      std::fprintf(stderr, "%s\n", message.c_str());
+    };
+  GraphSolution solution;
+  try {
+    solution = solve(std::move(start), arguments.components, arguments.options, log);
+  } catch (const NoAnswer& reason) {
+    throw NoAnswer(arguments.in + ": " + reason.what());
   }
-  fmt::print("{}: {} nodes, {} constraints, minimized in the {} convention\n", arguments.in,
-             report.graph.nodes.size(), report.graph.constraints.size(), arguments.cost);
-  fmt::print("  chi2 (g2o: half-angle quaternion) {:.6f} -> {:.6f}\n",
-             json["chi2_g2o_initial"].get<double>(), json["chi2_g2o"].get<double>());
-  fmt::print("  chi2 (logarithm)                  {:.6f} -> {:.6f}\n",
-             json["chi2_log_initial"].get<double>(), json["chi2_log"].get<double>());
-  fmt::print("  {} iterations, {:.1f} ms CPU, {:.1f} ms wall; written to {}\n", report.iterations,
-             cpu_ms, wall_ms, arguments.out);
+  const PoseGraph kept = without(solution.graph, solution.rejected);
+  const Costs after = costs_of(kept);
+  if (!arguments.plot.empty()) draw(arguments, drawn, solution, after);
+  write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
+  const Json json = describe(arguments, before, after, solution);
+  if (arguments.json)
+    std::puts(json.dump(2).c_str());
+  else
+    print(arguments, json);
 }
 
 }  // namespace
@@ -71,18 +158,29 @@ void run(Arguments arguments) {
 void add_optimize_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   Arguments& a = *arguments;
-  CLI::App* command = app.add_subcommand("optimize", "Optimize a pose graph (.g2o, 2D or 3D)");
-  command->footer("placegraph optimize sphere.g2o -o optimized.g2o --cost g2o --json");
-  command->add_option("IN", a.in, "graph to read")->required()->check(CLI::ExistingFile);
-  command->add_option("-o,--out", a.out, "graph to write")->required();
+  CLI::App* command =
+      app.add_subcommand("optimize", "Optimize a pose graph in the form of g2o, TORO or iSAM");
+  command->footer("placegraph optimize sphere.g2o -o optimized.g2o --cost g2o --plot sphere.png");
+  command->add_option("IN", a.in, "graph to read: 2D, 3D or similarities")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("-o,--out", a.out, "graph to write, in g2o's form")->required();
   command
       ->add_option("--cost", a.cost,
                    "rotation error that is minimized: log, or g2o (vector part of the quaternion)")
       ->check(CLI::IsMember({"log", "g2o"}))
       ->capture_default_str();
+  command->add_option("--engine", a.engine, "solver: native, or ceres (a second opinion)")
+      ->check(CLI::IsMember({"native", "ceres"}))
+      ->capture_default_str();
   command->add_option("--iterations", a.options.max_iterations, "at most")->capture_default_str();
+  command->add_flag("--components", a.components,
+                    "optimize the parts of a graph that falls apart, each for itself");
+  command->add_flag("--drop-rejected", a.drop_rejected, "write OUT without rejected constraints");
+  command->add_option("--plot", a.plot, "draw the poses before and after (.png or .svg)");
   command->add_flag("--json", a.json, "print JSON");
-  command->add_flag("--force", a.force, "overwrite OUT");
+  command->add_flag("--quiet", a.quiet, "no progress on stderr");
+  command->add_flag("--force", a.force, "overwrite OUT and the plot");
   command->callback([arguments] { run(*arguments); });
 }
 

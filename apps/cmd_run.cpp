@@ -21,6 +21,7 @@
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/run_files.h"
+#include "apps/usage.h"
 
 namespace placegraph::apps {
 namespace {
@@ -186,7 +187,7 @@ void run(const Arguments& arguments) {
   summary["threads"] = options.threads;
   summary["wall_s"] = wall.count();
   summary["cpu_s"] = cpu_seconds(after) - cpu_seconds(before);
-  summary["peak_mb"] = after.ru_maxrss / 1024.0;
+  summary["peak_mb"] = peak_mb();
   const auto truth = truth_of(*dataset, options, optimized.size());
   if (truth) {
     summary["path_m"] = path_length_m(*truth);

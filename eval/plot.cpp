@@ -13,7 +13,8 @@ using Eigen::Vector2d;
 
 constexpr int kHeight = 800, kWidth = 1600, kWidthWithoutErrors = 1000;
 constexpr Colour kInk = {40, 40, 40}, kGrid = {228, 228, 228}, kFrame = {120, 120, 120},
-                 kWhite = {255, 255, 255}, kReference = {150, 150, 150}, kLink = {0, 158, 115};
+                 kWhite = {255, 255, 255}, kReference = {150, 150, 150}, kLink = {0, 158, 115},
+                 kRejected = {213, 94, 0};
 // Okabe & Ito: told apart by colour-blind readers too.
 constexpr Colour kPalette[] = {{0, 114, 178}, {213, 94, 0},   {204, 121, 167},
                                {230, 159, 0}, {86, 180, 233}, {0, 0, 0}};
@@ -182,6 +183,8 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
     legend.push_back(
         {fmt::format("{} loop closure{}", plot.links_m.size(), plot.links_m.size() == 1 ? "" : "s"),
          kLink, 1.5});
+  if (!plot.rejected_links_m.empty())
+    legend.push_back({fmt::format("{} rejected", plot.rejected_links_m.size()), kRejected, 1.5});
   return legend;
 }
 
@@ -227,6 +230,7 @@ void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
     for (std::size_t i = 0; i < lines.size(); ++i)
       if (plot.curves[i].reference == references)
         draw_with_gaps(canvas, lines[i], styles[i].colour, styles[i].width_px);
+  for (const auto& [a, b] : plot.rejected_links_m) canvas.line({px(a), px(b)}, kRejected, 1.5);
   for (const auto& [a, b] : plot.links_m) canvas.line({px(a), px(b)}, kLink, 1.5);
   const auto start = std::find_if(chooser.positions_m.begin(), chooser.positions_m.end(),
                                   [](const auto& p) { return p.has_value(); });

@@ -31,6 +31,7 @@ struct Plot {
   std::vector<PlotError> errors;
   std::string error_label = "position error";
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> links_m;  ///< loop closures
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rejected_links_m;  ///< false ones
 };
 
 /// Ground truth, aligned estimates and their errors; failed results are left out.
