@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "apps/graph_solution.h"
 #include "apps/output.h"
@@ -19,10 +20,13 @@
 namespace placegraph::apps {
 namespace {
 
+/// In the order of RobustMethod.
+const std::vector<std::string> kRobustMethods = {"none", "huber", "dcs", "gnc"};
+
 struct Arguments {
-  std::string in, out, plot, cost = "log", engine = "native";
-  bool json = false, force = false, quiet = false, components = false, drop_rejected = false;
-  PoseGraphOptions options;
+  std::string in, out, plot, cost = "log", engine = "native", robust = "none";
+  bool json = false, force = false, quiet = false, drop_rejected = false;
+  GraphTask task;
 };
 
 /// chi2 of the graph in both conventions, over the constraints that are not left out.
@@ -30,9 +34,9 @@ struct Costs {
   double g2o, log;
 };
 
-PoseGraph without(PoseGraph graph, const std::vector<RejectedConstraint>& rejected) {
+PoseGraph without(PoseGraph graph, const std::vector<RejectedEdge>& rejected) {
   std::vector<char> is_rejected(graph.constraints.size());
-  for (const RejectedConstraint& edge : rejected) is_rejected[edge.constraint] = true;
+  for (const RejectedEdge& edge : rejected) is_rejected[edge.constraint] = true;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < graph.constraints.size(); ++i)
     if (!is_rejected[i]) std::swap(graph.constraints[kept++], graph.constraints[i]);
@@ -48,7 +52,7 @@ using Json = nlohmann::ordered_json;
 
 Json rejected_edges(const GraphSolution& solution) {
   Json list = Json::array();
-  for (const RejectedConstraint& rejected : solution.rejected) {
+  for (const RejectedEdge& rejected : solution.rejected) {
     const auto& edge =
         std::get<RelativePoseConstraint>(solution.graph.constraints[rejected.constraint]);
     list.push_back({{"from", edge.from},
@@ -59,6 +63,17 @@ Json rejected_edges(const GraphSolution& solution) {
   return list;
 }
 
+void describe_steps(std::vector<double> cpu_ms, Json& json) {
+  if (cpu_ms.empty()) return;
+  std::sort(cpu_ms.begin(), cpu_ms.end());
+  const std::size_t count = cpu_ms.size();
+  json["steps"] = count;
+  json["step_cpu_ms_mean"] =
+      std::accumulate(cpu_ms.begin(), cpu_ms.end(), 0.0) / static_cast<double>(count);
+  json["step_cpu_ms_p95"] = cpu_ms[(count * 95 + 99) / 100 - 1];
+  json["step_cpu_ms_max"] = cpu_ms.back();
+}
+
 Json describe(const Arguments& arguments, const Costs& before, const Costs& after,
               const GraphSolution& solution) {
   const char* const kinds[] = {"SE2", "SE3", "Sim3"};
@@ -67,6 +82,7 @@ Json describe(const Arguments& arguments, const Costs& before, const Costs& afte
   json["out"] = arguments.out;
   json["cost"] = arguments.cost;
   json["engine"] = arguments.engine;
+  json["robust"] = arguments.robust;
   json["kind"] = kinds[static_cast<int>(solution.graph.kind())];
   json["nodes"] = solution.graph.nodes.size();
   json["constraints"] = solution.graph.constraints.size();
@@ -79,6 +95,7 @@ Json describe(const Arguments& arguments, const Costs& before, const Costs& afte
   json["cpu_ms"] = solution.cpu_ms;
   json["wall_ms"] = solution.wall_ms;
   json["peak_mb"] = solution.peak_mb;
+  describe_steps(solution.step_cpu_ms, json);
   json["rejected"] = solution.rejected.size();
   json["rejected_edges"] = rejected_edges(solution);
   return json;
@@ -97,6 +114,10 @@ void print(const Arguments& arguments, const Json& json) {
              number("chi2_log"));
   if (!json["rejected_edges"].empty())
     fmt::print("  {} constraints rejected\n", json["rejected_edges"].size());
+  if (json.contains("steps"))
+    fmt::print("  {} steps of {:.2f} ms CPU on average, 95 % below {:.2f}, at most {:.2f}\n",
+               json["steps"].get<int>(), number("step_cpu_ms_mean"), number("step_cpu_ms_p95"),
+               number("step_cpu_ms_max"));
   fmt::print("  {} iterations, {:.1f} ms CPU, {:.1f} ms wall, {:.0f} MB at most; written to {}\n",
              json["iterations"].get<int>(), number("cpu_ms"), number("wall_ms"), number("peak_mb"),
              arguments.out);
@@ -105,7 +126,7 @@ void print(const Arguments& arguments, const Json& json) {
 void draw(const Arguments& arguments, const PoseGraph& before, const GraphSolution& solution,
           const Costs& costs) {
   std::vector<int> rejected;
-  for (const RejectedConstraint& edge : solution.rejected) rejected.push_back(edge.constraint);
+  for (const RejectedEdge& edge : solution.rejected) rejected.push_back(edge.constraint);
   Plot plot = plot_of(before, solution.graph, rejected);
   plot.title = fmt::format("{} poses, {} constraints, chi2 {:.6g} (logarithm), {:.6g} (g2o)",
                            solution.graph.nodes.size(), solution.graph.constraints.size(),
@@ -114,11 +135,17 @@ void draw(const Arguments& arguments, const PoseGraph& before, const GraphSoluti
 }
 
 void check(Arguments& arguments) {
-  arguments.options.rotation_error =
+  PoseGraphOptions& options = arguments.task.options;
+  options.rotation_error =
       arguments.cost == "g2o" ? RotationError::kQuaternion : RotationError::kLog;
-  arguments.options.engine =
-      arguments.engine == "ceres" ? PoseGraphEngine::kCeres : PoseGraphEngine::kNative;
-  arguments.options.check();
+  options.engine = arguments.engine == "ceres" ? PoseGraphEngine::kCeres : PoseGraphEngine::kNative;
+  options.robust.method = static_cast<RobustMethod>(
+      std::find(kRobustMethods.begin(), kRobustMethods.end(), arguments.robust) -
+      kRobustMethods.begin());
+  options.check();
+  require(
+      !arguments.task.incremental || (arguments.robust == "none" && arguments.engine == "native"),
+      "--incremental goes with --engine native and --robust none");
   require_plot_name(arguments.plot);
   require(arguments.plot.empty() || arguments.plot != arguments.out,
           "--plot: " + arguments.plot + " is where the graph is to be written");
@@ -128,7 +155,7 @@ void check(Arguments& arguments) {
 
 void run(Arguments arguments) {
   check(arguments);
-  PoseGraph start = read_pose_graph(arguments.in, {.connected = !arguments.components});
+  PoseGraph start = read_pose_graph(arguments.in, {.connected = !arguments.task.split});
   const Costs before = costs_of(start);
   const PoseGraph drawn = arguments.plot.empty() ? PoseGraph() : start;
   LogSink log;
@@ -138,7 +165,7 @@ void run(Arguments arguments) {
     };
   GraphSolution solution;
   try {
-    solution = solve(std::move(start), arguments.components, arguments.options, log);
+    solution = solve(std::move(start), arguments.task, log);
   } catch (const NoAnswer& reason) {
     throw NoAnswer(arguments.in + ": " + reason.what());
   }
@@ -173,8 +200,14 @@ void add_optimize_command(CLI::App& app) {
   command->add_option("--engine", a.engine, "solver: native, or ceres (a second opinion)")
       ->check(CLI::IsMember({"native", "ceres"}))
       ->capture_default_str();
-  command->add_option("--iterations", a.options.max_iterations, "at most")->capture_default_str();
-  command->add_flag("--components", a.components,
+  command->add_option("--robust", a.robust, "what is done against false loops")
+      ->check(CLI::IsMember(kRobustMethods))
+      ->capture_default_str();
+  command->add_option("--iterations", a.task.options.max_iterations, "at most")
+      ->capture_default_str();
+  command->add_flag("--incremental", a.task.incremental,
+                    "let the graph grow pose by pose, as it would on a robot");
+  command->add_flag("--components", a.task.split,
                     "optimize the parts of a graph that falls apart, each for itself");
   command->add_flag("--drop-rejected", a.drop_rejected, "write OUT without rejected constraints");
   command->add_option("--plot", a.plot, "draw the poses before and after (.png or .svg)");

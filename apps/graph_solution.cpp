@@ -1,6 +1,10 @@
 #include "apps/graph_solution.h"
 
+#include <fmt/format.h>
+#include <placegraph/backend/incremental_replay.h>
 #include <placegraph/graph/graph_parts.h>
+
+#include <algorithm>
 
 #include "apps/output.h"
 #include "apps/usage.h"
@@ -8,37 +12,74 @@
 namespace placegraph::apps {
 namespace {
 
-void add_component(PoseGraph component, const GraphPart* part, const PoseGraphOptions& options,
-                   const LogSink& log, GraphSolution& solution) {
-  const std::int64_t first = component.nodes.front().id;
-  PoseGraphReport report = optimize_pose_graph(std::move(component), options, log);
-  if (!report.outcome)
-    throw NoAnswer((part ? "component of vertex " + std::to_string(first) + ": " : std::string()) +
-                   report.outcome.reason);
+constexpr int kStepsPerLine = 500;  ///< of progress
+
+PoseGraphReport optimize_growing(const PoseGraph& graph, const GraphTask& task, const LogSink& log,
+                                 std::vector<double>& step_cpu_ms) {
+  IncrementalOptions options;
+  options.rotation_error = task.options.rotation_error;
+  const auto watch = [&](int steps, const IncrementalOptimizer& optimizer) {
+    if (steps % kStepsPerLine == 0)
+      placegraph::log(
+          log, LogLevel::kDebug,
+          fmt::format("{} of {} poses, cost {:.9g}", steps, graph.nodes.size(), optimizer.cost()));
+  };
+  IncrementalReplay replay = optimize_incrementally(graph, options, watch);
+  step_cpu_ms.insert(step_cpu_ms.end(), replay.step_cpu_ms.begin(), replay.step_cpu_ms.end());
+  PoseGraphReport report;
+  report.outcome = replay.outcome;
+  report.iterations = replay.iterations;
+  report.graph = std::move(replay.graph);
+  return report;
+}
+
+PoseGraphReport optimize(PoseGraph graph, const GraphTask& task, const LogSink& log,
+                         GraphSolution& solution) {
+  PoseGraphReport report = task.incremental
+                               ? optimize_growing(graph, task, log, solution.step_cpu_ms)
+                               : optimize_pose_graph(std::move(graph), task.options, log);
+  if (!report.outcome) throw NoAnswer(report.outcome.reason);
   solution.iterations += report.iterations;
-  if (!part) {
-    solution.graph = std::move(report.graph);
-    return;
+  return report;
+}
+
+void solve_whole(PoseGraph graph, const GraphTask& task, const LogSink& log,
+                 GraphSolution& solution) {
+  PoseGraphReport report = optimize(std::move(graph), task, log, solution);
+  solution.graph = std::move(report.graph);
+  solution.rejected = std::move(report.rejected);
+}
+
+void solve_parts(PoseGraph graph, const GraphTask& task, const LogSink& log,
+                 GraphSolution& solution) {
+  std::vector<GraphPart> parts = split_components(graph);
+  solution.components = static_cast<int>(parts.size());
+  solution.graph = std::move(graph);
+  for (GraphPart& part : parts) {
+    const std::int64_t first = part.graph.nodes.front().id;
+    PoseGraphReport report;
+    try {
+      report = optimize(std::move(part.graph), task, log, solution);
+    } catch (const NoAnswer& reason) {
+      throw NoAnswer(fmt::format("component of vertex {}: {}", first, reason.what()));
+    }
+    for (std::size_t i = 0; i < part.nodes.size(); ++i)
+      solution.graph.nodes[part.nodes[i]].T_world_node = report.graph.nodes[i].T_world_node;
+    for (RejectedEdge& edge : report.rejected) {
+      edge.constraint = part.constraints[edge.constraint];
+      solution.rejected.push_back(std::move(edge));
+    }
   }
-  for (std::size_t i = 0; i < part->nodes.size(); ++i)
-    solution.graph.nodes[part->nodes[i]].T_world_node = report.graph.nodes[i].T_world_node;
+  std::sort(solution.rejected.begin(), solution.rejected.end(),
+            [](const auto& a, const auto& b) { return a.constraint < b.constraint; });
 }
 
 }  // namespace
 
-GraphSolution solve(PoseGraph graph, bool split, const PoseGraphOptions& options,
-                    const LogSink& log) {
+GraphSolution solve(PoseGraph graph, const GraphTask& task, const LogSink& log) {
   const Stopwatch stopwatch;
   GraphSolution solution;
-  if (split) {
-    std::vector<GraphPart> parts = split_components(graph);
-    solution.components = static_cast<int>(parts.size());
-    solution.graph = std::move(graph);
-    for (GraphPart& part : parts)
-      add_component(std::move(part.graph), &part, options, log, solution);
-  } else {
-    add_component(std::move(graph), nullptr, options, log, solution);
-  }
+  (task.split ? solve_parts : solve_whole)(std::move(graph), task, log, solution);
   solution.cpu_ms = stopwatch.cpu_ms();
   solution.wall_ms = stopwatch.wall_ms();
   solution.peak_mb = peak_mb();

@@ -1,6 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/text_file.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -28,11 +29,17 @@ std::string read_whole(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw FileError(path, "cannot be opened for reading");
   std::string text;
-  std::vector<char> chunk(std::size_t{1} << 20);
+  std::error_code unknown;  // of a pipe, say: then it is read piece by piece from the begin
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  std::size_t piece =
+      unknown ? std::size_t{1} << 16 : std::min<std::size_t>(size, kMaxFileBytes) + 1;
   while (stream) {
-    stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
-    text.append(chunk.data(), static_cast<std::size_t>(stream.gcount()));
+    const std::size_t before = text.size();
+    text.resize(before + piece);
+    stream.read(text.data() + before, static_cast<std::streamsize>(piece));
+    text.resize(before + static_cast<std::size_t>(stream.gcount()));
     if (text.size() > kMaxFileBytes) throw FileError(path, "is larger than 2 GiB");
+    piece = std::max(piece, std::size_t{1} << 16);
   }
   if (stream.bad()) throw FileError(path, "cannot be read");
   return text;

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/support/command.h"
+#include "tests/support/cli_test.h"
 #include "tests/support/data.h"
 
 namespace placegraph {
@@ -48,29 +48,12 @@ std::string circle_tum(int frames) {
   return out.str();
 }
 
-const char* const kSquareGraph =
-    "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.1 0 0\nVERTEX_SE2 2 2.3 0.1 0\n"
-    "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 0 0 1 0 0 1 0 1\n"
-    "EDGE_SE2 0 2 2.2 0 0 1 0 0 1 0 1\n";
-
-class Cli : public ::testing::Test {
+class Cli : public test::CliTest {
  protected:
-  CommandResult run(const std::string& arguments) { return run_placegraph(arguments, dir.path()); }
-  void expect_usage_error(const std::string& arguments, const std::string& message) {
-    SCOPED_TRACE(arguments);
-    const CommandResult result = run(arguments);
-    EXPECT_EQ(result.code, 2);
-    EXPECT_THAT(result.out, IsEmpty());
-    EXPECT_THAT(result.err, StartsWith("placegraph: "));
-    EXPECT_THAT(result.err, HasSubstr(message));
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  }
   void SetUp() override {
     write_file(dir / "gt.txt", circle_kitti(150));
     write_file(dir / "est.txt", circle_kitti(150, 0.99, 7));
-    write_file(dir / "in.g2o", kSquareGraph);
   }
-  TemporaryFolder dir;
 };
 
 std::vector<std::string> commands() {
@@ -245,32 +228,6 @@ TEST_F(Cli, EvalRefusesBadOptions) {
   expect_usage_error("eval gt.txt est.txt --plot a.gif", ".png or .svg");
   expect_usage_error("eval gt.txt .", "is a folder");
   expect_usage_error("eval gt.txt est.txt --csv no/such/folder.csv", "folder.csv");
-}
-
-TEST_F(Cli, OptimizeWritesTheGraphAndReportsBothCosts) {
-  const CommandResult result = run("optimize in.g2o -o out.g2o --json");
-  ASSERT_EQ(result.code, 0) << result.err;
-  const auto json = nlohmann::json::parse(result.out);
-  for (const char* key : {"chi2_g2o", "chi2_log", "cpu_ms", "wall_ms"})
-    EXPECT_TRUE(json.at(key).is_number()) << key;
-  EXPECT_GT(json.at("iterations"), 0);
-  // Three measurements of two lengths, 1, 1 and 2.2 m: 0.2 m spread over three edges.
-  EXPECT_NEAR(json.at("chi2_log").get<double>(), 0.2 * 0.2 / 3, 1e-6);
-  EXPECT_THAT(read_file(dir / "out.g2o"), HasSubstr("VERTEX_SE2 2"));
-  EXPECT_EQ(run("optimize in.g2o -o other.g2o --cost g2o").code, 0);
-}
-
-TEST_F(Cli, OptimizeNeverOverwritesUnaskedAndNamesBrokenLines) {
-  write_file(dir / "out.g2o", "mine");
-  expect_usage_error("optimize in.g2o -o out.g2o", "--force");
-  EXPECT_EQ(read_file(dir / "out.g2o"), "mine");
-  EXPECT_EQ(run("optimize in.g2o -o out.g2o --force").code, 0);
-  write_file(dir / "broken.g2o", "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 one 0 0\n");
-  expect_usage_error("optimize broken.g2o -o x.g2o", "broken.g2o:2:");
-  write_file(dir / "dangling.g2o", "VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 9 1 0 0 1 0 0 1 0 1\n");
-  expect_usage_error("optimize dangling.g2o -o x.g2o", "9");
-  expect_usage_error("optimize in.g2o", "required");
-  EXPECT_FALSE(fs::exists(dir / "x.g2o"));
 }
 
 TEST_F(Cli, ConfigDumpsWhatItTakesBack) {
