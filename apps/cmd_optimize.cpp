@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -171,6 +172,8 @@ void run(Arguments arguments) {
   }
   const PoseGraph kept = without(solution.graph, solution.rejected);
   const Costs after = costs_of(kept);
+  if (!std::isfinite(after.g2o + after.log))
+    throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
   if (!arguments.plot.empty()) draw(arguments, drawn, solution, after);
   write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
   const Json json = describe(arguments, before, after, solution);

@@ -10,6 +10,9 @@ namespace placegraph::apps {
 namespace fs = std::filesystem;
 
 void require_free(const std::string& path, bool force) {
+  const fs::path folder = fs::path(path).parent_path();
+  require(folder.empty() || fs::is_directory(folder),
+          path + ": cannot be written: there is no folder " + folder.string());
   if (!fs::exists(path)) return;
   require(!fs::is_directory(path), path + ": is a folder, a file is to be written there");
   require(force, path + ": exists already; --force overwrites it");

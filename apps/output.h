@@ -10,8 +10,8 @@ class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws ArgumentError if something stands at `path` already and `force` is not given. To be
-/// called before the work whose result goes there.
+/// Throws ArgumentError if something stands at `path` already and `force` is not given, or if there
+/// is no folder for it. To be called before the work whose result goes there.
 void require_free(const std::string& path, bool force);
 
 /// The same for a folder of outputs: it may exist if it is empty.

@@ -27,14 +27,17 @@ const char* const kThreePoses =
 // Three measurements of two lengths, 1, 1 and 2.2 m: 0.2 m spread over three edges.
 constexpr double kThreePosesCost = 0.2 * 0.2 / 3;
 
-/// A ring of `n` poses a metre apart, exact but for its start, which is straight; ids from `first`,
-/// edges to the next and the one after; one more for every pair of `false_loops`.
+/// A ring of `n` poses a metre apart, measured exactly, whose start is a tenth too wide; ids from
+/// `first`, edges to the next and the one after; one more for every pair of `false_loops`.
 std::string ring(int n, int first = 0, const std::vector<std::pair<int, int>>& false_loops = {}) {
   std::ostringstream out;
   out.precision(15);
   const double turn = 2 * M_PI / n;
   const char* information = " 100 0 0 100 0 400\n";
-  for (int i = 0; i < n; ++i) out << "VERTEX_SE2 " << first + i << " " << 0.2 * i << " 0 0\n";
+  const double radius = 1.1 * 0.5 / std::sin(turn / 2);
+  for (int i = 0; i < n; ++i)
+    out << "VERTEX_SE2 " << first + i << " " << radius * std::sin(i * turn) << " "
+        << radius * (1 - std::cos(i * turn)) << " " << i * turn << "\n";
   for (int i = 0; i < n; ++i) {
     out << "EDGE_SE2 " << first + i << " " << first + (i + 1) % n << " 1 0 " << turn << information;
     out << "EDGE_SE2 " << first + i << " " << first + (i + 2) % n << " " << 1 + std::cos(turn)
@@ -177,6 +180,18 @@ TEST_F(OptimizeCli, TakesEveryRobustMethod) {
     const json report = optimized(std::string("false.g2o -o out.g2o --robust ") + method);
     EXPECT_EQ(report.at("robust"), method);
   }
+}
+
+TEST_F(OptimizeCli, LetsAGraphGrowAndReportsItsSteps) {
+  write_file(dir / "ring.g2o", ring(30) + ring(12, 100));
+  const json report = optimized("ring.g2o -o out.g2o --incremental --components");
+  EXPECT_LT(report.at("chi2_log"), 1e-6);
+  EXPECT_EQ(report.at("steps"), 42);
+  EXPECT_GT(report.at("step_cpu_ms_mean"), 0);
+  EXPECT_GE(report.at("step_cpu_ms_max"), report.at("step_cpu_ms_p95"));
+  EXPECT_NEAR(optimized("in.g2o -o out.g2o --incremental").at("chi2_log").get<double>(),
+              kThreePosesCost, 1e-6);
+  EXPECT_FALSE(optimized("in.g2o -o out.g2o").contains("step_cpu_ms_mean"));
 }
 
 TEST_F(OptimizeCli, DrawsThePosesBeforeAndAfter) {

@@ -118,5 +118,22 @@ TEST_F(OptimizeFaults, EndsWithOneAndWritesNothingWhereItFindsNoMinimum) {
   EXPECT_FALSE(fs::exists(dir / "out.g2o"));
 }
 
+TEST_F(OptimizeFaults, EndsWithOneWhereNumbersOverflow) {
+  write_file(dir / "huge.g2o",
+             "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1e200 0 0\nVERTEX_SE2 2 0 1e200 0\n"
+             "EDGE_SE2 0 1 1 0 0 1e200 0 0 1e200 0 1\nEDGE_SE2 1 2 1 0 0 1e200 0 0 1e200 0 1\n"
+             "EDGE_SE2 0 2 -1e200 0 2 1e200 0 0 1e200 0 1\n");
+  const CommandResult result = run("optimize huge.g2o -o out.g2o --quiet");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("huge.g2o: "));
+  EXPECT_FALSE(fs::exists(dir / "out.g2o"));
+}
+
+TEST_F(OptimizeFaults, GrowsNoGraphTheWayOthersAreSolved) {
+  for (const char* flag : {"--engine ceres", "--robust gnc"})
+    expect_usage_error(std::string("optimize in.g2o -o out.g2o --incremental ") + flag,
+                       "--incremental goes with");
+}
+
 }  // namespace
 }  // namespace placegraph
