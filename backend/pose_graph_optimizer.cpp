@@ -24,23 +24,42 @@ double sum(const std::vector<double>& values) {
   return total;
 }
 
+/// From the chosen start to the minimum; fills what the report says of the way there.
+template <class Group>
+void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
+              const PoseGraphOptions& options, PoseGraphReport& report) {
+  StartSolution found;
+  if (options.robust.method == RobustMethod::kNone) {
+    LocalSolver<Group> solver(local);
+    found = solve_from_start(graph, options.start, options.rotation_error, solver);
+  } else {
+    set_start(graph, options.start, options.rotation_error);
+    RobustSolution robust = solve_robustly(graph, local, options.robust);
+    found.solution = std::move(robust.local);
+    found.used = options.start == PoseGraphStart::kAuto ? PoseGraphStart::kFile : options.start;
+    found.refined_from_certified = found.used == PoseGraphStart::kCertified;
+    report.rejected = std::move(robust.rejected);
+  }
+  report.outcome = found.solution.outcome;
+  report.iterations = found.solution.iterations;
+  report.start_used = found.used;
+  report.refined_from_certified = found.refined_from_certified;
+}
+
 template <class Group>
 PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
                          const LogSink& log_sink) {
   PackedGraph<Group> packed = pack<Group>(graph);
   PoseGraphReport report;
   report.chi2_initial = sum(chi2_by_constraint(packed, options.rotation_error));
-  RobustSolution solution = solve_robustly(packed,
-                                           {.engine = options.engine,
-                                            .rotation_error = options.rotation_error,
-                                            .step_rule = options.step_rule,
-                                            .max_iterations = options.max_iterations,
-                                            .relative_decrease = options.relative_decrease,
-                                            .log = log_sink},
-                                           options.robust);
-  report.outcome = solution.local.outcome;
-  report.iterations = solution.local.iterations;
-  report.rejected = std::move(solution.rejected);
+  minimize(packed,
+           {.engine = options.engine,
+            .rotation_error = options.rotation_error,
+            .step_rule = options.step_rule,
+            .max_iterations = options.max_iterations,
+            .relative_decrease = options.relative_decrease,
+            .log = log_sink},
+           options, report);
   unpack(packed, graph);
   report.graph = std::move(graph);
   report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
@@ -48,7 +67,7 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
   log(log_sink, LogLevel::kInfo,
       "pose graph: chi2 " + std::to_string(report.chi2_initial) + " -> " +
           std::to_string(report.chi2_final) + " in " + std::to_string(report.iterations) +
-          " iterations");
+          " iterations, start " + to_string(report.start_used));
   return report;
 }
 
@@ -67,6 +86,8 @@ void visit(OptionVisitor& field, PoseGraphOptions& o) {
   field.choice("engine", o.engine, {"native", "ceres"}, "which solver finds the minimum");
   field.choice("step_rule", o.step_rule, {"dogleg", "gauss_newton", "levenberg_marquardt"},
                "how the native engine steps");
+  field.choice("start", o.start, {"auto", "file", "odometry", "chordal", "certified"},
+               "where the descent begins; auto: the cheapest start whose minimum can be trusted");
   field("max_iterations", o.max_iterations, "steps of Levenberg-Marquardt", {1, 100000});
   field("relative_decrease", o.relative_decrease,
         "stop when the cost falls by less than this share", {0, 1});

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/robust_optimizer.h>
+#include <placegraph/backend/start_selection.h>
 
 namespace placegraph {
 
@@ -7,20 +8,25 @@ struct PoseGraphOptions {
   RotationError rotation_error = RotationError::kLog;
   PoseGraphEngine engine = PoseGraphEngine::kNative;
   StepRule step_rule = StepRule::kDogleg;
+  /// kAuto: with `robust` the poses as they are, because false loops spoil the other starts.
+  PoseGraphStart start = PoseGraphStart::kAuto;
   int max_iterations = 200;
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
-  RobustOptions robust;             ///< what is done against false loops
+  RobustOptions robust = {};        ///< what is done against false loops
   void check() const;
 };
 void visit(OptionVisitor& field, PoseGraphOptions& options);
 
 struct PoseGraphReport {
   Outcome outcome;
-  PoseGraph graph;          ///< with the optimized poses
-  double chi2_initial = 0;  ///< sum of e^T Omega e in the chosen convention, without kernels
+  PoseGraph graph;  ///< with the optimized poses
+  /// Sum of e^T Omega e in the chosen convention at the poses that were given, without kernels.
+  double chi2_initial = 0;
   double chi2_final = 0;
   int iterations = 0;
-  std::vector<double> chi2_by_constraint;  ///< final, in the order of graph.constraints
+  PoseGraphStart start_used = PoseGraphStart::kFile;  ///< never kAuto
+  bool refined_from_certified = false;                ///< start_used == kCertified
+  std::vector<double> chi2_by_constraint;             ///< final, in the order of graph.constraints
   /// Left out of the solution as false, by RobustOptions; in the order of graph.constraints. The
   /// sums above count them all the same.
   std::vector<RejectedEdge> rejected;

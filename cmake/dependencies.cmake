@@ -6,6 +6,7 @@ find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d featu
 set(BLA_VENDOR OpenBLAS)
 find_package(BLAS REQUIRED)
 find_package(CHOLMOD REQUIRED)
+find_package(spectra REQUIRED)
 find_package(Ceres 2.1 REQUIRED)
 find_package(opengv REQUIRED)
 find_package(yaml-cpp REQUIRED)

@@ -100,7 +100,9 @@ TYPED_TEST(PoseGraphOptimizerOf, PullOfAFalseLoopIsReducedByRobustKernels) {
       auto& relative = std::get<RelativePoseConstraint>(c);
       if (relative.source == ConstraintSource::kLoop) relative.kernel = kernel;
     }
-    const PoseGraphReport report = optimize_pose_graph(graph, tight());
+    PoseGraphOptions options = tight();
+    options.start = PoseGraphStart::kFile;
+    const PoseGraphReport report = optimize_pose_graph(graph, options);
     double worst = 0;
     for (std::size_t i = 0; i < walk.truth.size(); ++i)
       worst = std::max(worst, difference(walk.pose(report.graph, i), walk.truth[i]));
@@ -244,6 +246,7 @@ TEST(PoseGraphOptimizer, TellsWhenIterationsRanOut) {
   const Walk<SE2> walk(30, 0.05);
   PoseGraphOptions options;
   options.max_iterations = 1;
+  options.start = PoseGraphStart::kFile;
   const PoseGraphReport report = optimize_pose_graph(walk.graph, options);
   EXPECT_EQ(report.outcome.code, Outcome::Code::kNotConverged);
   EXPECT_LT(report.chi2_final, report.chi2_initial);  // the evidence is there all the same

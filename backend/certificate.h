@@ -1,0 +1,74 @@
+#pragma once
+#include <placegraph/backend/block_cholesky.h>
+#include <placegraph/backend/isotropic_problem.h>
+
+#include <string>
+
+namespace placegraph {
+
+/// The certificate matrix S = Q - Lambda(X) of the isotropic chordal problem at a point X of any
+/// rank (Rosen et al. 2019, theorem 7; Lambda_i = sym(Y_i^T (XQ)_i) on the rotations, zero on the
+/// translations). With S + shift on the rotations positive semi-definite, every feasible point has
+///
+///   f = tr(X S X^T) + sum tr(Lambda_i) >= sum tr(Lambda_i) - n d shift
+///
+/// because tr(Y_i^T Y_i) = d. That holds for any Lambda, so also where X is not quite critical.
+template <int dim>
+class CertificateMatrix {
+ public:
+  using Multipliers = std::vector<Eigen::Matrix<double, dim, dim>>;
+  CertificateMatrix(const IsotropicProblem<dim>& problem, const BlockOrdering& ordering,
+                    const Multipliers& multipliers);
+
+  struct Curvature {
+    double smallest_eigenvalue = 0;  ///< of S on the rotations, translations eliminated
+    double shift = 0;                ///< with which S was factorized: a proven bound
+    /// (d+1)n, v^T S v = smallest_eigenvalue |v on the rotations|^2; empty if it was not searched.
+    Eigen::VectorXd direction;
+  };
+  /// If S + `accepted_shift` can be factorized at once, nothing more is computed, and the
+  /// eigenvalue is said to be that bound; else a shift-and-invert Lanczos search (Spectra), which
+  /// an accepted shift of zero always starts.
+  Curvature curvature(double accepted_shift);
+  /// sum tr(Lambda_i) - n d shift
+  double lower_bound(double shift) const;
+  /// (cost - lower_bound) / cost; a cost of nothing but rounding (residuals below 3e-5 rad) is
+  /// lifted to that level first.
+  double relative_gap(double cost, double lower_bound) const;
+  /// Mean diagonal entry of Q on the rotations: what eigenvalues are to be compared with.
+  double scale() const { return scale_; }
+
+ private:
+  bool factorize(double shift);
+
+  const IsotropicProblem<dim>& problem_;
+  BlockCholesky matrix_;
+  double dual_value_ = 0, scale_ = 0, pin_ = 0;
+};
+
+/// What is proven of an estimate. Only the isotropic chordal problem is certified: that its global
+/// minimum is near, not that the graph's own cost, which differs from it by the directions of the
+/// information, kernels, measured positions and fixed nodes, has no lower minimum.
+struct ChordalIsotropicCertificate {
+  static constexpr const char* kProblem = "chordal_isotropic";
+  bool certified = false;          ///< relative_gap is at most CertificateOptions::max_relative_gap
+  double cost = 0;                 ///< f at its minimum nearest to the estimate
+  double cost_of_estimate = 0;     ///< f at the estimate itself
+  double lower_bound = 0;          ///< of f over all poses
+  double relative_gap = 0;         ///< CertificateMatrix::relative_gap
+  double smallest_eigenvalue = 0;  ///< of the certificate matrix at that minimum
+  double eigenvalue_scale = 0;     ///< mean diagonal entry it is to be compared with
+};
+
+struct CertificateOptions {
+  double max_relative_gap = 1e-5;
+};
+
+/// Descends from the poses of `graph` to the nearest minimum of the isotropic problem and proves
+/// how far that is from the global one at most.
+template <class Group>
+ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& graph,
+                                                      RotationError rotation_error,
+                                                      const CertificateOptions& options = {});
+
+}  // namespace placegraph
