@@ -91,39 +91,6 @@ PoseGraph long_loop(const LongLoopOptions& options) {
 }
 
 template <class Group>
-void integrate(PoseGraph& graph) {
-  const auto index = graph.index_by_id();
-  const std::vector<int> tree = graph.spanning_tree();
-  // Nodes in any order: follow the tree down to what is known already.
-  std::vector<char> known(graph.nodes.size());
-  std::vector<int> path;
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
-    const auto parent = [&](int node) {
-      const auto& edge = std::get<RelativePoseConstraint>(graph.constraints[tree[node]]);
-      return index.at(edge.from == graph.nodes[node].id ? edge.to : edge.from);
-    };
-    path.clear();
-    int node = static_cast<int>(i);
-    while (!known[node]) {
-      path.push_back(node);
-      if (tree[node] < 0) break;
-      node = parent(node);
-    }
-    for (; !path.empty(); path.pop_back()) {
-      const int next = path.back();
-      known[next] = true;
-      if (tree[next] < 0 || graph.nodes[next].fixed) continue;
-      const auto& edge = std::get<RelativePoseConstraint>(graph.constraints[tree[next]]);
-      const Group& T_from_to = std::get<Group>(edge.T_from_to);
-      const Group& T_world_parent = std::get<Group>(graph.nodes[parent(next)].T_world_node);
-      graph.nodes[next].T_world_node = edge.to == graph.nodes[next].id
-                                           ? T_world_parent * T_from_to
-                                           : T_world_parent * T_from_to.inverse();
-    }
-  }
-}
-
-template <class Group>
 void turn_odometry(PoseGraph& graph, double sigma_rad, Random& random) {
   for (Constraint& constraint : graph.constraints) {
     auto* relative = std::get_if<RelativePoseConstraint>(&constraint);
@@ -246,17 +213,6 @@ void add_rotation_noise(PoseGraph& graph, double sigma_rad, std::uint64_t seed) 
   else
     turn_odometry<SE3>(graph, sigma_rad, random);
   integrate_odometry(graph);
-}
-
-void integrate_odometry(PoseGraph& graph) {
-  switch (graph.kind()) {
-    case PoseKind::kSE2:
-      return integrate<SE2>(graph);
-    case PoseKind::kSE3:
-      return integrate<SE3>(graph);
-    case PoseKind::kSim3:
-      return integrate<Sim3>(graph);
-  }
 }
 
 void scatter_poses(PoseGraph& graph, double extent_m, std::uint64_t seed) {

@@ -57,9 +57,6 @@ PoseGraph make_long_loop(const LongLoopOptions& options);
 /// about every axis and integrates the start from them anew. The information stays as it is.
 void add_rotation_noise(PoseGraph& graph, double sigma_rad, std::uint64_t seed);
 
-/// Sets every pose that is not fixed by the measurements along the spanning tree (odometry first).
-void integrate_odometry(PoseGraph& graph);
-
 /// Sets every pose that is not fixed to one drawn at random: position uniform in a cube (square) of
 /// the side `extent_m`, rotation uniform.
 void scatter_poses(PoseGraph& graph, double extent_m, std::uint64_t seed);
