@@ -5,6 +5,7 @@
 #include <iostream>
 #include <string>
 
+#include "apps/cmd_bundle.h"
 #include "apps/cmd_config.h"
 #include "apps/cmd_convert.h"
 #include "apps/cmd_eval.h"
@@ -33,6 +34,7 @@ int main(int argc, char** argv) {
     app.footer("placegraph eval poses.txt trajectory_optimized.kitti --align se3");
     app.set_version_flag("--version", "placegraph " PLACEGRAPH_VERSION);
     app.require_subcommand(1);
+    add_bundle_command(app);
     add_config_command(app);
     add_convert_command(app);
     add_eval_command(app);

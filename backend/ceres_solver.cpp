@@ -1,58 +1,42 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <placegraph/backend/ceres_solver.h>
+#include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
+#include <placegraph/backend/whitening.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <deque>
 
 namespace placegraph {
 namespace {
 
-/// W with W^T W = information, for information of any rank (rows of directions without information
-/// are zero). `deficient` is set where the rank is not full.
-template <class Matrix>
-Matrix whitening(const Matrix& information, bool& deficient) {
-  const Eigen::LLT<Matrix> llt(information);
-  if (llt.info() == Eigen::Success) {
-    const auto pivots = llt.matrixLLT().diagonal();
-    deficient |= pivots.minCoeff() < 1e-6 * pivots.maxCoeff();
-    return llt.matrixU();
-  }
-  deficient = true;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(information);
-  return eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-         eigen.eigenvectors().transpose();
-}
-
 /// A packed graph as a Ceres problem over pose blocks of its own.
 template <class Group>
 class GraphProblem {
  public:
-  static constexpr int kSize = PoseBlock<Group>::kSize;
+  static constexpr int kSize = VariableBlock<Group>::kSize;
 
   GraphProblem(const PackedGraph<Group>& graph, RotationError rotation_error)
       : poses_(graph.poses.size() * kSize), problem_(ownership()) {
     for (std::size_t i = 0; i < graph.poses.size(); ++i)
-      PoseBlock<Group>::store(graph.poses[i], &poses_[i * kSize]);
+      VariableBlock<Group>::store(graph.poses[i], &poses_[i * kSize]);
     for (const auto& edge : graph.edges) {
       if (edge.weight == 0) continue;
       problem_.AddResidualBlock(
-          new RelativePoseFactor<Group>(edge.T_to_from.inverse(),
-                                        whitening(edge.information, deficient_), rotation_error),
+          new CeresFactor<RelativePoseFactor<Group>>(RelativePoseFactor<Group>(
+              edge.T_to_from.inverse(), whitening(edge.information, &deficient_), rotation_error)),
           loss(edge.kernel, edge.weight), block(edge.from), block(edge.to));
     }
     for (const auto& position : graph.positions) {
       if (position.weight == 0) continue;
       deficient_ = true;
-      problem_.AddResidualBlock(
-          new PositionFactor<Group>(position.position_world, position.lever_arm,
-                                    whitening(position.information, deficient_)),
-          loss(position.kernel, position.weight), block(position.node));
+      problem_.AddResidualBlock(new CeresFactor<PositionFactor<Group>>(PositionFactor<Group>(
+                                    position.position_world, position.lever_arm,
+                                    whitening(position.information, &deficient_))),
+                                loss(position.kernel, position.weight), block(position.node));
     }
     for (std::size_t i = 0; i < graph.poses.size(); ++i) {
       double* const pose = &poses_[i * kSize];
@@ -70,7 +54,7 @@ class GraphProblem {
     for (std::size_t i = 0; i < graph.poses.size(); ++i) {
       const double* const pose = &poses_[i * kSize];
       if (problem_.HasParameterBlock(pose) && !problem_.IsParameterBlockConstant(pose))
-        graph.poses[i] = PoseBlock<Group>::load(pose);
+        graph.poses[i] = VariableBlock<Group>::load(pose);
     }
   }
 
@@ -90,7 +74,7 @@ class GraphProblem {
   }
 
   std::vector<double> poses_;
-  PoseManifold<Group> manifold_;
+  VariableManifold<Group> manifold_;
   std::deque<KernelLoss> kernels_;
   std::deque<ceres::ScaledLoss> scales_;
   bool deficient_ = false;

@@ -1,5 +1,6 @@
 #include <placegraph/backend/factors/reprojection.h>
 #include <placegraph/backend/sliding_window.h>
+#include <placegraph/backend/whitening.h>
 #include <placegraph/backend/window_state.h>
 #include <placegraph/graph/core/error.h>
 
@@ -22,20 +23,54 @@ void visit(OptionVisitor& field, SlidingWindowOptions& o) {
 
 struct SlidingWindow::Impl {
   WindowState state;
+  /// Nothing but the prior leads back to the keyframe that set the map's frame; once another has to
+  /// be held instead, what is known is known from there only.
+  bool tied_to_map = true;
 
-  SE3& keyframe(std::int64_t id) {
-    const auto it = state.keyframes.find(id);
-    require(it != state.keyframes.end(),
-            "sliding window: keyframe " + std::to_string(id) + " is not in the window");
-    return it->second;
-  }
-  WindowLandmark& landmark(std::int64_t id) {
-    const auto it = state.landmarks.find(id);
-    require(it != state.landmarks.end(),
-            "sliding window: landmark " + std::to_string(id) + " is not in the window");
+  SE3& keyframe(std::int64_t id) { return find(state.keyframes, id, "keyframe"); }
+  WindowLandmark& landmark(std::int64_t id) { return find(state.landmarks, id, "landmark"); }
+  WindowLine& line(std::int64_t id) { return find(state.lines, id, "line"); }
+  void require_plane(std::int64_t id) { find(state.planes, id, "plane"); }
+
+  template <class T>
+  static T& find(std::map<std::int64_t, T>& all, std::int64_t id, const char* what) {
+    const auto it = all.find(id);
+    require(it != all.end(), std::string("sliding window: ") + what + " " + std::to_string(id) +
+                                 " is not in the window");
     return it->second;
   }
 };
+
+namespace {
+
+template <class T>
+std::vector<std::int64_t> ids_of(const std::map<std::int64_t, T>& all) {
+  std::vector<std::int64_t> ids;
+  for (const auto& [id, value] : all) ids.push_back(id);
+  return ids;
+}
+
+/// Inserts an observation in the order of the keyframes; throws if its keyframe has one already.
+template <class Observation>
+void insert_observation(std::vector<Observation>& list, const Observation& o,
+                        const std::string& name) {
+  const auto at = std::lower_bound(
+      list.begin(), list.end(), o.keyframe,
+      [](const Observation& a, std::int64_t keyframe) { return a.keyframe < keyframe; });
+  require(at == list.end() || at->keyframe != o.keyframe, name + " is there already");
+  list.insert(at, o);
+}
+
+bool positive(double x) { return std::isfinite(x) && x > 0; }
+
+std::optional<Matrix6d> inverse_if_full(const Matrix6d& information) {
+  bool deficient = false;
+  whitening(information, &deficient);
+  if (deficient) return std::nullopt;
+  return Matrix6d(information.llt().solve(Matrix6d::Identity()));
+}
+
+}  // namespace
 
 SlidingWindow::SlidingWindow(const SlidingWindowOptions& options, const Camera& camera)
     : impl_(std::make_unique<Impl>()) {
@@ -61,7 +96,7 @@ void SlidingWindow::add_keyframe(std::int64_t id, const SE3& T_map_cam) {
 
 void SlidingWindow::add_landmark(std::int64_t id, const Eigen::Vector3d& p_map) {
   require(p_map.allFinite(), "sliding window: landmark " + std::to_string(id) + " is not finite");
-  const bool added = impl_->state.landmarks.try_emplace(id, WindowLandmark{p_map, {}}).second;
+  const bool added = impl_->state.landmarks.try_emplace(id, WindowLandmark{p_map, {}, {}}).second;
   require(added, "sliding window: landmark " + std::to_string(id) + " is there already");
 }
 
@@ -75,11 +110,7 @@ void SlidingWindow::add_observation(const WindowObservation& o) {
   require(!o.inverse_depth || (std::isfinite(*o.inverse_depth) && o.sigma_inverse_depth > 0 &&
                                std::isfinite(o.sigma_inverse_depth)),
           name + ": inverse_depth must be finite and its sigma positive");
-  const auto at = std::lower_bound(
-      list.begin(), list.end(), o.keyframe,
-      [](const WindowObservation& a, std::int64_t keyframe) { return a.keyframe < keyframe; });
-  require(at == list.end() || at->keyframe != o.keyframe, name + " is there already");
-  list.insert(at, o);
+  insert_observation(list, o, name);
 }
 
 void SlidingWindow::add_distance(const DistanceObservation& d) {
@@ -90,6 +121,74 @@ void SlidingWindow::add_distance(const DistanceObservation& d) {
       std::isfinite(d.distance_m) && d.distance_m >= 0 && std::isfinite(d.sigma_m) && d.sigma_m > 0,
       "sliding window: distance_m must be finite and not negative, sigma_m positive");
   impl_->state.distances.push_back(d);
+}
+
+void SlidingWindow::keep(std::int64_t keyframe, bool kept) {
+  impl_->keyframe(keyframe);
+  if (kept)
+    impl_->state.kept.insert(keyframe);
+  else
+    impl_->state.kept.erase(keyframe);
+}
+
+void SlidingWindow::add_line(std::int64_t id, const Line3& line_map) {
+  require(line_map.coordinates().allFinite(),
+          "sliding window: line " + std::to_string(id) + " is not finite");
+  const bool added = impl_->state.lines.try_emplace(id, WindowLine{line_map, {}}).second;
+  require(added, "sliding window: line " + std::to_string(id) + " is there already");
+}
+
+void SlidingWindow::add_line_observation(const LineObservation& o) {
+  impl_->keyframe(o.keyframe);
+  std::vector<LineObservation>& list = impl_->line(o.line).observations;
+  const std::string name = "sliding window: observation of line " + std::to_string(o.line) +
+                           " in keyframe " + std::to_string(o.keyframe);
+  require(o.start_px.allFinite() && o.end_px.allFinite() && positive(o.sigma_px),
+          name + ": its ends must be finite and sigma_px positive");
+  insert_observation(list, o, name);
+}
+
+void SlidingWindow::remove_line(std::int64_t id) {
+  impl_->line(id);
+  impl_->state.lines.erase(id);
+}
+
+void SlidingWindow::add_plane(std::int64_t id, const Plane3& plane_map) {
+  const bool added = impl_->state.planes.try_emplace(id, plane_map).second;
+  require(added, "sliding window: plane " + std::to_string(id) + " is there already");
+}
+
+void SlidingWindow::add_height(const HeightObservation& h) {
+  impl_->keyframe(h.keyframe);
+  impl_->require_plane(h.plane);
+  require(positive(h.height_m) && positive(h.sigma_m),
+          "sliding window: height_m and sigma_m must be finite and positive");
+  impl_->state.heights.push_back(h);
+}
+
+void SlidingWindow::add_plane_point(const PlanePoint& point) {
+  impl_->require_plane(point.plane);
+  WindowLandmark& landmark = impl_->landmark(point.landmark);
+  require(positive(point.sigma_m), "sliding window: sigma_m must be finite and positive");
+  require(!landmark.on_plane, "sliding window: landmark " + std::to_string(point.landmark) +
+                                  " lies on a plane already");
+  landmark.on_plane = point;
+}
+
+void SlidingWindow::add_pose_prior(const PosePrior& prior) {
+  impl_->keyframe(prior.keyframe);
+  const std::string name = "sliding window: prior of keyframe " + std::to_string(prior.keyframe);
+  require(prior.T_map_cam.matrix().allFinite() && prior.information.allFinite() &&
+              prior.information.isApprox(prior.information.transpose(), 1e-9),
+          name + ": the pose must be finite, the information symmetric and finite");
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(prior.information);
+  const double least = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[5];
+  require(largest > 0 && least >= -1e-9 * largest,
+          name + ": the information must be positive semi-definite and not zero");
+  impl_->state.pose_priors.push_back(prior);
+  bool deficient = false;
+  whitening(prior.information, &deficient);
+  if (!deficient && impl_->state.fixed == prior.keyframe) impl_->state.fixed.reset();
 }
 
 void SlidingWindow::remove_landmark(std::int64_t id) {
@@ -111,8 +210,16 @@ std::vector<std::int64_t> SlidingWindow::marginalize() {
   WindowState& state = impl_->state;
   std::vector<std::int64_t> left;
   while (static_cast<int>(state.keyframes.size()) > state.options.max_keyframes) {
-    left.push_back(state.keyframes.begin()->first);
+    // The newest stays in any case.
+    const auto newest = std::prev(state.keyframes.end());
+    const auto oldest = std::find_if(state.keyframes.begin(), newest, [&](const auto& keyframe) {
+      return !state.kept.contains(keyframe.first);
+    });
+    if (oldest == newest) break;
+    left.push_back(oldest->first);
+    const auto held_before = state.fixed;
     marginalize_keyframe(state, left.back());
+    if (state.fixed && state.fixed != held_before) impl_->tied_to_map = false;
   }
   return left;
 }
@@ -120,7 +227,7 @@ std::vector<std::int64_t> SlidingWindow::marginalize() {
 void SlidingWindow::rescale(double scale) {
   WindowState& state = impl_->state;
   require(std::isfinite(scale) && scale > 0, "sliding window: scale must be positive");
-  require(!has_metric_observation(state) && !state.prior_is_metric,
+  require(!has_metric_observation(state) && !state.prior_is_metric && state.prior.planes.empty(),
           "sliding window: the scale is measured already, it cannot be set");
   if (state.keyframes.empty()) return;
   const Eigen::Vector3d center_map = state.keyframes.begin()->second.translation();
@@ -130,6 +237,12 @@ void SlidingWindow::rescale(double scale) {
   for (auto& [id, T_map_cam] : state.keyframes)
     T_map_cam = SE3(T_map_cam.rotation(), move(T_map_cam.translation()));
   for (auto& [id, landmark] : state.landmarks) landmark.p_map = move(landmark.p_map);
+  for (auto& [id, line] : state.lines)
+    line.line_map =
+        Line3::from_direction(move(line.line_map.nearest_point()), line.line_map.direction());
+  for (auto& [id, plane_map] : state.planes)
+    plane_map = Plane3(plane_map.normal(),
+                       plane_map.normal().dot(move(plane_map.distance() * plane_map.normal())));
   // Deviations of position grow by `scale`, so their columns shrink: the residual stays the same.
   for (std::size_t k = 0; k < state.prior.keyframes.size(); ++k) {
     SE3& T_lin = state.prior.T_map_cam_lin[k];
@@ -139,15 +252,27 @@ void SlidingWindow::rescale(double scale) {
 }
 
 std::vector<std::int64_t> SlidingWindow::keyframes() const {
-  std::vector<std::int64_t> ids;
-  for (const auto& [id, T_map_cam] : impl_->state.keyframes) ids.push_back(id);
-  return ids;
+  return ids_of(impl_->state.keyframes);
 }
 
 std::vector<std::int64_t> SlidingWindow::landmarks() const {
-  std::vector<std::int64_t> ids;
-  for (const auto& [id, landmark] : impl_->state.landmarks) ids.push_back(id);
-  return ids;
+  return ids_of(impl_->state.landmarks);
+}
+
+std::vector<std::int64_t> SlidingWindow::lines() const { return ids_of(impl_->state.lines); }
+
+std::vector<std::int64_t> SlidingWindow::planes() const { return ids_of(impl_->state.planes); }
+
+std::optional<Line3> SlidingWindow::line(std::int64_t id) const {
+  const auto it = impl_->state.lines.find(id);
+  if (it == impl_->state.lines.end()) return std::nullopt;
+  return it->second.line_map;
+}
+
+std::optional<Plane3> SlidingWindow::plane(std::int64_t id) const {
+  const auto it = impl_->state.planes.find(id);
+  if (it == impl_->state.planes.end()) return std::nullopt;
+  return it->second;
 }
 
 SE3 SlidingWindow::pose(std::int64_t keyframe) const { return impl_->keyframe(keyframe); }
@@ -179,6 +304,18 @@ Matrix6d SlidingWindow::relative_information(std::int64_t from, std::int64_t to)
   impl_->keyframe(to);
   require(from != to, "sliding window: a relative pose needs two keyframes");
   return placegraph::relative_information(impl_->state, from, to);
+}
+
+std::optional<Matrix6d> SlidingWindow::relative_covariance(std::int64_t from,
+                                                           std::int64_t to) const {
+  return inverse_if_full(relative_information(from, to));
+}
+
+std::optional<Matrix6d> SlidingWindow::covariance(std::int64_t keyframe) const {
+  impl_->keyframe(keyframe);
+  if (!impl_->tied_to_map) return std::nullopt;
+  if (impl_->state.fixed == keyframe) return Matrix6d(Matrix6d::Zero());
+  return inverse_if_full(absolute_information(impl_->state, keyframe));
 }
 
 }  // namespace placegraph

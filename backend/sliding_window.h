@@ -1,7 +1,9 @@
 #pragma once
 #include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/core/line3.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/plane3.h>
 
 #include <cstdint>
 #include <memory>
@@ -37,6 +39,37 @@ struct DistanceObservation {
   double sigma_m = 1;
 };
 
+/// A segment of a line landmark seen in a keyframe; its ends may lie anywhere along the line.
+struct LineObservation {
+  std::int64_t keyframe = 0;
+  std::int64_t line = 0;
+  Eigen::Vector2d start_px = Eigen::Vector2d::Zero();
+  Eigen::Vector2d end_px = Eigen::Vector2d::Zero();
+  double sigma_px = 1;  ///< across the line
+};
+
+/// A camera at a known height above a plane landmark, as above the ground a vehicle drives on.
+struct HeightObservation {
+  std::int64_t keyframe = 0;
+  std::int64_t plane = 0;
+  double height_m = 0;
+  double sigma_m = 1;
+};
+
+/// A point landmark that lies on a plane landmark.
+struct PlanePoint {
+  std::int64_t plane = 0;
+  std::int64_t landmark = 0;
+  double sigma_m = 1;  ///< how uneven the plane is
+};
+
+/// What is known of a keyframe's pose from elsewhere: error log(T_map_cam_measured^-1 T_map_cam).
+struct PosePrior {
+  std::int64_t keyframe = 0;
+  SE3 T_map_cam;
+  Matrix6d information = Matrix6d::Identity();  ///< of any rank
+};
+
 struct WindowSummary {
   Outcome outcome;
   double cost_initial = 0, cost_final = 0;  ///< half the robust sum of squares
@@ -45,8 +78,9 @@ struct WindowSummary {
 
 /// Bundle adjustment over the last keyframes; what leaves is marginalized into a linear prior by
 /// Schur complement, with first-estimate Jacobians for the states that stay in it. Undistorted
-/// pinhole camera. Residuals: reprojection (px / sigma, Huber), inverse depth, distances, the
-/// prior. Deterministic; single-threaded.
+/// pinhole camera. Residuals: reprojection (px / sigma, Huber), inverse depth, the ends of segments
+/// from projected lines, distances, heights above planes, points on planes, pose priors, the prior.
+/// Deterministic; single-threaded.
 class SlidingWindow {
  public:
   SlidingWindow(const SlidingWindowOptions& options, const Camera& camera);
@@ -59,21 +93,37 @@ class SlidingWindow {
   /// held). When neither depth nor a distance says otherwise, the scale is held where it is: by a
   /// soft distance to the farthest keyframe, and by the prior once that has gone into it.
   void add_keyframe(std::int64_t id, const SE3& T_map_cam);
+  /// A keyframe that is kept is not marginalized, however old it is: an anchor to which later ones
+  /// shall have a relative covariance. Its place in max_keyframes it takes all the same.
+  void keep(std::int64_t keyframe, bool kept = true);
   void add_landmark(std::int64_t id, const Eigen::Vector3d& p_map);
   void add_observation(const WindowObservation& observation);
   void add_distance(const DistanceObservation& observation);
+  /// A line counts from three observations on: fewer say nothing of the poses (two planes always
+  /// meet in a line). Its planes through the cameras should have turned by a few degrees: nearer to
+  /// the epipolar plane its position is hardly determined, and no covariance describes that.
+  void add_line(std::int64_t id, const Line3& line_map);
+  void add_line_observation(const LineObservation& observation);
+  void remove_line(std::int64_t id);
+  /// A plane leaves the window with the last keyframe whose height above it is known and the last
+  /// point on it. Heights give the scale where at least three points lie on their plane.
+  void add_plane(std::int64_t id, const Plane3& plane_map);
+  void add_height(const HeightObservation& observation);
+  void add_plane_point(const PlanePoint& point);
+  /// Of full rank on the keyframe that is held, it takes the place of holding it.
+  void add_pose_prior(const PosePrior& prior);
   /// Forgets a landmark with its observations (an outlier).
   void remove_landmark(std::int64_t id);
   void remove_observation(std::int64_t keyframe, std::int64_t landmark);
 
   [[nodiscard]] WindowSummary optimize();
-  /// Marginalizes the oldest keyframes until at most max_keyframes are left: landmarks that the
-  /// newest keyframe no longer sees are marginalized with them, observations of the others in the
-  /// leaving keyframe are dropped. Returns the ids of keyframes that left.
+  /// Marginalizes the oldest keyframes until at most max_keyframes are left: landmarks and lines
+  /// that the newest keyframe no longer sees are marginalized with them, observations of the others
+  /// in the leaving keyframe are dropped. Returns the ids of keyframes that left.
   std::vector<std::int64_t> marginalize();
   /// Multiplies all positions, landmarks and the prior's linearization by `scale` (> 0) about the
-  /// oldest keyframe: for a mono map whose metric scale becomes known. Throws if a distance or an
-  /// inverse depth is in the window already.
+  /// oldest keyframe: for a mono map whose metric scale becomes known. Throws if something in the
+  /// window measures it already: a distance, an inverse depth, a height, pose priors.
   void rescale(double scale);
 
   std::vector<std::int64_t> keyframes() const;  ///< ascending
@@ -81,6 +131,10 @@ class SlidingWindow {
   SE3 pose(std::int64_t keyframe) const;        ///< T_map_cam
   std::optional<Eigen::Vector3d> landmark(std::int64_t id) const;
   const std::vector<WindowObservation>& observations(std::int64_t landmark) const;
+  std::vector<std::int64_t> lines() const;   ///< ascending
+  std::vector<std::int64_t> planes() const;  ///< ascending
+  std::optional<Line3> line(std::int64_t id) const;
+  std::optional<Plane3> plane(std::int64_t id) const;
   /// Reprojection error [px] of an observation at the current estimate; nothing behind the camera.
   std::optional<Eigen::Vector2d> residual_px(const WindowObservation& observation) const;
 
@@ -88,6 +142,13 @@ class SlidingWindow {
   /// keyframes of the window, from the normal equations of everything in the window with all else
   /// marginalized. Semi-definite where a direction is unobservable.
   Matrix6d relative_information(std::int64_t from, std::int64_t to) const;
+  /// Its inverse: the covariance of the relative pose. Nothing where a direction is unobservable.
+  std::optional<Matrix6d> relative_covariance(std::int64_t from, std::int64_t to) const;
+  /// Covariance (tangent of T_map_cam on the right) of a keyframe's pose in the map, whose frame
+  /// the first keyframe (or the pose priors) set; zero while the keyframe is held. Nothing where a
+  /// direction is unobservable, and nothing once the way back to that frame is lost: where all that
+  /// a leaving keyframe saw was still in view, the next one has to be held in its place.
+  std::optional<Matrix6d> covariance(std::int64_t keyframe) const;
 
  private:
   struct Impl;

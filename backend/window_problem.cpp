@@ -1,10 +1,16 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/distance.h>
+#include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/inverse_depth.h>
 #include <placegraph/backend/factors/kernel_loss.h>
+#include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/point_factor.h>
+#include <placegraph/backend/factors/point_on_plane.h>
+#include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/factors/reprojection.h>
+#include <placegraph/backend/whitening.h>
 #include <placegraph/backend/window_state.h>
 
 #include <algorithm>
@@ -15,7 +21,7 @@
 namespace placegraph {
 namespace {
 
-/// A free keyframe outside the prior needs this many points to be determined.
+/// A free keyframe outside the prior needs this many points and lines to be determined.
 constexpr int kMinPointsPerKeyframe = 3;
 
 /// The window as a Ceres problem. Blocks lie in arrays in the order of the ids: Ceres orders the
@@ -27,14 +33,24 @@ class WindowProblem {
         loss_({RobustKernel::Kind::kHuber, state.options.huber_px}),
         poses_(7 * state.keyframes.size()),
         points_(3 * state.landmarks.size()),
+        lines_(VariableBlock<Line3>::kSize * state.lines.size()),
+        planes_(VariableBlock<Plane3>::kSize * state.planes.size()),
         points_by_keyframe_(state.keyframes.size()),
+        has_pose_prior_(state.keyframes.size()),
         problem_(ownership()),
         ordering_(std::make_shared<ceres::ParameterBlockOrdering>()) {
     for (const auto& [id, T_map_cam] : state.keyframes) {
-      PoseBlock<SE3>::store(T_map_cam, &poses_[7 * ids_.size()]);
+      VariableBlock<SE3>::store(T_map_cam, &poses_[7 * ids_.size()]);
       ids_.push_back(id);
     }
+    for (const auto& [id, plane_map] : state.planes) {
+      VariableBlock<Plane3>::store(plane_map, plane_block(plane_ids_.size()));
+      plane_ids_.push_back(id);
+    }
     add_points();
+    add_lines();
+    for (const HeightObservation& height : state.heights) add_height(height);
+    for (const PosePrior& prior : state.pose_priors) add_pose_prior(prior);
     for (const DistanceObservation& distance : state.distances) add_distance(distance);
     if (const auto reference = scale_reference(state)) add_distance(*reference);
     if (!state.prior.empty()) add_prior();
@@ -44,6 +60,11 @@ class WindowProblem {
       problem_.SetManifold(pose, &manifold_);
       ordering_->AddElementToGroup(pose, 1);
       if (state.fixed == ids_[k]) problem_.SetParameterBlockConstant(pose);
+    }
+    for (std::size_t k = 0; k < plane_ids_.size(); ++k) {
+      if (!problem_.HasParameterBlock(plane_block(k))) continue;
+      problem_.SetManifold(plane_block(k), &plane_manifold_);
+      ordering_->AddElementToGroup(plane_block(k), 1);
     }
   }
 
@@ -55,11 +76,12 @@ class WindowProblem {
       // While a keyframe is held, the prior is too weak to determine others.
       const bool by_prior =
           !state_.fixed && std::binary_search(in_prior.begin(), in_prior.end(), ids_[k]);
-      if (state_.fixed == ids_[k] || by_prior || points_by_keyframe_[k] >= kMinPointsPerKeyframe)
+      if (state_.fixed == ids_[k] || by_prior || points_by_keyframe_[k] >= kMinPointsPerKeyframe ||
+          has_pose_prior_[k])
         continue;
       return too_few("keyframe " + std::to_string(ids_[k]) + " sees " +
                      std::to_string(points_by_keyframe_[k]) +
-                     " points that another keyframe sees too, " +
+                     " points or lines that others see too, " +
                      std::to_string(kMinPointsPerKeyframe) + " needed");
     }
     return Outcome::ok();
@@ -84,7 +106,9 @@ class WindowProblem {
   bool finite() const {
     const auto good = [](double x) { return std::isfinite(x); };
     return std::all_of(poses_.begin(), poses_.end(), good) &&
-           std::all_of(points_.begin(), points_.end(), good);
+           std::all_of(points_.begin(), points_.end(), good) &&
+           std::all_of(lines_.begin(), lines_.end(), good) &&
+           std::all_of(planes_.begin(), planes_.end(), good);
   }
 
   /// Takes the estimate over. Landmarks that were not in the problem move with the keyframe that
@@ -95,7 +119,7 @@ class WindowProblem {
     for (auto& [id, T_map_cam] : state.keyframes) {
       double const* const pose = &poses_[7 * k++];
       if (problem_.HasParameterBlock(pose) && state.fixed != id)
-        T_map_cam = PoseBlock<SE3>::load(pose);
+        T_map_cam = VariableBlock<SE3>::load(pose);
     }
     std::size_t i = 0;
     for (auto& [id, landmark] : state.landmarks) {
@@ -107,6 +131,21 @@ class WindowProblem {
         landmark.p_map = state.keyframes.at(seen) * (before.at(seen).inverse() * landmark.p_map);
       }
     }
+    i = 0;
+    for (auto& [id, line] : state.lines) {
+      double const* const block = &lines_[VariableBlock<Line3>::kSize * i++];
+      if (problem_.HasParameterBlock(block)) {
+        line.line_map = VariableBlock<Line3>::load(block);
+      } else if (!line.observations.empty()) {
+        const std::int64_t seen = line.observations.back().keyframe;
+        const SE3 motion = state.keyframes.at(seen) * before.at(seen).inverse();
+        line.line_map = Line3::from_direction(motion * line.line_map.nearest_point(),
+                                              motion.rotation() * line.line_map.direction());
+      }
+    }
+    i = 0;
+    for (auto& [id, plane_map] : state.planes)
+      plane_map = VariableBlock<Plane3>::load(&planes_[VariableBlock<Plane3>::kSize * i++]);
   }
 
  private:
@@ -126,6 +165,12 @@ class WindowProblem {
                                     ids_.begin());
   }
 
+  double* plane_block(std::size_t k) { return &planes_[VariableBlock<Plane3>::kSize * k]; }
+  double* plane_of_id(std::int64_t plane) {
+    return plane_block(static_cast<std::size_t>(
+        std::lower_bound(plane_ids_.begin(), plane_ids_.end(), plane) - plane_ids_.begin()));
+  }
+
   void add_points() {
     double* point = points_.data();
     for (const auto& [id, landmark] : state_.landmarks) {
@@ -143,30 +188,77 @@ class WindowProblem {
             &inverse_depths_.emplace_back(InverseDepth(*o->inverse_depth, o->sigma_inverse_depth)),
             &loss_, pose, point);
       }
-      if (!usable.empty()) ordering_->AddElementToGroup(point, 0);
+      if (!usable.empty()) {
+        ordering_->AddElementToGroup(point, 0);
+        if (landmark.on_plane)
+          problem_.AddResidualBlock(
+              &plane_points_.emplace_back(PointOnPlaneFactor(landmark.on_plane->sigma_m)), &loss_,
+              point, plane_of_id(landmark.on_plane->plane));
+      }
       point += 3;
     }
   }
+  /// Lines are few and stand beside the poses: with blocks of one size only among what is
+  /// eliminated, Ceres' code for points stays fast.
+  void add_lines() {
+    double* block = lines_.data();
+    for (const auto& [id, line] : state_.lines) {
+      VariableBlock<Line3>::store(line.line_map, block);
+      if (is_usable(line)) {
+        for (const LineObservation& o : line.observations) {
+          const std::size_t k = position(o.keyframe);
+          ++points_by_keyframe_[k];
+          problem_.AddResidualBlock(&segments_.emplace_back(LineReprojectionFactor(
+                                        state_.camera, o.start_px, o.end_px, o.sigma_px)),
+                                    &loss_, &poses_[7 * k], block);
+        }
+        problem_.SetManifold(block, &line_manifold_);
+        ordering_->AddElementToGroup(block, 1);
+      }
+      block += VariableBlock<Line3>::kSize;
+    }
+  }
+  void add_height(const HeightObservation& h) {
+    problem_.AddResidualBlock(&heights_.emplace_back(HeightAbovePlaneFactor(h.height_m, h.sigma_m)),
+                              &loss_, &poses_[7 * position(h.keyframe)], plane_of_id(h.plane));
+  }
+  void add_pose_prior(const PosePrior& prior) {
+    const std::size_t k = position(prior.keyframe);
+    bool deficient = false;
+    problem_.AddResidualBlock(&pose_priors_.emplace_back(PosePriorFactor<SE3>(
+                                  prior.T_map_cam, whitening(prior.information, &deficient))),
+                              nullptr, &poses_[7 * k]);
+    if (!deficient) has_pose_prior_[k] = true;
+  }
   void add_distance(const DistanceObservation& d) {
-    problem_.AddResidualBlock(&distances_.emplace_back(Distance(d.distance_m, d.sigma_m)), &loss_,
-                              &poses_[7 * position(d.from)], &poses_[7 * position(d.to)]);
+    problem_.AddResidualBlock(&distances_.emplace_back(DistanceFactor(d.distance_m, d.sigma_m)),
+                              &loss_, &poses_[7 * position(d.from)], &poses_[7 * position(d.to)]);
   }
   void add_prior() {
     std::vector<double*> blocks;
     for (const std::int64_t id : state_.prior.keyframes)
       blocks.push_back(&poses_[7 * position(id)]);
+    for (const std::int64_t id : state_.prior.planes) blocks.push_back(plane_of_id(id));
     problem_.AddResidualBlock(&prior_.emplace(state_.prior), nullptr, blocks);
   }
 
   const WindowState& state_;
   KernelLoss loss_;
-  PoseManifold<SE3> manifold_;
-  std::vector<std::int64_t> ids_;  ///< of keyframes, ascending
-  std::vector<double> poses_, points_;
+  VariableManifold<SE3> manifold_;
+  VariableManifold<Line3> line_manifold_;
+  VariableManifold<Plane3> plane_manifold_;
+  std::vector<std::int64_t> ids_;        ///< of keyframes, ascending
+  std::vector<std::int64_t> plane_ids_;  ///< ascending
+  std::vector<double> poses_, points_, lines_, planes_;
   std::vector<int> points_by_keyframe_;
+  std::vector<char> has_pose_prior_;
   std::deque<PointFactor<Reprojection>> reprojections_;
   std::deque<PointFactor<InverseDepth>> inverse_depths_;
-  std::deque<DistanceFactor> distances_;
+  std::deque<CeresFactor<LineReprojectionFactor>> segments_;
+  std::deque<CeresFactor<PointOnPlaneFactor>> plane_points_;
+  std::deque<CeresFactor<HeightAbovePlaneFactor>> heights_;
+  std::deque<CeresFactor<PosePriorFactor<SE3>>> pose_priors_;
+  std::deque<CeresFactor<DistanceFactor>> distances_;
   std::optional<MarginalPriorFactor> prior_;
   ceres::Problem problem_;  // after all it points to
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
@@ -189,8 +281,25 @@ std::vector<const WindowObservation*> usable_observations(const WindowState& sta
   return usable;
 }
 
+bool is_usable(const WindowLine& line) { return line.observations.size() >= 3; }
+
+bool has_full_pose_prior(const WindowState& state) {
+  return std::any_of(state.pose_priors.begin(), state.pose_priors.end(), [](const PosePrior& p) {
+    bool deficient = false;
+    whitening(p.information, &deficient);
+    return !deficient;
+  });
+}
+
 bool has_metric_observation(const WindowState& state) {
   if (!state.distances.empty()) return true;
+  if (state.pose_priors.size() + state.fixed.has_value() >= 2) return true;
+  for (const HeightObservation& height : state.heights) {
+    int points = 0;
+    for (const auto& [id, landmark] : state.landmarks)
+      points += landmark.on_plane && landmark.on_plane->plane == height.plane;
+    if (points >= 3) return true;
+  }
   for (const auto& [id, landmark] : state.landmarks)
     for (const WindowObservation& o : landmark.observations)
       if (o.inverse_depth) return true;
@@ -198,13 +307,15 @@ bool has_metric_observation(const WindowState& state) {
 }
 
 std::optional<DistanceObservation> scale_reference(const WindowState& state) {
-  if (!state.fixed || state.prior_holds_scale || has_metric_observation(state)) return std::nullopt;
-  const Eigen::Vector3d first = state.keyframes.at(*state.fixed).translation();
-  DistanceObservation farthest{*state.fixed, *state.fixed, 0, 1};
+  const bool free = !state.fixed && !state.prior.empty();
+  if (free || state.keyframes.empty() || state.prior_holds_scale || has_metric_observation(state))
+    return std::nullopt;
+  const std::int64_t reference = state.fixed.value_or(state.keyframes.begin()->first);
+  const Eigen::Vector3d first = state.keyframes.at(reference).translation();
+  DistanceObservation farthest{reference, reference, 0, 1};
   for (const auto& [id, T_map_cam] : state.keyframes) {
     const double distance_m = (T_map_cam.translation() - first).norm();
-    if (distance_m > farthest.distance_m)
-      farthest = {*state.fixed, id, distance_m, 0.01 * distance_m};
+    if (distance_m > farthest.distance_m) farthest = {reference, id, distance_m, 0.01 * distance_m};
   }
   if (farthest.distance_m < 1e-9) return std::nullopt;
   return farthest;

@@ -3,12 +3,19 @@
 #include <placegraph/backend/sliding_window.h>
 
 #include <map>
+#include <set>
 
 namespace placegraph {
 
 struct WindowLandmark {
   Eigen::Vector3d p_map = Eigen::Vector3d::Zero();
   std::vector<WindowObservation> observations;  ///< ascending keyframes
+  std::optional<PlanePoint> on_plane;
+};
+
+struct WindowLine {
+  Line3 line_map;
+  std::vector<LineObservation> observations;  ///< ascending keyframes
 };
 
 /// All that a sliding window knows. Ordered containers only: every sum runs in the order of the
@@ -18,9 +25,14 @@ struct WindowState {
   Camera camera;
   std::map<std::int64_t, SE3> keyframes;  ///< T_map_cam
   std::map<std::int64_t, WindowLandmark> landmarks;
+  std::map<std::int64_t, WindowLine> lines;
+  std::map<std::int64_t, Plane3> planes;  ///< planes of the map
+  std::set<std::int64_t> kept;            ///< keyframes that are not to be marginalized
   std::vector<DistanceObservation> distances;
+  std::vector<HeightObservation> heights;
+  std::vector<PosePrior> pose_priors;
   MarginalPrior prior;
-  bool prior_is_metric = false;  ///< depths or distances went into the prior
+  bool prior_is_metric = false;  ///< what measures the scale went into the prior
   bool prior_holds_scale = false;
   /// The oldest keyframe, while no prior holds position and heading of the window.
   std::optional<std::int64_t> fixed;
@@ -31,10 +43,17 @@ struct WindowState {
 std::vector<const WindowObservation*> usable_observations(const WindowState& state,
                                                           const WindowLandmark& landmark);
 
-/// Whether a depth or a distance in the window gives the scale.
+/// A line that an estimate can use: seen at least three times.
+bool is_usable(const WindowLine& line);
+
+/// A full-rank pose prior in the window holds it in the map.
+bool has_full_pose_prior(const WindowState& state);
+
+/// Whether something in the window gives the scale: a depth, a distance, a height above a plane
+/// with at least three points, two known positions.
 bool has_metric_observation(const WindowState& state);
 
-/// While nothing gives the scale (no depth, no distance, no prior), it is held by a soft distance
+/// While nothing gives the scale (nothing measures it, no prior), it is held by a soft distance
 /// (1 %) between the oldest keyframe and the one farthest from it, at its present length: this
 /// picks one of the equivalent solutions and changes none of their residuals.
 std::optional<DistanceObservation> scale_reference(const WindowState& state);
@@ -42,10 +61,18 @@ std::optional<DistanceObservation> scale_reference(const WindowState& state);
 /// Minimizes over all of the window (window_problem.cpp).
 WindowSummary optimize_window(WindowState& state);
 
-/// Moves one keyframe and the landmarks that end with it into the prior (window_equations.cpp).
+/// Moves one keyframe and the landmarks that end with it into the prior
+/// (window_marginalization.cpp).
 void marginalize_keyframe(WindowState& state, std::int64_t leaving);
 
-/// See SlidingWindow::relative_information (window_equations.cpp).
+/// See SlidingWindow::relative_information (window_marginalization.cpp).
 Matrix6d relative_information(const WindowState& state, std::int64_t from, std::int64_t to);
+/// Information of the poses of `keyframes` (right tangents, in that order) from everything in the
+/// window with all else marginalized, the keyframe that is held as constant unless it is one of
+/// them; singular along the gauge (window_marginalization.cpp).
+Eigen::MatrixXd joint_information(const WindowState& state,
+                                  const std::vector<std::int64_t>& keyframes);
+/// The information of a keyframe's pose in the map, all else marginalized.
+Matrix6d absolute_information(const WindowState& state, std::int64_t keyframe);
 
 }  // namespace placegraph

@@ -1,6 +1,6 @@
 #pragma once
 #include <ceres/cost_function.h>
-#include <placegraph/backend/factors/pose_manifold.h>
+#include <placegraph/backend/factors/variable_manifold.h>
 
 #include <cstdint>
 #include <vector>
@@ -8,42 +8,65 @@
 namespace placegraph {
 
 /// What marginalization leaves of the keyframes and landmarks that are gone: one linear residual on
-/// the deviations of the retained keyframes from their linearization points,
+/// the deviations of the retained keyframes and planes from their linearization points,
 ///
-///   r = e + J delta,   delta_k = log(T_lin_k^-1 T_map_cam_k)   (right tangent, stacked)
+///   r = e + J delta,   delta_k = x_k [-] x_lin_k   (right tangents, stacked: keyframes, planes)
 ///   d r / d xi_k = J_k right_jacobian_inverse(delta_k)
+///
+/// For a plane the tangent is that of its quaternion, so that the Jacobian is SO(3)'s.
 struct MarginalPrior {
   std::vector<std::int64_t> keyframes;  ///< ascending; six columns of J each
   std::vector<SE3> T_map_cam_lin;       ///< first estimates: fixed once a keyframe is in the prior
-  Eigen::MatrixXd J;                    ///< rank x 6 K
+  std::vector<std::int64_t> planes;     ///< ascending; three columns each, after the keyframes'
+  std::vector<Plane3> plane_lin;        ///< first estimates
+  Eigen::MatrixXd J;                    ///< rank x (6 K + 3 P)
   Eigen::VectorXd e;
 
-  bool empty() const { return keyframes.empty(); }
+  bool empty() const { return keyframes.empty() && planes.empty(); }
+  auto keyframe_columns(std::size_t k) const {
+    return J.middleCols<6>(6 * static_cast<Eigen::Index>(k));
+  }
+  auto plane_columns(std::size_t k) const {
+    return J.middleCols<3>(6 * static_cast<Eigen::Index>(keyframes.size()) +
+                           3 * static_cast<Eigen::Index>(k));
+  }
 };
 
-/// The prior as a factor on the blocks T_map_cam of `prior.keyframes`; `prior` must outlive it.
+/// The prior as a factor on the blocks T_map_cam of `prior.keyframes`, then those of
+/// `prior.planes`; `prior` must outlive it.
 class MarginalPriorFactor final : public ceres::CostFunction {
  public:
   explicit MarginalPriorFactor(const MarginalPrior& prior) : prior_(prior) {
     set_num_residuals(static_cast<int>(prior.J.rows()));
-    mutable_parameter_block_sizes()->assign(prior.keyframes.size(), 7);
+    mutable_parameter_block_sizes()->assign(prior.keyframes.size(), VariableBlock<SE3>::kSize);
+    mutable_parameter_block_sizes()->insert(mutable_parameter_block_sizes()->end(),
+                                            prior.planes.size(), VariableBlock<Plane3>::kSize);
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    const int rows = num_residuals();
-    Eigen::Map<Eigen::VectorXd> r(residuals, rows);
+    Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
     r = prior_.e;
-    for (std::size_t k = 0; k < prior_.keyframes.size(); ++k) {
-      const auto J_k = prior_.J.middleCols<6>(6 * static_cast<Eigen::Index>(k));
-      const Vector6d delta =
-          (prior_.T_map_cam_lin[k].inverse() * PoseBlock<SE3>::load(parameters[k])).log();
+    std::size_t block = 0;
+    const auto add = [&]<class T, class Tangent>(const T&, const auto& J_k, const Tangent& delta,
+                                                 const auto& J_delta) {
       r.noalias() += J_k * delta;
-      if (!jacobians || !jacobians[k]) continue;
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>> J(jacobians[k], rows,
-                                                                              7);
-      J.leftCols<6>().noalias() = J_k * SE3::right_jacobian_inverse(delta);
-      J.col(6).setZero();
+      if (!jacobians || !jacobians[block]) return;
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, VariableBlock<T>::kSize, Eigen::RowMajor>> J(
+          jacobians[block], num_residuals(), VariableBlock<T>::kSize);
+      J.template leftCols<VariableBlock<T>::kDof>().noalias() = J_k * J_delta(delta);
+      J.col(VariableBlock<T>::kDof).setZero();
+    };
+    for (std::size_t k = 0; k < prior_.keyframes.size(); ++k, ++block) {
+      const SE3 T_map_cam = VariableBlock<SE3>::load(parameters[block]);
+      add(T_map_cam, prior_.keyframe_columns(k),
+          VariableBlock<SE3>::minus(T_map_cam, prior_.T_map_cam_lin[k]),
+          SE3::right_jacobian_inverse);
+    }
+    for (std::size_t k = 0; k < prior_.planes.size(); ++k, ++block) {
+      const Plane3 plane_map = VariableBlock<Plane3>::load(parameters[block]);
+      add(plane_map, prior_.plane_columns(k), plane_map.minus(prior_.plane_lin[k]),
+          SO3::right_jacobian_inverse);
     }
     return true;
   }

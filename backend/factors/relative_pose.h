@@ -1,51 +1,36 @@
 #pragma once
-#include <ceres/sized_cost_function.h>
+#include <placegraph/backend/factor.h>
 #include <placegraph/backend/factors/pose_error.h>
-#include <placegraph/backend/factors/pose_manifold.h>
 
 namespace placegraph {
 
-/// r = W e(E), W^T W = information; blocks T_world_from and T_world_to.
-///
-///   d r / d xi_to   =  W d e / d xi
-///   d r / d xi_from = -W d e / d xi Ad((T_world_from^-1 T_world_to)^-1)
+/// Relative pose of two nodes: r = W e(E), E = T_from_to_measured^-1 T_world_from^-1 T_world_to,
+/// W^T W = information; e and its derivatives are those of RelativePoseLinearization.
 template <class Group>
-class RelativePoseFactor final
-    : public ceres::SizedCostFunction<Group::kDof, PoseBlock<Group>::kSize,
-                                      PoseBlock<Group>::kSize> {
- public:
-  using Jacobian = typename Group::Jacobian;
+class RelativePoseFactor final : public SizedFactor<Group::kDof, Group, Group> {
+  using Base = SizedFactor<Group::kDof, Group, Group>;
 
-  RelativePoseFactor(const Group& T_from_to, const Jacobian& whitening, RotationError kind)
+ public:
+  RelativePoseFactor(const Group& T_from_to, const typename Group::Jacobian& whitening,
+                     RotationError kind = RotationError::kLog)
       : T_to_from_(T_from_to.inverse()), W_(whitening), kind_(kind) {}
 
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    using Block = PoseBlock<Group>;
-    constexpr int dof = Group::kDof;
-    const Group T_from_to = Block::load(parameters[0]).inverse() * Block::load(parameters[1]);
-    Jacobian J_e_xi;
-    Eigen::Map<typename Group::Tangent> r(residuals);
-    r.noalias() = W_ * pose_error(T_to_from_ * T_from_to, kind_, jacobians ? &J_e_xi : nullptr);
-    if (!jacobians) return true;
-    const Jacobian J_to = W_ * J_e_xi;
-    using Map = Eigen::Map<Eigen::Matrix<double, dof, Block::kSize, Eigen::RowMajor>>;
-    if (jacobians[0]) {
-      Map J(jacobians[0]);
-      J.setZero();
-      J.template leftCols<dof>().noalias() = -J_to * T_from_to.inverse().adjoint();
+  bool compute(const Group& T_world_from, const Group& T_world_to, typename Base::Residual& r,
+               typename Base::Jacobians* J) const override {
+    if (!J) {
+      r.noalias() = W_ * pose_error(T_to_from_ * (T_world_from.inverse() * T_world_to), kind_);
+      return true;
     }
-    if (jacobians[1]) {
-      Map J(jacobians[1]);
-      J.setZero();
-      J.template leftCols<dof>() = J_to;
-    }
+    const RelativePoseLinearization<Group> at(T_to_from_, T_world_from, T_world_to, kind_);
+    r.noalias() = W_ * at.e;
+    std::get<0>(*J).noalias() = W_ * at.J_from;
+    std::get<1>(*J).noalias() = W_ * at.J_to;
     return true;
   }
 
  private:
   Group T_to_from_;
-  Jacobian W_;
+  typename Group::Jacobian W_;
   RotationError kind_;
 };
 

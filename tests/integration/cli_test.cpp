@@ -230,6 +230,37 @@ TEST_F(Cli, EvalRefusesBadOptions) {
   expect_usage_error("eval gt.txt est.txt --csv no/such/folder.csv", "folder.csv");
 }
 
+TEST_F(Cli, BundleAdjustsAProblemAndReportsItsCost) {
+  // Four cameras a metre apart that see twelve points, one of them 3 px off.
+  std::string problem = "4 12 48\n", points;
+  for (int i = 0; i < 12; ++i) {
+    const double x = i % 4 - 1.5, y = i / 4 - 1.0, z = -5.0 - i % 3;
+    for (int camera = 0; camera < 4; ++camera)
+      problem += std::to_string(camera) + " " + std::to_string(i) + " " +
+                 std::to_string(-500 * (x - camera) / z) + " " +
+                 std::to_string(-500 * y / z + (i + camera == 0 ? 3 : 0)) + "\n";
+    points += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  }
+  std::string cameras;
+  for (int camera = 0; camera < 4; ++camera)
+    cameras += "0 0 0 " + std::to_string(-camera) + " 0 0 500 0 0\n";
+  write_file(dir / "in.txt", problem + cameras + points);
+  const CommandResult result = run("bundle in.txt -o out.txt --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_NEAR(json.at("cost_initial").get<double>(), 4.5, 1e-3);
+  EXPECT_LT(json.at("cost").get<double>(), 4.5);
+  EXPECT_EQ(json.at("observations"), 48);
+  for (const char* key : {"rms_px", "cpu_ms", "wall_ms"})
+    EXPECT_TRUE(json.at(key).is_number()) << key;
+  EXPECT_EQ(run("bundle out.txt --kernel cauchy").code, 0);
+  expect_usage_error("bundle in.txt -o out.txt", "--force");
+  write_file(dir / "cut.txt", problem);
+  expect_usage_error("bundle cut.txt", "ends where a camera parameter is expected");
+  write_file(dir / "empty.txt", "0 0 0\n");
+  EXPECT_EQ(run("bundle empty.txt").code, 1);
+}
+
 TEST_F(Cli, ConfigDumpsWhatItTakesBack) {
   const CommandResult dump = run("config --dump --set seed=42");
   ASSERT_EQ(dump.code, 0) << dump.err;

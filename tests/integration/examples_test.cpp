@@ -50,6 +50,12 @@ TEST(Examples, EvaluateTwoNamesTheBetterTrajectory) {
   EXPECT_EQ(run_example("evaluate_two", folder / "truth.tum", folder / "out"), 2);
 }
 
+TEST(Examples, CustomFactorFindsTheRobotByItsRanges) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_example("custom_factor", "", folder / "out"), 0) << read_text(folder / "out");
+  EXPECT_THAT(read_text(folder / "out"), testing::ContainsRegex("robot at 2.000 -?0.000 -?0.000 m"));
+}
+
 TEST(Examples, OptimizeG2oLowersTheCost) {
   const TemporaryFolder folder;
   folder.write("in.g2o",

@@ -1,7 +1,7 @@
 #pragma once
 #include <ceres/cost_function.h>
 #include <gtest/gtest.h>
-#include <placegraph/backend/factors/pose_manifold.h>
+#include <placegraph/backend/factors/variable_manifold.h>
 
 #include <vector>
 
@@ -27,9 +27,9 @@ struct Block {
 };
 
 template <class Group>
-Block pose_block(const Group& T, const PoseManifold<Group>& manifold) {
-  Block block{std::vector<double>(PoseBlock<Group>::kSize), &manifold};
-  PoseBlock<Group>::store(T, block.x.data());
+Block pose_block(const Group& T, const VariableManifold<Group>& manifold) {
+  Block block{std::vector<double>(VariableBlock<Group>::kSize), &manifold};
+  VariableBlock<Group>::store(T, block.x.data());
   return block;
 }
 

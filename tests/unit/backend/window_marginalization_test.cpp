@@ -15,40 +15,11 @@ using test::make_window_world;
 using test::WindowWorld;
 using test::WindowWorldOptions;
 
-/// Drives through the world keyframe by keyframe; each starts from the last pose and the true
-/// motion, disturbed. Landmarks start at disturbed positions when first seen.
 SlidingWindow drive(const WindowWorld& world, int max_keyframes, std::uint64_t seed,
                     double disturbance = 1) {
-  Random random(seed);
-  SlidingWindowOptions options;
-  options.max_keyframes = max_keyframes;
-  options.max_iterations = 50;
-  options.relative_decrease = 1e-15;
-  options.huber_px = 50;
-  SlidingWindow window(options, world.camera);
-  for (std::size_t k = 0; k < world.T_map_cam.size(); ++k) {
-    const auto id = static_cast<std::int64_t>(k);
-    SE3 T_map_cam = world.T_map_cam[k];
-    if (k > 0)
-      T_map_cam = window.pose(id - 1) * (world.T_map_cam[k - 1].inverse() * world.T_map_cam[k]) *
-                  test::random_motion(random, 0.02 * disturbance, 0.002 * disturbance);
-    window.add_keyframe(id, T_map_cam);
-    for (const WindowObservation& o : world.observations) {
-      if (o.keyframe != id) continue;
-      if (!window.landmark(o.landmark)) {
-        Eigen::Vector3d p_map = world.points[static_cast<std::size_t>(o.landmark)];
-        for (int i = 0; i < 3; ++i) p_map[i] += 0.1 * disturbance * random.normal();
-        window.add_landmark(o.landmark, p_map);
-      }
-      window.add_observation(o);
-    }
-    if (k > 0) {
-      const WindowSummary summary = window.optimize();
-      EXPECT_TRUE(summary.outcome) << summary.outcome.reason;
-    }
-    window.marginalize();
-  }
-  return window;
+  test::WindowDrive how = test::WindowDrive::exact(max_keyframes);
+  how.disturbance = disturbance;
+  return test::drive_window(world, how, seed);
 }
 
 WindowWorldOptions stereo_world(double noise_px) {

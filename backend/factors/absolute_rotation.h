@@ -1,0 +1,39 @@
+#pragma once
+#include <placegraph/backend/factor.h>
+
+namespace placegraph {
+
+/// The Manhattan frame of a camera's surroundings, as its vanishing points give it:
+///
+///   r = W log(E),   E = R_world_manhattan^T R_world_cam R_cam_manhattan
+///   d r / d phi_cam       =  W right_jacobian_inverse(log E) R_cam_manhattan^T
+///   d r / d phi_manhattan = -W right_jacobian_inverse(log E) E^T
+///
+/// W^T W = information about the turn of E on the right, of any rank: where the lines of an image
+/// show fewer than two directions a turn stays open. Which of the 24 frames along the same axes is
+/// meant is the measurement's to say. A rotation that is known outright is one by a variable
+/// R_world_manhattan that is held.
+class AbsoluteRotationFactor final : public SizedFactor<3, SE3, SO3> {
+ public:
+  AbsoluteRotationFactor(const SO3& R_cam_manhattan, const Eigen::Matrix3d& whitening)
+      : R_cam_manhattan_(R_cam_manhattan), W_(whitening) {}
+
+  bool compute(const SE3& T_world_cam, const SO3& R_world_manhattan, Residual& r,
+               Jacobians* J) const override {
+    const SO3 E = R_world_manhattan.inverse() * T_world_cam.rotation() * R_cam_manhattan_;
+    const Eigen::Vector3d e = E.log();
+    r.noalias() = W_ * e;
+    if (!J) return true;
+    const Eigen::Matrix3d J_E = W_ * SO3::right_jacobian_inverse(e);
+    std::get<0>(*J).leftCols<3>().setZero();
+    std::get<0>(*J).rightCols<3>().noalias() = J_E * R_cam_manhattan_.matrix().transpose();
+    std::get<1>(*J).noalias() = -J_E * E.matrix().transpose();
+    return true;
+  }
+
+ private:
+  SO3 R_cam_manhattan_;
+  Eigen::Matrix3d W_;
+};
+
+}  // namespace placegraph

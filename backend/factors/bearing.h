@@ -1,0 +1,41 @@
+#pragma once
+#include <placegraph/backend/factor.h>
+
+namespace placegraph {
+
+/// The direction from one camera to another without the distance, as two-view geometry or three
+/// views of lines give it:
+///
+///   r = W (u - u_measured),   u = t / |t|,   t = R_a^T (t_b - t_a),   |u_measured| = 1
+///   d u / d t = (I - u u^T) / |t|,   d t / d xi_a = [-I, hat(t)],   d t / d xi_b = [R_a^T R_b, 0]
+///
+/// W^T W = information of u; what it says along u itself carries nothing. The chord is used, not
+/// its projection: the opposite direction is the worst, not a second minimum. Where the cameras
+/// coincide the direction is undefined: the derivatives are zero.
+class BearingFactor final : public SizedFactor<3, SE3, SE3> {
+ public:
+  BearingFactor(const Eigen::Vector3d& direction_a, const Eigen::Matrix3d& whitening)
+      : measured_(direction_a.normalized()), W_(whitening) {}
+
+  bool compute(const SE3& T_world_a, const SE3& T_world_b, Residual& r,
+               Jacobians* J) const override {
+    const Eigen::Matrix3d R_a_world = T_world_a.rotation().matrix().transpose();
+    const Eigen::Vector3d t = R_a_world * (T_world_b.translation() - T_world_a.translation());
+    const double length = t.norm();
+    const bool defined = length > 1e-12;
+    const Eigen::Vector3d u = defined ? Eigen::Vector3d(t / length) : Eigen::Vector3d(0, 0, 0);
+    r.noalias() = W_ * (u - measured_);
+    if (!J) return true;
+    Eigen::Matrix3d J_t = Eigen::Matrix3d::Zero();
+    if (defined) J_t = W_ * (Eigen::Matrix3d::Identity() - u * u.transpose()) / length;
+    std::get<0>(*J) << -J_t, J_t * hat(t);
+    std::get<1>(*J) << J_t * R_a_world * T_world_b.rotation().matrix(), Eigen::Matrix3d::Zero();
+    return true;
+  }
+
+ private:
+  Eigen::Vector3d measured_;
+  Eigen::Matrix3d W_;
+};
+
+}  // namespace placegraph

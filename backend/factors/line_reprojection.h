@@ -1,0 +1,68 @@
+#pragma once
+#include <placegraph/backend/factor.h>
+#include <placegraph/backend/factors/point_in_camera.h>
+#include <placegraph/graph/core/camera.h>
+
+namespace placegraph {
+
+/// A segment seen of a line: signed distances of its end points from the projected line, in
+/// standard deviations (undistorted pinhole camera):
+///
+///   l = K_line m_cam,   K_line = det(K) K^-T,   [m_cam, v_cam] = the line in the camera
+///   r = [p_start^T l, p_end^T l] / (sqrt(l_1^2 + l_2^2) sigma),   p = [u, v, 1]
+///   d r_i / d l = (p_i - (p_i^T l) [l_1, l_2, 0] / (l_1^2 + l_2^2)) / (sqrt(l_1^2 + l_2^2) sigma)
+///   d m_cam / d xi = [hat(v_cam), hat(m_cam)],   d m_cam / d line: see transform_to
+///
+/// The end points say where across the line, never where along it. A line whose plane with the
+/// camera's centre is parallel to the image has no image: kUnprojectableResidual, and no pull.
+class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
+ public:
+  LineReprojectionFactor(const Camera& camera, const Eigen::Vector2d& start_px,
+                         const Eigen::Vector2d& end_px, double sigma_px)
+      : inverse_sigma_(1.0 / sigma_px) {
+    K_line_ << camera.fy, 0, 0,  //
+        0, camera.fx, 0,         //
+        -camera.fy * camera.cx, -camera.fx * camera.cy, camera.fx * camera.fy;
+    ends_ << start_px.transpose(), 1, end_px.transpose(), 1;
+  }
+
+  bool compute(const SE3& T_map_cam, const Line3& line_map, Residual& r,
+               Jacobians* J) const override {
+    return compute(T_map_cam, line_map, T_map_cam, r, J);
+  }
+
+  /// The residual at `T_map_cam` with derivatives at `T_map_cam_lin`.
+  bool compute(const SE3& T_map_cam, const Line3& line_map, const SE3& T_map_cam_lin, Residual& r,
+               Jacobians* J) const {
+    const Eigen::Vector3d l = K_line_ * transform_to(T_map_cam, line_map).head<3>();
+    const double length = l.head<2>().norm();
+    if (length > kMinLength * l.norm())
+      r = ends_ * l * (inverse_sigma_ / length);
+    else
+      r << kUnprojectableResidual, 0;
+    if (!J) return true;
+    Eigen::Matrix<double, 6, 6> J_pose;
+    Eigen::Matrix<double, 6, 4> J_line;
+    const Eigen::Vector3d l_lin =
+        K_line_ * transform_to(T_map_cam_lin, line_map, &J_pose, &J_line).head<3>();
+    const double length_lin = l_lin.head<2>().norm();
+    Eigen::Matrix<double, 2, 3> J_l = Eigen::Matrix<double, 2, 3>::Zero();
+    if (length > kMinLength * l.norm() && length_lin > kMinLength * l_lin.norm()) {
+      const Eigen::RowVector3d across(l_lin[0], l_lin[1], 0);
+      J_l = (ends_ - ends_ * l_lin * across / (length_lin * length_lin)) *
+            (inverse_sigma_ / length_lin);
+    }
+    const Eigen::Matrix<double, 2, 3> J_m = J_l * K_line_;
+    std::get<0>(*J).noalias() = J_m * J_pose.topRows<3>();
+    std::get<1>(*J).noalias() = J_m * J_line.topRows<3>();
+    return true;
+  }
+
+ private:
+  static constexpr double kMinLength = 1e-9;
+  double inverse_sigma_;
+  Eigen::Matrix3d K_line_;
+  Eigen::Matrix<double, 2, 3> ends_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,29 @@
+#pragma once
+#include <placegraph/backend/factor.h>
+
+namespace placegraph {
+
+/// Two planes that are about orthogonal, as wall and floor are:
+///
+///   r = n_a^T n_b / sigma = cosine of the angle between them / sigma
+///   d r / d w_a = n_b^T d n_a / d w_a / sigma,   d r / d w_b = n_a^T d n_b / d w_b / sigma
+class PlaneOrthogonalFactor final : public SizedFactor<1, Plane3, Plane3> {
+ public:
+  explicit PlaneOrthogonalFactor(double sigma_rad) : inverse_sigma_(1.0 / sigma_rad) {}
+
+  bool compute(const Plane3& plane_a, const Plane3& plane_b, Residual& r,
+               Jacobians* J) const override {
+    Eigen::Matrix3d J_a, J_b;
+    const Eigen::Vector3d n_a = plane_a.normal(&J_a), n_b = plane_b.normal(&J_b);
+    r[0] = inverse_sigma_ * n_a.dot(n_b);
+    if (!J) return true;
+    std::get<0>(*J).noalias() = inverse_sigma_ * n_b.transpose() * J_a;
+    std::get<1>(*J).noalias() = inverse_sigma_ * n_a.transpose() * J_b;
+    return true;
+  }
+
+ private:
+  double inverse_sigma_;
+};
+
+}  // namespace placegraph

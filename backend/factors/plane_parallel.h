@@ -1,0 +1,29 @@
+#pragma once
+#include <placegraph/backend/factor.h>
+
+namespace placegraph {
+
+/// Two planes that are about parallel, as opposite walls are:
+///
+///   r = (n_a x n_b) / sigma,   |n_a x n_b| = sine of the angle between them
+///   d r / d w_a = -hat(n_b) d n_a / d w_a / sigma,   d r / d w_b = hat(n_a) d n_b / d w_b / sigma
+class PlaneParallelFactor final : public SizedFactor<3, Plane3, Plane3> {
+ public:
+  explicit PlaneParallelFactor(double sigma_rad) : inverse_sigma_(1.0 / sigma_rad) {}
+
+  bool compute(const Plane3& plane_a, const Plane3& plane_b, Residual& r,
+               Jacobians* J) const override {
+    Eigen::Matrix3d J_a, J_b;
+    const Eigen::Vector3d n_a = plane_a.normal(&J_a), n_b = plane_b.normal(&J_b);
+    r = inverse_sigma_ * n_a.cross(n_b);
+    if (!J) return true;
+    std::get<0>(*J).noalias() = -inverse_sigma_ * hat(n_b) * J_a;
+    std::get<1>(*J).noalias() = inverse_sigma_ * hat(n_a) * J_b;
+    return true;
+  }
+
+ private:
+  double inverse_sigma_;
+};
+
+}  // namespace placegraph

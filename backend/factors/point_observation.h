@@ -1,0 +1,42 @@
+#pragma once
+#include <placegraph/backend/factor.h>
+#include <placegraph/backend/factors/inverse_depth.h>
+#include <placegraph/backend/factors/point_in_camera.h>
+#include <placegraph/backend/factors/reprojection.h>
+
+namespace placegraph {
+
+/// A measurement of a point in a camera (Reprojection, InverseDepth), of the variables T_world_cam
+/// and p_world: r and A = d r / d p_cam are the measurement's, the rest is PointInCamera. A point
+/// that cannot be projected gets kUnprojectableResidual and pulls nowhere.
+template <class Measurement>
+class PointObservationFactor final : public SizedFactor<Measurement::kRows, SE3, Eigen::Vector3d> {
+  using Base = SizedFactor<Measurement::kRows, SE3, Eigen::Vector3d>;
+
+ public:
+  explicit PointObservationFactor(const Measurement& measurement) : measurement_(measurement) {}
+
+  bool compute(const SE3& T_world_cam, const Eigen::Vector3d& p_world, typename Base::Residual& r,
+               typename Base::Jacobians* J) const override {
+    const Eigen::Matrix3d R_world_cam = T_world_cam.rotation().matrix();
+    const PointInCamera point(R_world_cam, T_world_cam.translation(), p_world);
+    const bool projectable = point.projectable();
+    r.setZero();
+    if (projectable)
+      r = measurement_.residual(point.p_cam);
+    else
+      r[0] = kUnprojectableResidual;
+    if (!J) return true;
+    Eigen::Matrix<double, Measurement::kRows, 3> A;
+    A.setZero();
+    if (projectable) A = measurement_.derivative(point.p_cam);
+    std::get<0>(*J) << -A, A * hat(projectable ? point.p_cam : Eigen::Vector3d(0, 0, 0));
+    std::get<1>(*J).noalias() = A * R_world_cam.transpose();
+    return true;
+  }
+
+ private:
+  Measurement measurement_;
+};
+
+}  // namespace placegraph

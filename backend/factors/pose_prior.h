@@ -1,0 +1,32 @@
+#pragma once
+#include <placegraph/backend/factor.h>
+#include <placegraph/backend/factors/pose_error.h>
+
+namespace placegraph {
+
+/// What is known of one pose beforehand: r = W e(E), E = T_world_node_measured^-1 T_world_node,
+/// W^T W = information of any rank; d r / d xi = W d e / d xi, see pose_error.
+template <class Group>
+class PosePriorFactor final : public SizedFactor<Group::kDof, Group> {
+  using Base = SizedFactor<Group::kDof, Group>;
+
+ public:
+  PosePriorFactor(const Group& T_world_node, const typename Group::Jacobian& whitening,
+                  RotationError kind = RotationError::kLog)
+      : T_node_world_(T_world_node.inverse()), W_(whitening), kind_(kind) {}
+
+  bool compute(const Group& T_world_node, typename Base::Residual& r,
+               typename Base::Jacobians* J) const override {
+    typename Group::Jacobian J_e_xi;
+    r.noalias() = W_ * pose_error(T_node_world_ * T_world_node, kind_, J ? &J_e_xi : nullptr);
+    if (J) std::get<0>(*J).noalias() = W_ * J_e_xi;
+    return true;
+  }
+
+ private:
+  Group T_node_world_;
+  typename Group::Jacobian W_;
+  RotationError kind_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,238 @@
+#include <placegraph/backend/window_equations.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <iterator>
+
+namespace placegraph {
+namespace {
+
+template <class Landmark>
+bool sees(const Landmark& landmark, std::int64_t keyframe) {
+  return std::any_of(landmark.observations.begin(), landmark.observations.end(),
+                     [&](const auto& o) { return o.keyframe == keyframe; });
+}
+
+/// The part of a form that carries anything, as the prior on those variables.
+MarginalPrior make_prior(const QuadraticForm& form, const WindowVariables& variables,
+                         const WindowEquations& equations) {
+  MarginalPrior prior;
+  std::vector<Eigen::Index> columns, plane_columns;
+  Eigen::Index column = 0;
+  for (const auto& variable : variables.order) {
+    const int size = WindowVariables::size(variable);
+    if (!form.H.middleCols(column, size).isZero(0)) {
+      if (variable.is_plane) {
+        prior.planes.push_back(variable.id);
+        prior.plane_lin.push_back(equations.plane_lin(variable.id));
+      } else {
+        prior.keyframes.push_back(variable.id);
+        prior.T_map_cam_lin.push_back(equations.keyframe_lin(variable.id));
+      }
+      for (int i = 0; i < size; ++i)
+        (variable.is_plane ? plane_columns : columns).push_back(column + i);
+    }
+    column += size;
+  }
+  columns.insert(columns.end(), plane_columns.begin(), plane_columns.end());
+  if (columns.empty()) return prior;
+  const SquareRootForm root = square_root({form.H(columns, columns), form.b(columns)});
+  prior.J = root.J;
+  prior.e = root.e;
+  return prior;
+}
+
+/// Smallest eigenvalue, scaled by the diagonal, of the prior's information on motions of the whole
+/// window below which it does not hold them.
+constexpr double kGaugeFloor = 1e-8;
+
+/// Whether the prior ties the window to the map: it resists every motion xi of all keyframes and
+/// planes together, exp(xi) T_map_cam, whose tangents are Ad(T_map_cam^-1) xi.
+bool holds_pose(const MarginalPrior& prior) {
+  if (prior.J.rows() < 6 || prior.keyframes.empty()) return false;
+  // About the first keyframe, so that far from the origin rotation and translation stay apart.
+  const SE3 T_map_first = prior.T_map_cam_lin.front();
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(prior.J.rows(), 6);
+  for (std::size_t k = 0; k < prior.keyframes.size(); ++k)
+    J.noalias() +=
+        prior.keyframe_columns(k) * (prior.T_map_cam_lin[k].inverse() * T_map_first).adjoint();
+  for (std::size_t k = 0; k < prior.planes.size(); ++k) {
+    // The plane moved by exp(xi) is the same plane seen from exp(-xi).
+    Eigen::Matrix<double, 3, 6> J_plane;
+    transform_to(SE3(), prior.plane_lin[k], &J_plane);
+    J.noalias() -= prior.plane_columns(k) * J_plane * T_map_first.adjoint();
+  }
+  const Vector6d length = J.colwise().norm();
+  if (!(length.minCoeff() > 0)) return false;
+  J *= length.cwiseInverse().asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(Matrix6d(J.transpose() * J));
+  return eigen.eigenvalues()[0] > kGaugeFloor;
+}
+
+/// Whether the prior resists a growth of all the window about `center_map`.
+bool holds_scale(const MarginalPrior& prior, const Eigen::Vector3d& center_map) {
+  if (prior.empty()) return false;
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(prior.J.rows());
+  double size = 0;
+  const auto add = [&](const Eigen::VectorXd& share) {
+    change += share;
+    size += share.squaredNorm();
+  };
+  for (std::size_t k = 0; k < prior.keyframes.size(); ++k) {
+    const SE3& T_map_cam = prior.T_map_cam_lin[k];
+    add(prior.keyframe_columns(k).leftCols<3>() *
+        (T_map_cam.rotation().inverse() * (T_map_cam.translation() - center_map)));
+  }
+  for (std::size_t k = 0; k < prior.planes.size(); ++k) {
+    // The distance from the centre grows, the normal stays.
+    Eigen::RowVector3d J_distance;
+    prior.plane_lin[k].distance(&J_distance);
+    add(prior.plane_columns(k) * J_distance.transpose() *
+        (-prior.plane_lin[k].distance_to(center_map) / J_distance.squaredNorm()));
+  }
+  return change.squaredNorm() > kGaugeFloor * size;
+}
+
+/// Planes that nothing in the window but what leaves with a keyframe speaks of.
+std::vector<std::int64_t> leaving_planes(const WindowState& state, std::int64_t leaving,
+                                         std::int64_t newest) {
+  std::set<std::int64_t> touched(state.prior.planes.begin(), state.prior.planes.end()), staying;
+  for (const HeightObservation& h : state.heights)
+    (h.keyframe == leaving ? touched : staying).insert(h.plane);
+  for (const auto& [id, landmark] : state.landmarks) {
+    if (!landmark.on_plane) continue;
+    const bool ends = sees(landmark, leaving) && !sees(landmark, newest);
+    (ends ? touched : staying).insert(landmark.on_plane->plane);
+  }
+  std::vector<std::int64_t> planes;
+  std::set_difference(touched.begin(), touched.end(), staying.begin(), staying.end(),
+                      std::back_inserter(planes));
+  return planes;
+}
+
+/// Takes out of the window what has gone into the prior with a keyframe.
+void erase_keyframe(WindowState& state, std::int64_t leaving, std::int64_t newest,
+                    const std::vector<std::int64_t>& planes) {
+  const auto erase_from = [&](auto& landmarks) {
+    for (auto it = landmarks.begin(); it != landmarks.end();) {
+      auto& landmark = it->second;
+      const bool ends = sees(landmark, leaving) && !sees(landmark, newest);
+      std::erase_if(landmark.observations, [&](const auto& o) { return o.keyframe == leaving; });
+      it = ends || landmark.observations.empty() ? landmarks.erase(it) : std::next(it);
+    }
+  };
+  erase_from(state.landmarks);
+  erase_from(state.lines);
+  std::erase_if(state.distances,
+                [&](const DistanceObservation& d) { return d.from == leaving || d.to == leaving; });
+  const auto of_leaving = [&](const auto& o) { return o.keyframe == leaving; };
+  std::erase_if(state.heights, of_leaving);
+  std::erase_if(state.pose_priors, of_leaving);
+  for (const std::int64_t plane : planes) state.planes.erase(plane);
+  state.kept.erase(leaving);
+  state.keyframes.erase(leaving);
+}
+
+}  // namespace
+
+void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
+  const std::int64_t newest = state.keyframes.rbegin()->first;
+  const std::vector<std::int64_t> planes = leaving_planes(state, leaving, newest);
+  // What leaves comes first; while the keyframe fixes the gauge it has no variables.
+  const bool was_fixed = state.fixed == leaving;
+  WindowVariables gone, variables;
+  if (!was_fixed) gone.order.push_back({false, leaving});
+  for (const std::int64_t plane : planes) gone.order.push_back({true, plane});
+  for (const auto& [id, T_map_cam] : state.keyframes)
+    if (id != leaving && state.fixed != id) variables.order.push_back({false, id});
+  for (const auto& [id, plane_map] : state.planes)
+    if (!std::binary_search(planes.begin(), planes.end(), id))
+      variables.order.push_back({true, id});
+  WindowVariables all = gone;
+  all.order.insert(all.order.end(), variables.order.begin(), variables.order.end());
+  WindowEquations equations(state, all, true);
+
+  bool metric = false;
+  for (const auto& [id, landmark] : state.landmarks) {
+    if (!sees(landmark, leaving) || sees(landmark, newest)) continue;
+    equations.add_landmark(landmark);
+    for (const WindowObservation& o : landmark.observations) metric |= o.inverse_depth.has_value();
+  }
+  for (const auto& [id, line] : state.lines)
+    if (sees(line, leaving) && !sees(line, newest)) equations.add_line(line);
+  if (const auto reference = scale_reference(state)) equations.add_distance(*reference);
+  for (const DistanceObservation& distance : state.distances)
+    if (distance.from == leaving || distance.to == leaving) {
+      equations.add_distance(distance);
+      metric = true;
+    }
+  for (const HeightObservation& height : state.heights)
+    if (height.keyframe == leaving) {
+      equations.add_height(height);
+      metric = true;
+    }
+  for (const PosePrior& prior : state.pose_priors)
+    if (prior.keyframe == leaving) {
+      equations.add_pose_prior(prior);
+      metric = true;
+    }
+  equations.add_prior();
+  state.prior = make_prior(marginalize_first(equations.form, gone.columns()), variables, equations);
+  state.prior_is_metric |= metric;
+
+  erase_keyframe(state, leaving, newest, planes);
+  if (was_fixed) state.fixed.reset();
+  // Where everything the leaving keyframe saw is still in view, nothing went into the prior.
+  const auto& [oldest, T_map_oldest] = *state.keyframes.begin();
+  if (!state.fixed && !holds_pose(state.prior) && !has_full_pose_prior(state)) state.fixed = oldest;
+  state.prior_holds_scale = holds_scale(state.prior, T_map_oldest.translation());
+}
+
+Eigen::MatrixXd joint_information(const WindowState& state,
+                                  const std::vector<std::int64_t>& keyframes) {
+  // All else first, so that it can be marginalized.
+  const auto asked = [&](std::int64_t id) {
+    return std::find(keyframes.begin(), keyframes.end(), id) != keyframes.end();
+  };
+  WindowVariables variables;
+  for (const auto& [id, plane_map] : state.planes) variables.order.push_back({true, id});
+  for (const auto& [id, T_map_cam] : state.keyframes)
+    if (id != state.fixed && !asked(id)) variables.order.push_back({false, id});
+  const Eigen::Index others = variables.columns();
+  for (const std::int64_t id : keyframes) variables.order.push_back({false, id});
+  WindowEquations equations(state, variables, false);
+  for (const auto& [id, landmark] : state.landmarks) equations.add_landmark(landmark);
+  for (const auto& [id, line] : state.lines) equations.add_line(line);
+  for (const DistanceObservation& distance : state.distances) equations.add_distance(distance);
+  for (const HeightObservation& height : state.heights) equations.add_height(height);
+  for (const PosePrior& prior : state.pose_priors) equations.add_pose_prior(prior);
+  equations.add_prior();
+  return marginalize_first(equations.form, others).H;
+}
+
+Matrix6d absolute_information(const WindowState& state, std::int64_t keyframe) {
+  return clamp_to_semidefinite(joint_information(state, {keyframe}), 1e-9);
+}
+
+Matrix6d relative_information(const WindowState& state, std::int64_t from, std::int64_t to) {
+  const SE3 T_from_to = state.keyframes.at(from).inverse() * state.keyframes.at(to);
+  // The held keyframe is the map's frame: what the prior knows, it knows from there.
+  if (state.fixed == from) return absolute_information(state, to);
+  if (state.fixed == to) {
+    // T_from exp(x) changes T_from_to as exp(xi) on its right does, x = -Ad(T_from_to) xi.
+    const Matrix6d M = T_from_to.adjoint();
+    return M.transpose() * absolute_information(state, from) * M;
+  }
+  QuadraticForm joint{joint_information(state, {from, to}), Eigen::VectorXd::Zero(12)};
+  // From (xi_from, xi_to) to (xi_from, xi of T_from_to): xi_to = xi + Ad(T_from_to^-1) xi_from. A
+  // window without a prior does not constrain xi_from then, all that is left of it is rounding.
+  Eigen::Matrix<double, 12, 12> M = Eigen::Matrix<double, 12, 12>::Identity();
+  M.bottomLeftCorner<6, 6>() = T_from_to.inverse().adjoint();
+  const Eigen::VectorXd size_before =
+      (M.cwiseAbs().transpose() * joint.H.cwiseAbs() * M.cwiseAbs()).diagonal().head<6>();
+  joint.H = M.transpose() * joint.H * M;
+  const QuadraticForm relative = marginalize_first(joint, 6, &size_before);
+  return clamp_to_semidefinite(relative.H, 1e-9);
+}
+
+}  // namespace placegraph
