@@ -9,6 +9,10 @@ namespace placegraph {
 namespace {
 
 constexpr int kMostLifts = 6;
+/// Steps of a lifted descent times poses: where the relaxation is not tight they are many and cost
+/// seconds on large graphs.
+constexpr double kLiftedEffort = 1e6;
+constexpr double kLiftedPromiseShare = 1e-12;
 constexpr double kTightGap = 1e-5;
 /// A shift of the certificate matrix that costs this share of the bound is accepted unseen.
 constexpr double kAcceptedShare = 1e-7;
@@ -84,6 +88,7 @@ CertifiedStartReport climb(const ChordalRelaxation<dim>& relaxation, int nodes,
   report.cost = relaxation.minimize(X).cost;
   double lifted_cost = report.cost;
   Eigen::MatrixXd lifted = X;
+  const int lifted_steps = static_cast<int>(std::clamp(kLiftedEffort / nodes, 40.0, 300.0));
   for (int lifts = 0;; ++lifts) {
     CertificateMatrix<dim> matrix = relaxation.certificate_matrix(lifted);
     const double accepted =
@@ -95,7 +100,7 @@ CertifiedStartReport climb(const ChordalRelaxation<dim>& relaxation, int nodes,
         curvature.smallest_eigenvalue >= -10 * accepted || lifts == kMostLifts)
       break;
     lifted = relaxation.escape(lifted, curvature.direction);
-    lifted_cost = relaxation.minimize(lifted).cost;
+    lifted_cost = relaxation.minimize(lifted, {lifted_steps, kLiftedPromiseShare}).cost;
     report.rank = static_cast<int>(lifted.rows());
   }
   if (report.rank > dim) {

@@ -10,9 +10,7 @@
 namespace placegraph {
 namespace {
 
-constexpr int kMaxSteps = 300, kMaxProducts = 200;
-/// The descent ends when the preconditioned gradient promises less than this share of the cost.
-constexpr double kPromiseShare = 1e-14;
+constexpr int kMaxProducts = 200;  ///< of one step
 
 double inner(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.cwiseProduct(B).sum(); }
 
@@ -208,7 +206,7 @@ struct ChordalRelaxation<dim>::Impl {
     return step;
   }
 
-  Descent minimize(Eigen::MatrixXd& X) const {
+  Descent minimize(Eigen::MatrixXd& X, const DescentOptions& options) const {
     Descent descent;
     solve_translations(X);
     descent.cost = cost(X);
@@ -217,14 +215,14 @@ struct ChordalRelaxation<dim>::Impl {
     LiftedPreconditioner<dim> preconditioner(problem, order, static_cast<int>(X.rows()));
     Eigen::MatrixXd XQ = product(X);
     bool moved = true;
-    for (; descent.iterations < kMaxSteps; ++descent.iterations) {
+    for (; descent.iterations < options.max_steps; ++descent.iterations) {
       const Multipliers lambda = multipliers(X, XQ);
       Eigen::MatrixXd gradient = XQ;
       project(X, gradient);
       if (moved) preconditioner.factorize(X);
       const Eigen::MatrixXd preconditioned = preconditioner.apply(gradient);
       const double promise = inner(gradient, preconditioned);
-      if (promise <= kPromiseShare * descent.cost + tiny) {
+      if (promise <= options.promise_share * descent.cost + tiny) {
         descent.converged = true;
         break;
       }
@@ -251,7 +249,7 @@ struct ChordalRelaxation<dim>::Impl {
           descent.converged = true;
           break;
         }
-      } else if (radius * radius < kPromiseShare * descent.cost) {
+      } else if (radius * radius < 1e-14 * descent.cost) {
         break;
       }
     }
@@ -283,8 +281,8 @@ double ChordalRelaxation<dim>::cost(const Eigen::MatrixXd& X) const {
 
 template <int dim>
 typename ChordalRelaxation<dim>::Descent ChordalRelaxation<dim>::minimize(
-    Eigen::MatrixXd& X) const {
-  return impl_->minimize(X);
+    Eigen::MatrixXd& X, const DescentOptions& options) const {
+  return impl_->minimize(X, options);
 }
 
 template <int dim>

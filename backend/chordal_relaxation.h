@@ -29,6 +29,11 @@ class ChordalRelaxation {
 
   double cost(const Eigen::MatrixXd& X) const;
 
+  struct DescentOptions {
+    int max_steps = 300;
+    /// The end: the preconditioned gradient promises less than this share of the cost.
+    double promise_share = 1e-14;
+  };
   struct Descent {
     double cost = 0;
     int iterations = 0, products = 0;  ///< outer steps; Hessian products inside them
@@ -36,7 +41,8 @@ class ChordalRelaxation {
   };
   /// Down to a critical point near X, by a Riemannian trust-region method with truncated conjugate
   /// gradients (Absil et al. 2007), preconditioned with the Gauss-Newton Hessian's Cholesky factor.
-  Descent minimize(Eigen::MatrixXd& X) const;
+  Descent minimize(Eigen::MatrixXd& X, const DescentOptions& options) const;
+  Descent minimize(Eigen::MatrixXd& X) const { return minimize(X, DescentOptions{}); }
 
   /// S at X.
   CertificateMatrix<dim> certificate_matrix(const Eigen::MatrixXd& X) const;
