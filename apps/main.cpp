@@ -9,6 +9,7 @@
 #include "apps/cmd_config.h"
 #include "apps/cmd_convert.h"
 #include "apps/cmd_eval.h"
+#include "apps/cmd_georeference.h"
 #include "apps/cmd_optimize.h"
 #include "apps/cmd_run.h"
 #include "apps/cmd_synth.h"
@@ -38,6 +39,7 @@ int main(int argc, char** argv) {
     add_config_command(app);
     add_convert_command(app);
     add_eval_command(app);
+    add_georeference_command(app);
     add_optimize_command(app);
     add_run_command(app);
     add_synth_command(app);

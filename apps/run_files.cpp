@@ -45,7 +45,10 @@ std::string places_json(const Map& map) {
       const Keyframe* keyframe = map.find_keyframe(member.keyframe);
       json entry = {{"keyframe", member.keyframe},
                     {"T_place_keyframe", pose_json(member.T_place_keyframe)}};
-      if (keyframe) entry["frame"] = keyframe->frame;
+      if (keyframe) {
+        entry["frame"] = keyframe->frame;
+        entry["stamp_ns"] = keyframe->stamp_ns;
+      }
       members.push_back(entry);
     }
     places.push_back({{"id", place.id},

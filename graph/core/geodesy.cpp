@@ -1,0 +1,43 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/geodesy.h>
+
+#include <GeographicLib/LocalCartesian.hpp>
+#include <cmath>
+#include <string>
+
+namespace placegraph {
+
+struct EnuFrame::Projection {
+  GeographicLib::LocalCartesian cartesian;
+};
+
+void GeodeticPosition::check() const {
+  require(std::abs(latitude_deg) <= 90,
+          "latitude: " + std::to_string(latitude_deg) + " outside [-90, 90]");
+  require(longitude_deg >= -540 && longitude_deg < 540,
+          "longitude: " + std::to_string(longitude_deg) + " outside [-540, 540)");
+  require(std::isfinite(height_m), "height: " + std::to_string(height_m) + " is not finite");
+}
+
+EnuFrame::EnuFrame(const GeodeticPosition& origin) : origin_(origin) {
+  origin.check();
+  projection_ = std::make_shared<const Projection>(Projection{
+      GeographicLib::LocalCartesian(origin.latitude_deg, origin.longitude_deg, origin.height_m)});
+}
+
+Eigen::Vector3d EnuFrame::to_enu(const GeodeticPosition& position) const {
+  position.check();
+  Eigen::Vector3d enu;
+  projection_->cartesian.Forward(position.latitude_deg, position.longitude_deg, position.height_m,
+                                 enu[0], enu[1], enu[2]);
+  return enu;
+}
+
+GeodeticPosition EnuFrame::to_geodetic(const Eigen::Vector3d& position_enu) const {
+  GeodeticPosition position;
+  projection_->cartesian.Reverse(position_enu[0], position_enu[1], position_enu[2],
+                                 position.latitude_deg, position.longitude_deg, position.height_m);
+  return position;
+}
+
+}  // namespace placegraph
