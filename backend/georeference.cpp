@@ -347,7 +347,9 @@ void Georeferencer::solve(const RobustKernel& kernel) {
     graph.constraints.emplace_back(PositionConstraint{
         graph_.nodes[seen.fix.node].id, seen.position_world,
         seen.fix.antenna(calibration_.head<3>(), calibration_[3]), seen.information, kernel});
-  const PoseGraphReport report = optimize_pose_graph(graph, options_.solver, log_);
+  PoseGraphOptions options = options_.solver;
+  options.start = PoseGraphStart::kFile;  // the alignment; other starts know nothing of fixes
+  const PoseGraphReport report = optimize_pose_graph(graph, options, log_);
   result_.outcome = report.outcome;
   result_.iterations += report.iterations;
   for (std::size_t i = 0; i < graph_.nodes.size(); ++i)

@@ -32,8 +32,8 @@ struct GeoreferenceOptions {
   bool estimate_clock_offset = false;
   double clock_offset_sigma_s = 0.2;
   GpsAlignmentOptions alignment;
-  PoseGraphOptions solver;
-  std::uint64_t seed = 1;  ///< of the search for the alignment
+  PoseGraphOptions solver;  ///< its start is of no account: the alignment is the start
+  std::uint64_t seed = 1;   ///< of the search for the alignment
   void check() const;
 };
 void visit(OptionVisitor& field, GeoreferenceOptions& options);
