@@ -83,7 +83,7 @@ line ~ /^[ \t]*#[ \t]*include/ {
     complain("GeographicLib outside graph/core/geodesy.cpp: " path)
 }
 
-header && here != "backend" && tolower(line) ~ /ceres|cholmod/ {
+header && here != "backend" && tolower(line) ~ /(^|[^a-z])(ceres|cholmod)/ {
   complain("a header outside backend names Ceres or CHOLMOD")
 }
 header && tolower(line) ~ /opengv/ { complain("a header names OpenGV") }
