@@ -22,7 +22,7 @@ namespace placegraph::apps {
 namespace {
 
 /// In the order of RobustMethod.
-const std::vector<std::string> kRobustMethods = {"none", "huber", "dcs", "gnc"};
+const std::vector<std::string> kRobustMethods = {"none", "huber", "dcs", "gnc", "pcm", "auto"};
 
 struct Arguments {
   std::string in, out, plot, cost = "log", engine = "native", robust = "none";

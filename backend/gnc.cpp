@@ -37,12 +37,11 @@ double next_threshold(double upper, double gate, const std::vector<double>& loop
 }
 
 template <class Group>
-std::vector<double> loop_chi2(const PackedGraph<Group>& graph, RotationError rotation_error) {
-  std::vector<double> chi2 = chi2_by_edge(graph, rotation_error);
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < graph.edges.size(); ++i)
-    if (!graph.edges[i].odometry) chi2[n++] = chi2[i];
-  chi2.resize(n);
+std::vector<double> chi2_of(const PackedGraph<Group>& graph, const std::vector<int>& loops,
+                            RotationError rotation_error) {
+  const std::vector<double> all = chi2_by_edge(graph, rotation_error);
+  std::vector<double> chi2;
+  for (const int loop : loops) chi2.push_back(all[loop]);
   return chi2;
 }
 
@@ -66,8 +65,10 @@ GncSolution graduated_non_convexity(PackedGraph<Group>& graph, double gate,
                                     const GncOptions& options) {
   options.check();
   require(gate > 0, "graduated non-convexity: gate must be positive");
-  for (auto& edge : graph.edges)
-    if (!edge.odometry) edge.weight = 1;
+  std::vector<int> loops;
+  for (std::size_t i = 0; i < graph.edges.size(); ++i)
+    if (!graph.edges[i].odometry && graph.edges[i].weight > 0) loops.push_back(static_cast<int>(i));
+  for (const int loop : loops) graph.edges[loop].weight = 1;
 
   LocalSolverOptions rough = solver_options;  // between rounds only the weights matter
   rough.max_iterations = std::min(rough.max_iterations, 10);
@@ -78,17 +79,15 @@ GncSolution graduated_non_convexity(PackedGraph<Group>& graph, double gate,
   int iterations = result.local.iterations;
 
   const auto reweight = [&](const std::vector<double>& chi2, auto&& weight) {
-    std::size_t n = 0;
-    for (auto& edge : graph.edges)
-      if (!edge.odometry) edge.weight = weight(chi2[n++]);
+    for (std::size_t i = 0; i < loops.size(); ++i) graph.edges[loops[i]].weight = weight(chi2[i]);
   };
-  std::vector<double> chi2 = loop_chi2(graph, rough.rotation_error);
+  std::vector<double> chi2 = chi2_of(graph, loops, rough.rotation_error);
   double upper = chi2.empty() ? gate : 2 * *std::max_element(chi2.begin(), chi2.end());
   while (upper > gate && result.rounds < options.max_rounds) {
     reweight(chi2, [&](double s) { return weight_of(s, gate, upper, options.surrogate); });
     result.local = solver.solve(graph);
     iterations += result.local.iterations;
-    chi2 = loop_chi2(graph, rough.rotation_error);
+    chi2 = chi2_of(graph, loops, rough.rotation_error);
     upper = next_threshold(upper, gate, chi2, options);
     ++result.rounds;
   }

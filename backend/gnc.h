@@ -24,7 +24,8 @@ struct GncSolution {
 /// perception", algorithm 1): minimizes sum of e^T Omega e over odometry plus a robust cost of the
 /// other edges that begins convex and ends as truncated least squares, rho = min(s, gate), or as
 /// Geman & McClure's. `graph.edges[i].weight` comes out as 1 or 0 (exactly so for both surrogates,
-/// with s <= gate deciding in the end); odometry keeps the weight it came with.
+/// with s <= gate deciding in the end); odometry keeps the weight it came with, and
+/// a loop that came without weight stays out.
 ///
 /// The schedule comes from the residuals: with U = (mu + 1) / mu * gate, the squared error above
 /// which an edge has no weight left, it begins at twice the largest squared error of the plain

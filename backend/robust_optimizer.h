@@ -1,11 +1,11 @@
 #pragma once
-#include <placegraph/backend/gnc.h>
+#include <placegraph/backend/loop_growth.h>
 
 #include <string>
 
 namespace placegraph {
 
-enum class RobustMethod { kNone, kHuber, kDcs, kGnc };
+enum class RobustMethod { kNone, kHuber, kDcs, kGnc, kPcm, kAuto };
 
 struct RobustOptions {
   RobustMethod method = RobustMethod::kNone;
@@ -13,6 +13,8 @@ struct RobustOptions {
   /// Share of the true loops whose squared error lies below the gate, were their noise Gaussian.
   double gate_probability = 0.999;
   GncOptions gnc;
+  LoopSupportOptions support;
+  LoopGrowthOptions growth;
   void check() const;
 };
 void visit(OptionVisitor& field, RobustOptions& options);
@@ -21,7 +23,9 @@ void visit(OptionVisitor& field, RobustOptions& options);
 struct RejectedEdge {
   int constraint = 0;  ///< position in PoseGraph::constraints
   double chi2 = 0;     ///< e^T Omega e at the solution
-  std::string reason;  ///< "residual": its error at the solution lies beyond the gate
+  /// The first that holds of "inconsistent with odometry": no drift of the odometry explains it,
+  /// "pairwise": no loop nearby agrees with it, "residual": its error lies beyond the gate.
+  std::string reason;
 };
 
 struct RobustSolution {
@@ -34,7 +38,12 @@ struct RobustSolution {
 /// believed; every other edge may be left out.
 ///   none   all edges as they are, with the kernels they carry
 ///   huber, dcs   that kernel on every loop; none is left out
-///   gnc    graduated non-convexity from the poses of the graph (gnc.h)
+///   gnc    graduated non-convexity from the poses of the graph (gnc.h), with the gate calibrated
+///   by
+///          rings of neighbouring loops (loop_support.h)
+///   pcm    the largest set of loops that agree each with each over all odometry between them
+///          (pcm.h), then every loop tested against the solution that follows (loop_growth.h)
+///   auto   the plain minimum if its errors show that no loop is false, else loop_growth.h
 /// `graph` comes out with the poses of the solution and weight 0 on what was left out.
 template <class Group>
 [[nodiscard]] RobustSolution solve_robustly(PackedGraph<Group>& graph,

@@ -176,7 +176,7 @@ TEST_F(OptimizeCli, NamesRejectedLoopsOfEveryComponent) {
 
 TEST_F(OptimizeCli, TakesEveryRobustMethod) {
   write_file(dir / "false.g2o", ring(40, 0, {{3, 21}}));
-  for (const char* method : {"none", "huber", "dcs", "gnc"}) {
+  for (const char* method : {"none", "huber", "dcs", "gnc", "pcm", "auto"}) {
     const json report = optimized(std::string("false.g2o -o out.g2o --robust ") + method);
     EXPECT_EQ(report.at("robust"), method);
   }

@@ -1,0 +1,170 @@
+#include <placegraph/backend/loop_support.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace placegraph {
+namespace {
+
+/// Three kinds of rings; shares sum to one.
+struct Mixture {
+  double scale = 1, wide_scale = 1;
+  double share = 0.5, wide_share = 0.25;
+  double log_likelihood = -std::numeric_limits<double>::infinity();
+};
+/// What calls a ring confused rather than badly measured: its noise is this much larger.
+constexpr double kWide = 100;
+/// Rings that must close at a scale, lest a pair of equal loops be taken for one.
+constexpr double kLeast = 10;
+/// Below this, misclosures are rounding and the solver's tolerance rather than noise.
+constexpr double kLeastScale = 1e-7;
+
+struct Posterior {
+  double closes, confused;
+  double log_density;
+};
+
+/// Log of the normal density of a ring's misclosure.
+double log_normal(const RingMisclosure& ring, double scale, int dof) {
+  return -0.5 * (ring.chi2 / scale + dof * std::log(2 * M_PI * scale) + ring.log_determinant);
+}
+
+Posterior posterior(const RingMisclosure& ring, const Mixture& m, int dof, double log_volume) {
+  const double closes = std::log(m.share) + log_normal(ring, m.scale, dof);
+  const double confused = std::log(m.wide_share) + log_normal(ring, m.wide_scale, dof);
+  const double anywhere = std::log(1 - m.share - m.wide_share) - log_volume;
+  const double most = std::max({closes, confused, anywhere});
+  const double sum =
+      std::exp(closes - most) + std::exp(confused - most) + std::exp(anywhere - most);
+  return {std::exp(closes - most) / sum, std::exp(confused - most) / sum, most + std::log(sum)};
+}
+
+Mixture fit(const std::vector<RingMisclosure>& rings, int dof, double log_volume, double scale) {
+  constexpr int kIterations = 60;
+  const auto n = static_cast<double>(rings.size());
+  Mixture mixture;
+  mixture.scale = scale;
+  mixture.wide_scale = kWide * kWide * scale;
+  for (int i = 0; i < kIterations; ++i) {
+    double closing = 0, confused = 0, chi2_closing = 0, chi2_confused = 0, log_likelihood = 0;
+    for (const RingMisclosure& ring : rings) {
+      const Posterior p = posterior(ring, mixture, dof, log_volume);
+      closing += p.closes;
+      confused += p.confused;
+      chi2_closing += p.closes * ring.chi2;
+      chi2_confused += p.confused * ring.chi2;
+      log_likelihood += p.log_density;
+    }
+    const double before = mixture.log_likelihood;
+    mixture.log_likelihood = log_likelihood;
+    if (closing < std::min(kLeast, 0.5 * n)) return {};  // nothing to tell a scale from
+    mixture.scale = std::max(chi2_closing / (dof * closing), kLeastScale);
+    mixture.wide_scale =
+        std::max(confused > 1 ? chi2_confused / (dof * confused) : 0, kWide * mixture.scale);
+    // One of each kind more than was seen: none becomes impossible.
+    mixture.share = (closing + 1) / (n + 3);
+    mixture.wide_share = (confused + 1) / (n + 3);
+    if (std::abs(log_likelihood - before) < 1e-7 * n) break;
+  }
+  return mixture;
+}
+
+/// The volume that the poses of `chain` span in the tangent space of Group.
+template <class Group>
+double tangent_volume(const PackedGraph<Group>& graph, const OdometryChain<Group>& chain) {
+  const auto n = static_cast<int>(graph.poses.size());
+  typename Group::Point low = chain.pose(0).translation(), high = low;
+  for (int i = 0; i < n; ++i) {
+    low = low.cwiseMin(chain.pose(i).translation());
+    high = high.cwiseMax(chain.pose(i).translation());
+  }
+  // A misclosure may be as long as the map in either direction; a map counts as nowhere flatter
+  // than a tenth of its length (a plane walked in 3D).
+  const typename Group::Point extent =
+      2 * (high - low).cwiseMax(0.1 * (high - low).norm()).cwiseMax(1e-9);
+  const double rotations = Group::kDof == 3 ? 2 * M_PI : 8 * M_PI * M_PI;
+  constexpr double kLogScales = 2;  // a factor of e in either direction
+  return extent.prod() * rotations * (Group::kDof == 7 ? kLogScales : 1);
+}
+
+template <class Group>
+std::vector<std::vector<int>> clusters_of(const std::vector<LoopOnChain<Group>>& loops,
+                                          const std::vector<LoopPair>& pairs,
+                                          const std::vector<double>& probability, double least) {
+  std::vector<int> parent(loops.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    if (probability[k] > least) {
+      const int a = root(pairs[k].a), b = root(pairs[k].b);
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  std::vector<std::vector<int>> clusters(loops.size());
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    clusters[root(static_cast<int>(i))].push_back(loops[i].edge);
+  std::erase_if(clusters, [](const auto& cluster) { return cluster.empty(); });
+  std::stable_sort(clusters.begin(), clusters.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  return clusters;
+}
+
+}  // namespace
+
+void LoopSupportOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, LoopSupportOptions& o) {
+  field("reach", o.reach, "poses between the ends of two loops that are held against each other",
+        {1, 100000});
+  field("neighbours", o.neighbours, "loops that one loop is held against, the nearest ones",
+        {1, 1000});
+  field("least_probability", o.least_probability,
+        "that two loops are both true, for them to support each other", {0.01, 0.9999});
+}
+
+RingMixture fit_rings(const std::vector<LoopPair>& pairs, int dof, double volume) {
+  RingMixture result;
+  if (pairs.empty()) return result;
+  constexpr std::size_t kSample = 4000;  // enough for a few numbers
+  const std::size_t stride = 1 + pairs.size() / kSample;
+  std::vector<RingMisclosure> sample;
+  for (std::size_t i = 0; i < pairs.size(); i += stride) sample.push_back(pairs[i].ring);
+  const double log_volume = std::log(volume);
+  Mixture best;
+  for (double scale = 1e-5; scale < 1e4; scale *= 10) {
+    const Mixture mixture = fit(sample, dof, log_volume, scale);
+    if (mixture.log_likelihood > best.log_likelihood) best = mixture;
+  }
+  result.noise_scale = best.scale;
+  for (const LoopPair& pair : pairs)
+    result.probability.push_back(posterior(pair.ring, best, dof, log_volume).closes);
+  return result;
+}
+
+template <class Group>
+LoopSupport support_loops(const PackedGraph<Group>& graph, const OdometryChain<Group>& chain,
+                          const LoopSupportOptions& options) {
+  options.check();
+  LoopSupport support;
+  if (graph.poses.empty()) return support;
+  const auto loops = loops_on_chain(graph, chain);
+  const auto pairs = neighbouring_pairs(loops, chain, options.reach, options.neighbours);
+  const RingMixture rings = fit_rings(pairs, Group::kDof, tangent_volume(graph, chain));
+  support.noise_scale = rings.noise_scale;
+  support.clusters = clusters_of(loops, pairs, rings.probability, options.least_probability);
+  for (const auto& cluster : support.clusters) support.alone += cluster.size() == 1;
+  return support;
+}
+
+template LoopSupport support_loops(const PackedGraph<SE2>&, const OdometryChain<SE2>&,
+                                   const LoopSupportOptions&);
+template LoopSupport support_loops(const PackedGraph<SE3>&, const OdometryChain<SE3>&,
+                                   const LoopSupportOptions&);
+template LoopSupport support_loops(const PackedGraph<Sim3>&, const OdometryChain<Sim3>&,
+                                   const LoopSupportOptions&);
+
+}  // namespace placegraph

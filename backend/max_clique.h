@@ -1,0 +1,46 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace placegraph {
+
+/// An undirected graph as one row of bits for every vertex.
+class BitGraph {
+ public:
+  explicit BitGraph(int vertices)
+      : vertices_(vertices),
+        words_((static_cast<std::size_t>(vertices) + 63) / 64),
+        bits_(words_ * static_cast<std::size_t>(vertices), 0) {}
+
+  int vertices() const { return vertices_; }
+  std::size_t words() const { return words_; }
+  const std::uint64_t* row(int v) const { return &bits_[words_ * static_cast<std::size_t>(v)]; }
+  bool joined(int a, int b) const { return row(a)[b / 64] >> (b % 64) & 1; }
+  /// a != b.
+  void join(int a, int b) {
+    set(a, b);
+    set(b, a);
+  }
+
+ private:
+  void set(int a, int b) {
+    bits_[words_ * static_cast<std::size_t>(a) + b / 64] |= std::uint64_t{1} << (b % 64);
+  }
+  int vertices_;
+  std::size_t words_;
+  std::vector<std::uint64_t> bits_;
+};
+
+struct Clique {
+  std::vector<int> vertices;  ///< ascending
+  bool proven = false;        ///< that none is larger; else the search ended at its limit
+};
+
+/// A largest set of vertices each joined to each: branch and bound with greedy colouring (Tomita &
+/// Kameda 2007, on bit sets as San Segundo et al. 2011), vertices of high degree first, so that the
+/// first branch is a good heuristic already. `max_steps` (vertices coloured) bounds the search by
+/// count, not by the clock: same graph, same answer.
+Clique max_clique(const BitGraph& graph, std::int64_t max_steps);
+
+}  // namespace placegraph

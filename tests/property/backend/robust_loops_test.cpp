@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+#include <placegraph/backend/pose_graph_optimizer.h>
+
+#include <set>
+
+#include "tests/support/looped_walk.h"
+
+namespace placegraph {
+namespace {
+
+using test::LoopedWalk;
+using test::LoopedWalkOptions;
+
+PoseGraphReport optimize(const PoseGraph& graph, RobustMethod method) {
+  PoseGraphOptions options;
+  options.robust.method = method;
+  return optimize_pose_graph(graph, options);
+}
+
+/// Root mean square of the distances between estimates that hold the same first node [m].
+template <class Group>
+double rms_distance(const PoseGraph& a, const PoseGraph& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.nodes.size(); ++i)
+    sum += (std::get<Group>(a.nodes[i].T_world_node).translation() -
+            std::get<Group>(b.nodes[i].T_world_node).translation())
+               .squaredNorm();
+  return std::sqrt(sum / static_cast<double>(a.nodes.size()));
+}
+
+std::set<std::pair<std::int64_t, std::int64_t>> ends_of_rejected(const PoseGraphReport& report) {
+  std::set<std::pair<std::int64_t, std::int64_t>> ends;
+  for (const RejectedEdge& edge : report.rejected) {
+    const auto& c = std::get<RelativePoseConstraint>(report.graph.constraints[edge.constraint]);
+    ends.insert({c.from, c.to});
+  }
+  return ends;
+}
+
+template <class Group>
+class RobustLoopsOf : public testing::Test {};
+using Groups = testing::Types<SE2, SE3>;
+TYPED_TEST_SUITE(RobustLoopsOf, Groups);
+
+TYPED_TEST(RobustLoopsOf, AutoFindsExactlyTheFalseOnesLoneOrInAgreeingGroups) {
+  for (const RobustMethod method : {RobustMethod::kAuto, RobustMethod::kPcm})
+    for (const int cluster : {1, 4})
+      for (const int false_loops : {4, 100}) {
+        const LoopedWalk<TypeParam> walk(
+            {.false_loops = false_loops, .cluster = cluster, .seed = 3});
+        PoseGraph clean = walk.graph;
+        clean.constraints.resize(walk.true_constraints);
+        const PoseGraph best = optimize(clean, RobustMethod::kNone).graph;
+        const PoseGraphReport report = optimize(walk.graph, method);
+        EXPECT_TRUE(report.outcome) << report.outcome.reason;
+        EXPECT_EQ(report.rejected.size(), static_cast<std::size_t>(false_loops))
+            << "groups of " << cluster;
+        for (const RejectedEdge& edge : report.rejected)
+          EXPECT_GE(edge.constraint, static_cast<int>(walk.true_constraints));
+        EXPECT_LT(rms_distance<TypeParam>(report.graph, best), 1e-4);
+      }
+}
+
+TYPED_TEST(RobustLoopsOf, AutoGivesThePlainOptimumWhereNothingIsFalse) {
+  for (const double claimed : {0.005, 0.02, 0.2})
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const LoopedWalk<TypeParam> walk({.claimed = claimed, .seed = seed});
+      const PoseGraphReport plain = optimize(walk.graph, RobustMethod::kNone);
+      const PoseGraphReport report = optimize(walk.graph, RobustMethod::kAuto);
+      EXPECT_TRUE(report.rejected.empty()) << report.rejected.size() << " seed " << seed;
+      EXPECT_EQ(rms_distance<TypeParam>(report.graph, plain.graph), 0);
+    }
+}
+
+TYPED_TEST(RobustLoopsOf, NothingDependsOnTheOrderOfTheConstraints) {
+  const LoopedWalk<TypeParam> walk({.false_loops = 100, .cluster = 2, .seed = 5});
+  const PoseGraphReport report = optimize(walk.graph, RobustMethod::kAuto);
+  PoseGraph shuffled = walk.graph;
+  Random random(11);
+  for (std::size_t i = shuffled.constraints.size(); i > 1; --i)
+    std::swap(shuffled.constraints[i - 1], shuffled.constraints[random.index(static_cast<int>(i))]);
+  const PoseGraphReport again = optimize(shuffled, RobustMethod::kAuto);
+  EXPECT_EQ(ends_of_rejected(again), ends_of_rejected(report));
+  EXPECT_LT(rms_distance<TypeParam>(again.graph, report.graph), 1e-6);
+}
+
+TYPED_TEST(RobustLoopsOf, WhatAloneHoldsThePartsTogetherIsKept) {
+  LoopedWalk<TypeParam> walk({.nodes = 120, .false_loops = 20, .seed = 2});
+  for (Constraint& constraint : walk.graph.constraints) {  // the odometry breaks at 60
+    auto& relative = std::get<RelativePoseConstraint>(constraint);
+    if (relative.from == 59 && relative.to == 60) relative.source = ConstraintSource::kOther;
+  }
+  const PoseGraphReport report = optimize(walk.graph, RobustMethod::kAuto);
+  EXPECT_TRUE(report.outcome) << report.outcome.reason;
+  for (const PoseNode& node : report.graph.nodes)
+    EXPECT_TRUE(std::get<TypeParam>(node.T_world_node).translation().allFinite());
+  PoseGraph kept = report.graph;
+  std::set<int> rejected;
+  for (const RejectedEdge& edge : report.rejected) rejected.insert(edge.constraint);
+  kept.constraints.clear();
+  for (std::size_t i = 0; i < walk.graph.constraints.size(); ++i)
+    if (!rejected.contains(static_cast<int>(i)))
+      kept.constraints.push_back(walk.graph.constraints[i]);
+  for (const int component : kept.components()) EXPECT_EQ(component, 0);
+}
+
+}  // namespace
+}  // namespace placegraph
