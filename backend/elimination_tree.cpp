@@ -239,9 +239,11 @@ void EliminationTree<D>::restructure() {
 template <int D>
 void EliminationTree<D>::assemble(Front& front) {
   const int blocks = front.blocks(), rows = blocks * D;
-  front.matrix.assign(static_cast<std::size_t>(rows) * rows, 0.0);
+  front.matrix.resize(static_cast<std::size_t>(rows) * rows);
   front.rhs.resize(rows);
   double* const matrix = front.matrix.data();
+  for (int c = 0; c < rows; ++c)  // the lower blocks; what is above them is never read
+    std::fill_n(matrix + static_cast<std::size_t>(c) * rows + c / D * D, rows - c / D * D, 0.0);
   using Stride = Eigen::OuterStride<>;
   const auto at = [&](int row, int column) {
     return Eigen::Map<Block, 0, Stride>(

@@ -2,6 +2,17 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
+
+// The same code for the instructions that the processor has. Sanitizers do not know the dispatch.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define PLACEGRAPH_CLONES __attribute__((target_clones("arch=haswell", "default")))
+#define PLACEGRAPH_INLINE __attribute__((always_inline)) inline
+#else
+#define PLACEGRAPH_CLONES
+#define PLACEGRAPH_INLINE inline
+#endif
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -40,9 +51,9 @@ bool factorize_with_blas(double* matrix, int rows, int frontal) {
 /// Cholesky of the D columns that begin at `column` (their diagonal block at its top), rows below
 /// included.
 template <int D>
-bool factorize_panel(double* column, int rows, int below) {
+PLACEGRAPH_INLINE bool factorize_panel(double* column, int rows, int below) {
   for (int c = 0; c < D; ++c) {
-    double* const current = column + static_cast<std::size_t>(c) * rows;
+    double* __restrict const current = column + static_cast<std::size_t>(c) * rows;
     for (int p = 0; p < c; ++p) {
       const double* const done = column + static_cast<std::size_t>(p) * rows;
       const double factor = done[c];
@@ -55,26 +66,21 @@ bool factorize_panel(double* column, int rows, int below) {
   return true;
 }
 
-}  // namespace
-
 template <int D>
-bool FrontKernels<D>::factorize(double* matrix, int rows, int frontal) {
-  if (rows >= kBlasRows) return factorize_with_blas(matrix, rows, frontal);
+PLACEGRAPH_INLINE bool factorize_by_panels(double* matrix, int rows, int frontal) {
   for (int k = 0; k < frontal; k += D) {
     double* const panel = matrix + static_cast<std::size_t>(k) * rows + k;
     const int below = rows - k - D;
     if (!factorize_panel<D>(panel, rows, below)) return false;
     for (int j = 0; j < below; ++j) {
-      double* const target = matrix + static_cast<std::size_t>(k + D + j) * rows + k + D;
+      double* __restrict const target = matrix + static_cast<std::size_t>(k + D + j) * rows + k + D;
+      const double* const source = panel + D;
       double factor[D];
-      const double* source[D];
-      for (int c = 0; c < D; ++c) {
-        source[c] = panel + static_cast<std::size_t>(c) * rows + D;
-        factor[c] = source[c][j];
-      }
+      for (int c = 0; c < D; ++c) factor[c] = source[static_cast<std::size_t>(c) * rows + j];
       for (int i = j; i < below; ++i) {
         double sum = 0;
-        for (int c = 0; c < D; ++c) sum += factor[c] * source[c][i];
+        for (int c = 0; c < D; ++c)
+          sum += factor[c] * source[static_cast<std::size_t>(c) * rows + i];
         target[i] -= sum;
       }
     }
@@ -82,17 +88,20 @@ bool FrontKernels<D>::factorize(double* matrix, int rows, int frontal) {
   return true;
 }
 
-template <int D>
-void FrontKernels<D>::forward(const double* matrix, int rows, int frontal, double* b) {
-  if (rows >= kBlasRows) {
-    const int one = 1, below = rows - frontal;
-    const double plus = 1, minus = -1;
-    dtrsv_("L", "N", "N", &frontal, matrix, &rows, b, &one);
-    if (below > 0)
-      dgemv_("N", &below, &frontal, &minus, matrix + frontal, &rows, b, &one, &plus, b + frontal,
-             &one);
-    return;
-  }
+PLACEGRAPH_CLONES bool factorize_small(double* matrix, int rows, int frontal,
+                                       std::integral_constant<int, 3>) {
+  return factorize_by_panels<3>(matrix, rows, frontal);
+}
+PLACEGRAPH_CLONES bool factorize_small(double* matrix, int rows, int frontal,
+                                       std::integral_constant<int, 6>) {
+  return factorize_by_panels<6>(matrix, rows, frontal);
+}
+PLACEGRAPH_CLONES bool factorize_small(double* matrix, int rows, int frontal,
+                                       std::integral_constant<int, 7>) {
+  return factorize_by_panels<7>(matrix, rows, frontal);
+}
+
+PLACEGRAPH_CLONES void forward_small(const double* matrix, int rows, int frontal, double* b) {
   for (int k = 0; k < frontal; ++k) {
     const double* const column = matrix + static_cast<std::size_t>(k) * rows;
     const double y = b[k] /= column[k];
@@ -100,23 +109,46 @@ void FrontKernels<D>::forward(const double* matrix, int rows, int frontal, doubl
   }
 }
 
-template <int D>
-void FrontKernels<D>::backward(const double* matrix, int rows, int frontal, double* x) {
-  if (rows >= kBlasRows) {
-    const int one = 1, below = rows - frontal;
-    const double plus = 1, minus = -1;
-    if (below > 0)
-      dgemv_("T", &below, &frontal, &minus, matrix + frontal, &rows, x + frontal, &one, &plus, x,
-             &one);
-    dtrsv_("L", "T", "N", &frontal, matrix, &rows, x, &one);
-    return;
-  }
+PLACEGRAPH_CLONES void backward_small(const double* matrix, int rows, int frontal, double* x) {
   for (int k = frontal - 1; k >= 0; --k) {
     const double* const column = matrix + static_cast<std::size_t>(k) * rows;
-    double sum = x[k];
-    for (int i = k + 1; i < rows; ++i) sum -= column[i] * x[i];
-    x[k] = sum / column[k];
+    double sums[4] = {0, 0, 0, 0};
+    int i = k + 1;
+    for (; i + 4 <= rows; i += 4)
+      for (int l = 0; l < 4; ++l) sums[l] += column[i + l] * x[i + l];
+    for (; i < rows; ++i) sums[0] += column[i] * x[i];
+    x[k] = (x[k] - ((sums[0] + sums[1]) + (sums[2] + sums[3]))) / column[k];
   }
+}
+
+}  // namespace
+
+template <int D>
+bool FrontKernels<D>::factorize(double* matrix, int rows, int frontal) {
+  if (rows >= kBlasRows) return factorize_with_blas(matrix, rows, frontal);
+  return factorize_small(matrix, rows, frontal, std::integral_constant<int, D>());
+}
+
+template <int D>
+void FrontKernels<D>::forward(const double* matrix, int rows, int frontal, double* b) {
+  if (rows < kBlasRows) return forward_small(matrix, rows, frontal, b);
+  const int one = 1, below = rows - frontal;
+  const double plus = 1, minus = -1;
+  dtrsv_("L", "N", "N", &frontal, matrix, &rows, b, &one);
+  if (below > 0)
+    dgemv_("N", &below, &frontal, &minus, matrix + frontal, &rows, b, &one, &plus, b + frontal,
+           &one);
+}
+
+template <int D>
+void FrontKernels<D>::backward(const double* matrix, int rows, int frontal, double* x) {
+  if (rows < kBlasRows) return backward_small(matrix, rows, frontal, x);
+  const int one = 1, below = rows - frontal;
+  const double plus = 1, minus = -1;
+  if (below > 0)
+    dgemv_("T", &below, &frontal, &minus, matrix + frontal, &rows, x + frontal, &one, &plus, x,
+           &one);
+  dtrsv_("L", "T", "N", &frontal, matrix, &rows, x, &one);
 }
 
 template struct FrontKernels<3>;

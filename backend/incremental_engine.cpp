@@ -2,14 +2,24 @@
 #include <placegraph/backend/local_solver.h>
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
 namespace placegraph {
 namespace {
 
-/// Jacobians that are off by less than this share are as good as new ones.
-constexpr double kNegligibleChange = 1e-5;
+/// Steps go down the tree to where a node's share of the cost is below this part of what is
+/// allowed.
+constexpr double kThresholdShare = 0.005;
+/// An iteration that leaves more than this part of the predicted excess is slow: the model is off.
+constexpr double kSlow = 0.25;
+/// Edges whose Jacobians have changed by this share are then linearized anew, a tenth of that at
+/// the next time, and so on. A long chain bends far by little in each of its edges.
+constexpr double kFirstChange = 3e-4, kLastChange = 1e-8;
+/// Costs below are rounding.
+constexpr double kNoCost = 1e-12;
 
 }  // namespace
 
@@ -223,6 +233,13 @@ int IncrementalEngine<Group>::relinearize(const std::vector<int>& edges, double 
 }
 
 template <class Group>
+int IncrementalEngine<Group>::relinearize_all(double change) {
+  std::vector<int> all(edges_.size());
+  std::iota(all.begin(), all.end(), 0);
+  return relinearize(all, change);
+}
+
+template <class Group>
 double IncrementalEngine<Group>::cost() const {
   double cost = 0;
   for (const Edge& edge : edges_) cost += edge.cost;
@@ -273,40 +290,29 @@ bool IncrementalEngine<Group>::iterate(double threshold, IncrementalStep& step) 
 
 template <class Group>
 void IncrementalEngine<Group>::optimize(double excess, IncrementalStep& step) {
-  constexpr double kNoCost = 1e-12;
   step.cost = cost();
-  double before = 0, share = 0.02;
+  double share = kThresholdShare, change = kFirstChange;
+  double before = std::numeric_limits<double>::infinity();
   while (true) {
     set_gradients();
     factorize(step);
     step.predicted_excess = tree_.model_decrease();
     const double allowed = excess * step.cost + kNoCost;
-    if (!(step.predicted_excess > allowed)) return;
+    if (step.predicted_excess <= allowed) return;
     if (step.iterations >= options_.max_iterations) break;
-    // Where the model does not hold what it promised it is brought up to date.
-    const bool slow = step.iterations > 0 && step.predicted_excess > 0.25 * before;
-    if (slow) {
-      share *= 0.1;
-      std::vector<int> all(edges_.size());
-      for (std::size_t e = 0; e < all.size(); ++e) all[e] = static_cast<int>(e);
-      const int count = relinearize(all, kNegligibleChange);
-      step.edges_relinearized += count;
-      if (count > 0) {
-        before = step.predicted_excess * 1e9;
-        continue;
-      }
-    }
-    before = step.predicted_excess;
-    if (!iterate(share * allowed, step)) {
-      std::vector<int> all(edges_.size());
-      for (std::size_t e = 0; e < all.size(); ++e) all[e] = static_cast<int>(e);
-      const int count = relinearize(all, kNegligibleChange);
-      step.edges_relinearized += count;
-      if (count == 0) break;
-      before = 1e300;
+    const bool slow = step.predicted_excess > kSlow * before;
+    before = std::numeric_limits<double>::infinity();
+    if (!slow && iterate(share * allowed, step)) {
+      before = step.predicted_excess;
+      step.edges_relinearized += relinearize(visited_, options_.relinearization);
       continue;
     }
-    step.edges_relinearized += relinearize(visited_, options_.relinearization);
+    // The model does not hold what it promised: bring it up to date, and take more nodes along.
+    const int count = relinearize_all(change);
+    step.edges_relinearized += count;
+    if (!slow && count == 0 && change < kLastChange) break;
+    change *= 0.1;
+    share *= 0.1;
   }
   solve_from_scratch(step);
 }
@@ -340,7 +346,7 @@ void IncrementalEngine<Group>::solve_from_scratch(IncrementalStep& step) {
     all.push_back(static_cast<int>(n));
   }
   evaluate_around(all);
-  step.edges_relinearized += relinearize(visited_, kNegligibleChange);
+  step.edges_relinearized += relinearize(visited_, 0);
   set_gradients();
   factorize(step);
   step.predicted_excess = tree_.model_decrease();

@@ -76,6 +76,7 @@ class IncrementalEngine final : public IncrementalOptimizer::Engine {
   void evaluate_around(const std::vector<int>& nodes);
   void set_gradients();
   int relinearize(const std::vector<int>& edges, double change);
+  int relinearize_all(double change);
   void factorize(IncrementalStep& step);
   bool iterate(double threshold, IncrementalStep& step);
   void solve_from_scratch(IncrementalStep& step);
