@@ -21,11 +21,13 @@
 namespace placegraph::apps {
 namespace {
 
+/// In the order of PoseGraphStart.
+const std::vector<std::string> kStarts = {"auto", "file", "odometry", "chordal", "certified"};
 /// In the order of RobustMethod.
 const std::vector<std::string> kRobustMethods = {"none", "huber", "dcs", "gnc", "pcm", "auto"};
 
 struct Arguments {
-  std::string in, out, plot, cost = "log", engine = "native", robust = "none";
+  std::string in, out, plot, cost = "log", engine = "native", start = "auto", robust = "none";
   bool json = false, force = false, quiet = false, drop_rejected = false;
   GraphTask task;
 };
@@ -75,6 +77,22 @@ void describe_steps(std::vector<double> cpu_ms, Json& json) {
   json["step_cpu_ms_max"] = cpu_ms.back();
 }
 
+void describe_certificate(const GraphSolution& solution, Json& json) {
+  json["refined_from_certified"] = solution.refined_from_certified;
+  json["certified"] = solution.certificate && solution.certificate->certified;
+  json["certified_problem"] = nullptr;
+  if (!solution.certificate) return;
+  const ChordalIsotropicCertificate& certificate = *solution.certificate;
+  json["certified_problem"] = ChordalIsotropicCertificate::kProblem;
+  json["certificate_gap"] = certificate.relative_gap;
+  json["certificate_cost"] = certificate.cost;
+  json["certificate_cost_of_estimate"] = certificate.cost_of_estimate;
+  json["certificate_lower_bound"] = certificate.lower_bound;
+  json["smallest_eigenvalue"] = certificate.smallest_eigenvalue;
+  json["eigenvalue_scale"] = certificate.eigenvalue_scale;
+  json["certificate_cpu_ms"] = solution.certificate_cpu_ms;
+}
+
 Json describe(const Arguments& arguments, const Costs& before, const Costs& after,
               const GraphSolution& solution) {
   const char* const kinds[] = {"SE2", "SE3", "Sim3"};
@@ -83,6 +101,7 @@ Json describe(const Arguments& arguments, const Costs& before, const Costs& afte
   json["out"] = arguments.out;
   json["cost"] = arguments.cost;
   json["engine"] = arguments.engine;
+  json["start"] = solution.start;
   json["robust"] = arguments.robust;
   json["kind"] = kinds[static_cast<int>(solution.graph.kind())];
   json["nodes"] = solution.graph.nodes.size();
@@ -96,6 +115,7 @@ Json describe(const Arguments& arguments, const Costs& before, const Costs& afte
   json["cpu_ms"] = solution.cpu_ms;
   json["wall_ms"] = solution.wall_ms;
   json["peak_mb"] = solution.peak_mb;
+  describe_certificate(solution, json);
   describe_steps(solution.step_cpu_ms, json);
   json["rejected"] = solution.rejected.size();
   json["rejected_edges"] = rejected_edges(solution);
@@ -115,6 +135,12 @@ void print(const Arguments& arguments, const Json& json) {
              number("chi2_log"));
   if (!json["rejected_edges"].empty())
     fmt::print("  {} constraints rejected\n", json["rejected_edges"].size());
+  if (json.contains("certificate_gap"))
+    fmt::print(
+        "  {}: the isotropic chordal problem's minimum here lies at most {:.2g} above its "
+        "global one (smallest eigenvalue {:.3g})\n",
+        json["certified"].get<bool>() ? "certified" : "not certified", number("certificate_gap"),
+        number("smallest_eigenvalue"));
   if (json.contains("steps"))
     fmt::print("  {} steps of {:.2f} ms CPU on average, 95 % below {:.2f}, at most {:.2f}\n",
                json["steps"].get<int>(), number("step_cpu_ms_mean"), number("step_cpu_ms_p95"),
@@ -135,14 +161,18 @@ void draw(const Arguments& arguments, const PoseGraph& before, const GraphSoluti
   write_plot(arguments.plot, plot);
 }
 
+template <class Enum>
+Enum choice(const std::vector<std::string>& names, const std::string& name) {
+  return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
 void check(Arguments& arguments) {
   PoseGraphOptions& options = arguments.task.options;
   options.rotation_error =
       arguments.cost == "g2o" ? RotationError::kQuaternion : RotationError::kLog;
   options.engine = arguments.engine == "ceres" ? PoseGraphEngine::kCeres : PoseGraphEngine::kNative;
-  options.robust.method = static_cast<RobustMethod>(
-      std::find(kRobustMethods.begin(), kRobustMethods.end(), arguments.robust) -
-      kRobustMethods.begin());
+  options.start = choice<PoseGraphStart>(kStarts, arguments.start);
+  options.robust.method = choice<RobustMethod>(kRobustMethods, arguments.robust);
   options.check();
   require(
       !arguments.task.incremental || (arguments.robust == "none" && arguments.engine == "native"),
@@ -203,11 +233,16 @@ void add_optimize_command(CLI::App& app) {
   command->add_option("--engine", a.engine, "solver: native, or ceres (a second opinion)")
       ->check(CLI::IsMember({"native", "ceres"}))
       ->capture_default_str();
+  command->add_option("--start", a.start, "where the descent begins; auto goes as far as it must")
+      ->check(CLI::IsMember(kStarts))
+      ->capture_default_str();
   command->add_option("--robust", a.robust, "what is done against false loops")
       ->check(CLI::IsMember(kRobustMethods))
       ->capture_default_str();
   command->add_option("--iterations", a.task.options.max_iterations, "at most")
       ->capture_default_str();
+  command->add_flag("--certify", a.task.certify,
+                    "prove how far the isotropic chordal problem is from its global minimum");
   command->add_flag("--incremental", a.task.incremental,
                     "let the graph grow pose by pose, as it would on a robot");
   command->add_flag("--components", a.task.split,

@@ -30,6 +30,7 @@ PoseGraphReport optimize_growing(const PoseGraph& graph, const GraphTask& task, 
   report.outcome = replay.outcome;
   report.iterations = replay.iterations;
   report.graph = std::move(replay.graph);
+  report.start_used = PoseGraphStart::kOdometry;
   return report;
 }
 
@@ -40,6 +41,8 @@ PoseGraphReport optimize(PoseGraph graph, const GraphTask& task, const LogSink& 
                                : optimize_pose_graph(std::move(graph), task.options, log);
   if (!report.outcome) throw NoAnswer(report.outcome.reason);
   solution.iterations += report.iterations;
+  solution.start = to_string(report.start_used);
+  solution.refined_from_certified = report.refined_from_certified;
   return report;
 }
 
@@ -74,6 +77,28 @@ void solve_parts(PoseGraph graph, const GraphTask& task, const LogSink& log,
             [](const auto& a, const auto& b) { return a.constraint < b.constraint; });
 }
 
+template <class Group>
+ChordalIsotropicCertificate certify(const GraphSolution& solution, RotationError rotation_error) {
+  PackedGraph<Group> packed = pack<Group>(solution.graph);
+  std::vector<char> rejected(solution.graph.constraints.size());
+  for (const RejectedEdge& edge : solution.rejected) rejected[edge.constraint] = true;
+  for (auto& edge : packed.edges)
+    if (rejected[edge.constraint]) edge.weight = 0;
+  return certify_chordal_isotropic(packed, rotation_error);
+}
+
+ChordalIsotropicCertificate certify(const GraphSolution& solution, RotationError rotation_error) {
+  switch (solution.graph.kind()) {
+    case PoseKind::kSE2:
+      return certify<SE2>(solution, rotation_error);
+    case PoseKind::kSE3:
+      return certify<SE3>(solution, rotation_error);
+    case PoseKind::kSim3:
+      break;
+  }
+  return certify<Sim3>(solution, rotation_error);
+}
+
 }  // namespace
 
 GraphSolution solve(PoseGraph graph, const GraphTask& task, const LogSink& log) {
@@ -83,6 +108,11 @@ GraphSolution solve(PoseGraph graph, const GraphTask& task, const LogSink& log) 
   solution.cpu_ms = stopwatch.cpu_ms();
   solution.wall_ms = stopwatch.wall_ms();
   solution.peak_mb = peak_mb();
+  if (task.certify) {
+    const Stopwatch certifying;
+    solution.certificate = certify(solution, task.options.rotation_error);
+    solution.certificate_cpu_ms = certifying.cpu_ms();
+  }
   return solution;
 }
 

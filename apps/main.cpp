@@ -13,6 +13,7 @@
 #include "apps/cmd_optimize.h"
 #include "apps/cmd_run.h"
 #include "apps/cmd_synth.h"
+#include "apps/cmd_synth_graph.h"
 #include "apps/help.h"
 #include "apps/output.h"
 
@@ -43,6 +44,7 @@ int main(int argc, char** argv) {
     add_optimize_command(app);
     add_run_command(app);
     add_synth_command(app);
+    add_synth_graph_command(app);
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -182,6 +182,36 @@ TEST_F(OptimizeCli, TakesEveryRobustMethod) {
   }
 }
 
+TEST_F(OptimizeCli, BeginsWhereItIsToldTo) {
+  write_file(dir / "ring.g2o", ring(30));
+  for (const char* start : {"auto", "file", "odometry", "chordal", "certified"}) {
+    const json report = optimized(std::string("ring.g2o -o out.g2o --start ") + start);
+    EXPECT_LT(report.at("chi2_log"), 1e-6) << start;
+    if (start != std::string("auto")) EXPECT_EQ(report.at("start"), start);
+    EXPECT_EQ(report.at("refined_from_certified"), report.at("start") == "certified");
+  }
+}
+
+TEST_F(OptimizeCli, CertifiesTheIsotropicChordalProblemAndClaimsNoMore) {
+  write_file(dir / "ring.g2o", ring(30));
+  const json report = optimized("ring.g2o -o out.g2o --certify");
+  EXPECT_EQ(report.at("certified"), true);
+  EXPECT_EQ(report.at("certified_problem"), "chordal_isotropic");
+  for (const char* key :
+       {"certificate_gap", "smallest_eigenvalue", "certificate_lower_bound", "certificate_cpu_ms"})
+    EXPECT_TRUE(report.at(key).is_number()) << key;
+  EXPECT_THAT(run("optimize ring.g2o -o out.g2o --certify --force").out,
+              HasSubstr("\n  certified"));
+  const json without = optimized("ring.g2o -o out.g2o");
+  EXPECT_EQ(without.at("certified"), false);
+  EXPECT_TRUE(without.at("certified_problem").is_null());
+}
+
+TEST_F(OptimizeCli, CertifiesWithoutTheLoopsThatWereRejected) {
+  write_file(dir / "false.g2o", ring(40, 0, {{3, 21}}));
+  EXPECT_EQ(optimized("false.g2o -o out.g2o --robust gnc --certify").at("certified"), true);
+}
+
 TEST_F(OptimizeCli, LetsAGraphGrowAndReportsItsSteps) {
   write_file(dir / "ring.g2o", ring(30) + ring(12, 100));
   const json report = optimized("ring.g2o -o out.g2o --incremental --components");

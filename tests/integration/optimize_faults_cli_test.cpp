@@ -95,6 +95,7 @@ TEST_F(OptimizeFaults, RefusesBadOptions) {
   expect_usage_error("optimize in.g2o -o out.g2o --cost euler", "euler");
   expect_usage_error("optimize in.g2o -o out.g2o --engine steam", "steam");
   expect_usage_error("optimize in.g2o -o out.g2o --robust magic", "magic");
+  expect_usage_error("optimize in.g2o -o out.g2o --start nowhere", "nowhere");
   expect_usage_error("optimize in.g2o -o out.g2o --iterations 0", "max_iterations");
   expect_usage_error("optimize in.g2o -o out.g2o --iterations many", "--iterations");
   expect_usage_error("optimize in.g2o -o out.g2o --plot out.gif", ".png or .svg");
@@ -130,7 +131,7 @@ TEST_F(OptimizeFaults, EndsWithOneWhereNumbersOverflow) {
 }
 
 TEST_F(OptimizeFaults, GrowsNoGraphTheWayOthersAreSolved) {
-  for (const char* flag : {"--engine ceres", "--robust gnc"})
+  for (const char* flag : {"--engine ceres", "--robust gnc", "--start chordal"})
     expect_usage_error(std::string("optimize in.g2o -o out.g2o --incremental ") + flag,
                        "--incremental goes with");
 }
