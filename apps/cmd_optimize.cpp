@@ -21,13 +21,17 @@
 namespace placegraph::apps {
 namespace {
 
-/// In the order of PoseGraphStart.
-const std::vector<std::string> kStarts = {"auto", "file", "odometry", "chordal", "certified"};
-/// In the order of RobustMethod.
-const std::vector<std::string> kRobustMethods = {"none", "huber", "dcs", "gnc", "pcm", "auto"};
+/// A choice among the options of the backend, by its path: its names and default stand there.
+OptionEntry backend_option(const std::string& path) {
+  for (OptionEntry& entry : list_options(PoseGraphOptions()))
+    if (entry.path == path) return entry;
+  throw ArgumentError("no option of the backend: " + path);
+}
 
 struct Arguments {
-  std::string in, out, plot, cost = "log", engine = "native", start = "auto", robust = "none";
+  std::string in, out, plot, cost = "log";
+  std::string engine = backend_option("engine").value, start = backend_option("start").value,
+              robust = backend_option("robust.method").value;
   bool json = false, force = false, quiet = false, drop_rejected = false;
   GraphTask task;
 };
@@ -161,8 +165,10 @@ void draw(const Arguments& arguments, const PoseGraph& before, const GraphSoluti
   write_plot(arguments.plot, plot);
 }
 
+/// The value of a choice by its name, which the command line has checked.
 template <class Enum>
-Enum choice(const std::vector<std::string>& names, const std::string& name) {
+Enum chosen(const std::string& path, const std::string& name) {
+  const std::vector<std::string> names = backend_option(path).choices;
   return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
@@ -170,9 +176,9 @@ void check(Arguments& arguments) {
   PoseGraphOptions& options = arguments.task.options;
   options.rotation_error =
       arguments.cost == "g2o" ? RotationError::kQuaternion : RotationError::kLog;
-  options.engine = arguments.engine == "ceres" ? PoseGraphEngine::kCeres : PoseGraphEngine::kNative;
-  options.start = choice<PoseGraphStart>(kStarts, arguments.start);
-  options.robust.method = choice<RobustMethod>(kRobustMethods, arguments.robust);
+  options.engine = chosen<PoseGraphEngine>("engine", arguments.engine);
+  options.start = chosen<PoseGraphStart>("start", arguments.start);
+  options.robust.method = chosen<RobustMethod>("robust.method", arguments.robust);
   options.check();
   require(
       !arguments.task.incremental || (arguments.robust == "none" && arguments.engine == "native"),
@@ -188,6 +194,8 @@ void run(Arguments arguments) {
   check(arguments);
   PoseGraph start = read_pose_graph(arguments.in, {.connected = !arguments.task.split});
   const Costs before = costs_of(start);
+  if (!std::isfinite(before.g2o + before.log))
+    throw FileError(arguments.in, "the cost at the given poses is not finite: numbers too large");
   const PoseGraph drawn = arguments.plot.empty() ? PoseGraph() : start;
   LogSink log;
   if (!arguments.quiet)
@@ -231,13 +239,13 @@ void add_optimize_command(CLI::App& app) {
       ->check(CLI::IsMember({"log", "g2o"}))
       ->capture_default_str();
   command->add_option("--engine", a.engine, "solver: native, or ceres (a second opinion)")
-      ->check(CLI::IsMember({"native", "ceres"}))
+      ->check(CLI::IsMember(backend_option("engine").choices))
       ->capture_default_str();
   command->add_option("--start", a.start, "where the descent begins; auto goes as far as it must")
-      ->check(CLI::IsMember(kStarts))
+      ->check(CLI::IsMember(backend_option("start").choices))
       ->capture_default_str();
   command->add_option("--robust", a.robust, "what is done against false loops")
-      ->check(CLI::IsMember(kRobustMethods))
+      ->check(CLI::IsMember(backend_option("robust.method").choices))
       ->capture_default_str();
   command->add_option("--iterations", a.task.options.max_iterations, "at most")
       ->capture_default_str();
