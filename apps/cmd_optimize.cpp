@@ -181,8 +181,9 @@ void check(Arguments& arguments) {
   options.robust.method = chosen<RobustMethod>("robust.method", arguments.robust);
   options.check();
   require(
-      !arguments.task.incremental || (arguments.robust == "none" && arguments.engine == "native"),
-      "--incremental goes with --engine native and --robust none");
+      !arguments.task.incremental ||
+          (arguments.robust == "none" && arguments.engine == "native" && arguments.start == "auto"),
+      "--incremental goes with --engine native, --robust none and --start auto");
   require_plot_name(arguments.plot);
   require(arguments.plot.empty() || arguments.plot != arguments.out,
           "--plot: " + arguments.plot + " is where the graph is to be written");
