@@ -318,4 +318,12 @@ std::optional<Matrix6d> SlidingWindow::covariance(std::int64_t keyframe) const {
   return inverse_if_full(absolute_information(impl_->state, keyframe));
 }
 
+double SlidingWindow::sigma_log_length_ratio(std::int64_t first, std::int64_t middle,
+                                             std::int64_t last) const {
+  for (const std::int64_t id : {first, middle, last}) impl_->keyframe(id);
+  require(first != middle && middle != last && first != last,
+          "sliding window: a ratio of lengths needs three keyframes");
+  return placegraph::sigma_log_length_ratio(impl_->state, first, middle, last);
+}
+
 }  // namespace placegraph

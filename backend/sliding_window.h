@@ -149,6 +149,10 @@ class SlidingWindow {
   /// direction is unobservable, and nothing once the way back to that frame is lost: where all that
   /// a leaving keyframe saw was still in view, the next one has to be held in its place.
   std::optional<Matrix6d> covariance(std::int64_t keyframe) const;
+  /// Standard deviation of log(|t_middle_last| / |t_first_middle|) between three keyframes of the
+  /// window: how well it holds its unit of length where nothing measures that. The gauge plays no
+  /// part in it. Infinite if two of the three stand in one point.
+  double sigma_log_length_ratio(std::int64_t first, std::int64_t middle, std::int64_t last) const;
 
  private:
   struct Impl;

@@ -75,4 +75,8 @@ Eigen::MatrixXd joint_information(const WindowState& state,
 /// The information of a keyframe's pose in the map, all else marginalized.
 Matrix6d absolute_information(const WindowState& state, std::int64_t keyframe);
 
+/// See SlidingWindow::sigma_log_length_ratio (window_lengths.cpp).
+double sigma_log_length_ratio(const WindowState& state, std::int64_t first, std::int64_t middle,
+                              std::int64_t last);
+
 }  // namespace placegraph

@@ -14,6 +14,17 @@ const Keyframe* Map::find_keyframe(std::int64_t id) const {
   return nullptr;
 }
 
+Sim3 Map::S_map_keyframe(std::int64_t id) const {
+  const Keyframe* keyframe = find_keyframe(id);
+  if (!keyframe) throw ArgumentError("map: keyframe " + std::to_string(id) + " is not there");
+  const Place* place = place_graph.find(keyframe->place);
+  if (!place)
+    throw ArgumentError("map: keyframe " + std::to_string(id) + " hangs on place " +
+                        std::to_string(keyframe->place) + ", which is not there");
+  return place->S_map_place() *
+         PlaceMember{id, keyframe->T_place_keyframe, keyframe->scale}.S_place_keyframe();
+}
+
 Trajectory Map::trajectory_optimized() const {
   // Poses of other components than the first are in frames of their own.
   const std::vector<int> component = place_graph.joined_components();
@@ -41,9 +52,14 @@ Trajectory Map::trajectory_optimized() const {
       throw ArgumentError("map: keyframe " + std::to_string(record.keyframe) + " hangs on place " +
                           std::to_string(keyframe->second->place) + ", which is not there");
     if (!belongs.at(place->first)) continue;
-    pose.T_world_body =
-        (place->second->T_map_place * keyframe->second->T_place_keyframe * *record.T_keyframe_frame)
-            .isometry();
+    // The scale moves positions; a camera's own pose has none.
+    const Keyframe& at = *keyframe->second;
+    const Sim3 S_map_keyframe =
+        place->second->S_map_place() *
+        PlaceMember{at.id, at.T_place_keyframe, at.scale}.S_place_keyframe();
+    pose.T_world_body = SE3(S_map_keyframe.rotation() * record.T_keyframe_frame->rotation(),
+                            S_map_keyframe * record.T_keyframe_frame->translation())
+                            .isometry();
   }
   return trajectory;
 }

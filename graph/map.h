@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-/// A keyframe as the map keeps it; its pose is its place's times T_place_keyframe.
+/// A keyframe as the map keeps it: its pose hangs on its place's, see PlaceMember.
 struct Keyframe {
   std::int64_t id = 0;
   std::int64_t frame = 0;
@@ -12,6 +12,7 @@ struct Keyframe {
   std::int64_t place = 0;
   SE3 T_place_keyframe;
   std::vector<Feature> features;
+  double scale = 1;  ///< length at the place of one unit of length at the keyframe
 };
 
 /// Every input frame, relative to its keyframe; nothing where it is lost.
@@ -43,6 +44,13 @@ struct Map {
   Trajectory trajectory_online;  ///< as each frame's pose stood when the frame had been processed
 
   const Keyframe* find_keyframe(std::int64_t id) const;
+  /// p_map = S_map_keyframe * p for points and camera positions p in the keyframe's frame and unit.
+  /// Throws ArgumentError if the keyframe or its place is not in the map.
+  Sim3 S_map_keyframe(std::int64_t keyframe) const;
+  /// Where a landmark stands in the map; throws as S_map_keyframe.
+  Eigen::Vector3d position(const PointLandmark& landmark) const {
+    return S_map_keyframe(landmark.keyframe) * landmark.point_cam;
+  }
   /// Every frame's pose through keyframe and place, T_map_cam. Frames of other components than the
   /// first are posed only if constraints join them to it; otherwise they count as lost here. Throws
   /// ArgumentError if a posed frame's keyframe or that one's place is not in the map.

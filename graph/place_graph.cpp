@@ -35,12 +35,15 @@ std::vector<int> PlaceGraph::joined_components() const {
 
 PoseGraph PlaceGraph::pose_graph() const {
   PoseGraph graph;
+  const bool scaled =
+      !constraints.empty() && kind_of(constraints.front().T_from_to) == PoseKind::kSim3;
   const std::vector<int> component = joined_components();
   int seen = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const bool first = component[i] == seen;
     seen += first;
-    graph.nodes.push_back({places[i].id, places[i].T_map_place, first});
+    const Pose pose = scaled ? Pose(places[i].S_map_place()) : Pose(places[i].T_map_place);
+    graph.nodes.push_back({places[i].id, pose, first});
   }
   graph.constraints.assign(constraints.begin(), constraints.end());
   return graph;
@@ -52,8 +55,14 @@ void PlaceGraph::set_poses(const PoseGraph& optimized) {
     const int node = index.find(place.id);
     if (node == NodeIndex::kNone)
       throw ArgumentError("place graph: the pose graph lacks place " + std::to_string(place.id));
-    const SE3* T_map_place = std::get_if<SE3>(&optimized.nodes[node].T_world_node);
-    require(T_map_place, "place graph: the pose graph is not over SE(3)");
+    const Pose& pose = optimized.nodes[node].T_world_node;
+    if (const Sim3* S_map_place = std::get_if<Sim3>(&pose)) {
+      place.T_map_place = SE3(S_map_place->rotation(), S_map_place->translation());
+      place.scale = S_map_place->scale();
+      continue;
+    }
+    const SE3* T_map_place = std::get_if<SE3>(&pose);
+    require(T_map_place, "place graph: the pose graph is neither over SE(3) nor over Sim(3)");
     place.T_map_place = *T_map_place;
   }
 }

@@ -8,10 +8,16 @@
 
 namespace placegraph {
 
-/// A keyframe hangs on its place: moving the place moves the keyframe.
+/// A keyframe hangs on its place: moving the place moves the keyframe. Lengths that the keyframe
+/// measured (landmarks, the way to other frames) grow by `scale` to the place's unit.
 struct PlaceMember {
   std::int64_t keyframe = 0;
   SE3 T_place_keyframe;
+  double scale = 1;
+
+  Sim3 S_place_keyframe() const {
+    return {T_place_keyframe.rotation(), T_place_keyframe.translation(), scale};
+  }
 };
 
 /// How a place looks: tf-idf weights of visual words, L1-normalized, by ascending word.
@@ -19,7 +25,9 @@ struct Appearance {
   std::vector<std::pair<std::uint32_t, float>> words;
 };
 
-/// A topological place: the frame of its anchor keyframe, and what was seen from there.
+/// A topological place: the frame of its anchor keyframe, and what was seen from there. Where
+/// nothing measures lengths (a single eye), every place has a unit of its own; `scale` makes it the
+/// map's.
 struct Place {
   std::int64_t id = 0;
   std::int64_t anchor_keyframe = 0;
@@ -28,9 +36,13 @@ struct Place {
   std::vector<PlaceMember> members;  ///< the anchor is the first, at identity
   Appearance appearance;
   std::vector<std::string> labels;
+  double scale = 1;  ///< length in the map of one unit of length at the place
+
+  Sim3 S_map_place() const { return {T_map_place.rotation(), T_map_place.translation(), scale}; }
 };
 
-/// Places and the constraints between them; ids of constraint nodes are place ids.
+/// Places and the constraints between them; ids of constraint nodes are place ids. Constraints are
+/// over SE(3), or, where scales are to be estimated too, all over Sim(3).
 struct PlaceGraph {
   std::vector<Place> places;
   std::vector<RelativePoseConstraint> constraints;
@@ -39,8 +51,8 @@ struct PlaceGraph {
   /// For every place the number of its component after joining: places of one `component` and
   /// places that a constraint joins belong together. Numbers count from 0 in the order of `places`.
   std::vector<int> joined_components() const;
-  /// The same as a pose graph over SE(3); the first place of every joined component is
-  /// fixed.
+  /// The same as a pose graph over SE(3), or Sim(3) if the constraints are; the first place of
+  /// every joined component is fixed.
   PoseGraph pose_graph() const;
   /// Takes over the node poses of an optimized `pose_graph()`.
   void set_poses(const PoseGraph& optimized);

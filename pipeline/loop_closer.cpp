@@ -33,6 +33,8 @@ void visit(OptionVisitor& field, LoopOptions& o) {
         "of the odometry over the median depth plus the way since the match", {0.001, 10});
   field("drift_angle_deg", o.drift_angle_deg, "of the odometry, per median depth of way",
         {0.001, 180});
+  field("drift_scale", o.drift_scale, "of the unit of one eye (logarithm), per median depth of way",
+        {0, 10});
   field("information_scale", o.information_scale,
         "share of a loop's information that counts: feature noise is correlated", {1e-6, 1});
 }
@@ -91,43 +93,56 @@ bool LoopCloser::agree(const Loop& a, const Loop& b, const MotionBetween& odomet
   const auto queries = odometry(a.query, b.query);
   const auto matches = odometry(a.match, b.match);
   if (!queries || !matches) return false;
-  const SE3 predicted = matches->T_a_b.inverse() * a.T_match_query * queries->T_a_b;
-  const SE3 difference = predicted.inverse() * b.T_match_query;
-  return difference.translation().norm() <
-             options_.support_translation * (median_depth_m + queries->way + matches->way) &&
-         difference.rotation().log().norm() < options_.support_angle_deg * M_PI / 180;
+  const Sim3 predicted = Sim3(matches->T_a_b.inverse()) * a.S_match_query() * Sim3(queries->T_a_b);
+  // In the query's unit, as the median depth is.
+  const Sim3 difference = predicted.inverse() * b.S_match_query();
+  const double way = queries->way + matches->way / predicted.scale();
+  return difference.translation().norm() < options_.support_translation * (median_depth_m + way) &&
+         difference.rotation().log().norm() < options_.support_angle_deg * M_PI / 180 &&
+         std::abs(std::log(difference.scale())) < options_.verifier.max_scale_error;
+}
+
+/// Whether the odometry can have drifted from the loop to where it says it is.
+bool LoopCloser::within_drift(const Loop& loop, const MotionBetween& odometry,
+                              double median_depth_m, bool free_scale) const {
+  const auto tracked = odometry(loop.match, loop.query);
+  if (!tracked) return true;
+  const SE3 difference = tracked->T_a_b.inverse() * loop.T_match_query;
+  const double distance = tracked->T_a_b.translation().norm();
+  const double depths = tracked->way / median_depth_m;
+  // What drifts grows with the way, and a wrong heading bends the way itself.
+  const double angle_rad =
+      (options_.support_angle_deg + options_.drift_angle_deg * depths) * M_PI / 180;
+  double length = options_.drift_translation * (median_depth_m + tracked->way) +
+                  std::min(angle_rad, M_PI) * 0.5 * distance;
+  if (free_scale) {
+    const double log_scale = options_.verifier.max_scale_error + options_.drift_scale * depths;
+    if (std::abs(std::log(loop.scale_match_query)) > log_scale) return false;
+    // A unit that changed underway leaves a round trip open by a share of the way.
+    length += std::abs(std::expm1(std::log(loop.scale_match_query))) * tracked->way;
+  }
+  return difference.translation().norm() <= length &&
+         difference.rotation().log().norm() <= angle_rad;
 }
 
 /// Verifies one candidate of the newest view; a loop that passes is appended to pending_.
 LoopRecord LoopCloser::verify(const PlaceCandidate& candidate, const MotionBetween& odometry,
-                              double median_depth_m) {
+                              double median_depth_m, bool free_scale) {
   const View& query = views_.back();
   const View& match = *find_view(candidate.id);
   LoopRecord record{query.frame, match.frame, 0, false, "geometry", {}};
   Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | candidate.id);
-  const LoopVerification verified =
-      verify_loop(calibration_.camera, query.features, match.features, options_.verifier, random);
+  const LoopVerification verified = verify_loop(calibration_.camera, query.features, match.features,
+                                                options_.verifier, random, free_scale);
   record.inliers = verified.inliers;
   if (!verified.outcome) return record;
   record.stage = "drift";
   record.T_match_query = verified.T_match_query;
-  if (const auto tracked = odometry(match.keyframe, query.keyframe)) {
-    const SE3 difference = tracked->T_a_b.inverse() * verified.T_match_query;
-    // What drifts grows with the way, and a wrong heading bends the way itself.
-    const double angle_rad =
-        (options_.support_angle_deg + options_.drift_angle_deg * tracked->way / median_depth_m) *
-        M_PI / 180;
-    const double length = options_.drift_translation * (median_depth_m + tracked->way) +
-                          std::min(angle_rad, M_PI) * 0.5 * tracked->T_a_b.translation().norm();
-    if (difference.translation().norm() > length || difference.rotation().log().norm() > angle_rad)
-      return record;
-  }
+  const Loop loop{query.keyframe, match.keyframe, verified.T_match_query,
+                  options_.information_scale * verified.information, verified.scale_match_query};
+  if (!within_drift(loop, odometry, median_depth_m, free_scale)) return record;
   record.stage = "support";
-  pending_.push_back({{query.keyframe, match.keyframe, verified.T_match_query,
-                       options_.information_scale * verified.information},
-                      records_.size(),
-                      views_.size(),
-                      false});
+  pending_.push_back({loop, records_.size(), views_.size(), false});
   return record;
 }
 
@@ -139,7 +154,8 @@ void LoopCloser::accept(Pending& pending, std::vector<Loop>& accepted) {
   accepted.push_back(pending.loop);
 }
 
-std::vector<Loop> LoopCloser::find_loops(const MotionBetween& odometry, double median_depth_m) {
+std::vector<Loop> LoopCloser::find_loops(const MotionBetween& odometry, double median_depth_m,
+                                         const UnitsDiffer& units_differ) {
   std::vector<Loop> accepted;
   const View& query = views_.back();
   const double similarity_to_last =
@@ -154,7 +170,8 @@ std::vector<Loop> LoopCloser::find_loops(const MotionBetween& odometry, double m
       records_.push_back({query.frame, find_view(candidate.id)->frame, 0, false, "retrieval", {}});
       break;  // the rest is less similar still
     }
-    records_.push_back(verify(candidate, odometry, median_depth_m));
+    const bool free_scale = units_differ && units_differ(candidate.id, query.keyframe);
+    records_.push_back(verify(candidate, odometry, median_depth_m, free_scale));
     if (records_.back().stage != "support") continue;
     Pending& found = pending_.back();
     for (Pending& other : pending_) {

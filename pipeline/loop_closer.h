@@ -4,6 +4,7 @@
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/pipeline/loop.h>
 #include <placegraph/pipeline/tracked_motion.h>
 
 #include <deque>
@@ -25,17 +26,11 @@ struct LoopOptions {
   double support_angle_deg = 2;
   double drift_translation = 0.015;  ///< of the odometry / (median depth + way since the match)
   double drift_angle_deg = 1;        ///< of the odometry, per median depth of way
-  double information_scale = 0.1;    ///< feature noise is correlated: information counts this much
+  double drift_scale = 0.03;       ///< of the unit of one eye (logarithm), per median depth of way
+  double information_scale = 0.1;  ///< feature noise is correlated: information counts this much
   void check() const;
 };
 void visit(OptionVisitor& field, LoopOptions& options);
-
-/// A verified revisit between two keyframes.
-struct Loop {
-  std::int64_t query = 0, match = 0;  ///< keyframe ids
-  SE3 T_match_query;
-  Matrix6d information = Matrix6d::Zero();
-};
 
 /// Spatial memory: describes keyframes, finds revisits by appearance, verifies them by geometry,
 /// and lets one into the graph only when a second, independent one agrees with it.
@@ -53,8 +48,12 @@ class LoopCloser {
   /// tracking, gives depth to the features both see.
   void add_view(std::int64_t keyframe, const Frame& frame,
                 const std::optional<SE3>& T_previous_this);
-  /// Revisits that the newest view completes.
-  std::vector<Loop> find_loops(const MotionBetween& odometry, double median_depth_m);
+  /// Whether two keyframes have units of length of their own, so that a loop between them must tell
+  /// their ratio.
+  using UnitsDiffer = std::function<bool(std::int64_t match, std::int64_t query)>;
+  /// Revisits that the newest view completes; without `units_differ` all lengths are of one unit.
+  std::vector<Loop> find_loops(const MotionBetween& odometry, double median_depth_m,
+                               const UnitsDiffer& units_differ = {});
   /// Where a frame stands relative to a known keyframe: T_match_query of the frame; `query` is -1,
   /// as the frame is no keyframe.
   std::optional<Loop> relocalize(const Frame& frame);
@@ -74,7 +73,9 @@ class LoopCloser {
     bool accepted;
   };
   LoopRecord verify(const PlaceCandidate& candidate, const MotionBetween& odometry,
-                    double median_depth_m);
+                    double median_depth_m, bool free_scale);
+  bool within_drift(const Loop& loop, const MotionBetween& odometry, double median_depth_m,
+                    bool free_scale) const;
   bool agree(const Loop& a, const Loop& b, const MotionBetween& odometry,
              double median_depth_m) const;
   void accept(Pending& pending, std::vector<Loop>& accepted);

@@ -309,7 +309,7 @@ void Odometry::refine_window() {
        i + 1 < keyframes.size() &&
        keyframes.size() - i > static_cast<std::size_t>(options_.window.max_keyframes);
        ++i)
-    links_[keyframes[i]] = window_.relative_information(keyframes[i], keyframes[i + 1]);
+    links_[keyframes[i]] = {motion_information(keyframes[i], keyframes[i + 1]), unit_drift()};
   std::vector<PointLandmark> before;
   if (keyframes.size() > static_cast<std::size_t>(options_.window.max_keyframes))
     for (const std::int64_t id : window_.landmarks())
@@ -319,9 +319,39 @@ void Odometry::refine_window() {
     if (!window_.landmark(landmark.id)) past_landmarks_.push_back(landmark);
 }
 
-Matrix6d Odometry::link_information(std::int64_t id) const {
+Odometry::Link Odometry::link(std::int64_t id) const {
   const auto link = links_.find(id);
-  return link != links_.end() ? link->second : window_.relative_information(id, id + 1);
+  if (link != links_.end()) return link->second;
+  return {motion_information(id, id + 1), unit_drift()};
+}
+
+/// Of the unit of length (logarithm), from one keyframe to the next: half a window's worth, spread
+/// over its links. The landmarks that both halves see hold it.
+double Odometry::unit_drift() const {
+  if (scale_known_) return 0;
+  constexpr double kMost = 0.1;
+  const auto ids = window_.keyframes();
+  if (ids.size() < 3) return kMost;
+  const double sigma = window_.sigma_log_length_ratio(ids.front(), ids[ids.size() / 2], ids.back());
+  return std::min(kMost, sigma / std::sqrt(0.5 * static_cast<double>(ids.size() - 1)));
+}
+
+Matrix6d Odometry::motion_information(std::int64_t from, std::int64_t to) const {
+  Matrix6d information = window_.relative_information(from, to);
+  if (scale_known_) return information;
+  // The prior's hold on the unit is arbitrary and common to all motions: no error of this one.
+  const SE3 T_from_to = window_.pose(from).inverse() * window_.pose(to);
+  const double length = T_from_to.translation().norm();
+  if (!(length > 0)) return information;
+  const Eigen::Vector3d along = T_from_to.rotation().inverse() * T_from_to.translation() / length;
+  const double sigma = std::max(1e-3, unit_drift()) * length;
+  information.topLeftCorner<3, 3>() += along * along.transpose() / (sigma * sigma);
+  return information;
+}
+
+std::int64_t Odometry::window_begin() const {
+  const auto ids = window_.keyframes();
+  return ids.empty() ? -1 : ids.front();
 }
 
 PointLandmark Odometry::describe_landmark(std::int64_t id) const {

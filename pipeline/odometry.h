@@ -85,9 +85,20 @@ class Odometry {
   SE3 keyframe_pose(std::int64_t id) const { return keyframe_poses_.at(id); }
   /// First keyframe of the present run of tracking.
   std::int64_t first_keyframe() const { return first_keyframe_; }
-  /// Information of the motion between keyframes `id` and `id` + 1.
-  Matrix6d link_information(std::int64_t id) const;
-  /// Whether that is final: one of the two has left the window.
+  /// What is known of the motion between keyframes `id` and `id` + 1. Where the unit of length is
+  /// not measured, the motion's length counts as known in the unit of `id`, and `sigma_log_scale`
+  /// is how far the unit may have changed by `id` + 1.
+  struct Link {
+    Matrix6d information = Matrix6d::Zero();  ///< right tangent of T_id_next
+    double sigma_log_scale = 0;
+  };
+  Link link(std::int64_t id) const;
+  /// The same information of the motion between any two keyframes of the window, everything between
+  /// them marginalized.
+  Matrix6d motion_information(std::int64_t from, std::int64_t to) const;
+  /// The oldest keyframe of the window; -1 while there is none.
+  std::int64_t window_begin() const;
+  /// Whether the link is final: one of the two has left the window.
   bool link_is_final(std::int64_t id) const { return links_.count(id) > 0; }
   /// All landmarks of all runs of tracking, each relative to the keyframe that first saw it.
   std::vector<PointLandmark> landmarks() const;
@@ -118,6 +129,7 @@ class Odometry {
   void observe_tracks(std::int64_t keyframe, const Frame& frame);
   void measure_scale(const Frame& frame, OdometryUpdate& update);
   void refine_window();
+  double unit_drift() const;
   PointLandmark describe_landmark(std::int64_t id) const;
   std::vector<std::optional<DepthMeasurement>> measure_depth(const Frame& frame) const;
   void add_observation(std::int64_t keyframe, std::int64_t landmark, const Eigen::Vector2d& px,
@@ -142,7 +154,7 @@ class Odometry {
   std::map<std::int64_t, Eigen::Vector2d> px_at_keyframe_;
   std::map<std::int64_t, std::vector<Sighting2d>> sightings_;  // of live tracks, in the window
   std::map<std::int64_t, SE3> keyframe_poses_;
-  std::map<std::int64_t, Matrix6d> links_;     // of keyframes that left the window
+  std::map<std::int64_t, Link> links_;         // of keyframes that left the window
   std::vector<PointLandmark> past_landmarks_;  // that left the window
   std::vector<View> views_;
   Frame reference_frame_;

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/backend/pose_graph_optimizer.h>
 #include <placegraph/graph/place_graph.h>
+#include <placegraph/pipeline/loop.h>
 #include <placegraph/pipeline/tracked_motion.h>
 
 #include <map>
@@ -12,6 +13,8 @@ struct PlaceOptions {
       0.3;  ///< of a keyframe from its place's anchor, as a share of the median depth
   double max_angle_deg = 20;  ///< between a keyframe and its place's anchor
   RobustKernel loop_kernel{RobustKernel::Kind::kCauchy, 3};
+  bool merge = true;         ///< places that a loop shows to be one become one
+  double merge_sigma = 0.1;  ///< how well they must be known to each other, share of the reach
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceOptions& options);
@@ -19,36 +22,59 @@ void visit(OptionVisitor& field, PlaceOptions& options);
 /// Gathers keyframes into topological places, keeps what is known between them, and moves the
 /// places when a loop says so. Keyframes come in odometry coordinates, which stay untouched; the
 /// map frame follows from the places.
+///
+/// A stretch of keyframes within reach of its first one, the anchor, is a part; a place is one
+/// part, or several that loops have shown to be one place. Runs of tracking whose unit of length
+/// nothing measures make the graph one over Sim(3): every place then has a unit of its own.
 class PlaceMapper {
  public:
   explicit PlaceMapper(const PlaceOptions& options);
 
-  /// The motion from the previous keyframe of the same run of tracking.
+  /// The motion from the previous keyframe of the same run of tracking, or from where the run
+  /// hangs on an earlier one.
   struct Link {
     std::int64_t from = 0;
-    SE3 T_from_this;
+    SE3 T_from_this;  ///< in the unit of `from`
     Matrix6d information = Matrix6d::Zero();
     ConstraintSource source = ConstraintSource::kOdometry;
+    double sigma_log_scale = 0;  ///< how far the unit of length may have changed
+    double scale = 1;            ///< length at `from` of one unit at this keyframe
   };
-  /// A new keyframe; without a link it begins a component of its own at `T_map_guess`.
+  /// A new keyframe; without a link it begins a component of its own at `T_map_guess`. A keyframe
+  /// without an odometry link begins a run of tracking, whose unit of length is measured or not.
   void add_keyframe(std::int64_t id, const std::optional<Link>& link, const SE3& T_map_guess,
-                    double median_depth_m);
-  /// A newer estimate of the motion from its link's keyframe to keyframe `id` (the window went on);
-  /// `information`, of T_from_this in its right tangent, stays as it was if none is given.
-  void update_link(std::int64_t id, const SE3& T_from_this,
-                   const std::optional<Matrix6d>& information);
-  /// A revisit; `information` is that of T_match_query in its right tangent.
-  void add_loop(std::int64_t query, std::int64_t match, const SE3& T_match_query,
-                const Matrix6d& information);
-  /// All positions of keyframes from `first` on grow by `factor` about the first one.
+                    double median_depth_m, bool scale_known = true);
+  /// A newer estimate of the motion from its link's keyframe to keyframe `id` (the window went on).
+  void update_link(std::int64_t id, const SE3& T_from_this);
+  /// What is known of that motion: its information in its right tangent, and how far the unit of
+  /// length may have changed.
+  void inform_link(std::int64_t id, const Matrix6d& information, double sigma_log_scale = 0);
+  /// The anchor before `anchor` in its run of tracking; nothing if `anchor` is none or the first.
+  std::optional<std::int64_t> previous_anchor(std::int64_t anchor) const;
+  /// Information of the motion from the previous anchor to this one, all between them marginalized:
+  /// it takes the place of the links' chained covariances.
+  void inform_anchor(std::int64_t anchor, const Matrix6d& information);
+  /// A revisit.
+  void add_loop(const Loop& loop);
+  /// All lengths of the run of tracking that began with keyframe `first` grow by `factor`: its unit
+  /// has been measured. A map of its own grows about its first keyframe; one that hangs on others
+  /// stays where it is.
   void rescale(std::int64_t first, double factor);
 
-  /// Optimizes the place graph; joins components that loops connect.
-  [[nodiscard]] PoseGraphReport optimize(const PoseGraphOptions& options, const LogSink& log);
+  /// Optimizes the place graph; joins components that loops connect, and merges places whose
+  /// keyframes are all older than `first_open`.
+  [[nodiscard]] PoseGraphReport optimize(const PoseGraphOptions& options, const LogSink& log,
+                                         std::int64_t first_open = 0);
 
   SE3 T_map_keyframe(std::int64_t id) const;
+  /// Takes points and camera positions in the keyframe's frame and unit into the map.
+  Sim3 S_map_keyframe(std::int64_t id) const;
   std::int64_t place_of(std::int64_t keyframe) const;
   int component_of(std::int64_t keyframe) const;
+  /// Whether the two keyframes' lengths are of one unit that is measured.
+  bool units_differ(std::int64_t a, std::int64_t b) const;
+  /// Whether the first component's unit is measured.
+  bool metric() const;
   /// Motion between two keyframes of one component by the links alone; nothing otherwise.
   std::optional<TrackedMotion> odometry(std::int64_t from, std::int64_t to) const;
   /// The graph as it stands; appearances are empty.
@@ -56,27 +82,57 @@ class PlaceMapper {
 
  private:
   struct Node {
-    std::int64_t place;
+    std::int64_t part;
     std::optional<Link> link;
     SE3 T_run_keyframe;  // along the links of its run of tracking
     int run;             // consecutive keyframes joined by odometry links
     double way = 0;      // from the beginning of the run
   };
-  struct LoopEdge {
-    std::int64_t query, match;
-    SE3 T_match_query;
-    Matrix6d information;
+  struct Part {  // numbered by its anchor
+    std::int64_t place;
+    Sim3 S_place_part;                         // identity if it founded the place
+    Matrix7d covariance = Matrix7d::Zero();    // of that, in its right tangent
+    std::optional<Matrix6d> information = {};  // of the motion from the previous anchor
   };
-  SE3 T_place_keyframe(std::int64_t id) const;
+  struct PlaceState {  // numbered as they were founded; of merged ones the oldest stays
+    std::int64_t anchor_keyframe;
+    Sim3 S_map_place;
+    int component;
+    double reach;  // in the place's unit
+  };
+  struct Edge {
+    std::int64_t from_part, to_part;
+    Sim3 S_from_to;
+    Matrix7d covariance;  // in the right tangent
+    ConstraintSource source;
+  };
+
+  const PlaceState& place_at(std::int64_t keyframe) const;
+  SE3 T_part_keyframe(const Node& node) const;
+  Sim3 S_place_keyframe(const Node& node) const;
   void follow_links(std::int64_t first);
-  std::vector<RelativePoseConstraint> constraints() const;
+  bool free_units() const;
+  std::vector<Edge> edges() const;
+  Edge odometry_edge(std::int64_t anchor, std::int64_t previous, const Matrix7d& chained) const;
+  Edge loop_edge(const Loop& loop) const;
+  RelativePoseConstraint constraint_of(const Edge& edge) const;
   void bring_together();
+  void settle_units();
+  void take_poses(const PlaceGraph& optimized);
+  struct Merger {
+    std::int64_t older, younger;
+    Matrix7d covariance;  // of S_older_younger in its right tangent
+  };
+  bool agrees(const Loop& loop) const;
+  std::vector<Merger> find_mergers(const PoseGraph& graph, std::int64_t first_open) const;
+  void merge(const Merger& merger);
 
   PlaceOptions options_;
   std::map<std::int64_t, Node> nodes_;
-  std::vector<Place> places_;
-  std::vector<LoopEdge> loops_;
-  int runs_ = 0;
+  std::map<std::int64_t, Part> parts_;
+  std::map<std::int64_t, PlaceState> places_;
+  std::vector<Loop> loops_;
+  std::vector<bool> scale_known_;  // of every run
 };
 
 }  // namespace placegraph

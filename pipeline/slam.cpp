@@ -2,6 +2,7 @@
 #include <placegraph/pipeline/slam.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace placegraph {
 
@@ -25,6 +26,16 @@ void visit(OptionVisitor& field, SlamOptions& o) {
         {1, 1000000});
 }
 
+namespace {
+
+/// The pose of a camera in the map: scale moves it, but it has none itself.
+SE3 unscaled(const Sim3& S_map_cam) { return SE3(S_map_cam.rotation(), S_map_cam.translation()); }
+
+/// Of the unit that a run of tracking takes from frames recognized in the map, in logarithms.
+constexpr double kSigmaLogScaleOfBridge = 0.1;
+
+}  // namespace
+
 struct Slam::Impl {
   Impl(const SlamOptions& o, const Calibration& c, LogSink l)
       : options(o),
@@ -41,9 +52,9 @@ struct Slam::Impl {
   SE3 T_map_located(const Loop& located) const;
   void add_keyframes(const OdometryUpdate& update, FrameResult& result);
   void add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, FrameResult& result);
-  void refresh_links(PlaceMapper& target, bool with_information) const;
+  void refresh_links(PlaceMapper& target, bool all_informed) const;
   void close_loops(FrameResult& result);
-  void optimize();
+  void optimize(std::int64_t first_open);
   void apply(const OdometryUpdate::Rescale& rescale);
   Map snapshot() const;
 
@@ -62,7 +73,7 @@ struct Slam::Impl {
   SE3 T_map_last;
   int lost_in_a_row = 0, keyframes_since_optimization = 0;
   std::optional<std::size_t> origin;  // first view of a single eye, until the second comes
-  bool loops_waiting = false, posed_once = false, finished = false, metric = false;
+  bool loops_waiting = false, posed_once = false, finished = false;
   bool closed_anything = false;  // the graph is more than a chain
 };
 
@@ -80,7 +91,8 @@ Map Slam::snapshot() const { return impl_->snapshot(); }
 
 Map Slam::finish() {
   require(!impl_->finished, "Slam::finish: called twice");
-  if (impl_->loops_waiting || impl_->closed_anything) impl_->optimize();
+  if (impl_->loops_waiting || impl_->closed_anything)
+    impl_->optimize(std::numeric_limits<std::int64_t>::max());
   impl_->finished = true;
   return impl_->snapshot();
 }
@@ -142,7 +154,6 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   result.state = result.T_map_cam ? TrackingState::kTracking
                  : posed_once     ? TrackingState::kLost
                                   : TrackingState::kWaiting;
-  if (odometry.first_keyframe() == 0) metric = odometry.scale_known();
   StampedPose pose{frame.stamp_ns, std::nullopt};
   if (result.T_map_cam && result.component == 0) pose.T_world_body = result.T_map_cam->isometry();
   online.poses.push_back(pose);
@@ -153,13 +164,13 @@ void Slam::Impl::record_pose(std::int64_t keyframe, const SE3& T_keyframe_cam,
                              FrameResult& result) {
   records.back().keyframe = keyframe;
   records.back().T_keyframe_frame = T_keyframe_cam;
-  T_map_last = mapper.T_map_keyframe(keyframe) * T_keyframe_cam;
+  T_map_last = unscaled(mapper.S_map_keyframe(keyframe) * Sim3(T_keyframe_cam));
   result.T_map_cam = T_map_last;
   result.component = mapper.component_of(keyframe);
 }
 
 SE3 Slam::Impl::T_map_located(const Loop& located) const {
-  return mapper.T_map_keyframe(located.match) * located.T_match_query;
+  return unscaled(mapper.S_map_keyframe(located.match) * Sim3(located.T_match_query));
 }
 
 void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, OdometryUpdate& update) {
@@ -217,14 +228,21 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
   std::optional<SE3> T_previous_this;
   if (!begins_run) {
     T_previous_this = odometry.keyframe_pose(last_keyframe).inverse() * T_odom_keyframe;
-    link = {last_keyframe, *T_previous_this, Matrix6d::Zero(), ConstraintSource::kOdometry};
+    link = PlaceMapper::Link{last_keyframe, *T_previous_this};
   } else if (bridge) {
-    link = {bridge->match, bridge->T_match_query, bridge->information, ConstraintSource::kOther};
+    // The new run is in the map's unit, the match perhaps in another.
+    link = PlaceMapper::Link{bridge->match,
+                             bridge->T_match_query,
+                             bridge->information.topLeftCorner<6, 6>(),
+                             ConstraintSource::kOther,
+                             odometry.scale_known() ? 0 : kSigmaLogScaleOfBridge,
+                             1 / mapper.S_map_keyframe(bridge->match).scale()};
     bridge.reset();
     closed_anything = true;
   }
   refresh_links(mapper, false);
-  mapper.add_keyframe(keyframe.id, link, T_odom_keyframe, odometry.median_depth_m());
+  mapper.add_keyframe(keyframe.id, link, T_odom_keyframe, odometry.median_depth_m(),
+                      odometry.scale_known());
   last_keyframe = keyframe.id;
   frame_of_keyframe[keyframe.id] = keyframe.frame.id;
   stamp_of_keyframe[keyframe.id] = keyframe.frame.stamp_ns;
@@ -237,42 +255,49 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
   if (options.loops.enabled) close_loops(result);
 }
 
-/// The window goes on refining its last keyframes: their links follow. Information of links that
-/// may still change is worked out only where it is wanted.
-void Slam::Impl::refresh_links(PlaceMapper& target, bool with_information) const {
+/// The window goes on refining its last keyframes: their links follow. Information of motions that
+/// may still change is worked out only where it is wanted; that of an anchor to the next one comes
+/// from the window as a whole while it holds both.
+void Slam::Impl::refresh_links(PlaceMapper& target, bool all_informed) const {
   const std::int64_t from = std::max(odometry.first_keyframe(),
                                      last_keyframe - options.odometry.window.max_keyframes - 2);
   for (std::int64_t id = from; id < last_keyframe; ++id) {
-    std::optional<Matrix6d> information;
-    if (with_information || odometry.link_is_final(id)) information = odometry.link_information(id);
-    target.update_link(
-        id + 1, odometry.keyframe_pose(id).inverse() * odometry.keyframe_pose(id + 1), information);
+    target.update_link(id + 1,
+                       odometry.keyframe_pose(id).inverse() * odometry.keyframe_pose(id + 1));
+    if (!all_informed && !odometry.link_is_final(id)) continue;
+    const Odometry::Link link = odometry.link(id);
+    target.inform_link(id + 1, link.information, link.sigma_log_scale);
+  }
+  const std::int64_t begin = odometry.window_begin();
+  for (std::int64_t id = begin + 1; begin >= 0 && id <= last_keyframe; ++id) {
+    const auto previous = target.previous_anchor(id);
+    // The oldest keyframe leaves next: now or never.
+    if (previous && (all_informed ? *previous >= begin : *previous == begin))
+      target.inform_anchor(id, odometry.motion_information(*previous, id));
   }
 }
 
 void Slam::Impl::close_loops(FrameResult& result) {
   const auto loops =
       closer.find_loops([&](std::int64_t a, std::int64_t b) { return mapper.odometry(a, b); },
-                        odometry.median_depth_m());
+                        odometry.median_depth_m(),
+                        [&](std::int64_t a, std::int64_t b) { return mapper.units_differ(a, b); });
   for (const Loop& loop : loops) {
-    // Parts of a map without a common unit of length cannot be laid onto each other.
-    if (!odometry.scale_known() &&
-        mapper.component_of(loop.query) != mapper.component_of(loop.match))
-      continue;
     closed_anything = true;
-    mapper.add_loop(loop.query, loop.match, loop.T_match_query, loop.information);
+    mapper.add_loop(loop);
     loops_waiting = true;
     ++result.loops_accepted;
   }
   ++keyframes_since_optimization;
   if (loops_waiting && keyframes_since_optimization >= options.optimize_interval) {
-    optimize();
+    optimize(odometry.window_begin());
   }
 }
 
-void Slam::Impl::optimize() {
+/// Keyframes from `first_open` on are still being refined.
+void Slam::Impl::optimize(std::int64_t first_open) {
   refresh_links(mapper, true);
-  const PoseGraphReport report = mapper.optimize(options.pose_graph, log_sink);
+  const PoseGraphReport report = mapper.optimize(options.pose_graph, log_sink, first_open);
   keyframes_since_optimization = 0;
   if (report.outcome)
     loops_waiting = false;
@@ -288,24 +313,24 @@ Map Slam::Impl::snapshot() const {
   for (Place& place : map.place_graph.places)
     for (const auto& view : closer.views())
       if (view.keyframe == place.anchor_keyframe) place.appearance = closer.describe(view.features);
-  std::map<std::int64_t, SE3> T_place_keyframe;
+  std::map<std::int64_t, PlaceMember> members;
   for (const Place& place : map.place_graph.places)
-    for (const PlaceMember& member : place.members)
-      T_place_keyframe[member.keyframe] = member.T_place_keyframe;
+    for (const PlaceMember& member : place.members) members[member.keyframe] = member;
   for (const auto& view : closer.views()) {
     Keyframe keyframe;
     keyframe.id = view.keyframe;
     keyframe.frame = view.frame;
     keyframe.stamp_ns = stamp_of_keyframe.at(view.keyframe);
     keyframe.place = mapper.place_of(view.keyframe);
-    keyframe.T_place_keyframe = T_place_keyframe.at(view.keyframe);
+    keyframe.T_place_keyframe = members.at(view.keyframe).T_place_keyframe;
+    keyframe.scale = members.at(view.keyframe).scale;
     keyframe.features = view.features;
     map.keyframes.push_back(std::move(keyframe));
   }
   map.landmarks = odometry.landmarks();
   map.frames = records;
   map.loops = closer.records();
-  map.metric = metric;
+  map.metric = mapper.metric();
   map.trajectory_online = online;
   return map;
 }

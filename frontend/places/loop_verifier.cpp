@@ -55,29 +55,31 @@ struct TwoWayMatch {
 };
 
 struct TwoWayPose {
-  SE3 T_match_query;
-  Matrix6d normal = Matrix6d::Zero();  // J^T W J [1/px^2]
+  Sim3 S_match_query;
+  Matrix7d normal = Matrix7d::Zero();  // J^T W J [1/px^2]
   double rmse_px = 0;
 };
 
-/// Gauss-Newton on the reprojection errors in both views, Huber-weighted. An error common to all
-/// depths (a depth camera's, or of a short baseline) pulls the pose one way from one side and the
-/// other way from the other.
+/// Gauss-Newton on the reprojection errors in both views, Huber-weighted; with the scale between
+/// the views' units or without. An error common to all depths (a depth camera's, or of a short
+/// baseline) pulls the pose one way from one side and the other way from the other.
 TwoWayPose refine_two_way(const Camera& camera, const std::vector<TwoWayMatch>& matches,
-                          const SE3& start, double huber_px) {
+                          const Sim3& start, double huber_px, bool free_scale) {
   TwoWayPose pose{start};
+  const Eigen::Index dof = free_scale ? 7 : 6;
   for (int iteration = 0; iteration < 10; ++iteration) {
-    const SE3 T_query_match = pose.T_match_query.inverse();
-    const Eigen::Matrix3d R_match_query = pose.T_match_query.rotation().matrix();
-    Matrix6d H = Matrix6d::Zero();
-    Vector6d g = Vector6d::Zero();
+    const Sim3 S_query_match = pose.S_match_query.inverse();
+    const Eigen::Matrix3d sR_match_query =
+        pose.S_match_query.scale() * pose.S_match_query.rotation().matrix();
+    Matrix7d H = Matrix7d::Zero();
+    Vector7d g = Vector7d::Zero();
     double sum = 0, weights = 0;
     const auto add = [&](const Eigen::Vector3d& point_cam, const Eigen::Vector2d& px,
-                         const Eigen::Matrix<double, 3, 6>& J_cam_xi) {
+                         const Eigen::Matrix<double, 3, 7>& J_cam_xi) {
       Eigen::Matrix<double, 2, 3> J_px_cam;
       const auto projected = camera.project(point_cam, &J_px_cam);
       if (!projected) return;
-      const Eigen::Matrix<double, 2, 6> J = J_px_cam * J_cam_xi;
+      const Eigen::Matrix<double, 2, 7> J = J_px_cam * J_cam_xi;
       const Eigen::Vector2d r = *projected - px;
       const double weight = r.norm() > huber_px ? huber_px / r.norm() : 1;
       H.noalias() += weight * J.transpose() * J;
@@ -86,22 +88,41 @@ TwoWayPose refine_two_way(const Camera& camera, const std::vector<TwoWayMatch>& 
       weights += 2 * weight;
     };
     for (const TwoWayMatch& m : matches) {
-      Eigen::Matrix<double, 3, 6> J;
-      const Eigen::Vector3d p_query = T_query_match * m.point_match;
-      J << -Eigen::Matrix3d::Identity(), hat(p_query);
+      Eigen::Matrix<double, 3, 7> J;
+      const Eigen::Vector3d p_query = S_query_match * m.point_match;
+      J << -Eigen::Matrix3d::Identity(), hat(p_query), -p_query;
       add(p_query, m.px_query, J);
       if (!m.point_query) continue;
-      J << R_match_query, -R_match_query * hat(*m.point_query);
-      add(pose.T_match_query * *m.point_query, m.px_match, J);
+      J << sR_match_query, -sR_match_query * hat(*m.point_query), sR_match_query * *m.point_query;
+      add(pose.S_match_query * *m.point_query, m.px_match, J);
     }
-    pose.normal = H;
+    pose.normal.setZero();
+    pose.normal.topLeftCorner(dof, dof) = H.topLeftCorner(dof, dof);
     pose.rmse_px = weights > 0 ? std::sqrt(sum / weights) : 0;
-    const Vector6d step = -(H + 1e-9 * H.trace() * Matrix6d::Identity()).ldlt().solve(g);
+    Eigen::MatrixXd damped = H.topLeftCorner(dof, dof);
+    damped.diagonal().array() += 1e-9 * damped.trace();
+    Vector7d step = Vector7d::Zero();
+    step.head(dof) = -damped.ldlt().solve(g.head(dof));
     if (!step.allFinite()) break;
-    pose.T_match_query = pose.T_match_query.plus(step);
+    pose.S_match_query = pose.S_match_query.plus(step);
     if (step.norm() < 1e-8) break;
   }
   return pose;
+}
+
+/// Median of log(depth the query measured / depth that the match's points have in it).
+std::optional<double> median_log_ratio(const std::vector<TwoWayMatch>& matches,
+                                       const SE3& T_query_match) {
+  std::vector<double> log_ratios;
+  for (const TwoWayMatch& m : matches) {
+    if (!m.point_query) continue;
+    const double z = (T_query_match * m.point_match).z();
+    if (z > 0 && m.point_query->z() > 0) log_ratios.push_back(std::log(m.point_query->z() / z));
+  }
+  if (log_ratios.size() < 8) return std::nullopt;
+  const auto middle = log_ratios.begin() + log_ratios.size() / 2;
+  std::nth_element(log_ratios.begin(), middle, log_ratios.end());
+  return *middle;
 }
 
 }  // namespace
@@ -122,7 +143,7 @@ void visit(OptionVisitor& field, LoopVerifierOptions& o) {
 
 LoopVerification verify_loop(const Camera& camera, const std::vector<Feature>& query,
                              const std::vector<Feature>& match, const LoopVerifierOptions& options,
-                             Random& random) {
+                             Random& random, bool free_scale) {
   using Code = Outcome::Code;
   LoopVerification result;
   std::vector<bool> has_depth(match.size());
@@ -164,10 +185,19 @@ LoopVerification verify_loop(const Camera& camera, const std::vector<Feature>& q
     both.push_back({points[i], px[i], std::nullopt, match[matches[i].b].px.cast<double>()});
     if (own.point_cam) both.back().point_query = own.point_cam->cast<double>();
   }
+  const auto log_ratio = median_log_ratio(both, pose.T_ref_cam.inverse());
+  if (free_scale && !log_ratio) {
+    result.outcome = Outcome::failure(Code::kTooFewData, "too few depths for the scale");
+    return result;
+  }
+  const Sim3 start(pose.T_ref_cam.rotation(), pose.T_ref_cam.translation(),
+                   free_scale ? std::exp(-*log_ratio) : 1);
   const TwoWayPose refined =
-      refine_two_way(camera, both, pose.T_ref_cam, options.pose.threshold_px / 2);
+      refine_two_way(camera, both, start, options.pose.threshold_px / 2, free_scale);
   const double sigma_px = std::max(0.3, refined.rmse_px);
-  result.T_match_query = refined.T_match_query;
+  const Sim3& S_match_query = refined.S_match_query;
+  result.T_match_query = SE3(S_match_query.rotation(), S_match_query.translation());
+  result.scale_match_query = S_match_query.scale();
   result.information = refined.normal / (sigma_px * sigma_px);
   result.rmse_px = refined.rmse_px;
 
@@ -188,21 +218,9 @@ LoopVerification verify_loop(const Camera& camera, const std::vector<Feature>& q
     result.outcome = Outcome::failure(Code::kInconsistent, "the views differ too much");
     return result;
   }
-  std::vector<double> log_ratios;
-  const SE3 T_query_match = pose.T_ref_cam.inverse();
-  for (int i : pose.inliers) {
-    const auto& own = query[matches[i].a].point_cam;
-    if (!own) continue;
-    const double z = (T_query_match * points[i]).z();
-    if (z > 0 && own->z() > 0) log_ratios.push_back(std::log(own->z() / z));
-  }
-  if (log_ratios.size() >= 8) {
-    const auto middle = log_ratios.begin() + log_ratios.size() / 2;
-    std::nth_element(log_ratios.begin(), middle, log_ratios.end());
-    if (std::abs(*middle) > options.max_scale_error) {
-      result.outcome = Outcome::failure(Code::kInconsistent, "depths of both views disagree");
-      return result;
-    }
+  if (!free_scale && log_ratio && std::abs(*log_ratio) > options.max_scale_error) {
+    result.outcome = Outcome::failure(Code::kInconsistent, "depths of both views disagree");
+    return result;
   }
   result.outcome = Outcome::ok();
   return result;

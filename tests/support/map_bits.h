@@ -29,6 +29,7 @@ inline std::string map_bits(const Map& map) {
   for (const Keyframe& keyframe : map.keyframes) {
     put(keyframe.id), put(keyframe.frame), put(keyframe.place);
     put_pose(keyframe.T_place_keyframe);
+    put(keyframe.scale);
     for (const Feature& feature : keyframe.features) {
       put(feature.px.x()), put(feature.px.y());
       for (const auto word : feature.descriptor) put(word);
@@ -39,11 +40,17 @@ inline std::string map_bits(const Map& map) {
   for (const Place& place : map.place_graph.places) {
     put(place.id), put(place.component);
     put_pose(place.T_map_place);
+    put(place.scale);
     for (const auto& [word, weight] : place.appearance.words) put(word), put(weight);
   }
   for (const RelativePoseConstraint& c : map.place_graph.constraints) {
     put(c.from), put(c.to);
-    put_pose(std::get<SE3>(c.T_from_to));
+    if (const Sim3* S_from_to = std::get_if<Sim3>(&c.T_from_to)) {
+      put_pose(SE3(S_from_to->rotation(), S_from_to->translation()));
+      put(S_from_to->scale());
+    } else {
+      put_pose(std::get<SE3>(c.T_from_to));
+    }
     for (Eigen::Index i = 0; i < c.information.size(); ++i) put(c.information.data()[i]);
   }
   for (const LoopRecord& loop : map.loops) {
