@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct Arguments {
-  std::string sequence, out, config;
+  std::string sequence, out, config, odometry;
   std::vector<std::string> settings;
   std::optional<std::string> sensor;
   std::optional<double> camera_height_m;
@@ -49,6 +49,7 @@ RunOptions options_of(const Arguments& arguments) {
     require(*arguments.camera_height_m > 0, "--camera-height: must be positive");
     options.camera_height_m = *arguments.camera_height_m;
   }
+  if (!arguments.odometry.empty()) options.motion.file = arguments.odometry;
   if (arguments.seed) options.slam.seed = *arguments.seed;
   if (arguments.threads) options.threads = *arguments.threads;
   if (arguments.no_loops) options.slam.loops.enabled = false;
@@ -220,6 +221,8 @@ void add_run_command(CLI::App& app) {
       ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}));
   command->add_option("--camera-height", arguments->camera_height_m,
                       "height above the ground [m]: gives a single eye its scale");
+  command->add_option("--odometry", arguments->odometry,
+                      "motion by other sensors (wheels, laser, inertial); see docs/odometry.md");
   command->add_option("--config", arguments->config, "YAML file with options (configs/)");
   command->add_option("--set", arguments->settings, "one option, key=value; may be repeated")
       ->allow_extra_args(false);

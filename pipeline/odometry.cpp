@@ -43,6 +43,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
   last_keyframe_ = -1;
   sightings_.clear();
   keyframe_frames_.clear();
+  stamps_.clear();
   keyframe_poses_.clear();
   links_.clear();
   views_.clear();
@@ -150,7 +151,7 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
   tracker_.detect(frame.mask);
   observe_tracks(id, frame);
   last_keyframe_ = id;
-  if (ground_) measure_scale(frame, update);
+  if (ground_ || motion_) measure_scale(frame, update);
   refine_window();
   frames_since_keyframe_ = 0;
   px_at_keyframe_.clear();
@@ -236,49 +237,6 @@ void Odometry::observe_tracks(std::int64_t keyframe, const Frame& frame) {
     seen[id] = std::move(sightings);
   }
   sightings_ = std::move(seen);
-}
-
-void Odometry::measure_scale(const Frame& frame, OdometryUpdate& update) {
-  const std::int64_t current = last_keyframe_;
-  // The newest keyframe far enough away; any, while the unit is not the metre.
-  std::int64_t old = -1;
-  SE3 T_old_new;
-  for (const auto& [id, keyframe] : keyframe_frames_) {
-    const SE3 T = window_.pose(id).inverse() * window_.pose(current);
-    const double length = T.translation().norm();
-    if (length < (scale_known_ ? ground_->min_baseline_m() : 1e-6)) continue;
-    old = id;
-    T_old_new = T;
-  }
-  const Image image_old = old >= 0 ? keyframe_frames_.at(old).image : Image();
-  keyframe_frames_[current] = frame;
-  if (old < 0) return;
-  const double length = T_old_new.translation().norm();
-  if (scale_known_) {
-    const auto measured = ground_->follow(frame.image, image_old, T_old_new);
-    if (!measured) return;
-    const double distance_m = measured->factor * length;
-    window_.add_distance({old, current, distance_m, measured->sigma_relative * distance_m});
-    log(log_, LogLevel::kDebug,
-        "ground " + std::to_string(keyframe_frames_.at(old).id) + " " + std::to_string(frame.id) +
-            " length " + std::to_string(length) + " measured " + std::to_string(distance_m) +
-            " +- " + std::to_string(measured->sigma_relative * distance_m));
-    return;
-  }
-  const auto measured = ground_->find(frame.image, image_old, T_old_new);
-  if (!measured) return;
-  const Eigen::Vector3d centre = window_.pose(window_.keyframes().front()).translation();
-  window_.rescale(measured->factor);
-  for (auto& [id, T_odom_keyframe] : keyframe_poses_)
-    T_odom_keyframe = SE3(T_odom_keyframe.rotation(),
-                          centre + measured->factor * (T_odom_keyframe.translation() - centre));
-  for (PointLandmark& landmark : past_landmarks_)
-    if (landmark.keyframe >= first_keyframe_) landmark.point_cam *= measured->factor;
-  update.rescale = {measured->factor, centre};
-  median_depth_m_ *= measured->factor;
-  scale_known_ = true;
-  const double distance_m = measured->factor * length;
-  window_.add_distance({old, current, distance_m, measured->sigma_relative * distance_m});
 }
 
 void Odometry::refine_window() {

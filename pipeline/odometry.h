@@ -7,9 +7,11 @@
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measured_motion.h>
 #include <placegraph/pipeline/ground_scale.h>
 
 #include <map>
+#include <memory>
 
 namespace placegraph {
 
@@ -80,6 +82,10 @@ class Odometry {
   /// Keyframe ids go on counting.
   void restart(const SE3& T_odom_cam, bool in_known_map = false);
 
+  /// The camera's motion by other sensors, before the first frame: gives a single eye its unit.
+  void set_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
+  /// Whether a first frame has been taken since the last restart.
+  bool started() const { return started_; }
   bool scale_known() const { return scale_known_; }
   /// Newest estimate of a keyframe of the present run of tracking, T_odom_cam.
   SE3 keyframe_pose(std::int64_t id) const { return keyframe_poses_.at(id); }
@@ -128,6 +134,10 @@ class Odometry {
   void add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);
   void observe_tracks(std::int64_t keyframe, const Frame& frame);
   void measure_scale(const Frame& frame, OdometryUpdate& update);
+  void measure_ground(const Frame& frame, OdometryUpdate& update);
+  void measure_way(OdometryUpdate& update);
+  std::optional<DistanceObservation> measured_way(std::int64_t from, std::int64_t to) const;
+  void set_scale(double factor, OdometryUpdate& update);
   void refine_window();
   double unit_drift() const;
   PointLandmark describe_landmark(std::int64_t id) const;
@@ -142,6 +152,8 @@ class Odometry {
   PointTracker tracker_;
   SlidingWindow window_;
   std::optional<GroundScale> ground_;
+  std::shared_ptr<const MeasuredMotion> motion_;  // of the camera, where nothing else is metric
+  std::map<std::int64_t, std::int64_t> stamps_;   // of this run's keyframes, for that
   TrackingState state_ = TrackingState::kWaiting;
   bool started_ = false;  // the first frame of this run has been seen
   bool scale_known_ = false;

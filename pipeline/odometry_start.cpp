@@ -130,8 +130,9 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   }
   last_keyframe_ = cur;
   refine_window();
-  if (ground_) {
-    keyframe_frames_[ref] = reference_frame_;
+  if (ground_ || motion_) {
+    if (ground_) keyframe_frames_[ref] = reference_frame_;
+    stamps_[ref] = reference_frame_.stamp_ns;
     measure_scale(frame, update);
     update.rescale.reset();  // nobody has heard of these keyframes yet
     refine_window();

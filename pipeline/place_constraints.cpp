@@ -47,9 +47,12 @@ PlaceMapper::Edge PlaceMapper::odometry_edge(std::int64_t anchor, std::int64_t p
 PlaceMapper::Edge PlaceMapper::loop_edge(const Loop& loop) const {
   const Node &match = nodes_.at(loop.match), &query = nodes_.at(loop.query);
   const Sim3 S_part_query(T_part_keyframe(query));
-  Edge edge{match.part, query.part,
+  Edge edge{match.part,
+            query.part,
             Sim3(T_part_keyframe(match)) * loop.S_match_query() * S_part_query.inverse(),
-            Matrix7d::Zero(), ConstraintSource::kLoop};
+            Matrix7d::Zero(),
+            ConstraintSource::kLoop,
+            options_.loop_kernel};
   if (loop.information(6, 6) > 0 && free_units()) {
     edge.covariance = covariance_of(loop.information);
   } else {
@@ -77,8 +80,8 @@ std::vector<PlaceMapper::Edge> PlaceMapper::edges() const {
     covariance.topLeftCorner<6, 6>() = covariance_of(link.information);
     covariance(6, 6) = link.sigma_log_scale * link.sigma_log_scale;
     if (link.source != ConstraintSource::kOdometry) {
-      result.push_back(
-          {from.part, id, Sim3(T_part_keyframe(from)) * S_from_this, covariance, link.source});
+      result.push_back({from.part, id, Sim3(T_part_keyframe(from)) * S_from_this, covariance,
+                        link.source, options_.loop_kernel});
       chained.setZero();
       continue;
     }
@@ -88,6 +91,12 @@ std::vector<PlaceMapper::Edge> PlaceMapper::edges() const {
     chained.setZero();
   }
   for (const Loop& loop : loops_) result.push_back(loop_edge(loop));
+  for (const Edge& motion : motions_) {
+    // Metres say nothing where the unit is not the metre.
+    if (units_differ(motion.from_part, motion.to_part)) continue;
+    result.push_back(motion);
+    result.back().covariance(6, 6) = kUnitVariance;
+  }
   return result;
 }
 
@@ -104,7 +113,7 @@ RelativePoseConstraint PlaceMapper::constraint_of(const Edge& edge) const {
   constraint.from = from.place;
   constraint.to = to.place;
   constraint.source = edge.source;
-  if (edge.source != ConstraintSource::kOdometry) constraint.kernel = options_.loop_kernel;
+  constraint.kernel = edge.kernel;
   constexpr double kLeastVariance = 1e-18;
   if (free_units()) {
     covariance(6, 6) += kUnitVariance;

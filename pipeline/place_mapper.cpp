@@ -27,6 +27,10 @@ void visit(OptionVisitor& field, PlaceOptions& o) {
   field("max_angle_deg", o.max_angle_deg, "between a keyframe and its place's anchor", {0, 180});
   field.choice("loop_kernel", o.loop_kernel.kind, robust_kernel_names(), "robust kernel of loops");
   field("loop_kernel_width", o.loop_kernel.width, "its width in standard deviations", {0.01, 1000});
+  field.choice("motion_kernel", o.motion_kernel.kind, robust_kernel_names(),
+               "robust kernel of motion that other sensors measured");
+  field("motion_kernel_width", o.motion_kernel.width, "its width in standard deviations",
+        {0.01, 1000});
   field("merge", o.merge, "places that a loop shows to be one become one");
   field("merge_sigma", o.merge_sigma,
         "standard deviation of their distance, share of the reach, above which they do not",
@@ -165,6 +169,20 @@ void PlaceMapper::inform_anchor(std::int64_t anchor, const Matrix6d& information
   require(previous_anchor(anchor).has_value(),
           "PlaceMapper::inform_anchor: no anchor, or the first of its run");
   parts_.at(anchor).information = information;
+}
+
+void PlaceMapper::add_motion(std::int64_t previous, std::int64_t anchor,
+                             const SE3& T_previous_anchor, const Matrix6d& covariance) {
+  require(parts_.count(previous) && parts_.count(anchor) && previous != anchor,
+          "PlaceMapper::add_motion: two anchors needed");
+  Edge edge{previous,
+            anchor,
+            Sim3(T_previous_anchor),
+            Matrix7d::Zero(),
+            ConstraintSource::kOther,
+            options_.motion_kernel};
+  edge.covariance.topLeftCorner<6, 6>() = covariance;
+  motions_.push_back(edge);
 }
 
 void PlaceMapper::add_loop(const Loop& loop) { loops_.push_back(loop); }

@@ -13,6 +13,7 @@ struct PlaceOptions {
       0.3;  ///< of a keyframe from its place's anchor, as a share of the median depth
   double max_angle_deg = 20;  ///< between a keyframe and its place's anchor
   RobustKernel loop_kernel{RobustKernel::Kind::kCauchy, 3};
+  RobustKernel motion_kernel{RobustKernel::Kind::kCauchy, 2};  ///< of other sensors' motion
   bool merge = true;         ///< places that a loop shows to be one become one
   double merge_sigma = 0.1;  ///< how well they must be known to each other, share of the reach
   void check() const;
@@ -54,6 +55,10 @@ class PlaceMapper {
   /// Information of the motion from the previous anchor to this one, all between them marginalized:
   /// it takes the place of the links' chained covariances.
   void inform_anchor(std::int64_t anchor, const Matrix6d& information);
+  /// The motion from the previous anchor (of any run) to this one by other sensors: a robust
+  /// constraint. Throws ArgumentError unless both are anchors.
+  void add_motion(std::int64_t previous, std::int64_t anchor, const SE3& T_previous_anchor,
+                  const Matrix6d& covariance);
   /// A revisit.
   void add_loop(const Loop& loop);
   /// All lengths of the run of tracking that began with keyframe `first` grow by `factor`: its unit
@@ -105,6 +110,7 @@ class PlaceMapper {
     Sim3 S_from_to;
     Matrix7d covariance;  // in the right tangent
     ConstraintSource source;
+    RobustKernel kernel = {};
   };
 
   const PlaceState& place_at(std::int64_t keyframe) const;
@@ -132,6 +138,7 @@ class PlaceMapper {
   std::map<std::int64_t, Part> parts_;
   std::map<std::int64_t, PlaceState> places_;
   std::vector<Loop> loops_;
+  std::vector<Edge> motions_;
   std::vector<bool> scale_known_;  // of every run
 };
 

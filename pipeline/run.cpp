@@ -1,7 +1,9 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/odometry_file.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 
 namespace placegraph {
@@ -14,6 +16,16 @@ Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
   require(std::find(offered.begin(), offered.end(), wanted) != offered.end(),
           dataset.name() + ": cannot be run as " + to_string(wanted));
   return wanted;
+}
+
+/// Of the camera.
+MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options) {
+  std::vector<std::int64_t> stamps_ns;
+  for (std::size_t i = 0; i < dataset.size(); ++i) stamps_ns.push_back(dataset.stamp_ns(i));
+  const auto& v = options.T_cam_body;
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  const SE3 T_cam_body(q.normalized().toRotationMatrix(), Eigen::Vector3d(v[0], v[1], v[2]));
+  return read_odometry(options.file, options.noise, stamps_ns).seen_from(T_cam_body);
 }
 
 /// Reads frames in order, one ahead of its user if it may have a thread for that.
@@ -54,6 +66,7 @@ const char* to_string(Sensor sensor) {
 
 void RunOptions::check() const {
   check_ranges(*this);
+  motion.check();
   slam.check();
 }
 
@@ -65,7 +78,22 @@ void visit(OptionVisitor& field, RunOptions& o) {
   field("first_frame", o.first_frame, "frames left out at the beginning", {0, 1e9});
   field("max_frames", o.max_frames, "frames run; 0: all", {0, 1e9});
   field("threads", o.threads, "threads; the result does not depend on it", {1, 256});
+  field.group("motion", o.motion, "motion that other sensors measured");
   visit(field, o.slam);
+}
+
+void MotionOptions::check() const {
+  check_ranges(*this);
+  noise.check();
+  require(T_cam_body.size() == 7, "motion.T_cam_body: seven numbers needed, tx ty tz qx qy qz qw");
+  const Eigen::Map<const Eigen::Vector4d> q(T_cam_body.data() + 3);
+  require(std::abs(q.norm() - 1) < 1e-2, "motion.T_cam_body: the quaternion is not of unit length");
+}
+
+void visit(OptionVisitor& field, MotionOptions& o) {
+  field("file", o.file, "see docs/odometry.md; none if empty");
+  field("T_cam_body", o.T_cam_body, "tx ty tz qx qy qz qw of the body in the camera [m]");
+  field.group("noise", o.noise, "where the file tells none");
 }
 
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
@@ -83,6 +111,7 @@ RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                               : dataset.size();
 
   Slam slam(options.slam, result.calibration, log);
+  if (!options.motion.file.empty()) slam.set_motion(read_motion(dataset, options.motion));
   FrameReader reader(dataset, result.sensor, end, options.threads > 1);
   for (std::size_t i = begin; i < end; ++i) {
     Frame frame;

@@ -3,10 +3,21 @@
 #include <placegraph/pipeline/slam.h>
 
 #include <functional>
+#include <string>
+#include <vector>
 
 namespace placegraph {
 
 enum class SensorChoice { kAuto, kMono, kStereo, kRgbd };
+
+/// Motion of a body by other sensors, beside the pictures.
+struct MotionOptions {
+  std::string file;                                     ///< see docs/odometry.md; none if empty
+  std::vector<double> T_cam_body{0, 0, 0, 0, 0, 0, 1};  ///< tx ty tz [m], qx qy qz qw
+  MotionNoise noise;
+  void check() const;
+};
+void visit(OptionVisitor& field, MotionOptions& options);
 
 /// A run over a recorded sequence: what `placegraph run` and configs/*.yaml set.
 struct RunOptions {
@@ -15,6 +26,7 @@ struct RunOptions {
   int first_frame = 0;
   int max_frames = 0;  ///< 0: all
   int threads = 2;     ///< 2 or more: the next frame is read while this one is worked on
+  MotionOptions motion;
   SlamOptions slam;
   void check() const;
 };

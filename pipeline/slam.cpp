@@ -1,6 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/slam.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 
@@ -48,6 +49,8 @@ struct Slam::Impl {
   FrameResult add_frame(const Frame& frame);
   void check_frame(const Frame& frame) const;
   void recover(const Frame& frame, std::optional<Loop> located, OdometryUpdate& update);
+  std::optional<Loop> carried(const Frame& frame) const;
+  void add_motion(std::int64_t keyframe);
   void record_pose(std::int64_t keyframe, const SE3& T_keyframe_cam, FrameResult& result);
   SE3 T_map_located(const Loop& located) const;
   void add_keyframes(const OdometryUpdate& update, FrameResult& result);
@@ -72,6 +75,7 @@ struct Slam::Impl {
   std::optional<Loop> bridge;  // how the next run of tracking hangs on the last one
   SE3 T_map_last;
   int lost_in_a_row = 0, keyframes_since_optimization = 0;
+  std::shared_ptr<const MeasuredMotion> motion;  // of the camera, by other sensors
   std::optional<std::size_t> origin;  // first view of a single eye, until the second comes
   bool loops_waiting = false, posed_once = false, finished = false;
   bool closed_anything = false;  // the graph is more than a chain
@@ -85,6 +89,12 @@ Slam::Slam(const SlamOptions& options, const Calibration& calibration, LogSink l
 Slam::~Slam() = default;
 Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;
+
+void Slam::set_motion(const MeasuredMotion& motion_cam) {
+  require(impl_->records.empty() && !impl_->finished, "Slam::set_motion: after the first frame");
+  impl_->motion = std::make_shared<const MeasuredMotion>(motion_cam);
+  impl_->odometry.set_motion(impl_->motion);
+}
 
 FrameResult Slam::add_frame(const Frame& frame) { return impl_->add_frame(frame); }
 Map Slam::snapshot() const { return impl_->snapshot(); }
@@ -127,6 +137,12 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   // is looked up.
   std::optional<Loop> located;
   if (bridge) located = closer.relocalize(frame);
+  if (bridge && !located) located = carried(frame);
+  if (!bridge && lost_in_a_row >= options.max_lost_frames && !odometry.started()) {
+    // Nothing has been seen to begin with yet: each frame is where the other sensors say.
+    bridge = located = carried(frame);
+    if (bridge) odometry.restart(T_map_located(*bridge), true);
+  }
   OdometryUpdate update =
       odometry.add_frame(frame, located ? std::optional(T_map_located(*located)) : std::nullopt);
   if (bridge && update.reference) bridge = located;
@@ -142,8 +158,11 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
                 odometry.keyframe_pose(update.keyframe).inverse() * update.T_odom_cam, result);
     result.inliers = update.inliers;
   } else if (bridge && (located || lost_in_a_row > 0) && update.state == TrackingState::kWaiting) {
-    const Loop& at = located ? *located : *bridge;
+    const Loop at = located ? *located : *bridge;
     if (located || update.reference) record_pose(at.match, at.T_match_query, result);
+    if (motion && !odometry.started()) bridge.reset();
+  } else if (const auto blind = carried(frame)) {
+    record_pose(blind->match, blind->T_match_query, result);
   } else if (!posed_once && update.reference) {
     // The first view is the origin while the second is waited for; if another takes its place, it
     // has no pose after all.
@@ -173,6 +192,17 @@ SE3 Slam::Impl::T_map_located(const Loop& located) const {
   return unscaled(mapper.S_map_keyframe(located.match) * Sim3(located.T_match_query));
 }
 
+/// Where a frame is by other sensors since the last keyframe, if both are in metres.
+std::optional<Loop> Slam::Impl::carried(const Frame& frame) const {
+  if (!motion || last_keyframe < 0 || mapper.units_differ(last_keyframe, last_keyframe))
+    return std::nullopt;
+  const auto since = motion->between(stamp_of_keyframe.at(last_keyframe), frame.stamp_ns);
+  if (!since) return std::nullopt;
+  Loop loop{-1, last_keyframe, since->T_a_b};
+  loop.information.topLeftCorner<6, 6>() = since->covariance.ldlt().solve(Matrix6d::Identity());
+  return loop;
+}
+
 void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, OdometryUpdate& update) {
   ++lost_in_a_row;
   if (!located) located = closer.relocalize(frame);
@@ -188,6 +218,14 @@ void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, Odomet
     return;
   }
   bridge.reset();
+  if (lost_in_a_row == options.max_lost_frames && (bridge = carried(frame))) {
+    log(log_sink, LogLevel::kInfo,
+        "frame " + std::to_string(frame.id) + ": carried on by measured motion");
+    odometry.restart(T_map_located(*bridge), true);
+    update = odometry.add_frame(frame, T_map_located(*bridge));
+    if (!odometry.started()) bridge.reset();
+    return;
+  }
   if (lost_in_a_row == options.max_lost_frames) {
     log(log_sink, LogLevel::kInfo,
         "frame " + std::to_string(frame.id) + ": a new component of the map begins");
@@ -251,8 +289,22 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
       record.keyframe = keyframe.id;
       record.T_keyframe_frame = SE3();
     }
+  if (motion) add_motion(keyframe.id);
   closer.add_view(keyframe.id, keyframe.frame, T_previous_this);
   if (options.loops.enabled) close_loops(result);
+}
+
+/// From anchor to anchor. What a single eye took its lengths from does not count again.
+void Slam::Impl::add_motion(std::int64_t keyframe) {
+  const auto previous = mapper.previous_anchor(keyframe);
+  if (!previous) return;
+  const auto way = motion->between(stamp_of_keyframe.at(*previous), stamp_of_keyframe.at(keyframe));
+  if (!way) return;
+  Matrix6d covariance = way->covariance;
+  const Eigen::Vector3d t = way->T_a_b.rotation().inverse() * way->T_a_b.translation();
+  if (calibration.baseline_m <= 0 && !calibration.depth)
+    covariance.topLeftCorner<3, 3>() += t * t.transpose();
+  mapper.add_motion(*previous, keyframe, way->T_a_b, covariance);
 }
 
 /// The window goes on refining its last keyframes: their links follow. Information of motions that

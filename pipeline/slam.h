@@ -48,6 +48,10 @@ class Slam {
   Slam(Slam&&) noexcept;
   Slam& operator=(Slam&&) noexcept;
 
+  /// The camera's motion as other sensors measured it (wheels, a laser, inertial ones), stamps
+  /// those of the frames; to be given before the first frame. It gives a single eye its unit, bears
+  /// on the place graph as robust constraints, and carries on where nothing is seen.
+  void set_motion(const MeasuredMotion& motion_cam);
   FrameResult add_frame(const Frame& frame);
   /// Map and trajectories as they stand; may be called between frames.
   Map snapshot() const;

@@ -259,6 +259,72 @@ TEST(SlamOnAStreet, BeginsANewComponentWhenNothingIsKnownAgain) {
             12);
 }
 
+/// The drive as a wheel sensor tells it: 1 % too long, turning 0.02 degrees a frame too much, and a
+/// burst of slip in which the wheels go three times as far.
+MeasuredMotion slipping_wheels(int slip_begin, int slip_end) {
+  std::vector<MotionStep> steps;
+  for (int i = 0; i + 1 < kFrames; ++i) {
+    const SE3 T = street_T_world_cam(i).inverse() * street_T_world_cam(i + 1);
+    const double factor = i >= slip_begin && i < slip_end ? 3 : 1.01;
+    const SE3 measured(T.rotation() * SO3::exp({0, 0.02 * M_PI / 180, 0}),
+                       factor * T.translation());
+    steps.push_back({drive().stamp_ns(static_cast<std::size_t>(i)),
+                     drive().stamp_ns(static_cast<std::size_t>(i) + 1), measured,
+                     MotionNoise().covariance(measured)});
+  }
+  return MeasuredMotion(std::move(steps));
+}
+
+TEST(SlamOnAStreet, TakesItsUnitFromMeasuredMotionAndDoesNotSlipWithIt) {
+  SlamOptions options = small_options();
+  Slam slam(options, drive().calibration(Sensor::kMono));
+  slam.set_motion(slipping_wheels(14, 16));
+  for (int i = 0; i < kFrames; ++i)
+    slam.add_frame(drive().frame(static_cast<std::size_t>(i), Sensor::kMono));
+  const Map map = slam.finish();
+  EXPECT_TRUE(map.metric);
+  const EvaluationResult result = judge(drive(), map.trajectory_optimized(), Alignment::kScale);
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  // The wheels alone make the way 17 % too long.
+  EXPECT_NEAR(result.alignment.scale, 1, 0.04);
+  EXPECT_LT(result.ape.error_m.rmse, 0.02 * result.path_m);
+}
+
+TEST(SlamOnAStreet, IsNotLedAstrayBySlipWithTwoEyes) {
+  Slam slam(small_options(), drive().calibration(Sensor::kStereo));
+  slam.set_motion(slipping_wheels(10, 13));
+  for (int i = 0; i < kFrames; ++i)
+    slam.add_frame(drive().frame(static_cast<std::size_t>(i), Sensor::kStereo));
+  const Trajectory optimized = slam.finish().trajectory_optimized();
+  const EvaluationResult result = judge(drive(), optimized, Alignment::kOrigin);
+  EXPECT_LT(result.ape.error_m.rmse, 0.01 * result.path_m);
+  EXPECT_THROW(slam.set_motion(slipping_wheels(0, 0)), ArgumentError);
+}
+
+TEST(SlamOnAStreet, IsCarriedThroughTheDarkByMeasuredMotion) {
+  // Dark for so long that nothing is known again: the pictures behind are mirrored.
+  SlamOptions options = small_options();
+  options.max_lost_frames = 2;
+  Slam slam(options, drive().calibration(Sensor::kStereo));
+  slam.set_motion(slipping_wheels(0, 0));
+  for (int i = 0; i < kFrames; ++i) {
+    Frame frame = drive().frame(static_cast<std::size_t>(i), Sensor::kStereo);
+    frame.image = frame.image.clone(), frame.right = frame.right.clone();
+    if (i >= 10 && i < 15) frame.image.setTo(0), frame.right.setTo(0);
+    if (i >= 15) cv::flip(frame.image, frame.image, 0), cv::flip(frame.right, frame.right, 0);
+    slam.add_frame(frame);
+  }
+  const Map map = slam.finish();
+  for (const Place& place : map.place_graph.places) EXPECT_EQ(place.component, 0);
+  const Trajectory optimized = map.trajectory_optimized();
+  EXPECT_EQ(optimized.posed(), static_cast<std::size_t>(kFrames));
+  for (int i = 10; i < 16; ++i) {
+    ASSERT_TRUE(optimized.poses[i].T_world_body) << i;
+    const SE3 truth = street_T_world_cam(0).inverse() * street_T_world_cam(i);
+    EXPECT_LT(distance_m(SE3(*optimized.poses[i].T_world_body), truth), 0.1) << i;
+  }
+}
+
 TEST(SlamOnAStreet, RefusesFramesThatBreakTheContract) {
   Slam slam(small_options(), drive().calibration(Sensor::kStereo));
   const auto refusal = [&](const Frame& frame) -> std::string {
