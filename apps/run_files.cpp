@@ -44,7 +44,8 @@ std::string places_json(const Map& map) {
     for (const PlaceMember& member : place.members) {
       const Keyframe* keyframe = map.find_keyframe(member.keyframe);
       json entry = {{"keyframe", member.keyframe},
-                    {"T_place_keyframe", pose_json(member.T_place_keyframe)}};
+                    {"T_place_keyframe", pose_json(member.T_place_keyframe)},
+                    {"scale", member.scale}};
       if (keyframe) {
         entry["frame"] = keyframe->frame;
         entry["stamp_ns"] = keyframe->stamp_ns;
@@ -55,6 +56,7 @@ std::string places_json(const Map& map) {
                       {"anchor_keyframe", place.anchor_keyframe},
                       {"component", place.component},
                       {"T_map_place", pose_json(place.T_map_place)},
+                      {"scale", place.scale},
                       {"members", members},
                       {"labels", place.labels},
                       {"visual_words", place.appearance.words.size()}});
@@ -65,7 +67,7 @@ std::string places_json(const Map& map) {
                      {"to", c.to},
                      {"source", c.source == ConstraintSource::kLoop       ? "loop"
                                 : c.source == ConstraintSource::kOdometry ? "odometry"
-                                                                          : "relocalization"}});
+                                                                          : "other"}});
   json loops = json::array();
   for (const LoopRecord& loop : map.loops)
     if (loop.accepted)
