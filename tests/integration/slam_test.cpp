@@ -241,6 +241,7 @@ TEST(SlamOnAStreet, BeginsANewComponentWhenNothingIsKnownAgain) {
   Slam slam(options, drive().calibration(Sensor::kStereo));
   for (int i = 0; i < 16; ++i) {
     Frame frame = drive().frame(static_cast<std::size_t>(i), Sensor::kStereo);
+    frame.image = frame.image.clone(), frame.right = frame.right.clone();
     if (i >= 8) {
       cv::flip(frame.image, frame.image, 0);
       cv::flip(frame.right, frame.right, 0);

@@ -168,6 +168,42 @@ TEST(SlidingWindow, ErrorsAgreeWithTheRelativeInformation) {
   EXPECT_NEAR(nees, 6, 2.2) << "seeds 100 to 129";
 }
 
+TEST(SlidingWindow, TellsHowWellItHoldsItsUnitWhateverTheGauge) {
+  const int runs = 30;
+  double nees = 0;
+  for (int run = 0; run < runs; ++run) {
+    Random random(200 + static_cast<std::uint64_t>(run));
+    WindowWorldOptions options;
+    options.keyframes = 7;
+    options.landmarks = 60;
+    options.views_per_landmark = 4;
+    options.noise_px = options.sigma_px = 0.5;
+    const WindowWorld world = make_window_world(options, random);
+    SlidingWindowOptions window_options = exact_options();
+    window_options.huber_px = 100;  // the noise is normal
+    window_options.relative_decrease = 1e-9;
+    SlidingWindow window(window_options, world.camera);
+    fill_window(window, world, random, 0.02, 0.002, 0.1);
+    ASSERT_TRUE(window.optimize().outcome);
+    const auto log_ratio = [](const SE3& a, const SE3& b, const SE3& c) {
+      return std::log(distance_m(b, c) / distance_m(a, b));
+    };
+    const auto& truth = world.T_map_cam;
+    const double error = log_ratio(window.pose(0), window.pose(3), window.pose(6)) -
+                         log_ratio(truth[0], truth[3], truth[6]);
+    const double sigma = window.sigma_log_length_ratio(0, 3, 6);
+    nees += error * error / (sigma * sigma * runs);
+    if (run > 0) continue;
+    // A length that is known makes the unit the metre, not the unit's change smaller.
+    window.add_distance({0, 6, distance_m(window.pose(0), window.pose(6)), 0.01});
+    EXPECT_NEAR(window.sigma_log_length_ratio(0, 3, 6), sigma, 0.02 * sigma);
+    EXPECT_THROW((void)window.sigma_log_length_ratio(0, 3, 3), ArgumentError);
+    EXPECT_THROW((void)window.sigma_log_length_ratio(0, 3, 9), ArgumentError);
+  }
+  // Mean of 30 chi2 of one degree: standard deviation sqrt(2 / 30) = 0.26; 3.5 of them.
+  EXPECT_NEAR(nees, 1, 0.9) << "seeds 200 to 229";
+}
+
 TEST(SlidingWindow, HuberSuppressesOutliers) {
   const auto worst_error_m = [](double huber_px) {
     Random random(6);

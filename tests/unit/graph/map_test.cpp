@@ -68,6 +68,21 @@ TEST(Map, AFrameMovesWithItsKeyframe) {
             Eigen::Vector3d(0, 0, 0));
 }
 
+TEST(Map, FramesAndLandmarksGrowWithTheUnitsOfPlaceAndKeyframe) {
+  Map map = make_map(0);
+  map.place_graph.places[0].T_map_place = SE3(SO3(), {10, 0, 0});
+  map.place_graph.places[0].scale = 2;
+  map.keyframes[1].scale = 3;  // 101, at (0, 0, 1) in the place's unit
+  const Trajectory trajectory = map.trajectory_optimized();
+  EXPECT_EQ(trajectory.poses[1].T_world_body->translation(), Eigen::Vector3d(13, 0, 2));
+  EXPECT_NEAR(trajectory.poses[1].T_world_body->linear().determinant(), 1, 1e-14);
+  EXPECT_EQ(map.position({7, 101, {0, 1, 0}, 2}), Eigen::Vector3d(10, 6, 2));
+  EXPECT_EQ(map.position({8, 100, {0, 1, 0}, 2}), Eigen::Vector3d(10, 2, 0));
+  EXPECT_THROW((void)map.position({9, 300, {0, 1, 0}, 2}), ArgumentError);
+  map.keyframes[1].place = 9;
+  EXPECT_THROW((void)map.S_map_keyframe(101), ArgumentError);
+}
+
 TEST(Map, FramesOfAnotherComponentAreLostUntilAConstraintJoinsIt) {
   Map map = make_map(1);
   EXPECT_EQ(map.trajectory_optimized().posed(), 2u);

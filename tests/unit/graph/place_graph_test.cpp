@@ -88,5 +88,20 @@ TEST(PlaceGraph, RefusesPosesThatAreNotItsOwn) {
   EXPECT_THROW(graph.set_poses(planar), ArgumentError);
 }
 
+TEST(PlaceGraph, IsOneOfSimilaritiesIfItsConstraintsAre) {
+  PlaceGraph graph = make_places({0, 0});
+  graph.places[1].scale = 3;
+  join(graph, 10, 20);
+  graph.constraints[0].T_from_to = Sim3(SO3(), {1, 0, 0}, 2);
+  graph.constraints[0].information = Matrix7d::Identity();
+  PoseGraph optimized = graph.pose_graph();
+  EXPECT_NO_THROW(optimized.check());
+  EXPECT_EQ(std::get<Sim3>(optimized.nodes[1].T_world_node).scale(), 3);
+  optimized.nodes[1].T_world_node = Sim3(SO3(), {5, 6, 7}, 2.5);
+  graph.set_poses(optimized);
+  EXPECT_EQ(graph.places[1].T_map_place.translation(), Eigen::Vector3d(5, 6, 7));
+  EXPECT_EQ(graph.places[1].scale, 2.5);
+}
+
 }  // namespace
 }  // namespace placegraph
