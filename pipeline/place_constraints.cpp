@@ -18,7 +18,7 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix, double floor) {
 }
 
 /// Unknown directions get a large, finite variance.
-Eigen::MatrixXd covariance_of(const Eigen::MatrixXd& information) {
+Eigen::MatrixXd bounded_covariance(const Eigen::MatrixXd& information) {
   return inverse_of(information, 1e-6);
 }
 
@@ -38,7 +38,7 @@ PlaceMapper::Edge PlaceMapper::odometry_edge(std::int64_t anchor, std::int64_t p
   Edge edge{previous, anchor, Sim3(T_previous_anchor), chained, ConstraintSource::kOdometry};
   if (const auto& information = parts_.at(anchor).information) {
     edge.covariance.setZero();
-    edge.covariance.topLeftCorner<6, 6>() = covariance_of(*information);
+    edge.covariance.topLeftCorner<6, 6>() = bounded_covariance(*information);
     edge.covariance(6, 6) = chained(6, 6);
   }
   return edge;
@@ -54,9 +54,10 @@ PlaceMapper::Edge PlaceMapper::loop_edge(const Loop& loop) const {
             ConstraintSource::kLoop,
             options_.loop_kernel};
   if (loop.information(6, 6) > 0 && free_units()) {
-    edge.covariance = covariance_of(loop.information);
+    edge.covariance = bounded_covariance(loop.information);
   } else {
-    edge.covariance.topLeftCorner<6, 6>() = covariance_of(loop.information.topLeftCorner<6, 6>());
+    edge.covariance.topLeftCorner<6, 6>() =
+        bounded_covariance(loop.information.topLeftCorner<6, 6>());
     edge.covariance(6, 6) = kUnitVariance;
   }
   edge.covariance = transported(S_part_query.adjoint(), edge.covariance);
@@ -77,7 +78,7 @@ std::vector<PlaceMapper::Edge> PlaceMapper::edges() const {
     const Node& from = nodes_.at(link.from);
     const Sim3 S_from_this(link.T_from_this.rotation(), link.T_from_this.translation(), link.scale);
     Matrix7d covariance = Matrix7d::Zero();
-    covariance.topLeftCorner<6, 6>() = covariance_of(link.information);
+    covariance.topLeftCorner<6, 6>() = bounded_covariance(link.information);
     covariance(6, 6) = link.sigma_log_scale * link.sigma_log_scale;
     if (link.source != ConstraintSource::kOdometry) {
       result.push_back({from.part, id, Sim3(T_part_keyframe(from)) * S_from_this, covariance,
