@@ -372,7 +372,7 @@ TYPED_TEST(AntennaPosition, JacobiansMatchFiniteDifferences) {
   fix.v = vector(3);
   const Eigen::Matrix3d W = vector(3).cwiseAbs().asDiagonal();
   const AntennaPositionFactor<TypeParam> factor(fix, vector(3), W);
-  const PoseManifold<TypeParam> manifold;
+  const VariableManifold<TypeParam> manifold;
   const TypeParam T = TypeParam::exp(typename TypeParam::Tangent(vector(TypeParam::kDof)));
   const Eigen::VectorXd c = vector(4);
   test::expect_jacobians_match(
