@@ -9,6 +9,7 @@ namespace placegraph {
 namespace {
 
 constexpr double kLogOdds = 6;
+constexpr double kCosineOfNear = 0.88;  // 0.5 rad
 
 /// The residual rotation of an edge, turned into the world frame (its third component in the
 /// plane), and the inverse of the rotation weight.
@@ -109,7 +110,9 @@ class Candidates {
     graph_.poses = std::move(poses);
     LocalSolution solution = solver_.solve(graph_);
     iterations_ += solution.iterations;
-    if (!poses_.empty() && !(solution.cost_final < best_.solution.cost_final)) return;
+    if (!poses_.empty() && std::isfinite(best_.solution.cost_final) &&
+        !(solution.cost_final < best_.solution.cost_final))
+      return;
     best_.solution = std::move(solution);
     best_.used = start;
     poses_ = graph_.poses;
@@ -131,20 +134,45 @@ class Candidates {
   int iterations_ = 0;
 };
 
+/// Whether no measured rotation is further from the poses than a step of Gauss-Newton can mend.
+template <class Group>
+bool rotations_are_near(const PackedGraph<Group>& graph) {
+  for (const auto& edge : graph.edges) {
+    if (edge.weight == 0) continue;
+    const auto E = edge.T_to_from.rotation() *
+                   (graph.poses[edge.from].rotation().inverse() * graph.poses[edge.to].rotation());
+    double cosine;
+    if constexpr (Group::kDof == 3)
+      cosine = std::cos(E.angle());
+    else
+      cosine = 2 * E.quaternion().w() * E.quaternion().w() - 1;
+    if (!(cosine > kCosineOfNear)) return false;
+  }
+  return true;
+}
+
 template <class Group>
 StartSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotation_error,
                                   LocalSolver<Group>& solver) {
   const std::vector<Group> file = graph.poses;
-  const double file_cost = robust_cost(graph, rotation_error);
-  chordal_start(graph, rotation_error);
-  const std::vector<Group> chordal = graph.poses;
-  // A file that is not finite in cost (absurdly far out) loses the comparison.
-  const bool file_first = file_cost <= robust_cost(graph, rotation_error);
+  std::vector<Group> chordal;
+  bool file_first = rotations_are_near(graph);
+  const auto make_chordal = [&] {
+    chordal_start(graph, rotation_error);
+    chordal = graph.poses;
+  };
+  if (!file_first) {
+    const double file_cost = robust_cost(graph, rotation_error);
+    make_chordal();
+    // A file that is not finite in cost (absurdly far out) loses the comparison.
+    file_first = file_cost <= robust_cost(graph, rotation_error);
+  }
   Candidates<Group> candidates(graph, solver);
   candidates.descend(file_first ? file : chordal,
                      file_first ? PoseGraphStart::kFile : PoseGraphStart::kChordal);
   if (candidates.best().outcome && windings_are_settled(graph)) return candidates.take();
-  graph.poses = chordal;
+  graph.poses = chordal.empty() ? file : chordal;
+  if (chordal.empty()) make_chordal();
   const bool tight = certified_start(graph, rotation_error).tight;
   candidates.descend(std::vector<Group>(graph.poses), PoseGraphStart::kCertified);
   if (!tight)

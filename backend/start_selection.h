@@ -25,7 +25,9 @@ struct StartSolution {
 
 /// Solves `graph` from a start. kAuto:
 ///
-///   1. the poses as they are or the chordal start, whichever costs less, and down from there;
+///   1. down from the poses as they are if no edge's rotation is off by more than 0.5 rad there,
+///   else
+///      from them or the chordal start, whichever costs less;
 ///   2. the minimum is kept if the descent ended and `windings_are_settled`;
 ///   3. else down from the certified start as well and, where its relaxation is not tight, from the
 ///      dearer one of the first two; the lowest minimum is kept.
