@@ -18,7 +18,7 @@ struct LocalSolverOptions {
   StepRule step_rule = StepRule::kDogleg;
   int max_iterations = 200;
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
-  LogSink log;                      ///< a line for every iteration (kDebug)
+  LogSink log = {};                 ///< a line for every iteration (kDebug)
 };
 
 struct LocalSolution {

@@ -12,7 +12,7 @@ struct RobustOptions {
   double kernel_width = 1;  ///< of huber and dcs, in standard deviations
   /// Share of the true loops whose squared error lies below the gate, were their noise Gaussian.
   double gate_probability = 0.999;
-  GncOptions gnc;
+  GncOptions gnc = {};
   LoopSupportOptions support;
   LoopGrowthOptions growth;
   void check() const;

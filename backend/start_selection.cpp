@@ -9,7 +9,8 @@ namespace placegraph {
 namespace {
 
 constexpr double kLogOdds = 6;
-constexpr double kCosineOfNear = 0.88;  // 0.5 rad
+constexpr double kCosineOfNear = 0.88;   // 0.5 rad
+constexpr double kCosineOfSame = 0.955;  // 0.3 rad
 
 /// The residual rotation of an edge, turned into the world frame (its third component in the
 /// plane), and the inverse of the rotation weight.
@@ -118,6 +119,7 @@ class Candidates {
     poses_ = graph_.poses;
   }
   const LocalSolution& best() const { return best_.solution; }
+  const std::vector<Group>& poses() const { return poses_; }
   /// Leaves the lowest minimum in the graph.
   StartSolution take() {
     graph_.poses = std::move(poses_);
@@ -134,6 +136,9 @@ class Candidates {
   int iterations_ = 0;
 };
 
+double cosine(const SO2& R) { return std::cos(R.angle()); }
+double cosine(const SO3& R) { return 2 * R.quaternion().w() * R.quaternion().w() - 1; }
+
 /// Whether no measured rotation is further from the poses than a step of Gauss-Newton can mend.
 template <class Group>
 bool rotations_are_near(const PackedGraph<Group>& graph) {
@@ -147,6 +152,19 @@ bool rotations_are_near(const PackedGraph<Group>& graph) {
     else
       cosine = 2 * E.quaternion().w() * E.quaternion().w() - 1;
     if (!(cosine > kCosineOfNear)) return false;
+  }
+  return true;
+}
+
+/// Whether two estimates differ nowhere by more than the noise could turn a pose within one
+/// minimum: then a descent from either ends in the same.
+template <class Group>
+bool rotations_agree(const std::vector<Group>& a, const std::vector<Group>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    // Relative to the first, whatever holds the gauge.
+    const auto turn_a = a[0].rotation().inverse() * a[i].rotation();
+    const auto turn_b = b[0].rotation().inverse() * b[i].rotation();
+    if (!(cosine(turn_a.inverse() * turn_b) > kCosineOfSame)) return false;
   }
   return true;
 }
@@ -174,6 +192,8 @@ StartSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotat
   graph.poses = chordal.empty() ? file : chordal;
   if (chordal.empty()) make_chordal();
   const bool tight = certified_start(graph, rotation_error).tight;
+  if (tight && candidates.best().outcome && rotations_agree(graph.poses, candidates.poses()))
+    return candidates.take();
   candidates.descend(std::vector<Group>(graph.poses), PoseGraphStart::kCertified);
   if (!tight)
     candidates.descend(file_first ? chordal : file,

@@ -29,8 +29,10 @@ struct StartSolution {
 ///   else
 ///      from them or the chordal start, whichever costs less;
 ///   2. the minimum is kept if the descent ended and `windings_are_settled`;
-///   3. else down from the certified start as well and, where its relaxation is not tight, from the
-///      dearer one of the first two; the lowest minimum is kept.
+///   3. else the certified start: if its relaxation is tight and it is turned from the minimum by
+///   no
+///      more than 0.3 rad anywhere, the minimum is kept; else down from it as well and, where the
+///      relaxation is not tight, from the dearer one of the first two; the lowest minimum is kept.
 template <class Group>
 StartSolution solve_from_start(PackedGraph<Group>& graph, PoseGraphStart start,
                                RotationError rotation_error, LocalSolver<Group>& solver);

@@ -19,7 +19,7 @@ struct ManhattanWalkOptions {
   int block_m = 5;      ///< between two corners
   int side_blocks = 0;  ///< of the town; 0: as many as give about two visits of every street
   double loop_share = 0.5;
-  GraphNoise noise;
+  GraphNoise noise = {};
   std::uint64_t seed = 1;
   void check() const;
 };
@@ -32,7 +32,7 @@ PoseGraph make_manhattan_walk(const ManhattanWalkOptions& options);
 struct GridWorldOptions {
   int poses = 1000;
   double loop_share = 0.5;
-  GraphNoise noise;
+  GraphNoise noise = {};
   std::uint64_t seed = 1;
   void check() const;
 };
@@ -46,7 +46,7 @@ struct LongLoopOptions {
   double laps = 1.1;
   int closures = 20;
   PoseKind kind = PoseKind::kSE2;  ///< SE2 or SE3
-  GraphNoise noise;
+  GraphNoise noise = {};
   std::uint64_t seed = 1;
   void check() const;
 };
