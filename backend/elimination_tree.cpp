@@ -128,6 +128,41 @@ int EliminationTree<D>::new_front() {
   return front;
 }
 
+template <int D>
+void EliminationTree<D>::release(Front& front) {
+  used_ -= front.matrix.capacity();
+  pooled_ += front.matrix.capacity();
+  pool_.push_back(std::move(front.matrix));
+  front.matrix = {};
+  while (pooled_ > used_ + 100000 && !pool_.empty()) {  // the oldest first
+    pooled_ -= pool_.front().capacity();
+    pool_.erase(pool_.begin());
+  }
+}
+
+/// Gives the front a matrix of `size`: its own if that has room, the smallest that has of the pool
+/// unless it is far too large, else a new one.
+template <int D>
+void EliminationTree<D>::provide(Front& front, std::size_t size) {
+  if (front.matrix.capacity() < size) {
+    auto best = pool_.end();
+    for (auto it = pool_.begin(); it != pool_.end(); ++it)
+      if (it->capacity() >= size && it->capacity() <= 2 * size &&
+          (best == pool_.end() || it->capacity() < best->capacity()))
+        best = it;
+    used_ -= front.matrix.capacity();
+    if (best != pool_.end()) {
+      front.matrix = std::move(*best);
+      pool_.erase(best);
+      pooled_ -= front.matrix.capacity();
+    } else {
+      front.matrix = std::vector<double>(size);
+    }
+    used_ += front.matrix.capacity();
+  }
+  front.matrix.resize(size);
+}
+
 /// Takes all fronts on the way from the touched variables to their roots out of the forest; returns
 /// their active variables and those that were in no front, and the fronts that hung below.
 template <int D>
@@ -158,6 +193,7 @@ std::vector<int> EliminationTree<D>::collect_top(std::vector<int>& orphans) {
   for (const int f : fronts) {
     Front& front = fronts_[f];
     entries_ -= static_cast<std::int64_t>(front.frontal.size()) * front.blocks();
+    release(front);
     front.children.clear();
     front.frontal.clear();
     front.separator.clear();
@@ -239,7 +275,7 @@ void EliminationTree<D>::restructure() {
 template <int D>
 void EliminationTree<D>::assemble(Front& front) {
   const int blocks = front.blocks(), rows = blocks * D;
-  front.matrix.resize(static_cast<std::size_t>(rows) * rows);
+  provide(front, static_cast<std::size_t>(rows) * rows);
   front.rhs.resize(rows);
   double* const matrix = front.matrix.data();
   for (int c = 0; c < rows; ++c)  // the lower blocks; what is above them is never read
