@@ -1,18 +1,9 @@
 #include <placegraph/backend/front_kernels.h>
+#include <placegraph/backend/function_clones.h>
 
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
-
-// The same code for the instructions that the processor has. Sanitizers do not know the dispatch.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define PLACEGRAPH_CLONES __attribute__((target_clones("arch=haswell", "default")))
-#define PLACEGRAPH_INLINE __attribute__((always_inline)) inline
-#else
-#define PLACEGRAPH_CLONES
-#define PLACEGRAPH_INLINE inline
-#endif
 
 extern "C" {
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);

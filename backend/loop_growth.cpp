@@ -2,6 +2,7 @@
 #include <placegraph/backend/loop_growth.h>
 #include <placegraph/backend/loop_leverage.h>
 #include <placegraph/backend/subset_solver.h>
+#include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
 #include <numeric>
@@ -19,27 +20,21 @@ LocalSolverOptions roughly(LocalSolverOptions options) {
 /// Gives weight to the loops of least error that tie parts of the graph to the rest.
 template <class Group>
 void reconnect(PackedGraph<Group>& graph, const std::vector<double>& chi2) {
-  std::vector<int> parent(graph.poses.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
-  const auto join = [&](const auto& edge) {
-    const int a = root(edge.from), b = root(edge.to);
-    parent[a] = b;
-    return a != b;
-  };
+  DisjointSets sets(graph.poses.size());
   std::vector<int> without;
   for (std::size_t i = 0; i < graph.edges.size(); ++i) {
     if (graph.edges[i].weight > 0)
-      join(graph.edges[i]);
+      sets.join(graph.edges[i].from, graph.edges[i].to);
     else
       without.push_back(static_cast<int>(i));
   }
   std::sort(without.begin(), without.end(), [&](int a, int b) { return chi2[a] < chi2[b]; });
-  for (const int edge : without)
-    if (join(graph.edges[edge])) graph.edges[edge].weight = 1;
+  for (const int i : without) {
+    auto& edge = graph.edges[i];
+    if (sets.root(edge.from) == sets.root(edge.to)) continue;
+    sets.join(edge.from, edge.to);
+    edge.weight = 1;
+  }
 }
 
 /// How much wider the gate of a loop is that says nearly the right thing.

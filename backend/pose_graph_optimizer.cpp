@@ -88,7 +88,7 @@ void visit(OptionVisitor& field, PoseGraphOptions& o) {
                "how the native engine steps");
   field.choice("start", o.start, {"auto", "file", "odometry", "chordal", "certified"},
                "where the descent begins; auto: the cheapest start whose minimum can be trusted");
-  field("max_iterations", o.max_iterations, "steps of Levenberg-Marquardt", {1, 100000});
+  field("max_iterations", o.max_iterations, "steps of the descent at most", {1, 100000});
   field("relative_decrease", o.relative_decrease,
         "stop when the cost falls by less than this share", {0, 1});
   field.group("robust", o.robust, "what is done against false loops");

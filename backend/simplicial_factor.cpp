@@ -1,18 +1,9 @@
+#include <placegraph/backend/function_clones.h>
 #include <placegraph/backend/simplicial_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 #include <cmath>
-
-// The same code for the instructions that the processor has. Sanitizers do not know the dispatch.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define PLACEGRAPH_CLONES __attribute__((target_clones("arch=haswell", "default")))
-#define PLACEGRAPH_INLINE __attribute__((always_inline)) inline
-#else
-#define PLACEGRAPH_CLONES
-#define PLACEGRAPH_INLINE inline
-#endif
 
 namespace placegraph {
 namespace {
