@@ -128,39 +128,11 @@ int EliminationTree<D>::new_front() {
   return front;
 }
 
+/// Whether one front is eliminated before another: children come before their parents.
 template <int D>
-void EliminationTree<D>::release(Front& front) {
-  used_ -= front.matrix.capacity();
-  pooled_ += front.matrix.capacity();
-  pool_.push_back(std::move(front.matrix));
-  front.matrix = {};
-  while (pooled_ > used_ + 100000 && !pool_.empty()) {  // the oldest first
-    pooled_ -= pool_.front().capacity();
-    pool_.erase(pool_.begin());
-  }
-}
-
-/// Gives the front a matrix of `size`: its own if that has room, the smallest that has of the pool
-/// unless it is far too large, else a new one.
-template <int D>
-void EliminationTree<D>::provide(Front& front, std::size_t size) {
-  if (front.matrix.capacity() < size) {
-    auto best = pool_.end();
-    for (auto it = pool_.begin(); it != pool_.end(); ++it)
-      if (it->capacity() >= size && it->capacity() <= 2 * size &&
-          (best == pool_.end() || it->capacity() < best->capacity()))
-        best = it;
-    used_ -= front.matrix.capacity();
-    if (best != pool_.end()) {
-      front.matrix = std::move(*best);
-      pool_.erase(best);
-      pooled_ -= front.matrix.capacity();
-    } else {
-      front.matrix = std::vector<double>(size);
-    }
-    used_ += front.matrix.capacity();
-  }
-  front.matrix.resize(size);
+bool EliminationTree<D>::earlier(int a, int b) const {
+  return variables_[fronts_[a].frontal.front()].order <
+         variables_[fronts_[b].frontal.front()].order;
 }
 
 /// Takes all fronts on the way from the touched variables to their roots out of the forest; returns
@@ -193,7 +165,7 @@ std::vector<int> EliminationTree<D>::collect_top(std::vector<int>& orphans) {
   for (const int f : fronts) {
     Front& front = fronts_[f];
     entries_ -= static_cast<std::int64_t>(front.frontal.size()) * front.blocks();
-    release(front);
+    pool_.release(front.matrix);
     front.children.clear();
     front.frontal.clear();
     front.separator.clear();
@@ -275,7 +247,7 @@ void EliminationTree<D>::restructure() {
 template <int D>
 void EliminationTree<D>::assemble(Front& front) {
   const int blocks = front.blocks(), rows = blocks * D;
-  provide(front, static_cast<std::size_t>(rows) * rows);
+  pool_.provide(front.matrix, static_cast<std::size_t>(rows) * rows);
   front.rhs.resize(rows);
   double* const matrix = front.matrix.data();
   for (int c = 0; c < rows; ++c)  // the lower blocks; what is above them is never read
@@ -334,11 +306,8 @@ void EliminationTree<D>::assemble(Front& front) {
 
 template <int D>
 bool EliminationTree<D>::factorize_stale() {
-  // Whoever is eliminated earlier comes first: children before parents.
-  std::sort(stale_matrices_.begin(), stale_matrices_.end(), [&](int a, int b) {
-    return variables_[fronts_[a].frontal.front()].order <
-           variables_[fronts_[b].frontal.front()].order;
-  });
+  std::sort(stale_matrices_.begin(), stale_matrices_.end(),
+            [&](int a, int b) { return earlier(a, b); });
   for (const int f : stale_matrices_) {
     Front& front = fronts_[f];
     assemble(front);
@@ -388,10 +357,7 @@ void EliminationTree<D>::forward(Front& front) {
 
 template <int D>
 double EliminationTree<D>::model_decrease() {
-  std::sort(stale_rhs_.begin(), stale_rhs_.end(), [&](int a, int b) {
-    return variables_[fronts_[a].frontal.front()].order <
-           variables_[fronts_[b].frontal.front()].order;
-  });
+  std::sort(stale_rhs_.begin(), stale_rhs_.end(), [&](int a, int b) { return earlier(a, b); });
   for (const int f : stale_rhs_) {
     forward(fronts_[f]);
     fronts_[f].rhs_stale = false;
@@ -447,11 +413,7 @@ Eigen::MatrixXd EliminationTree<D>::covariance(const std::vector<int>& variables
   std::vector<int> way;
   for (const int v : variables)
     for (int f = variables_[v].front; f >= 0; f = fronts_[f].parent) way.push_back(f);
-  const auto earlier = [&](int a, int b) {
-    return variables_[fronts_[a].frontal.front()].order <
-           variables_[fronts_[b].frontal.front()].order;
-  };
-  std::sort(way.begin(), way.end(), earlier);
+  std::sort(way.begin(), way.end(), [&](int a, int b) { return earlier(a, b); });
   way.erase(std::unique(way.begin(), way.end()), way.end());
   std::vector<int> place(variables_.size(), -1), members;
   for (const int f : way)

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/backend/matrix_pool.h>
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <vector>
@@ -90,18 +92,14 @@ class EliminationTree {
   bool factorize_stale();
   void forward(Front& front);
   int new_front();
-  void release(Front& front);
-  void provide(Front& front, std::size_t size);
+  bool earlier(int front_a, int front_b) const;
   const Block& diagonal(int variable);
 
   std::vector<Variable> variables_;
   std::vector<Term> terms_;
   std::vector<Front> fronts_;
   std::vector<int> free_fronts_, roots_;
-  /// Matrices of fronts that are gone, for those that come: fresh memory costs more than the sums
-  /// it is to hold. `pooled_` doubles in them, `used_` in the fronts.
-  std::vector<std::vector<double>> pool_;
-  std::size_t pooled_ = 0, used_ = 0;
+  MatrixPool pool_;
   std::vector<int> touched_;  ///< variables whose way to the root is to be reordered
   std::vector<int> stale_matrices_, stale_rhs_;  ///< fronts, with all their ancestors
   std::vector<int> solved_;

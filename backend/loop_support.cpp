@@ -1,9 +1,9 @@
 #include <placegraph/backend/loop_support.h>
+#include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace placegraph {
 namespace {
@@ -93,20 +93,12 @@ template <class Group>
 std::vector<std::vector<int>> clusters_of(const std::vector<LoopOnChain<Group>>& loops,
                                           const std::vector<LoopPair>& pairs,
                                           const std::vector<double>& probability, double least) {
-  std::vector<int> parent(loops.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets sets(loops.size());
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    if (probability[k] > least) {
-      const int a = root(pairs[k].a), b = root(pairs[k].b);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    if (probability[k] > least) sets.join(pairs[k].a, pairs[k].b);
   std::vector<std::vector<int>> clusters(loops.size());
   for (std::size_t i = 0; i < loops.size(); ++i)
-    clusters[root(static_cast<int>(i))].push_back(loops[i].edge);
+    clusters[sets.root(static_cast<int>(i))].push_back(loops[i].edge);
   std::erase_if(clusters, [](const auto& cluster) { return cluster.empty(); });
   std::stable_sort(clusters.begin(), clusters.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
