@@ -30,6 +30,8 @@ class CertificateMatrix {
   /// eigenvalue is said to be that bound; else a shift-and-invert Lanczos search (Spectra), which
   /// an accepted shift of zero always starts.
   Curvature curvature(double accepted_shift);
+  /// Whether S + shift is positive definite, by a factorization: nothing is searched.
+  [[nodiscard]] bool positive_with(double shift) { return factorize(shift); }
   /// sum tr(Lambda_i) - n d shift
   double lower_bound(double shift) const;
   /// (cost - lower_bound) / cost; a cost of nothing but rounding (residuals below 3e-5 rad) is

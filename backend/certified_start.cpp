@@ -16,6 +16,8 @@ constexpr double kLiftedPromiseShare = 1e-12;
 constexpr double kTightGap = 1e-5;
 /// A shift of the certificate matrix that costs this share of the bound is accepted unseen.
 constexpr double kAcceptedShare = 1e-7;
+constexpr int kShortDescent = 15;        ///< steps to a minimum that is near
+constexpr double kCosineOfSame = 0.955;  ///< 0.3 rad: more than noise turns within one minimum
 constexpr double kStiffness = 1e3;  ///< of ties between held nodes, in the heaviest edge's weights
 
 template <class Group>
@@ -117,20 +119,52 @@ CertifiedStartReport climb(const ChordalRelaxation<dim>& relaxation, int nodes,
   return report;
 }
 
-}  // namespace
-
+/// The isotropic problem of the graph, its held nodes tied to each other.
 template <class Group>
-CertifiedStartReport certified_start(PackedGraph<Group>& graph, RotationError rotation_error) {
-  constexpr int dim = kSpaceDim<Group>;
-  const Anchors anchors = find_anchors(graph);
+IsotropicProblem<kSpaceDim<Group>> tied_problem(const PackedGraph<Group>& graph,
+                                                const Anchors& anchors,
+                                                RotationError rotation_error) {
   Eigen::VectorXd log_scale;
   if constexpr (Group::kDof == 7) {
     log_scale.resize(static_cast<Eigen::Index>(graph.poses.size()));
     for (Eigen::Index i = 0; i < log_scale.size(); ++i)
       log_scale[i] = std::log(graph.poses[static_cast<std::size_t>(i)].scale());
   }
-  IsotropicProblem<dim> problem = isotropic_problem(graph, rotation_error, log_scale);
+  auto problem = isotropic_problem(graph, rotation_error, log_scale);
   tie_held_nodes(graph, anchors, problem);
+  return problem;
+}
+
+/// Whether X is a global minimum to kTightGap, by one factorization.
+template <int dim>
+bool proves_itself(const ChordalRelaxation<dim>& relaxation, int nodes, const Eigen::MatrixXd& X) {
+  const double cost = relaxation.cost(X);
+  CertificateMatrix<dim> matrix = relaxation.certificate_matrix(X);
+  const double shift =
+      0.5 * kTightGap * cost / (static_cast<double>(nodes) * dim) + 1e-13 * matrix.scale();
+  return matrix.positive_with(shift) &&
+         matrix.relative_gap(cost, matrix.lower_bound(shift)) <= kTightGap;
+}
+
+/// Whether the rotations of X and Z, points of rank d, differ nowhere by more than 0.3 rad.
+template <int dim>
+bool rotations_agree(const Eigen::MatrixXd& X, const Eigen::MatrixXd& Z, int nodes) {
+  constexpr double kTraceOfSame = dim == 2 ? 2 * kCosineOfSame : 1 + 2 * kCosineOfSame;
+  const auto rotation = [](const Eigen::MatrixXd& point, int i) {
+    return point.middleCols<dim>(i * (dim + 1));
+  };
+  for (int i = 0; i < nodes; ++i)
+    if (!(rotation(X, i).cwiseProduct(rotation(Z, i)).sum() > kTraceOfSame)) return false;
+  return true;
+}
+
+}  // namespace
+
+template <class Group>
+CertifiedStartReport certified_start(PackedGraph<Group>& graph, RotationError rotation_error) {
+  constexpr int dim = kSpaceDim<Group>;
+  const Anchors anchors = find_anchors(graph);
+  const IsotropicProblem<dim> problem = tied_problem(graph, anchors, rotation_error);
   if (problem.edges.empty()) {
     align_to_positions(graph);
     return {.tight = true};
@@ -143,8 +177,27 @@ CertifiedStartReport certified_start(PackedGraph<Group>& graph, RotationError ro
   return report;
 }
 
-template CertifiedStartReport certified_start(PackedGraph<SE2>&, RotationError);
-template CertifiedStartReport certified_start(PackedGraph<SE3>&, RotationError);
-template CertifiedStartReport certified_start(PackedGraph<Sim3>&, RotationError);
+template <class Group>
+bool certified_as_they_are(const PackedGraph<Group>& graph, RotationError rotation_error) {
+  constexpr int dim = kSpaceDim<Group>;
+  const IsotropicProblem<dim> problem = tied_problem(graph, find_anchors(graph), rotation_error);
+  if (problem.edges.empty()) return true;
+  const ChordalRelaxation<dim> relaxation(problem);
+  // With the translations best for the rotations, the multipliers are far nearer to critical.
+  const Eigen::MatrixXd here = relaxation.round(relaxation.point(graph.poses));
+  if (proves_itself(relaxation, problem.nodes, here)) return true;
+  Eigen::MatrixXd X = here;
+  return relaxation.minimize(X, {.max_steps = kShortDescent}).converged &&
+         rotations_agree<dim>(here, X, problem.nodes) &&
+         proves_itself(relaxation, problem.nodes, X);
+}
+
+#define PLACEGRAPH_INSTANTIATE(Group)                                                \
+  template CertifiedStartReport certified_start(PackedGraph<Group>&, RotationError); \
+  template bool certified_as_they_are(const PackedGraph<Group>&, RotationError);
+PLACEGRAPH_INSTANTIATE(SE2)
+PLACEGRAPH_INSTANTIATE(SE3)
+PLACEGRAPH_INSTANTIATE(Sim3)
+#undef PLACEGRAPH_INSTANTIATE
 
 }  // namespace placegraph

@@ -188,7 +188,9 @@ StartSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotat
   Candidates<Group> candidates(graph, solver);
   candidates.descend(file_first ? file : chordal,
                      file_first ? PoseGraphStart::kFile : PoseGraphStart::kChordal);
-  if (candidates.best().outcome && windings_are_settled(graph)) return candidates.take();
+  if (candidates.best().outcome &&
+      (windings_are_settled(graph) || certified_as_they_are(graph, rotation_error)))
+    return candidates.take();
   graph.poses = chordal.empty() ? file : chordal;
   if (chordal.empty()) make_chordal();
   const bool tight = certified_start(graph, rotation_error).tight;

@@ -28,11 +28,11 @@ struct StartSolution {
 ///   1. down from the poses as they are if no edge's rotation is off by more than 0.5 rad there,
 ///   else
 ///      from them or the chordal start, whichever costs less;
-///   2. the minimum is kept if the descent ended and `windings_are_settled`;
+///   2. the minimum is kept if the descent ended and `windings_are_settled` or, where they are in
+///   doubt, it is `certified_as_they_are`;
 ///   3. else the certified start: if its relaxation is tight and it is turned from the minimum by
-///   no
-///      more than 0.3 rad anywhere, the minimum is kept; else down from it as well and, where the
-///      relaxation is not tight, from the dearer one of the first two; the lowest minimum is kept.
+///   no more than 0.3 rad anywhere, the minimum is kept; else down from it as well and, where the
+///   relaxation is not tight, from the dearer one of the first two; the lowest minimum is kept.
 template <class Group>
 StartSolution solve_from_start(PackedGraph<Group>& graph, PoseGraphStart start,
                                RotationError rotation_error, LocalSolver<Group>& solver);

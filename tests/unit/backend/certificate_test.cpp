@@ -112,6 +112,20 @@ TYPED_TEST(CertificateOf, TheCertifiedStartKeepsHeldNodesAndComponentsWhereTheyA
   EXPECT_EQ(graph.poses[16].matrix(), TypeParam().matrix());
 }
 
+TYPED_TEST(CertificateOf, AMinimumIsCertifiedAsItIsUnlessItIsWound) {
+  for (const bool wound : {false, true}) {
+    PackedGraph<TypeParam> graph = pack<TypeParam>(ring<TypeParam>(40, wound));
+    EXPECT_EQ(certified_as_they_are(graph), !wound);
+  }
+  const Walk<TypeParam> walk(40, 0.05);
+  PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
+  LocalSolver<TypeParam> solver({});
+  ASSERT_TRUE(solver.solve(graph).outcome);
+  EXPECT_TRUE(certified_as_they_are(graph));
+  graph.edges.clear();
+  EXPECT_TRUE(certified_as_they_are(graph));
+}
+
 TYPED_TEST(CertificateOf, WindingsAreSettledAtTheTruthAndNotAtAWoundMinimum) {
   for (const double scale : {1e-6, 1.0, 1e6}) {  // of the information
     for (const bool wound : {false, true}) {
