@@ -1,0 +1,73 @@
+# What the sections of scripts/results are written with. A section writes Markdown into $rows; its
+# files lie in $out.
+
+# digits VALUE [N]: rounded for the table
+digits() { case "$1" in null|'') echo "none" ;; *) LC_ALL=C awk -v v="$1" -v n="${2:-3}" 'BEGIN { printf "%.*f", n, v }' ;; esac; }
+# significant VALUE [N]: N digits of it
+significant() { case "$1" in null|'') echo "none" ;; *) LC_ALL=C awk -v v="$1" -v n="${2:-10}" 'BEGIN { printf "%.*g", n, v }' ;; esac; }
+# verdict VALUE OP LIMIT
+verdict() {
+  LC_ALL=C awk -v v="$1" -v op="$2" -v l="$3" 'BEGIN {
+    ok = v ~ /^[-+0-9.eE]+$/ && (op == "<=" ? v + 0 <= l + 0 : op == ">=" ? v + 0 >= l + 0 : v + 0 == l + 0)
+    print ok ? "yes" : "**no**" }'
+}
+heading() { printf '\n### %s\n\n' "$1" >> "$rows"; }
+command_line() { printf '    %s\n' "$1" >> "$rows"; }
+# cells CELL...: a row of a table
+cells() { printf '| %s ' "$@" >> "$rows"; echo "|" >> "$rows"; }
+# columns NAME...: the head of a table
+columns() {
+  echo >> "$rows"
+  cells "$@"
+  for column in "$@"; do printf '|---' >> "$rows"; done
+  echo "|" >> "$rows"
+}
+# A table of figures of trajectories: row WHAT ALIGN LENGTHS STEP TARGET MEASURED MET
+table() { columns figure align "lengths [m]" step target measured met; }
+row() { cells "$@"; }
+absent() { heading "$1"; echo "Absent: the data are not on this machine." >> "$rows"; say "$1: absent"; }
+
+# render NAME ARGUMENTS...: renders $out/NAME-world quietly
+render() {
+  name=$1; shift
+  say "rendering $name"
+  $placegraph synth "$@" --out "$out/$name-world" --force > "$out/$name-world.log" 2>&1 || {
+    cat "$out/$name-world.log" >&2; return 1; }
+}
+render_town() { render town town-loop --difficulty standard; }
+render_kitti06() { render rendered06 "$data/kitti_gt/06/poses.txt" --difficulty standard --mono; }
+# run NAME SEQUENCE ARGUMENTS...: runs quietly into $out/NAME
+run() {
+  name=$1; sequence=$2; shift 2
+  say "running $name"
+  $placegraph run "$sequence" --out "$out/$name" --force "$@" > "$out/$name.log" 2>&1 || {
+    cat "$out/$name.log" >&2; return 1; }
+}
+# judge NAME GT ESTIMATE ARGUMENTS...: JSON in $out/NAME.json
+judge() {
+  name=$1; truth=$2; estimate=$3; shift 3
+  $placegraph eval "$truth" "$estimate" "$@" --json > "$out/$name.json" 2> "$out/$name.err" || {
+    cat "$out/$name.err" >&2; return 1; }
+}
+# cost NAME: wall time and memory of a run
+cost() {
+  f=$out/$1/result.json
+  printf '\n%s frames in %s s (%s s CPU), %s MB at most.\n' "$(number "$f" frames)" \
+    "$(digits "$(number "$f" wall_s)" 1)" "$(digits "$(number "$f" cpu_s)" 1)" "$(digits "$(number "$f" peak_mb)" 0)" >> "$rows"
+}
+
+# optimize NAME GRAPH ARGUMENTS...: $out/NAME.g2o and $out/NAME.json; neither where no minimum was found
+optimize() {
+  optimized=$out/$1; input=$2; shift 2
+  status=0
+  $placegraph optimize "$input" -o "$optimized.g2o" --force --json --quiet "$@" > "$optimized.json" 2> "$optimized.err" || status=$?
+  [ "$status" = 0 ] || { rm -f "$optimized.json"; cat "$optimized.err" >&2; }
+  [ "$status" -le 1 ]
+}
+# optimize_often N NAME GRAPH ARGUMENTS...: $out/NAME.1 to NAME.N
+optimize_often() {
+  times=$1; often=$2; shift 2
+  for k in $(seq "$times"); do optimize "$often.$k" "$@"; done
+}
+# median_of NAME KEY: over the repeats that found a minimum
+median_of() { for json in "$out/$1".[0-9]*.json; do number "$json" "$2"; done | median; }
