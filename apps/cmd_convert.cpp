@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/position_of.h>
 #include <placegraph/io/g2o.h>
 #include <placegraph/io/text_file.h>
 #include <placegraph/io/trajectory_file.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -54,9 +56,35 @@ Form wanted_form(const Arguments& arguments) {
                       "name it with --to");
 }
 
-void convert_graph(const Arguments& arguments) {
+/// T_world_node without the scale it may have; in the plane z = 0.
+Eigen::Isometry3d rigid(const Pose& pose) {
+  if (const SE2* planar = std::get_if<SE2>(&pose))
+    return SE3(SO3::exp({0, 0, planar->rotation().angle()}), position_of(pose)).isometry();
+  if (const SE3* T = std::get_if<SE3>(&pose)) return T->isometry();
+  return SE3(std::get<Sim3>(pose).rotation(), position_of(pose)).isometry();
+}
+
+/// The poses in the order of their ids.
+Trajectory poses_of(PoseGraph graph) {
+  std::sort(graph.nodes.begin(), graph.nodes.end(),
+            [](const PoseNode& a, const PoseNode& b) { return a.id < b.id; });
+  Trajectory trajectory;
+  trajectory.has_times = false;
+  for (const PoseNode& node : graph.nodes)
+    trajectory.poses.push_back(
+        {static_cast<std::int64_t>(trajectory.size()), rigid(node.T_world_node)});
+  return trajectory;
+}
+
+void convert_graph(const Arguments& arguments, Form to) {
   if (!arguments.times.empty()) throw ArgumentError("--times: a g2o file has none");
   const PoseGraph graph = read_g2o(arguments.in);
+  if (to == TrajectoryFormat::kKitti) {
+    write_trajectory(arguments.out, poses_of(graph), *to);
+    fmt::print("{}: {} poses in the order of their ids, written to {}\n", arguments.in,
+               graph.nodes.size(), arguments.out);
+    return;
+  }
   write_g2o(arguments.out, graph);
   fmt::print("{}: {} nodes, {} constraints, written to {}\n", arguments.in, graph.nodes.size(),
              graph.constraints.size(), arguments.out);
@@ -77,12 +105,13 @@ void run(const Arguments& arguments) {
   const Form to = wanted_form(arguments);
   require_free(arguments.out, arguments.force);
   const bool graph = is_g2o(arguments.in);
-  if (graph != (to == kG2o)) {
-    throw ArgumentError(arguments.in + ": is a " + (graph ? "pose graph" : "trajectory") +
-                        ", which does not become a " + (graph ? "trajectory" : "pose graph"));
-  }
+  if (!graph && to == kG2o)
+    throw ArgumentError(arguments.in + ": is a trajectory, which does not become a pose graph");
+  if (graph && to != kG2o && to != TrajectoryFormat::kKitti)
+    throw ArgumentError(arguments.in + ": is a pose graph; its poses have no times, which " +
+                        arguments.out + " needs");
   if (graph) {
-    convert_graph(arguments);
+    convert_graph(arguments, to);
   } else {
     convert_trajectory(arguments, *to);
   }
@@ -94,7 +123,8 @@ void add_convert_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   Arguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
-      "convert", "Convert trajectories between KITTI, TUM and EuRoC form; normalize a .g2o");
+      "convert",
+      "Convert trajectories between KITTI, TUM and EuRoC form; normalize a .g2o or take its poses");
   command->footer("placegraph convert poses.txt poses.tum --times times.txt");
   command->add_option("IN", a.in, "file to read; what it is, is seen from its content")
       ->required()

@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/g2o.h>
 #include <placegraph/io/pose_graph_file.h>
+#include <placegraph/io/synthetic/false_loops.h>
 #include <placegraph/io/synthetic/graph_world.h>
 #include <CLI/CLI.hpp>
 
@@ -21,7 +22,8 @@ struct Arguments {
   std::optional<int> poses, closures;
   std::optional<double> loop_share, laps, translation_noise_m, rotation_noise_rad;
   std::uint64_t seed = 1;
-  bool spatial = false, force = false;
+  int false_loops = 0;
+  bool spatial = false, shuffle = false, force = false;
 };
 
 /// The options of all worlds have these in common.
@@ -50,10 +52,12 @@ PoseGraph disturbed_file(const Arguments& arguments) {
   refuse_foreign(arguments, false, false);
   require(!arguments.poses && !arguments.translation_noise_m,
           "--poses and --translation-noise are no options of a file");
-  require(arguments.rotation_noise_rad.has_value(),
-          "--rotation-noise: how much of it is to be added to " + arguments.world + "?");
+  require(
+      arguments.rotation_noise_rad || arguments.false_loops > 0 || arguments.shuffle,
+      arguments.world + ": what is to be done to it? --rotation-noise, --false-loops or --shuffle");
   PoseGraph graph = read_pose_graph(arguments.world);
-  synthetic::add_rotation_noise(graph, *arguments.rotation_noise_rad, arguments.seed);
+  if (arguments.rotation_noise_rad)
+    synthetic::add_rotation_noise(graph, *arguments.rotation_noise_rad, arguments.seed);
   return graph;
 }
 
@@ -83,7 +87,9 @@ PoseGraph make_graph(const Arguments& arguments) {
 
 void run(const Arguments& arguments) {
   require_free(arguments.out, arguments.force);
-  const PoseGraph graph = make_graph(arguments);
+  PoseGraph graph = make_graph(arguments);
+  synthetic::add_false_loops(graph, arguments.false_loops, arguments.seed);
+  if (arguments.shuffle) synthetic::shuffle_constraints(graph, arguments.seed);
   write_g2o(arguments.out, graph);
   fmt::print("{}: {} poses, {} constraints, written to {}\n", arguments.world, graph.nodes.size(),
              graph.constraints.size(), arguments.out);
@@ -100,8 +106,8 @@ void add_synth_graph_command(CLI::App& app) {
   command
       ->add_option(
           "WORLD", a.world,
-          "manhattan-walk (2D), grid-world (3D), long-loop, or a graph whose odometry is to "
-          "be disturbed")
+          "manhattan-walk (2D), grid-world (3D), long-loop, or the file of a graph that is to be "
+          "made harder")
       ->required();
   command->add_option("-o,--out", a.out, "graph to write, in g2o's form")->required();
   command->add_option("--poses", a.poses, "how many");
@@ -114,6 +120,9 @@ void add_synth_graph_command(CLI::App& app) {
   command->add_option("--translation-noise", a.translation_noise_m, "of a measurement [m]");
   command->add_option("--rotation-noise", a.rotation_noise_rad,
                       "of a measurement, or added to the odometry of a file [rad]");
+  command->add_option("--false-loops", a.false_loops,
+                      "add so many behind the others, between poses that stand far apart");
+  command->add_flag("--shuffle", a.shuffle, "write the constraints in a random order");
   command->add_option("--seed", a.seed, "another seed, other chances")->capture_default_str();
   command->add_flag("--force", a.force, "overwrite OUT");
   command->callback([arguments] { run(*arguments); });

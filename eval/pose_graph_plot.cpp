@@ -1,16 +1,10 @@
 #include <placegraph/eval/pose_graph_plot.h>
+#include <placegraph/graph/position_of.h>
 
 #include <algorithm>
 
 namespace placegraph {
 namespace {
-
-Eigen::Vector3d position_of(const Pose& pose) {
-  if (const SE2* planar = std::get_if<SE2>(&pose))
-    return {planar->translation().x(), planar->translation().y(), 0};
-  if (const SE3* T = std::get_if<SE3>(&pose)) return T->translation();
-  return std::get<Sim3>(pose).translation();
-}
 
 /// The nodes in their order, with a gap wherever no odometry joins a node to the one before.
 std::vector<std::optional<Eigen::Vector3d>> line_of(const PoseGraph& graph,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/position_of.h>
 #include <placegraph/io/atomic_file.h>
 #include <placegraph/io/geo_export.h>
 
@@ -13,13 +14,6 @@ namespace {
 
 using Buffer = std::back_insert_iterator<fmt::memory_buffer>;
 using Line = std::vector<GeodeticPosition>;
-
-Eigen::Vector3d position_of(const Pose& T_enu_node) {
-  if (const SE2* T = std::get_if<SE2>(&T_enu_node))
-    return {T->translation().x(), T->translation().y(), 0};
-  if (const SE3* T = std::get_if<SE3>(&T_enu_node)) return T->translation();
-  return std::get<Sim3>(T_enu_node).translation();
-}
 
 const char* name_of(ConstraintSource source) {
   switch (source) {

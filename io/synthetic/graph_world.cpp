@@ -14,6 +14,14 @@ void require(bool holds, const char* field, const char* what) {
   if (!holds) throw ArgumentError(std::string(field) + ": " + what);
 }
 
+constexpr int kMaxPoses = 1000000;
+
+void check_poses(int poses, int min) {
+  if (poses < min || poses > kMaxPoses)
+    throw ArgumentError("poses: must be from " + std::to_string(min) + " to " +
+                        std::to_string(kMaxPoses));
+}
+
 template <class Group>
 constexpr int kDim = Group::kDof == 3 ? 2 : 3;
 
@@ -103,12 +111,13 @@ void turn_odometry(PoseGraph& graph, double sigma_rad, Random& random) {
 }  // namespace
 
 void GraphNoise::check() const {
-  require(translation_m > 0, "noise.translation_m", "must be positive");
-  require(rotation_rad > 0, "noise.rotation_rad", "must be positive");
+  const auto fits = [](double sigma) { return sigma >= 1e-9 && sigma <= 1e9; };
+  require(fits(translation_m), "noise.translation_m", "must lie in [1e-9, 1e9]");
+  require(fits(rotation_rad), "noise.rotation_rad", "must lie in [1e-9, 1e9]");
 }
 
 void ManhattanWalkOptions::check() const {
-  require(poses >= 2, "poses", "must be at least 2");
+  check_poses(poses, 2);
   require(block_m >= 1, "block_m", "must be at least 1");
   require(side_blocks >= 0, "side_blocks", "must not be negative");
   require(loop_share >= 0 && loop_share <= 1, "loop_share", "must lie in [0, 1]");
@@ -116,14 +125,14 @@ void ManhattanWalkOptions::check() const {
 }
 
 void GridWorldOptions::check() const {
-  require(poses >= 2, "poses", "must be at least 2");
+  check_poses(poses, 2);
   require(loop_share >= 0 && loop_share <= 1, "loop_share", "must lie in [0, 1]");
   noise.check();
 }
 
 void LongLoopOptions::check() const {
-  require(poses >= 10, "poses", "must be at least 10");
-  require(laps > 1, "laps", "must be more than 1");
+  check_poses(poses, 10);
+  require(laps > 1 && laps <= poses, "laps", "must be more than 1 and at most one a pose");
   require(closures >= 1, "closures", "must be at least 1");
   require(closures <= poses - std::ceil(poses / laps), "closures", "more than is driven again");
   require(kind != PoseKind::kSim3, "kind", "must be SE2 or SE3");
@@ -205,7 +214,7 @@ PoseGraph make_long_loop(const LongLoopOptions& options) {
 }
 
 void add_rotation_noise(PoseGraph& graph, double sigma_rad, std::uint64_t seed) {
-  require(sigma_rad >= 0, "sigma_rad", "must not be negative");
+  require(sigma_rad >= 0 && sigma_rad <= 1e9, "sigma_rad", "must lie in [0, 1e9]");
   require(graph.kind() != PoseKind::kSim3, "graph", "must be SE2 or SE3");
   Random random(seed);
   if (graph.kind() == PoseKind::kSE2)

@@ -31,7 +31,7 @@ TEST(Configs, AreAllReadAndChangeSomething) {
     SCOPED_TRACE(entry.path());
     ASSERT_EQ(entry.path().extension(), ".yaml");
     EXPECT_NE(dump_options(options_of(entry.path().string())), defaults);
-    EXPECT_EQ(read_text(entry.path().string()).front(), '#') << "says what it is for";
+    EXPECT_EQ(read_file(entry.path().string()).front(), '#') << "says what it is for";
     ++count;
   }
   EXPECT_GE(count, 6);

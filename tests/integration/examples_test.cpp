@@ -23,12 +23,12 @@ TEST(Examples, RunFolderWritesATrajectory) {
   const TemporaryFolder folder;
   StreetFiles(folder, 6).write_kitti(true);
   ASSERT_EQ(run_example("run_folder", folder / "s " + (folder / "t.tum"), folder / "out"), 0)
-      << read_text(folder / "out");
+      << read_file(folder / "out");
   const Trajectory trajectory = read_trajectory(folder / "t.tum");
   ASSERT_EQ(trajectory.size(), 6u);
   const SE3 truth = street_T_world_cam(0).inverse() * street_T_world_cam(5);
   EXPECT_LT(distance_m(SE3(*trajectory.poses.back().T_world_body), truth), 0.05);
-  EXPECT_THAT(read_text(folder / "out"), testing::HasSubstr("6 of 6 frames posed"));
+  EXPECT_THAT(read_file(folder / "out"), testing::HasSubstr("6 of 6 frames posed"));
   EXPECT_EQ(run_example("run_folder", folder / "none " + (folder / "t.tum"), folder / "out"), 2);
   EXPECT_EQ(run_example("run_folder", "", folder / "out"), 2);
 }
@@ -44,16 +44,17 @@ TEST(Examples, EvaluateTwoNamesTheBetterTrajectory) {
   write("good.tum", drifting(truth, 0.005, 0.0002, random));
   write("bad.tum", drifting(truth, 0.05, 0.005, random));
   const std::string files = folder / "truth.tum " + (folder / "bad.tum ") + (folder / "good.tum");
-  ASSERT_EQ(run_example("evaluate_two", files, folder / "out"), 0) << read_text(folder / "out");
-  EXPECT_THAT(read_text(folder / "out"),
+  ASSERT_EQ(run_example("evaluate_two", files, folder / "out"), 0) << read_file(folder / "out");
+  EXPECT_THAT(read_file(folder / "out"),
               testing::HasSubstr("smaller absolute error: " + (folder / "good.tum")));
   EXPECT_EQ(run_example("evaluate_two", folder / "truth.tum", folder / "out"), 2);
 }
 
 TEST(Examples, CustomFactorFindsTheRobotByItsRanges) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_example("custom_factor", "", folder / "out"), 0) << read_text(folder / "out");
-  EXPECT_THAT(read_text(folder / "out"), testing::ContainsRegex("robot at 2.000 -?0.000 -?0.000 m"));
+  ASSERT_EQ(run_example("custom_factor", "", folder / "out"), 0) << read_file(folder / "out");
+  EXPECT_THAT(read_file(folder / "out"),
+              testing::ContainsRegex("robot at 2.000 -?0.000 -?0.000 m"));
 }
 
 TEST(Examples, OptimizeG2oLowersTheCost) {
@@ -64,7 +65,7 @@ TEST(Examples, OptimizeG2oLowersTheCost) {
                "EDGE_SE2 0 2 2 0 0 100 0 0 100 0 400\n");
   ASSERT_EQ(run_example("optimize_g2o", folder / "in.g2o " + (folder / "out.g2o"), folder / "out"),
             0)
-      << read_text(folder / "out");
+      << read_file(folder / "out");
   const PoseGraph graph = read_g2o(folder / "out.g2o");
   ASSERT_EQ(graph.nodes.size(), 3u);
   const SE2& last = std::get<SE2>(graph.nodes[2].T_world_node);

@@ -1,47 +1,35 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-
-#include "tests/support/command.h"
+// `placegraph synth`.
+#include "tests/support/cli_test.h"
 
 namespace placegraph {
 namespace {
 
 namespace fs = std::filesystem;
 using test::read_file;
-using test::run_placegraph;
-using test::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class SynthCli : public ::testing::Test {
+class SynthCli : public test::CliTest {
  protected:
   void expect_error(const std::string& arguments, const std::string& message) {
-    SCOPED_TRACE(arguments);
-    const auto result = run_placegraph("synth " + arguments, dir.path());
-    EXPECT_EQ(result.code, 2);
-    EXPECT_THAT(result.err, HasSubstr(message));
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_FALSE(fs::exists(dir / "out"));
+    expect_usage_error("synth " + arguments, message);
+    EXPECT_FALSE(fs::exists(dir / "out")) << arguments;
   }
-  TemporaryFolder dir;
 };
 
 TEST_F(SynthCli, HelpBeginsWithAnExample) {
-  const auto result = run_placegraph("synth --help");
+  const auto result = run("synth --help");
   EXPECT_EQ(result.code, 0);
   EXPECT_THAT(result.out, StartsWith("Example: placegraph synth town-loop --out"));
 }
 
 TEST_F(SynthCli, WritesBothEyesOutdoorsAndDepthIndoors) {
   const std::string small = " --frames 2 --size 96x48 --threads 1";
-  ASSERT_EQ(run_placegraph("synth town-loop --out town" + small, dir.path()).code, 0);
+  ASSERT_EQ(run("synth town-loop --out town" + small).code, 0);
   EXPECT_TRUE(fs::exists(dir / "town/image_0/000001.png"));
   EXPECT_TRUE(fs::exists(dir / "town/image_1/000001.png"));
   EXPECT_FALSE(fs::exists(dir / "town/depth_0"));
-  ASSERT_EQ(run_placegraph("synth corridor-loop --out hall" + small, dir.path()).code, 0);
+  ASSERT_EQ(run("synth corridor-loop --out hall" + small).code, 0);
   EXPECT_FALSE(fs::exists(dir / "hall/image_1"));
   EXPECT_TRUE(fs::exists(dir / "hall/depth_0/000001.png"));
   EXPECT_TRUE(fs::exists(dir / "hall/floorplan.json"));
@@ -49,8 +37,8 @@ TEST_F(SynthCli, WritesBothEyesOutdoorsAndDepthIndoors) {
 
 TEST_F(SynthCli, OneAndTwoThreadsWriteTheSameBytes) {
   const std::string what = "synth town-loop --frames 3 --size 96x48 --depth --labels --flow";
-  ASSERT_EQ(run_placegraph(what + " --threads 1 --out one", dir.path()).code, 0);
-  ASSERT_EQ(run_placegraph(what + " --threads 2 --out two", dir.path()).code, 0);
+  ASSERT_EQ(run(what + " --threads 1 --out one").code, 0);
+  ASSERT_EQ(run(what + " --threads 2 --out two").code, 0);
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(dir / "one")) {
     if (!entry.is_regular_file()) continue;
@@ -79,9 +67,9 @@ TEST_F(SynthCli, DoesNotWriteIntoAFolderThatHoldsSomething) {
   fs::create_directory(dir / "full");
   test::write_file(dir / "full/notes.txt", "mine");
   const std::string command = "synth town-loop --frames 1 --size 96x48 --out full";
-  EXPECT_EQ(run_placegraph(command, dir.path()).code, 2);
+  EXPECT_EQ(run(command).code, 2);
   EXPECT_FALSE(fs::exists(dir / "full/image_0"));
-  EXPECT_EQ(run_placegraph(command + " --force", dir.path()).code, 0);
+  EXPECT_EQ(run(command + " --force").code, 0);
   EXPECT_TRUE(fs::exists(dir / "full/image_0/000000.png"));
   EXPECT_EQ(read_file(dir / "full/notes.txt"), "mine");
 }

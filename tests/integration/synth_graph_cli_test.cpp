@@ -1,4 +1,7 @@
 // `placegraph synth-graph`.
+#include <sstream>
+#include <vector>
+
 #include "tests/support/cli_test.h"
 
 namespace placegraph {
@@ -43,6 +46,30 @@ TEST_F(SynthGraphCli, DisturbsTheOdometryOfAFile) {
   EXPECT_NE(read_file(dir / "a.g2o"), read_file(dir / "b.g2o"));
 }
 
+/// "from to" of every edge; reading and writing again may change the last digit of an angle.
+std::vector<std::string> edges(const std::string& path) {
+  std::istringstream in(read_file(path));
+  std::vector<std::string> edges;
+  for (std::string line, tag, from, to; std::getline(in, line);)
+    if (std::istringstream(line) >> tag >> from >> to && tag == "EDGE_SE2")
+      edges.push_back(from + " " + to);
+  return edges;
+}
+
+TEST_F(SynthGraphCli, AddsFalseLoopsBehindTheOthersAndShuffles) {
+  run("synth-graph manhattan-walk --poses 100 -o true.g2o");
+  ASSERT_EQ(run("synth-graph true.g2o --false-loops 5 -o false.g2o").code, 0);
+  std::vector<std::string> truth = edges(dir / "true.g2o"), with = edges(dir / "false.g2o");
+  ASSERT_EQ(with.size(), truth.size() + 5);
+  EXPECT_TRUE(std::equal(truth.begin(), truth.end(), with.begin()));
+  ASSERT_EQ(run("synth-graph false.g2o --shuffle -o shuffled.g2o").code, 0);
+  std::vector<std::string> shuffled = edges(dir / "shuffled.g2o");
+  EXPECT_NE(shuffled, with);
+  std::sort(with.begin(), with.end());
+  std::sort(shuffled.begin(), shuffled.end());
+  EXPECT_EQ(shuffled, with);
+}
+
 TEST_F(SynthGraphCli, RefusesWhatDoesNotBelongTogether) {
   expect_usage_error("synth-graph castle -o a.g2o", "castle: neither manhattan-walk");
   expect_usage_error("synth-graph manhattan-walk --laps 2 -o a.g2o", "--laps is no option of");
@@ -52,6 +79,9 @@ TEST_F(SynthGraphCli, RefusesWhatDoesNotBelongTogether) {
   expect_usage_error("synth-graph long-loop --poses 0 -o a.g2o", "poses");
   write_file(dir / "in.g2o", "VERTEX_SE2 0 0 0 0\n");
   expect_usage_error("synth-graph in.g2o -o a.g2o", "--rotation-noise");
+  expect_usage_error("synth-graph in.g2o --false-loops 3 -o a.g2o", "the graph has no loop");
+  expect_usage_error("synth-graph grid-world --false-loops -1 -o a.g2o", "false loops: must be");
+  expect_usage_error("synth-graph grid-world --poses 2000000000 -o a.g2o", "poses: must be from 2");
   expect_usage_error("synth-graph in.g2o --rotation-noise 1 --poses 3 -o a.g2o", "--poses");
   expect_usage_error("synth-graph grid-world -o in.g2o", "--force");
   EXPECT_FALSE(fs::exists(dir / "a.g2o"));

@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/g2o.h>
 
-#include "tests/unit/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

@@ -1,9 +1,10 @@
 #include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/euler_angles.h>
 #include <placegraph/io/pose_graph_file.h>
 
-#include "tests/unit/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

@@ -4,14 +4,15 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/unit/io/temporary_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {
 
 namespace fs = std::filesystem;
 using test::message_of;
-using test::read_text;
+using test::read_file;
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
 
@@ -85,7 +86,7 @@ TEST(SequenceWriter, NeverReplacesAFolderUnlessForcedAndLeavesNothingHalfDone) {
   SequenceWriterOptions options;
   EXPECT_THAT(message_of<ArgumentError>([&] { write_sequence(world, folder / "out", options); }),
               HasSubstr("is not empty"));
-  EXPECT_EQ(read_text(folder / "out/precious.txt"), "keep");
+  EXPECT_EQ(read_file(folder / "out/precious.txt"), "keep");
   EXPECT_THAT(message_of<ArgumentError>(
                   [&] { write_sequence(world, folder / "out/precious.txt", options); }),
               HasSubstr("is a file"));
@@ -94,12 +95,12 @@ TEST(SequenceWriter, NeverReplacesAFolderUnlessForcedAndLeavesNothingHalfDone) {
   EXPECT_THROW(
       write_sequence(world, folder / "out", options, [](std::size_t) { throw Interruption(); }),
       Interruption);
-  EXPECT_EQ(read_text(folder / "out/precious.txt"), "keep");
+  EXPECT_EQ(read_file(folder / "out/precious.txt"), "keep");
   int left = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path())) ++left;
   EXPECT_EQ(left, 1);
   write_sequence(world, folder / "out", options);
-  EXPECT_EQ(read_text(folder / "out/precious.txt"), "keep");  // no part of a sequence
+  EXPECT_EQ(read_file(folder / "out/precious.txt"), "keep");  // no part of a sequence
   EXPECT_TRUE(fs::exists(folder / "out/image_0/000001.png"));
 }
 

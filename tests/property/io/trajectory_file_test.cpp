@@ -1,12 +1,12 @@
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/trajectory_file.h>
 
-#include "tests/unit/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {
 
-using test::read_text;
+using test::read_file;
 using test::TemporaryFolder;
 
 Trajectory random_trajectory(std::uint64_t seed) {
@@ -45,7 +45,7 @@ TEST(Trajectory, IsTheSameAfterWritingAndReadingInKittiForm) {
       if (written.poses[i].T_world_body) expect_same_pose(read.poses[i], written.poses[i]);
     }
     write_trajectory(folder / "b", read, TrajectoryFormat::kKitti);
-    EXPECT_EQ(read_text(folder / "a"), read_text(folder / "b"));
+    EXPECT_EQ(read_file(folder / "a"), read_file(folder / "b"));
   }
 }
 

@@ -3,7 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "temporary_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

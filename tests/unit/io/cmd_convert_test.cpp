@@ -4,13 +4,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "temporary_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {
 
 using test::message_of;
-using test::read_text;
+using test::read_file;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
@@ -32,7 +33,7 @@ TEST(ConvertCommand, GoesRoundThroughAllThreeForms) {
   convert({folder / "a.tum", folder / "b.csv"});
   convert({folder / "b.csv", folder / "c.kitti"});
   convert({folder / "b.csv", folder / "d.tum"});
-  EXPECT_EQ(read_text(folder / "a.tum"), read_text(folder / "d.tum"));
+  EXPECT_EQ(read_file(folder / "a.tum"), read_file(folder / "d.tum"));
   EXPECT_EQ(read_trajectory(folder / "b.csv").poses[0].stamp_ns, 1403636579763555527);
   const Trajectory read = read_trajectory(folder / "c.kitti");
   Eigen::Matrix4d expected;
@@ -62,7 +63,7 @@ TEST(ConvertCommand, NormalizesAGraph) {
                                       "# c\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n"
                                       "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1.0 0.50 0\n");
   convert({in, folder / "out.g2o"});
-  EXPECT_EQ(read_text(folder / "out.g2o"),
+  EXPECT_EQ(read_file(folder / "out.g2o"),
             "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0.5 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n");
   EXPECT_THAT(message_of<ArgumentError>([&] {
                 convert({in, folder / "out.tum"});
@@ -70,12 +71,39 @@ TEST(ConvertCommand, NormalizesAGraph) {
               HasSubstr("is a pose graph"));
 }
 
+TEST(ConvertCommand, TakesThePosesOfAGraphInTheOrderOfTheirIds) {
+  const TemporaryFolder folder;
+  const std::string planar =
+      folder.write("planar.g2o", "VERTEX_SE2 7 3 4 1.5707963267948966\nVERTEX_SE2 -1 1 2 0\n");
+  convert({planar, folder / "planar.kitti"});
+  const Trajectory read = read_trajectory(folder / "planar.kitti");
+  ASSERT_EQ(read.size(), 2u);
+  Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
+  expected.col(3).head<2>() << 1, 2;
+  EXPECT_EQ(read.poses[0].T_world_body->matrix(), expected);
+  expected << 0, -1, 0, 3, 1, 0, 0, 4, 0, 0, 1, 0, 0, 0, 0, 1;
+  EXPECT_LT((read.poses[1].T_world_body->matrix() - expected).cwiseAbs().maxCoeff(), 1e-9);
+  const std::string spatial = folder.write(
+      "spatial.g2o", "VERTEX_SE3:QUAT 1 0 0 5 0 0 0.7071067811865476 0.7071067811865476\n");
+  convert({spatial, folder / "spatial.kitti"});
+  expected << 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 5, 0, 0, 0, 1;
+  EXPECT_LT((read_trajectory(folder / "spatial.kitti").poses[0].T_world_body->matrix() - expected)
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-9);
+  const std::string scaled =
+      folder.write("scaled.g2o", "VERTEX_SIM3:EXPMAP 0 0 0 0 0 0 0 0.6931471805599453\n");
+  convert({scaled, folder / "scaled.kitti"});
+  EXPECT_EQ(read_trajectory(folder / "scaled.kitti").poses[0].T_world_body->matrix(),
+            Eigen::Matrix4d::Identity());
+}
+
 TEST(ConvertCommand, NeverOverwritesWithoutForce) {
   const TemporaryFolder folder;
   const std::string in = folder.write("in.txt", kKitti);
   const std::string out = folder.write("out.kitti", "precious");
   EXPECT_THAT(message_of<ArgumentError>([&] { convert({in, out}); }), HasSubstr("--force"));
-  EXPECT_EQ(read_text(out), "precious");
+  EXPECT_EQ(read_file(out), "precious");
   convert({in, out, "--force"});
   EXPECT_EQ(read_trajectory(out).size(), 2u);
 }

@@ -1,5 +1,6 @@
 #include <placegraph/io/dataset.h>
 
+#include "tests/support/message_of.h"
 #include "tiny_images.h"
 
 namespace placegraph {
@@ -91,7 +92,7 @@ TEST(Euroc, NamesTheFileAndLineOfEveryFault) {
   write_sequence(folder);
   const auto message = [&](const std::string& file, const std::string& from,
                            const std::string& to) {
-    const std::string before = test::read_text(folder / "s/mav0/" + file);
+    const std::string before = test::read_file(folder / "s/mav0/" + file);
     std::string text = before;
     text.replace(text.find(from), from.size(), to);
     folder.write("s/mav0/" + file, text);

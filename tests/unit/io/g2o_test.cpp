@@ -1,7 +1,8 @@
 #include <placegraph/io/g2o.h>
 
-#include "temporary_folder.h"
 #include "tests/support/data.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

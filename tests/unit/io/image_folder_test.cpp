@@ -4,6 +4,7 @@
 
 #include <opencv2/videoio.hpp>
 
+#include "tests/support/message_of.h"
 #include "tiny_images.h"
 
 namespace placegraph {

@@ -1,17 +1,16 @@
 #include <placegraph/io/isam.h>
 
-#include "temporary_folder.h"
+#include "tests/support/edge_of.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {
 
+using test::edge_of;
 using test::message_of;
 using test::TemporaryFolder;
 using testing::HasSubstr;
-
-const RelativePoseConstraint& edge_of(const PoseGraph& graph, std::size_t i) {
-  return std::get<RelativePoseConstraint>(graph.constraints.at(i));
-}
 
 TEST(Isam, ReadsEdgesAndChainsThePosesAlongOdometry) {
   const TemporaryFolder folder;

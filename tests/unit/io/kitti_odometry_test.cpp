@@ -3,6 +3,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "tests/support/data.h"
+#include "tests/support/message_of.h"
 #include "tiny_images.h"
 
 namespace placegraph {
@@ -229,7 +230,7 @@ TEST(KittiOdometry, RefusesImagesThatAreCutEmptyForeignOrOfAnotherSize) {
     folder.write("s/image_0/000001.png", bytes);
     return message_of([&] { dataset->frame(1, Sensor::kMono); });
   };
-  const std::string whole = test::read_text(folder / "s/image_0/000001.png");
+  const std::string whole = test::read_file(folder / "s/image_0/000001.png");
   EXPECT_THAT(message(whole.substr(0, whole.size() / 2)), HasSubstr("000001.png: image is trunc"));
   EXPECT_THAT(message(""), HasSubstr("000001.png: image file is empty"));
   EXPECT_THAT(message("no picture"), HasSubstr("000001.png: is no readable image"));

@@ -4,7 +4,7 @@
 #include <placegraph/io/odometry_file.h>
 
 #include "tests/support/scene.h"
-#include "tests/unit/io/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

@@ -1,7 +1,8 @@
 #include <placegraph/io/g2o.h>
 #include <placegraph/io/pose_graph_file.h>
 
-#include "temporary_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

@@ -3,7 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "temporary_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

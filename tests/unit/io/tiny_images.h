@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph::test {
 

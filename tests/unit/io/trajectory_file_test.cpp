@@ -1,8 +1,9 @@
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/trajectory_file.h>
 
-#include "temporary_folder.h"
 #include "tests/support/data.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

@@ -1,5 +1,6 @@
 #include <placegraph/io/dataset.h>
 
+#include "tests/support/message_of.h"
 #include "tiny_images.h"
 
 namespace placegraph {
@@ -99,7 +100,7 @@ TEST(TumRgbd, NamesTheFileAndLineOfEveryFault) {
   write_sequence(folder);
   const auto message = [&](const std::string& file, const std::string& text) {
     const std::string path = folder / "s/" + file;
-    const std::string before = test::read_text(path);
+    const std::string before = test::read_file(path);
     folder.write("s/" + file, text);
     const std::string seen = message_of([&] { open_dataset(folder / "s"); });
     folder.write("s/" + file, before);

@@ -1,6 +1,7 @@
 #include <placegraph/io/yaml_config.h>
 
-#include "temporary_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

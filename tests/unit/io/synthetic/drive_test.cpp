@@ -4,7 +4,8 @@
 #include <sstream>
 
 #include "tests/support/data.h"
-#include "tests/unit/io/temporary_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

@@ -119,6 +119,7 @@ TEST(GraphWorld, FixedPosesAreNeitherIntegratedNorScattered) {
 
 TEST(GraphWorld, OptionsOutOfRangeAreRefusedByName) {
   EXPECT_THROW((void)make_manhattan_walk({.poses = 1}), ArgumentError);
+  EXPECT_THROW((void)make_manhattan_walk({.poses = 2000000000}), ArgumentError);
   EXPECT_THROW((void)make_grid_world({.loop_share = 1.5}), ArgumentError);
   EXPECT_THROW((void)make_long_loop({.laps = 1}), ArgumentError);
   EXPECT_THROW((void)make_long_loop({.kind = PoseKind::kSim3}), ArgumentError);
