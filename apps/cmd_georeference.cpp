@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/atomic_file.h>
 #include <placegraph/io/g2o.h>
 #include <placegraph/io/geo_export.h>
 #include <placegraph/io/kitti_raw.h>
@@ -95,6 +94,7 @@ std::vector<std::int64_t> stamps_of(const PoseGraph& graph, const std::vector<No
 void write_results(const std::string& folder, const GeoreferenceInput& input,
                    const GeoreferenceResult& result, const std::string& summary) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  fs::remove(path("georeference.json"));  // written last: it vouches for the others
   GeoDocument document;
   document.name = fs::path(folder).lexically_normal().filename().string();
   document.origin = result.origin;
@@ -106,7 +106,6 @@ void write_results(const std::string& folder, const GeoreferenceInput& input,
   write_geojson(path("map.geojson"), document);
   write_kml(path("map.kml"), document);
   write_file(path("fixes.csv"), fixes_csv(result, input.fixes));
-  // Last: whoever finds georeference.json finds all the others.
   write_file(path("georeference.json"), summary);
 }
 
@@ -137,6 +136,7 @@ void run(const Arguments& arguments) {
   GeoreferenceInput input = read_map(arguments.graph, arguments.times);
   set_what_is_known(arguments, input);
   input.fixes = read_oxts(arguments.gps);
+  const OutputFolder folder(arguments.out);
 
   const std::clock_t begin = std::clock();
   const GeoreferenceResult result =
@@ -151,8 +151,6 @@ void run(const Arguments& arguments) {
 
   nlohmann::ordered_json summary = describe_georeference(result);
   summary["cpu_ms"] = cpu_ms;
-  make_output_folder(arguments.out);
-  fs::remove(fs::path(arguments.out) / "georeference.json");
   write_results(arguments.out, input, result, summary.dump(2) + "\n");
   if (arguments.as_json)
     std::puts(summary.dump(2).c_str());

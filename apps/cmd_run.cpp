@@ -3,7 +3,6 @@
 #include <placegraph/eval/evaluate.h>
 #include <placegraph/eval/loop_check.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/atomic_file.h>
 #include <placegraph/io/g2o.h>
 #include <placegraph/io/trajectory_file.h>
 #include <placegraph/io/yaml_config.h>
@@ -110,6 +109,7 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
                    const std::optional<Trajectory>& truth, const std::string& title,
                    const json& summary) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  fs::remove(path("result.json"));  // written last: it vouches for the others
   for (const auto& [trajectory, name] : {std::pair(&run.map.trajectory_online, "trajectory_online"),
                                          std::pair(&optimized, "trajectory_optimized")}) {
     write_trajectory(path((std::string(name) + ".tum").c_str()), *trajectory,
@@ -121,7 +121,6 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
   write_file(path("places.json"), places_json(run.map));
   write_file(path("loops.csv"), loops_csv(run.map));
   write_file(path("plot.png"), run_plot(run, optimized, truth, title));
-  // Last: whoever finds result.json finds all the others.
   write_file(path("result.json"), summary.dump(1) + "\n");
 }
 
@@ -156,8 +155,7 @@ void run(const Arguments& arguments) {
   const RunOptions options = options_of(arguments);
   require_free_folder(arguments.out, arguments.force);
   const auto dataset = open_dataset(arguments.sequence);
-  make_output_folder(arguments.out);
-  fs::remove(fs::path(arguments.out) / "result.json");  // written last: it vouches for the others
+  const OutputFolder folder(arguments.out);
   cv::setNumThreads(options.threads);
 
   const auto begin = std::chrono::steady_clock::now();

@@ -1,6 +1,7 @@
 #pragma once
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace placegraph::apps {
 
@@ -10,12 +11,26 @@ class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws ArgumentError if something stands at `path` already and `force` is not given, or if there
-/// is no folder for it. To be called before the work whose result goes there.
+/// Throws ArgumentError if a file stands at `path` already and `force` is not given, or if there is
+/// no folder for it, FileError if nothing can be written there. To be called before the work whose
+/// result goes there.
 void require_free(const std::string& path, bool force);
 
 /// The same for a folder of outputs: it may exist if it is empty.
 void require_free_folder(const std::string& path, bool force);
+
+/// A folder for results, made before the work they come from; where that ends without any, the
+/// folders that were made are removed again. Throws FileError if it cannot be made or written into.
+class OutputFolder {
+ public:
+  explicit OutputFolder(std::string path);
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::vector<std::string> made_;  ///< from the innermost on
+};
 
 /// Writes a whole file, atomically; bytes as they are. Throws FileError.
 void write_file(const std::string& path, const std::string& content);

@@ -32,11 +32,15 @@ std::string create_temporary(const std::string& path) {
 
 AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
   if (path_.empty()) throw ArgumentError("the path of an output file is empty");
-  if (fs::is_directory(path_)) throw FileError(path_, "is a folder, not a file");
-  temporary_ = create_temporary(path_);
-  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path_, ignored);
+  if (fs::is_directory(status)) throw FileError(path_, "is a folder, not a file");
+  const bool replaces = fs::is_regular_file(status);
+  if (replaces && fs::is_symlink(path_, ignored)) path_ = fs::canonical(path_).string();
+  if (replaces || !fs::exists(status)) temporary_ = create_temporary(path_);
+  stream_.open(temporary_path(), std::ios::binary | std::ios::trunc);
   if (!stream_) {
-    std::remove(temporary_.c_str());
+    if (!temporary_.empty()) std::remove(temporary_.c_str());
     throw FileError(path_, "cannot be opened for writing");
   }
 }
@@ -44,7 +48,7 @@ AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
 AtomicFile::~AtomicFile() {
   if (committed_) return;
   stream_.close();
-  std::remove(temporary_.c_str());
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
 }
 
 void AtomicFile::commit() {
@@ -52,7 +56,7 @@ void AtomicFile::commit() {
   stream_.close();
   if (!stream_) throw FileError(path_, "cannot be written (is the disk full?)");
   std::error_code error;
-  fs::rename(temporary_, path_, error);
+  if (!temporary_.empty()) fs::rename(temporary_, path_, error);
   if (error) throw FileError(path_, "cannot be written: " + error.message());
   committed_ = true;
 }

@@ -6,8 +6,9 @@ namespace placegraph {
 
 /// Writes to a temporary file beside `path` (its name with a suffix before the extension, so that
 /// libraries that go by the extension can write it too) and renames it on commit(): a reader sees
-/// the old file or the whole new one. Without commit() the temporary is removed. Throws FileError
-/// if it cannot be opened, written or renamed.
+/// the old file or the whole new one. Without commit() the temporary is removed. Where `path` is a
+/// link to a file, that file is replaced; what is no file, as /dev/stdout, is written as it comes.
+/// Throws FileError if it cannot be opened, written or renamed.
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -16,13 +17,12 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   std::ofstream& stream() { return stream_; }
-  const std::string& temporary_path() const {
-    return temporary_;
-  }  ///< for libraries that open files
+  /// For libraries that open files.
+  const std::string& temporary_path() const { return temporary_.empty() ? path_ : temporary_; }
   void commit();
 
  private:
-  std::string path_, temporary_;
+  std::string path_, temporary_;  ///< temporary_: empty where there is none
   std::ofstream stream_;
   bool committed_ = false;
 };

@@ -11,6 +11,8 @@ namespace {
 
 using Fields = std::vector<std::string_view>;
 
+constexpr double kMaxStep_m = 1e9;  ///< no body goes so far; its square is far from overflowing
+
 SE3 parse_pose(const TextFile& file, const Fields& fields, std::size_t at) {
   double v[7];
   for (std::size_t i = 0; i < 7; ++i) v[i] = file.number(fields[at + i], "pose");
@@ -80,6 +82,8 @@ MeasuredMotion read_odometry(const std::string& path, const MotionNoise& noise,
     const std::size_t at = is_pose ? 1 : 2;
     const SE3 pose = parse_pose(file, fields, at);
     step.T_from_to = is_pose ? T_odom_last.inverse() * pose : pose;
+    if (!(is_pose && first) && !(step.T_from_to.translation().norm() <= kMaxStep_m))
+      file.fail("the step is longer than 1e9 m");
     step.covariance =
         count - at == 7 ? noise.covariance(step.T_from_to) : parse_covariance(file, fields, at + 7);
     if (!(is_pose && first) && (step.to_ns <= step.from_ns || (!first && step.from_ns < last_ns)))

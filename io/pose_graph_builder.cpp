@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/position_of.h>
 #include <placegraph/io/pose_graph_builder.h>
 
 #include <algorithm>
 
 namespace placegraph {
 namespace {
+
+/// What solvers multiply these with each other and square stays finite.
+constexpr double kMaxInformation = 1e100, kMaxDistance_m = 1e50;
 
 RelativePoseConstraint& edge_of(Constraint& constraint) {
   return std::get<RelativePoseConstraint>(constraint);
@@ -57,8 +61,14 @@ void PoseGraphBuilder::require_kind(PoseKind kind) {
                           names[std::max(a, b)]));
 }
 
+void PoseGraphBuilder::require_near(const Pose& pose) const {
+  if (!(position_of(pose).cwiseAbs().maxCoeff() <= kMaxDistance_m))
+    file_->fail(fmt::format("a position beyond {:g} m", kMaxDistance_m));
+}
+
 void PoseGraphBuilder::add_node(std::string_view id, const Pose& T_world_node) {
   require_kind(kind_of(T_world_node));
+  require_near(T_world_node);
   graph_.nodes.push_back({file_->integer(id, "id"), T_world_node, false});
   node_lines_.push_back(file_->line());
 }
@@ -67,7 +77,10 @@ void PoseGraphBuilder::add_edge(std::string_view from, std::string_view to, cons
                                 const Information& information,
                                 std::optional<ConstraintSource> source) {
   require_kind(kind_of(T_from_to));
+  require_near(T_from_to);
   if (const char* fault = fault_of(information)) file_->fail(std::string("the ") + fault);
+  if (information.cwiseAbs().maxCoeff() > kMaxInformation)
+    file_->fail(fmt::format("the information is above {:g}", kMaxInformation));
   RelativePoseConstraint& edge =
       graph_.constraints.emplace_back().emplace<RelativePoseConstraint>();
   edge.from = file_->integer(from, "id");

@@ -29,10 +29,10 @@ class PoseGraphBuilder {
   /// Refuses the line unless `count` fields follow its tag.
   void require_count(const Fields& fields, std::size_t count) const;
 
-  /// Refuses SE2, SE3 and Sim3 mixed.
+  /// Refuses SE2, SE3 and Sim3 mixed, and positions beyond 1e50 m.
   void add_node(std::string_view id, const Pose& T_world_node);
-  /// Refuses mixed kinds, an edge from a node to itself, information that is indefinite or all
-  /// zero. Edges of consecutive ids are odometry, others loops, unless `source` says what they are.
+  /// Refuses mixed kinds, an edge from a node to itself, information that is indefinite, all
+  /// zero or above 1e100, and positions beyond 1e50 m. Edges of consecutive ids are odometry, others loops, unless `source` says what they are.
   void add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
                 const Information& information, std::optional<ConstraintSource> source = {});
   void fix(std::string_view id);
@@ -46,6 +46,7 @@ class PoseGraphBuilder {
 
  private:
   void require_kind(PoseKind kind);
+  void require_near(const Pose& pose) const;
   int find(const NodeIndex& index, std::int64_t id, int line) const;
   void require_connected() const;
   void add_nodes_of_edges();

@@ -3,7 +3,7 @@
 
 #include <GeographicLib/LocalCartesian.hpp>
 #include <cmath>
-#include <string>
+#include <sstream>
 
 namespace placegraph {
 
@@ -12,11 +12,14 @@ struct EnuFrame::Projection {
 };
 
 void GeodeticPosition::check() const {
-  require(std::abs(latitude_deg) <= 90,
-          "latitude: " + std::to_string(latitude_deg) + " outside [-90, 90]");
-  require(longitude_deg >= -540 && longitude_deg < 540,
-          "longitude: " + std::to_string(longitude_deg) + " outside [-540, 540)");
-  require(std::isfinite(height_m), "height: " + std::to_string(height_m) + " is not finite");
+  const auto require_range = [](const char* what, double value, double min, double max) {
+    std::ostringstream message;
+    message << what << ": " << value << " outside [" << min << ", " << max << "]";
+    require(value >= min && value <= max, message.str());
+  };
+  require_range("latitude", latitude_deg, -90, 90);
+  require_range("longitude", longitude_deg, -540, std::nextafter(540.0, 0.0));
+  require_range("height", height_m, -1e5, 1e8);
 }
 
 EnuFrame::EnuFrame(const GeodeticPosition& origin) : origin_(origin) {

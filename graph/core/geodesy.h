@@ -10,7 +10,7 @@ namespace placegraph {
 struct GeodeticPosition {
   double latitude_deg = 0;   ///< [-90, 90]
   double longitude_deg = 0;  ///< [-540, 540)
-  double height_m = 0;
+  double height_m = 0;       ///< [-1e5, 1e8]
 
   /// Throws ArgumentError naming the value that is not finite or out of range.
   void check() const;

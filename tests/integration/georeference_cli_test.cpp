@@ -1,13 +1,9 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
+// `placegraph georeference`.
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/support/command.h"
+#include "tests/support/cli_test.h"
 
 namespace placegraph {
 namespace {
@@ -16,11 +12,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using test::CommandResult;
 using test::read_file;
-using test::run_placegraph;
-using test::TemporaryFolder;
 using test::write_file;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 constexpr int kNodes = 100;
@@ -63,7 +56,7 @@ std::string times(int count = kNodes, double start_s = 0) {
   return out.str();
 }
 
-class GeoreferenceCli : public ::testing::Test {
+class GeoreferenceCli : public test::CliTest {
  protected:
   void SetUp() override {
     write_file(dir / "graph.g2o", circle_graph());
@@ -72,20 +65,13 @@ class GeoreferenceCli : public ::testing::Test {
     write_file(dir / "times_oxts.txt", times());
   }
   CommandResult run(const std::string& arguments) {
-    return run_placegraph("georeference " + arguments, dir.path());
+    return CliTest::run("georeference " + arguments);
   }
   /// One line on stderr, nothing on stdout, no folder made.
   void expect_failure(const std::string& arguments, int code, const std::string& message) {
-    SCOPED_TRACE(arguments);
-    const CommandResult result = run(arguments);
-    EXPECT_EQ(result.code, code);
-    EXPECT_THAT(result.out, IsEmpty());
-    EXPECT_THAT(result.err, StartsWith("placegraph: "));
-    EXPECT_THAT(result.err, HasSubstr(message));
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_FALSE(fs::exists(dir / "out"));
+    CliTest::expect_failure("georeference " + arguments, code, message);
+    EXPECT_FALSE(fs::exists(dir / "out")) << arguments;
   }
-  TemporaryFolder dir;
 };
 
 const std::string kGood = "graph.g2o --times times.txt --gps oxts.txt --out out ";
@@ -200,6 +186,13 @@ TEST_F(GeoreferenceCli, TakesBadFilesAndUsageAsExitCodeTwo) {
   expect_failure(kGood + "--lever-arm 1,2,x", 2, "--lever-arm: 'x' is not a number");
   expect_failure(kGood + "--origin 95,8,0", 2, "--origin: latitude");
   expect_failure(kGood + "--clock-offset soon", 2, "--clock-offset: 'soon'");
+  expect_failure(kGood + "--origin 49,8,1e308", 2, "--origin: height: 1e+308 outside");
+  expect_failure("graph.g2o --times times.txt --gps oxts.txt --out /proc/none/out", 2,
+                 "/proc/none");
+  expect_failure("graph.g2o --times times.txt --gps oxts.txt --out ''", 2, "folder is empty");
+  fs::create_directory(dir / "nothing");
+  expect_failure("nothing --gps oxts.txt --out out", 2, "nothing/graph.g2o: cannot be opened");
+  expect_failure("graph.g2o --times . --gps oxts.txt --out out", 2, ".: is a folder");
   expect_failure(kGood + "--set max_gap=1", 2, "max_gap");
   expect_failure(kGood + "--set max_gap_s=-1", 2, "max_gap_s");
   write_file(dir / "times.txt", times(50));
@@ -209,6 +202,20 @@ TEST_F(GeoreferenceCli, TakesBadFilesAndUsageAsExitCodeTwo) {
   expect_failure(kGood, 2, "oxts.txt: holds 100 readings, but times_oxts.txt holds 50 times");
   write_file(dir / "oxts.txt", circle_oxts(50) + "49 8\n");
   expect_failure(kGood, 2, "oxts.txt:51: expected the 30 numbers");
+  const std::string rest = " 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0.1 0 4 8 -1 -1 -1\n";
+  for (const auto& [position, message] : {std::pair{"nan 8 100", "number 1: 'nan' is not finite"},
+                                          std::pair{"49 1e308 100", "longitude: 1e+308 outside"},
+                                          std::pair{"49 8 1e308", "height: 1e+308 outside"}}) {
+    write_file(dir / "oxts.txt", circle_oxts(50) + position + rest);
+    expect_failure(kGood, 2, std::string("oxts.txt:51: ") + message);
+  }
+  write_file(dir / "oxts.txt", circle_oxts());
+  for (const auto& [last, message] : {std::pair{"9.8", "time '9.8' does not increase"},
+                                      std::pair{"nan", "time: 'nan' is not a time"},
+                                      std::pair{"1e308", "time: '1e308' is not a time"}}) {
+    write_file(dir / "times_oxts.txt", times(kNodes - 1) + last + "\n");
+    expect_failure(kGood, 2, std::string("times_oxts.txt:100: ") + message);
+  }
 }
 
 TEST_F(GeoreferenceCli, TakesDataThatAllowNoAnswerAsExitCodeOne) {

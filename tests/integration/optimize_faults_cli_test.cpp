@@ -37,6 +37,12 @@ INSTANTIATE_TEST_SUITE_P(
               "bad.g2o:3: the information is indefinite"},
         Fault{"AllZero", kTwoPoses + "EDGE_SE2 0 1 1 0 0 0 0 0 0 0 0\n",
               "bad.g2o:3: the information is all zero"},
+        Fault{"TooLargeInformation", kTwoPoses + "EDGE_SE2 0 1 1 0 0 1e308 0 0 1e308 0 1e308\n",
+              "bad.g2o:3: the information is above 1e+100"},
+        Fault{"TooFarPose", "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1e308 0 0\n" + kEdge,
+              "bad.g2o:2: a position beyond 1e+50 m"},
+        Fault{"TooFarEdge", kTwoPoses + "EDGE_SE2 0 1 1 -1e140 0 1 0 0 1 0 1\n",
+              "bad.g2o:3: a position beyond 1e+50 m"},
         Fault{"TwiceTheSameId", kTwoPoses + kEdge + "VERTEX_SE2 1 1 0 0\n",
               "bad.g2o:4: vertex 1 is there twice"},
         Fault{"MissingVertex", kTwoPoses + "EDGE_SE2 0 7 1 0 0 1 0 0 1 0 1\n",
@@ -104,6 +110,18 @@ TEST_F(OptimizeFaults, RefusesBadOptions) {
   EXPECT_FALSE(fs::exists(dir / "out.g2o"));
 }
 
+TEST_F(OptimizeFaults, SaysThatNothingCanBeWrittenBeforeItWorks) {
+  fs::create_symlink("/proc", dir / "unwritable");  // where not even root makes a file
+  expect_usage_error("optimize in.g2o -o unwritable/out.g2o", "unwritable/out.g2o: cannot be");
+  expect_usage_error("optimize in.g2o -o out.g2o --plot unwritable/out.png", "unwritable/out.png");
+  expect_usage_error("optimize in.g2o -o ''", "path of an output file is empty");
+  expect_usage_error("optimize in.g2o -o /dev/full --quiet", "/dev/full: cannot be written");
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+  EXPECT_FALSE(fs::exists(dir / "out.g2o"));
+  run("optimize in.g2o -o /dev/stdout --quiet | cat > shown; true");
+  EXPECT_THAT(read_file(dir / "shown"), HasSubstr("EDGE_SE2 0 1"));
+}
+
 TEST_F(OptimizeFaults, EndsWithOneAndWritesNothingWhereItFindsNoMinimum) {
   std::string graph;  // a ring whose start is a straight line
   for (int i = 0; i < 30; ++i) {
@@ -121,10 +139,13 @@ TEST_F(OptimizeFaults, EndsWithOneAndWritesNothingWhereItFindsNoMinimum) {
 }
 
 TEST_F(OptimizeFaults, RefusesNumbersWhoseCostOverflows) {
+  std::string information;  // of a weight that is just taken
+  for (int i = 0; i < 7; ++i)
+    for (int j = i; j < 7; ++j) information += i == j ? " 1e99" : " 0";
   write_file(dir / "huge.g2o",
-             "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1e200 0 0\nVERTEX_SE2 2 0 1e200 0\n"
-             "EDGE_SE2 0 1 1 0 0 1e200 0 0 1e200 0 1\nEDGE_SE2 1 2 1 0 0 1e200 0 0 1e200 0 1\n"
-             "EDGE_SE2 0 2 -1e200 0 2 1e200 0 0 1e200 0 1\n");
+             "VERTEX_SIM3:EXPMAP 0 0 0 0 0 0 0 -150\nVERTEX_SIM3:EXPMAP 1 0 0 0 1e49 0 0 0\n"
+             "EDGE_SIM3:EXPMAP 0 1 0 0 0 1 0 0 -150" +
+                 information + "\n");
   expect_usage_error("optimize huge.g2o -o out.g2o", "huge.g2o: the cost at the given poses");
   EXPECT_FALSE(fs::exists(dir / "out.g2o"));
 }

@@ -48,6 +48,8 @@ TEST(EnuFrame, RefusesWhatIsNoPosition) {
   EXPECT_THROW(EnuFrame({0, 0, 0}).to_enu({0, 0, nan}), ArgumentError);
   EXPECT_THROW(EnuFrame({0, 0, 0}).to_enu({nan, 0, 0}), ArgumentError);
   EXPECT_THROW(EnuFrame({0, 0, 0}).to_enu({0, 600, 0}), ArgumentError);
+  EXPECT_THROW(EnuFrame({0, 0, 1e308}), ArgumentError);
+  EXPECT_THROW(EnuFrame({0, 540, 0}), ArgumentError);
 }
 
 }  // namespace

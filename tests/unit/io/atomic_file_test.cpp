@@ -1,12 +1,13 @@
 #include <placegraph/io/atomic_file.h>
 
-#include "temporary_folder.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {
 
 using test::message_of;
-using test::read_text;
+using test::read_file;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -21,9 +22,9 @@ TEST(AtomicFile, LeavesTheOldFileUntilCommit) {
   AtomicFile file(path);
   file.stream() << "new";
   file.stream().flush();
-  EXPECT_EQ(read_text(path), "old");
+  EXPECT_EQ(read_file(path), "old");
   file.commit();
-  EXPECT_EQ(read_text(path), "new");
+  EXPECT_EQ(read_file(path), "new");
   EXPECT_EQ(entries_in(folder.path()), 1);
 }
 
@@ -47,7 +48,7 @@ TEST(AtomicFile, GivesTwoWritersDifferentTemporaries) {
   b.stream() << "b";
   a.commit();
   b.commit();
-  EXPECT_EQ(read_text(folder / "a.txt"), "b");
+  EXPECT_EQ(read_file(folder / "a.txt"), "b");
 }
 
 TEST(AtomicFile, SaysWhichFileCannotBeWritten) {
@@ -57,13 +58,35 @@ TEST(AtomicFile, SaysWhichFileCannotBeWritten) {
   EXPECT_THROW(AtomicFile(""), ArgumentError);
 }
 
+TEST(AtomicFile, ReplacesTheFileThatALinkPointsTo) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a/file.txt", "old");
+  fs::create_symlink("a/file.txt", folder / "link.txt");
+  AtomicFile file(folder / "link.txt");
+  file.stream() << "new";
+  file.commit();
+  EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(read_file(path), "new");
+  EXPECT_EQ(entries_in(folder / "a"), 1);
+}
+
+TEST(AtomicFile, WritesIntoADeviceAndReplacesNone) {
+  AtomicFile nowhere("/dev/null");
+  nowhere.stream() << "gone";
+  nowhere.commit();
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  AtomicFile full("/dev/full");
+  full.stream() << "too much";
+  EXPECT_THAT(message_of([&] { full.commit(); }), HasSubstr("/dev/full: cannot be written"));
+}
+
 TEST(OutputFolder, IsMadeWithItsParentsAndKeepsWhatItHolds) {
   const TemporaryFolder folder;
   make_output_folder(folder / "a/b");
   EXPECT_TRUE(fs::is_directory(folder / "a/b"));
   folder.write("a/b/x", "1");
   make_output_folder(folder / "a/b/");
-  EXPECT_EQ(read_text(folder / "a/b/x"), "1");
+  EXPECT_EQ(read_file(folder / "a/b/x"), "1");
   EXPECT_THAT(message_of([&] { make_output_folder(folder / "a/b/x"); }), HasSubstr("a/b/x: "));
   EXPECT_THROW(make_output_folder(folder / "a/b/x/y"), FileError);
   EXPECT_THROW(make_output_folder(""), ArgumentError);
