@@ -38,11 +38,17 @@ void EliminationTree<D>::touch(int variable) {
 
 template <int D>
 int EliminationTree<D>::add_term(int a, int b) {
-  const int t = static_cast<int>(terms_.size());
-  terms_.push_back({a, b, Block::Zero(), Block::Zero(), Block::Zero(), true});
+  int t = static_cast<int>(terms_.size());
+  if (free_terms_.empty()) {
+    terms_.emplace_back();
+  } else {
+    t = free_terms_.back();
+    free_terms_.pop_back();
+  }
+  terms_[t] = {a, b, Block::Zero(), Block::Zero(), Block::Zero(), true};
   variables_[a].terms.push_back(t);
   if (b >= 0) variables_[b].terms.push_back(t);
-  if (!covered(terms_.back())) {
+  if (!covered(terms_[t])) {
     touch(a);
     touch(b);
   }
@@ -76,6 +82,18 @@ void EliminationTree<D>::set_information(int term, const Block& H_aa, const Bloc
     variables_[v].diagonal_stale = true;
     if (variables_[v].front >= 0) mark_stale(variables_[v].front, true);
   }
+}
+
+template <int D>
+void EliminationTree<D>::remove_term(int term) {
+  const Block zero = Block::Zero();
+  set_information(term, zero, zero, zero);
+  for (const int v : {terms_[term].a, terms_[term].b}) {
+    if (v < 0) continue;
+    std::erase(variables_[v].terms, term);
+    if (terms_[term].b >= 0) touch(v);  // what it filled in is to go, too
+  }
+  free_terms_.push_back(term);
 }
 
 template <int D>

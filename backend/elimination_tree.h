@@ -29,11 +29,14 @@ class EliminationTree {
 
   /// A term over `a` and `b` (-1: over `a` alone), zero at first; returns its number.
   int add_term(int a, int b);
+  /// As if it had never been there; its number serves a later term.
+  void remove_term(int term);
   void set_information(int term, const Block& H_aa, const Block& H_ab, const Block& H_bb);
   /// g of H delta = -g.
   void set_gradient(int variable, const Vector& g);
   /// Added to the diagonal: this share of the mean of the variable's own diagonal.
   void set_damping(double damping);
+  double damping() const { return damping_; }
   /// Everything is ordered anew by the next factorize().
   void reorder() { reorder_all_ = true; }
 
@@ -97,6 +100,7 @@ class EliminationTree {
 
   std::vector<Variable> variables_;
   std::vector<Term> terms_;
+  std::vector<int> free_terms_;
   std::vector<Front> fronts_;
   std::vector<int> free_fronts_, roots_;
   MatrixPool pool_;

@@ -50,13 +50,21 @@ std::vector<int> GrowingComponents::join(int a, int b) {
   for (const int node : from.nodes) nodes_[node].component = swap ? moves : stays;
   into.nodes.insert(into.nodes.end(), from.nodes.begin(), from.nodes.end());
   from = Component{{}, -1, 0, -1};
+  free_components_.push_back(swap ? stays : moves);
   settle(into);
   return moved;
 }
 
 void GrowingComponents::split(const std::vector<int>& part) {
-  const int old = nodes_[part.front()].component, created = static_cast<int>(components_.size());
-  components_.push_back({part, part.front(), 0, -1});
+  const int old = nodes_[part.front()].component;
+  int created = static_cast<int>(components_.size());
+  if (free_components_.empty()) {
+    components_.emplace_back();
+  } else {
+    created = free_components_.back();
+    free_components_.pop_back();
+  }
+  components_[created] = {part, part.front(), 0, -1};
   for (const int node : part) nodes_[node].component = created;
   std::erase_if(components_[old].nodes, [&](int n) { return nodes_[n].component != old; });
   for (const int c : {old, created}) {

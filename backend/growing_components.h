@@ -40,6 +40,7 @@ class GrowingComponents {
 
   std::vector<Node> nodes_;
   std::vector<Component> components_;
+  std::vector<int> free_components_;  ///< emptied by join()
   std::vector<int> changed_;
 };
 

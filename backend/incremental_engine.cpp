@@ -2,8 +2,8 @@
 #include <placegraph/backend/local_solver.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -20,12 +20,28 @@ constexpr double kSlow = 0.25;
 constexpr double kFirstChange = 3e-4, kLastChange = 1e-8;
 /// Costs below are rounding.
 constexpr double kNoCost = 1e-12;
+/// Of the tree, as a share of the diagonal: keeps open directions solvable.
+constexpr double kDamping = 1e-10;
+constexpr int kMostPatience = 64;
+constexpr const char* kIndefinite = "the normal equations are indefinite at any damping";
+
+/// A place in the list that is free, else a new one at its end.
+template <class List>
+int take_place(List& list, std::vector<int>& free) {
+  if (free.empty()) {
+    list.emplace_back();
+    return static_cast<int>(list.size()) - 1;
+  }
+  const int place = free.back();
+  free.pop_back();
+  return place;
+}
 
 }  // namespace
 
 template <class Group>
 IncrementalEngine<Group>::IncrementalEngine(const IncrementalOptions& options) : options_(options) {
-  tree_.set_damping(damping_);
+  tree_.set_damping(kDamping);
 }
 
 template <class Group>
@@ -63,28 +79,63 @@ void IncrementalEngine<Group>::add_constraints(const std::vector<Constraint>& co
     place_.push_back(-1);
   }
   std::sort(order.begin(), order.end());
-  for (const auto& entry : order) {
-    const int number = std::get<3>(entry);
-    if (const auto* relative = std::get_if<RelativePoseConstraint>(&constraints_[number]))
-      add_edge(*relative, number);
-    else
-      add_position(std::get<PositionConstraint>(constraints_[number]), number);
-  }
+  for (const auto& entry : order) attach(std::get<3>(entry), 1);
   apply_held();
 }
 
 template <class Group>
-void IncrementalEngine<Group>::add_edge(const RelativePoseConstraint& constraint, int number) {
-  const int e = static_cast<int>(edges_.size());
+void IncrementalEngine<Group>::attach(int number, double weight) {
+  if (const auto* relative = std::get_if<RelativePoseConstraint>(&constraints_[number]))
+    add_edge(*relative, number, weight);
+  else
+    add_position(std::get<PositionConstraint>(constraints_[number]), number, weight);
+}
+
+/// Takes a constraint out of everything but the list of constraints: dead ones cost neither time
+/// nor memory beside their record.
+template <class Group>
+void IncrementalEngine<Group>::detach(int number) {
+  const int place = std::exchange(place_[number], -1);
+  const auto mark = [&](int node) {
+    if (!std::exchange(nodes_[node].gradient_stale, true)) gradient_stale_.push_back(node);
+  };
+  if (std::holds_alternative<PositionConstraint>(constraints_[number])) {
+    Position& position = positions_[place];
+    const int node = position.position.node;
+    components_.anchor(node, -1);
+    std::erase(nodes_[node].positions, place);
+    tree_.remove_term(position.term);
+    mark(node);
+    position = Position();
+    free_positions_.push_back(place);
+  } else {
+    Edge& edge = edges_[place];
+    const int from = edge.edge.from, to = edge.edge.to;
+    for (const int node : {from, to}) {
+      std::erase(nodes_[node].edges, place);
+      mark(node);
+    }
+    tree_.remove_term(edge.term);
+    edge = Edge();
+    free_edges_.push_back(place);
+    split(from, to);
+  }
+}
+
+template <class Group>
+void IncrementalEngine<Group>::add_edge(const RelativePoseConstraint& constraint, int number,
+                                        double weight) {
+  const int e = take_place(edges_, free_edges_);
   place_[number] = e;
-  Edge& edge = edges_.emplace_back();
+  Edge& edge = edges_[e];
   edge.edge = {find(constraint.from),
                find(constraint.to),
                number,
                constraint.source == ConstraintSource::kOdometry,
                std::get<Group>(constraint.T_from_to).inverse(),
                constraint.information,
-               constraint.kernel};
+               constraint.kernel,
+               weight};
   join(edge);
   nodes_[edge.edge.from].edges.push_back(e);
   nodes_[edge.edge.to].edges.push_back(e);
@@ -94,13 +145,18 @@ void IncrementalEngine<Group>::add_edge(const RelativePoseConstraint& constraint
 }
 
 template <class Group>
-void IncrementalEngine<Group>::add_position(const PositionConstraint& constraint, int number) {
-  const int p = static_cast<int>(positions_.size());
+void IncrementalEngine<Group>::add_position(const PositionConstraint& constraint, int number,
+                                            double weight) {
+  const int p = take_place(positions_, free_positions_);
   place_[number] = p;
-  Position& position = positions_.emplace_back();
-  position.position = {find(constraint.node),     number,
-                       constraint.position_world, constraint.lever_arm,
-                       constraint.information,    constraint.kernel};
+  Position& position = positions_[p];
+  position.position = {find(constraint.node),
+                       number,
+                       constraint.position_world,
+                       constraint.lever_arm,
+                       constraint.information,
+                       constraint.kernel,
+                       weight};
   components_.anchor(position.position.node, 1);
   nodes_[position.position.node].positions.push_back(p);
   position.term = tree_.add_term(position.position.node, -1);
@@ -110,18 +166,15 @@ void IncrementalEngine<Group>::add_position(const PositionConstraint& constraint
 template <class Group>
 void IncrementalEngine<Group>::set_weight(const ConstraintWeight& weight) {
   const int place = place_[weight.constraint];
-  if (std::holds_alternative<PositionConstraint>(constraints_[weight.constraint])) {
-    auto& position = positions_[place].position;
-    const int count = (weight.weight > 0) - (position.weight > 0);
-    position.weight = weight.weight;
-    if (count != 0) components_.anchor(position.node, count);
+  if (place < 0) {
+    if (weight.weight > 0) attach(weight.constraint, weight.weight);
+  } else if (weight.weight == 0) {
+    detach(weight.constraint);
+  } else if (std::holds_alternative<PositionConstraint>(constraints_[weight.constraint])) {
+    positions_[place].position.weight = weight.weight;
     evaluate_position(place);
   } else {
-    Edge& edge = edges_[place];
-    const bool was = edge.edge.weight > 0, is = weight.weight > 0;
-    edge.edge.weight = weight.weight;
-    if (is && !was) join(edge);
-    if (was && !is) split(edge);
+    edges_[place].edge.weight = weight.weight;
     evaluate(place);
     linearize(place);
   }
@@ -143,20 +196,22 @@ void IncrementalEngine<Group>::join(const Edge& edge) {
   for (const int node : moved) nodes_[node].T_world_node = T_new_old * nodes_[node].T_world_node;
 }
 
+/// An edge of two nodes is gone: makes two components of one unless another way joins them.
 template <class Group>
-void IncrementalEngine<Group>::split(const Edge& edge) {
+void IncrementalEngine<Group>::split(int from, int to) {
   std::vector<char> seen(nodes_.size(), false);
-  std::vector<int> reached = {edge.edge.to};
-  seen[edge.edge.to] = true;
+  std::vector<int> reached = {to};
+  seen[to] = true;
   for (std::size_t i = 0; i < reached.size(); ++i)
     for (const int e : nodes_[reached[i]].edges) {
       const auto& other = edges_[e].edge;
       const int next = other.from == reached[i] ? other.to : other.from;
-      if (other.weight == 0 || seen[next]) continue;
+      if (next == from) return;
+      if (seen[next]) continue;
       seen[next] = true;
       reached.push_back(next);
     }
-  if (!seen[edge.edge.from]) components_.split(reached);
+  components_.split(reached);
 }
 
 template <class Group>
@@ -234,8 +289,9 @@ int IncrementalEngine<Group>::relinearize(const std::vector<int>& edges, double 
 
 template <class Group>
 int IncrementalEngine<Group>::relinearize_all(double change) {
-  std::vector<int> all(edges_.size());
-  std::iota(all.begin(), all.end(), 0);
+  std::vector<int> all;
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    if (edges_[e].term >= 0) all.push_back(static_cast<int>(e));
   return relinearize(all, change);
 }
 
@@ -249,8 +305,9 @@ double IncrementalEngine<Group>::cost() const {
 
 // Iterations.
 
+/// False if no damping makes the factor positive: what was added is not finite, or nearly so.
 template <class Group>
-void IncrementalEngine<Group>::factorize(IncrementalStep& step) {
+bool IncrementalEngine<Group>::factorize(IncrementalStep& step) {
   const int nodes = static_cast<int>(nodes_.size());
   const double growth = static_cast<double>(nodes) / std::max(1, nodes_when_ordered_);
   if (growth > 1.2 && static_cast<double>(tree_.entries()) >
@@ -261,10 +318,22 @@ void IncrementalEngine<Group>::factorize(IncrementalStep& step) {
   bool done = tree_.factorize();
   step.nodes_refactored += tree_.variables_refactored();
   for (double damping = 1e-8; !done && damping < 1e9; damping *= 100) {
+    steps_damped_ = 0;
     tree_.set_damping(damping);
     done = tree_.factorize();
     step.nodes_refactored += tree_.variables_refactored();
   }
+  return done;
+}
+
+/// Lowers a raised damping again after a while, longer every time it was of no avail: it costs
+/// a factorization of everything.
+template <class Group>
+void IncrementalEngine<Group>::relax_damping() {
+  if (tree_.damping() == kDamping) return;
+  if (++steps_damped_ < patience_) return;
+  tree_.set_damping(kDamping);
+  patience_ = std::min(2 * patience_, kMostPatience);
 }
 
 /// Moves the nodes that matter. False, and nothing has moved, if the cost would not fall.
@@ -293,9 +362,13 @@ void IncrementalEngine<Group>::optimize(double excess, IncrementalStep& step) {
   step.cost = cost();
   double share = kThresholdShare, change = kFirstChange;
   double before = std::numeric_limits<double>::infinity();
+  relax_damping();
   while (true) {
     set_gradients();
-    factorize(step);
+    if (!factorize(step)) {
+      step.outcome = Outcome::failure(Outcome::Code::kNotConverged, kIndefinite);
+      return;
+    }
     step.predicted_excess = tree_.model_decrease();
     const double allowed = excess * step.cost + kNoCost;
     if (step.predicted_excess <= allowed) return;
@@ -324,10 +397,13 @@ PackedGraph<Group> IncrementalEngine<Group>::packed() const {
     graph.poses.push_back(nodes_[n].T_world_node);
     graph.held.push_back(components_.held(static_cast<int>(n)));
   }
-  for (const Edge& edge : edges_)
-    if (edge.edge.weight > 0) graph.edges.push_back(edge.edge);
-  for (const Position& position : positions_)
-    if (position.position.weight > 0) graph.positions.push_back(position.position);
+  for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    if (place_[c] < 0) continue;
+    if (std::holds_alternative<RelativePoseConstraint>(constraints_[c]))
+      graph.edges.push_back(edges_[place_[c]].edge);
+    else
+      graph.positions.push_back(positions_[place_[c]].position);
+  }
   return graph;
 }
 
@@ -348,9 +424,11 @@ void IncrementalEngine<Group>::solve_from_scratch(IncrementalStep& step) {
   evaluate_around(all);
   step.edges_relinearized += relinearize(visited_, 0);
   set_gradients();
-  factorize(step);
-  step.predicted_excess = tree_.model_decrease();
   step.cost = cost();
+  if (factorize(step))
+    step.predicted_excess = tree_.model_decrease();
+  else
+    step.outcome = Outcome::failure(Outcome::Code::kNotConverged, kIndefinite);
 }
 
 // What it tells.
@@ -361,10 +439,18 @@ PoseGraph IncrementalEngine<Group>::graph() const {
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     graph.nodes.push_back({ids_[n], nodes_[n].T_world_node, fixed_[n] != 0});
   for (std::size_t c = 0; c < constraints_.size(); ++c) {
+    if (place_[c] < 0) continue;
     const bool relative = std::holds_alternative<RelativePoseConstraint>(constraints_[c]);
     const double weight =
         relative ? edges_[place_[c]].edge.weight : positions_[place_[c]].position.weight;
-    if (weight > 0) graph.constraints.push_back(constraints_[c]);
+    graph.constraints.push_back(constraints_[c]);
+    // weight rho(s; width) = rho(weight s; sqrt(weight) width) for every kernel.
+    std::visit(
+        [&](auto& constraint) {
+          constraint.information *= weight;
+          constraint.kernel.width *= std::sqrt(weight);
+        },
+        graph.constraints.back());
   }
   return graph;
 }

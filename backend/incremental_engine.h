@@ -65,10 +65,12 @@ class IncrementalEngine final : public IncrementalOptimizer::Engine {
     bool visited = false;
   };
 
-  void add_edge(const RelativePoseConstraint& constraint, int number);
-  void add_position(const PositionConstraint& constraint, int number);
+  void attach(int constraint, double weight);
+  void detach(int constraint);
+  void add_edge(const RelativePoseConstraint& constraint, int number, double weight);
+  void add_position(const PositionConstraint& constraint, int number, double weight);
   void join(const Edge& edge);
-  void split(const Edge& edge);
+  void split(int from, int to);
   void apply_held();
   void evaluate(int edge);
   void linearize(int edge);
@@ -77,7 +79,8 @@ class IncrementalEngine final : public IncrementalOptimizer::Engine {
   void set_gradients();
   int relinearize(const std::vector<int>& edges, double change);
   int relinearize_all(double change);
-  void factorize(IncrementalStep& step);
+  bool factorize(IncrementalStep& step);
+  void relax_damping();
   bool iterate(double threshold, IncrementalStep& step);
   void solve_from_scratch(IncrementalStep& step);
   PackedGraph<Group> packed() const;
@@ -87,13 +90,15 @@ class IncrementalEngine final : public IncrementalOptimizer::Engine {
   std::unordered_map<std::int64_t, int> index_;
   std::vector<char> fixed_;
   std::vector<Constraint> constraints_;
-  std::vector<int> place_;  ///< of every constraint in edges_ or positions_
+  std::vector<int> place_;  ///< of every constraint in edges_ or positions_; -1: of weight 0
   std::vector<Node> nodes_;
   GrowingComponents components_;
   std::vector<Edge> edges_;
   std::vector<Position> positions_;
-  std::vector<int> visited_, gradient_stale_;  ///< edges of the iteration; nodes
-  double damping_ = 1e-10;                     ///< of the tree: keeps open directions solvable
+  std::vector<int> free_edges_, free_positions_;  ///< places that wait for others
+  std::vector<int> visited_, gradient_stale_;     ///< edges of the iteration; nodes
+  /// Steps since the tree's damping was raised, and after how many it is lowered again.
+  int steps_damped_ = 0, patience_ = 1;
   int nodes_when_ordered_ = 0;
   Tree tree_;
 };

@@ -23,7 +23,9 @@ struct IncrementalOptions {
 void visit(OptionVisitor& field, IncrementalOptions& options);
 
 /// What one step did. `outcome` is kNotConverged if the cost lies further above its minimum than
-/// was asked for; the poses are usable all the same.
+/// was asked for, the poses being usable all the same; or if the normal equations cannot be
+/// factorized at any damping, because a constraint is not finite or nearly so: nothing but nodes
+/// newly joined has moved then, and steps succeed again once that constraint is removed.
 struct IncrementalStep {
   Outcome outcome;
   int first_constraint = 0;  ///< number of the first constraint added; the others follow
@@ -38,7 +40,9 @@ struct IncrementalStep {
 
 struct ConstraintWeight {
   int constraint = 0;  ///< its number, see IncrementalStep
-  double weight = 1;   ///< of its cost, >= 0; 0 leaves it out as if it had never been there
+  /// Of its cost, >= 0; 0 leaves it out as if it had never been there. It costs no time then and
+  /// no memory but its record, and comes back with any other weight.
+  double weight = 1;
 };
 
 /// Keeps a pose graph at the minimum of sum weight * rho(e^T Omega e) while nodes and constraints
@@ -55,6 +59,9 @@ struct ConstraintWeight {
 /// says: the one that neither a fixed node nor a position ties to the world, else the later one; so
 /// the pose given with a node that is joined by a constraint of the same step does not matter
 /// (odometry is tried first). Of a component that nothing ties to the world the first node is held.
+///
+/// A node that loses all its constraints stays where it is and takes part in nothing until it is
+/// joined again.
 ///
 /// The same calls give the same bits.
 class IncrementalOptimizer {
@@ -77,7 +84,9 @@ class IncrementalOptimizer {
   IncrementalStep finish();
 
   std::optional<Pose> pose(std::int64_t node_id) const;  ///< T_world_node; none if unknown
-  /// All nodes in the order they came and, in theirs, the constraints whose weight is not 0.
+  /// All nodes in the order they came and, in theirs, the constraints whose weight is not 0: the
+  /// graph whose cost is minimized, so with information and width of the kernel scaled where the
+  /// weight is not 1.
   PoseGraph graph() const;
   double cost() const;
   /// Covariance of the right perturbations of the nodes, in their order, from the factor as it is;

@@ -138,6 +138,44 @@ TYPED_TEST(IncrementalOptimizerOf, KernelsAndPositionsCount) {
   EXPECT_NEAR(again.cost(), cost, 1e-5 * cost);
 }
 
+TYPED_TEST(IncrementalOptimizerOf, AConstraintThatIsNearlyInfiniteFailsUntilItIsRemoved) {
+  GrowingWalk<TypeParam> walk(10, 0.03, 10);
+  IncrementalOptimizer optimizer;
+  ASSERT_TRUE(optimizer.add(walk.graph.nodes, walk.graph.constraints).outcome);
+  const auto before = std::get<TypeParam>(*optimizer.pose(15)).matrix();
+  RelativePoseConstraint huge = walk.measure(2, 8, 0);
+  huge.information *= 1e306;
+  const IncrementalStep step = optimizer.add({}, {huge});
+  EXPECT_EQ(step.outcome.code, Outcome::Code::kNotConverged);
+  EXPECT_EQ(std::get<TypeParam>(*optimizer.pose(15)).matrix(), before);
+  EXPECT_TRUE(optimizer.remove_constraint(step.first_constraint).outcome);
+  EXPECT_TRUE(optimizer.finish().outcome);
+  const double best = optimize_pose_graph(optimizer.graph(), tight()).chi2_final;
+  EXPECT_NEAR(optimizer.cost(), best, 1e-6 * best);
+}
+
+TYPED_TEST(IncrementalOptimizerOf, TheGraphHoldsTheWeights) {
+  for (const auto kind :
+       {RobustKernel::Kind::kNone, RobustKernel::Kind::kHuber, RobustKernel::Kind::kCauchy,
+        RobustKernel::Kind::kTukey, RobustKernel::Kind::kGemanMcClure, RobustKernel::Kind::kDcs,
+        RobustKernel::Kind::kTruncated}) {
+    GrowingWalk<TypeParam> walk(10, 0.1, 11);
+    for (Constraint& c : walk.graph.constraints)
+      std::get<RelativePoseConstraint>(c).kernel = {kind, 2};
+    IncrementalOptimizer optimizer;
+    optimizer.add(walk.graph.nodes, walk.graph.constraints);
+    optimizer.reweight({{0, 0.3}, {1, 4.0}});
+    const PoseGraph graph = optimizer.graph();
+    double cost = 0;
+    for (const Constraint& c : graph.constraints) {
+      const auto& relative = std::get<RelativePoseConstraint>(c);
+      PoseGraph one{graph.nodes, {c}};
+      cost += relative.kernel.evaluate(chi2(one, RotationError::kLog)).rho;
+    }
+    EXPECT_NEAR(cost, optimizer.cost(), 1e-9 * cost) << static_cast<int>(kind);
+  }
+}
+
 TYPED_TEST(IncrementalOptimizerOf, CovarianceOfAChainIsComputedByHand) {
   GrowingWalk<TypeParam> walk(2, 0, 7);
   IncrementalOptimizer optimizer;
