@@ -9,9 +9,12 @@ namespace placegraph {
 namespace {
 
 constexpr int kMostLifts = 6;
-/// Steps of a lifted descent times poses: where the relaxation is not tight they are many and cost
-/// seconds on large graphs.
-constexpr double kLiftedEffort = 1e6;
+/// Steps of all lifted descents together, times poses: where the relaxation is not tight they are
+/// many and gain nothing.
+constexpr double kLiftedEffort = 2e5;
+constexpr double kFewestLiftedSteps = 20, kMostLiftedSteps = 300;
+/// A lifted descent that lowers the cost by less than this share has left nothing to climb for.
+constexpr double kLiftedGain = 1e-7;
 constexpr double kLiftedPromiseShare = 1e-12;
 constexpr double kTightGap = 1e-5;
 /// A shift of the certificate matrix that costs this share of the bound is accepted unseen.
@@ -89,8 +92,10 @@ CertifiedStartReport climb(const ChordalRelaxation<dim>& relaxation, int nodes,
   report.rank = dim;
   report.cost = relaxation.minimize(X).cost;
   double lifted_cost = report.cost;
+  bool gained = true;
   Eigen::MatrixXd lifted = X;
-  const int lifted_steps = static_cast<int>(std::clamp(kLiftedEffort / nodes, 40.0, 300.0));
+  int steps =
+      static_cast<int>(std::clamp(kLiftedEffort / nodes, kFewestLiftedSteps, kMostLiftedSteps));
   for (int lifts = 0;; ++lifts) {
     CertificateMatrix<dim> matrix = relaxation.certificate_matrix(lifted);
     const double accepted =
@@ -99,10 +104,14 @@ CertifiedStartReport climb(const ChordalRelaxation<dim>& relaxation, int nodes,
     report.lower_bound = std::max(report.lower_bound, matrix.lower_bound(curvature.shift));
     report.relative_gap = matrix.relative_gap(report.cost, report.lower_bound);
     if (report.relative_gap <= kTightGap || curvature.direction.size() == 0 ||
-        curvature.smallest_eigenvalue >= -10 * accepted || lifts == kMostLifts)
+        curvature.smallest_eigenvalue >= -10 * accepted || lifts == kMostLifts || steps <= 0 ||
+        !gained)
       break;
     lifted = relaxation.escape(lifted, curvature.direction);
-    lifted_cost = relaxation.minimize(lifted, {lifted_steps, kLiftedPromiseShare}).cost;
+    const auto descent = relaxation.minimize(lifted, {steps, kLiftedPromiseShare});
+    gained = descent.cost < (1 - kLiftedGain) * lifted_cost;
+    lifted_cost = descent.cost;
+    steps -= descent.iterations + 1;
     report.rank = static_cast<int>(lifted.rows());
   }
   if (report.rank > dim) {
@@ -142,8 +151,10 @@ bool proves_itself(const ChordalRelaxation<dim>& relaxation, int nodes, const Ei
   CertificateMatrix<dim> matrix = relaxation.certificate_matrix(X);
   const double shift =
       0.5 * kTightGap * cost / (static_cast<double>(nodes) * dim) + 1e-13 * matrix.scale();
-  return matrix.positive_with(shift) &&
-         matrix.relative_gap(cost, matrix.lower_bound(shift)) <= kTightGap;
+  // No cost is below zero, whatever is proven.
+  return matrix.relative_gap(cost, 0) <= kTightGap ||
+         (matrix.positive_with(shift) &&
+          matrix.relative_gap(cost, matrix.lower_bound(shift)) <= kTightGap);
 }
 
 /// Whether the rotations of X and Z, points of rank d, differ nowhere by more than 0.3 rad.

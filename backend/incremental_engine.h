@@ -94,6 +94,7 @@ class IncrementalEngine final : public IncrementalOptimizer::Engine {
   std::vector<Node> nodes_;
   GrowingComponents components_;
   std::vector<Edge> edges_;
+  std::vector<double> edge_costs_;  ///< of every edge, close together
   std::vector<Position> positions_;
   std::vector<int> free_edges_, free_positions_;  ///< places that wait for others
   std::vector<int> visited_, gradient_stale_;     ///< edges of the iteration; nodes

@@ -14,6 +14,12 @@ constexpr double kForcing = 1e-2;
 constexpr double kSingularPivot = 1e-12;
 constexpr double kLeastGain = 1e-4;  ///< share of the promised decrease that a step must bring
 constexpr int kMaxRejections = 30;
+/// So many shortened steps in a row, and the poses go back to where they began and are damped from
+/// there: where a long chain is to bend, the dogleg crumples it for hundreds of steps. Next to no
+/// damping at first, as bending has next to no curvature.
+constexpr int kMostShortened = 8;
+constexpr double kDampingOfOpenDirections = 1e-4;
+constexpr double kFirstDamping = 1e-10, kLeastDamping = 1e-16;
 
 }  // namespace
 
@@ -99,6 +105,7 @@ bool NativeSolver<Group>::take(PackedGraph<Group>& graph, const Step& step) {
   equations_->move(graph, step.dx);
   // Steps are nearly always taken, so the equations are set up at once at the new poses.
   const double cost = equations_->linearize(graph, options_.rotation_error);
+  gain_ = (cost_ - cost) / step.promised;
   const bool taken = options_.step_rule == StepRule::kGaussNewton && lambda_ == 0
                          ? std::isfinite(cost)
                          : cost_ - cost >= kLeastGain * step.promised;
@@ -121,11 +128,13 @@ bool NativeSolver<Group>::take_dogleg(PackedGraph<Group>& graph, const Step& new
   const double newton_length = newton.dx.cwiseProduct(scale).norm();
   if (newton_length <= radius_) {
     if (take(graph, newton)) {
+      shortened_ = 0;
       radius_ = std::max(radius_, 3 * newton_length);
       return true;
     }
     radius_ = 0.5 * newton_length;
   }
+  if (shortened_++ == 0) before_shortening_ = graph.poses;
   const Eigen::VectorXd& g = equations_->gradient();
   const Eigen::VectorXd downhill = -g.cwiseQuotient(scale.cwiseAbs2());
   Eigen::VectorXd product;
@@ -154,11 +163,18 @@ bool NativeSolver<Group>::take_dogleg(PackedGraph<Group>& graph, const Step& new
   return false;
 }
 
+/// The damping follows the gain (Nielsen 1999).
 template <class Group>
 bool NativeSolver<Group>::take_damped(PackedGraph<Group>& graph, const Step& step) {
-  const bool taken = take(graph, step);
-  lambda_ = taken ? std::max(lambda_ / 9, 1e-10) : lambda_ * 8;
-  return taken;
+  if (!take(graph, step)) {
+    lambda_ *= raise_;
+    raise_ *= 2;
+    return false;
+  }
+  const double beyond = 2 * gain_ - 1;
+  lambda_ = std::max(lambda_ * std::max(1.0 / 3, 1 - beyond * beyond * beyond), kLeastDamping);
+  raise_ = 2;
+  return true;
 }
 
 template <class Group>
@@ -167,13 +183,20 @@ LocalSolution NativeSolver<Group>::solve(PackedGraph<Group>& graph) {
   relative_decrease_ = 1;
   radius_ = std::numeric_limits<double>::infinity();
   lambda_ = options_.step_rule == StepRule::kLevenbergMarquardt ? 1e-5 : 0;
+  raise_ = 2;
+  shortened_ = 0;
   LocalSolution solution;
   cost_ = solution.cost_initial = equations_->linearize(graph, options_.rotation_error);
   solution.outcome = Outcome::failure(Outcome::Code::kNotConverged, "out of iterations");
   int rejections = 0;
   for (;;) {
     std::optional<Step> step;
-    if (lambda_ == 0 && !(step = newton_step())) lambda_ = 1e-4;
+    if (lambda_ == 0 && shortened_ == kMostShortened) {
+      graph.poses = before_shortening_;
+      cost_ = equations_->linearize(graph, options_.rotation_error);
+      lambda_ = kFirstDamping;
+    }
+    if (lambda_ == 0 && !(step = newton_step())) lambda_ = kDampingOfOpenDirections;
     if (lambda_ > 0) step = damped_step();
     if (!step || !step->dx.allFinite()) {
       solution.outcome =

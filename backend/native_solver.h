@@ -8,7 +8,8 @@ namespace placegraph {
 /// cost would rise, or Levenberg-Marquardt, over block-sparse normal equations. A factor is kept as
 /// long as it serves: later steps come from conjugate gradients preconditioned with it while that
 /// is cheaper than factorizing anew. Where the constraints leave directions open (singular normal
-/// equations) the steps are damped whatever the rule.
+/// equations), or where the dogleg had to be shortened time and again, the steps are damped
+/// whatever the rule.
 template <class Group>
 class NativeSolver {
  public:
@@ -35,6 +36,10 @@ class NativeSolver {
   double relative_decrease_ = 1;  ///< of the last step: how near the last factor still is
   double radius_ = 0;             ///< of the trust region, in the norm of sqrt(diag(H))
   double lambda_ = 0;             ///< damping in units of diag(H); 0: not damped
+  double raise_ = 2;              ///< by which the next rejection raises it
+  double gain_ = 0;               ///< of the last step, taken or not, as a share of its promise
+  int shortened_ = 0;             ///< steps of the dogleg in a row that were no Newton steps
+  std::vector<Group> before_shortening_;
 };
 
 }  // namespace placegraph
