@@ -18,9 +18,9 @@ constexpr double kSlow = 0.25;
 /// Edges whose Jacobians have changed by this share are then linearized anew, a tenth of that at
 /// the next time, and so on. A long chain bends far by little in each of its edges.
 constexpr double kFirstChange = 3e-4, kLastChange = 1e-8;
-/// Iterations begin at this part of the excess that is allowed, so that they seldom end above it:
-/// fewer steps need a second one.
-constexpr double kBegin = 0.5;
+/// Iterations begin at a part of the excess that is allowed, so that they seldom end above it and
+/// few steps need a second one: lowered by every step that does, raised by every one that does not.
+constexpr double kLeastBegin = 0.4, kLowerBegin = 0.6, kRaiseBegin = 1.05;
 /// Costs below are rounding.
 constexpr double kNoCost = 1e-12;
 /// Of the tree, as a share of the diagonal: keeps open directions solvable.
@@ -377,7 +377,11 @@ void IncrementalEngine<Group>::optimize(double excess, IncrementalStep& step) {
     }
     step.predicted_excess = tree_.model_decrease();
     const double allowed = excess * step.cost + kNoCost;
-    if (step.predicted_excess <= (step.iterations == 0 ? kBegin : 1) * allowed) return;
+    if (step.predicted_excess <= (step.iterations == 0 ? begin_ : 1) * allowed) {
+      if (step.iterations == 1) begin_ = std::min(1.0, kRaiseBegin * begin_);
+      if (step.iterations > 1) begin_ = std::max(kLeastBegin, kLowerBegin * begin_);
+      return;
+    }
     if (step.iterations >= options_.max_iterations) break;
     const bool slow = step.predicted_excess > kSlow * before;
     before = std::numeric_limits<double>::infinity();

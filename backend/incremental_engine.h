@@ -99,6 +99,7 @@ class IncrementalEngine final : public IncrementalOptimizer::Engine {
   std::vector<int> free_edges_, free_positions_;  ///< places that wait for others
   std::vector<int> visited_, gradient_stale_;     ///< edges of the iteration; nodes
   /// Steps since the tree's damping was raised, and after how many it is lowered again.
+  double begin_ = 1;  ///< share of the allowed excess at which iterations begin
   int steps_damped_ = 0, patience_ = 1;
   int nodes_when_ordered_ = 0;
   Tree tree_;

@@ -13,7 +13,7 @@ namespace placegraph {
 struct IncrementalOptions {
   RotationError rotation_error = RotationError::kLog;
   /// Iterate until the cost is predicted to lie above the minimum by no more than this share
-  /// (beginning at half of it).
+  /// (beginning somewhat earlier).
   double excess = 5e-3;
   double final_excess = 1e-8;  ///< the same of finish()
   /// An edge is linearized anew when its Jacobian has changed by this share of its norm.
