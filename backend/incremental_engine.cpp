@@ -20,7 +20,7 @@ constexpr double kSlow = 0.25;
 constexpr double kFirstChange = 3e-4, kLastChange = 1e-8;
 /// Iterations begin at a part of the excess that is allowed, so that they seldom end above it and
 /// few steps need a second one: lowered by every step that does, raised by every one that does not.
-constexpr double kLeastBegin = 0.4, kLowerBegin = 0.6, kRaiseBegin = 1.05;
+constexpr double kLeastBegin = 0.4, kLowerBegin = 0.6, kRaiseBegin = 1.02;
 /// Costs below are rounding.
 constexpr double kNoCost = 1e-12;
 /// Of the tree, as a share of the diagonal: keeps open directions solvable.
