@@ -119,6 +119,13 @@ void print_summary(const GeoreferenceResult& result, const std::string& folder) 
   for (const GpsDropout& dropout : result.dropouts)
     fmt::print("dropout      {:.2f} s to {:.2f} s\n", 1e-9 * static_cast<double>(dropout.begin_ns),
                1e-9 * static_cast<double>(dropout.end_ns));
+  if (result.odometry_factor_translation != 1 || result.odometry_factor_rotation != 1)
+    fmt::print(
+        "odometry     scatters {:.3g} (translation) and {:.3g} (rotation) times as claimed\n",
+        result.odometry_factor_translation, result.odometry_factor_rotation);
+  if (result.map_delay_s != 0)
+    fmt::print("map delay    {:.4f} +- {:.4f} s, undone\n", result.map_delay_s,
+               result.map_delay_sigma_s);
   if (!result.lever_arm_covariance.isZero())
     for (int k = 0; k < 3; ++k)
       fmt::print("lever arm {}  {:.3f} +- {:.3f} m{}\n", "xyz"[k], result.lever_arm[k],

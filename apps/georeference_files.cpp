@@ -167,6 +167,10 @@ nlohmann::ordered_json describe_georeference(const GeoreferenceResult& result) {
   json["residual_rms_m"] = result.residual_rms_m;
   json["accuracy_factor_horizontal"] = result.accuracy_factor_horizontal;
   json["accuracy_factor_vertical"] = result.accuracy_factor_vertical;
+  json["odometry_factor_translation"] = result.odometry_factor_translation;
+  json["odometry_factor_rotation"] = result.odometry_factor_rotation;
+  json["map_delay_s"] = result.map_delay_s;
+  if (result.map_delay_sigma_s > 0) json["map_delay_sigma_s"] = result.map_delay_sigma_s;
   json["dropouts"] = dropouts;
   json["lever_arm_m"] = numbers(result.lever_arm);
   json["lever_arm_estimated"] = estimated;

@@ -46,6 +46,9 @@ class AntennaTrack {
                                                const Eigen::Vector3d& lever_arm,
                                                double max_gap_s) const;
 
+  /// T_map_body; the nodes at the times of their visits where no motion was given.
+  const Trajectory& motion() const { return motion_; }
+
   /// The motion after the nodes have moved to the poses of `optimized`, whose nodes are the same:
   /// each pose follows the node visited before and the one visited after it, by their distance in
   /// time.

@@ -1,5 +1,8 @@
 #include <placegraph/backend/antenna_calibration.h>
 #include <placegraph/backend/georeference.h>
+#include <placegraph/backend/map_delay.h>
+#include <placegraph/backend/map_parts.h>
+#include <placegraph/backend/odometry_scatter.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -12,71 +15,17 @@ namespace {
 constexpr double kHuberWidth = 1.345;
 constexpr double kRejectedWeight = 0.1;
 constexpr double kGrossChi2 = 25;
-constexpr double kMedianOfNormal = 0.6745;  ///< median of |x| for x of unit deviation
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// Component-wise, longitudes relative to the first fix: gross errors do not move it.
-GeodeticPosition median_position(const std::vector<GpsFix>& fixes) {
-  std::vector<double> latitudes, longitudes, heights;
-  const double reference = fixes.front().position.longitude_deg;
-  for (const GpsFix& fix : fixes) {
-    latitudes.push_back(fix.position.latitude_deg);
-    longitudes.push_back(std::remainder(fix.position.longitude_deg - reference, 360.0));
-    heights.push_back(fix.position.height_m);
-  }
-  return {median(latitudes), std::remainder(reference + median(longitudes), 360.0),
-          median(heights)};
-}
-
-/// T_enu_map in front of a pose of the map.
-Pose placed(const Sim3& T_enu_map, const Pose& T_map_node) {
-  if (const SE2* T = std::get_if<SE2>(&T_map_node)) {
-    const SE3 rigid = SE3(T_enu_map.rotation(), T_enu_map.translation()) * rigid_part(*T);
-    const Eigen::Matrix3d R = rigid.rotation().matrix();
-    return SE2(rigid.translation().x(), rigid.translation().y(), std::atan2(R(1, 0), R(0, 0)));
-  }
-  if (const SE3* T = std::get_if<SE3>(&T_map_node))
-    return SE3(T_enu_map.rotation(), T_enu_map.translation()) * *T;
-  return T_enu_map * std::get<Sim3>(T_map_node);
-}
-
-AlignmentGroup alignment_group(PoseKind kind) {
-  return kind == PoseKind::kSE2   ? AlignmentGroup::kPlanar
-         : kind == PoseKind::kSE3 ? AlignmentGroup::kRigid
-                                  : AlignmentGroup::kSimilarity;
-}
-
-double path_length(const std::vector<PositionPair>& pairs) {
-  double length = 0;
-  for (std::size_t i = 1; i < pairs.size(); ++i) length += (pairs[i].map - pairs[i - 1].map).norm();
-  return length;
-}
-
-/// The part of a graph whose nodes are kept: constraints that join dropped ones go too.
-PoseGraph kept_part(const PoseGraph& graph, const std::vector<char>& keep) {
-  PoseGraph part;
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i)
-    if (keep[i]) part.nodes.push_back(graph.nodes[i]);
-  const auto index = part.index_by_id();
-  for (const Constraint& constraint : graph.constraints) {
-    const auto* edge = std::get_if<RelativePoseConstraint>(&constraint);
-    if (edge && index.contains(edge->from) && index.contains(edge->to))
-      part.constraints.push_back(constraint);
-  }
-  return part;
-}
 
 /// The work of georeference(), step by step.
 class Georeferencer {
  public:
   Georeferencer(const GeoreferenceInput& input, const GeoreferenceOptions& options,
                 const LogSink& log_sink)
-      : in_(input), options_(options), log_(log_sink), visits_(input.visits) {
+      : in_(input),
+        options_(options),
+        log_(log_sink),
+        visits_(input.visits),
+        motion_(input.motion) {
     calibration_ << input.lever_arm, 0.0;
     prior_.value = calibration_;
     if (options.estimate_lever_arm) prior_.sigma.head<3>().setConstant(options.lever_arm_sigma_m);
@@ -86,10 +35,13 @@ class Georeferencer {
 
   GeoreferenceResult run() {
     locate_fixes();
-    find_dropouts();
+    result_.dropouts = find_dropouts(visits_, stamps_ns_, options_.dropout_s);
     result_.outcome = align();
     if (!result_.outcome) return std::move(result_);
+    bound_odometry();
     scatter_of_fixes();
+    scatter_of_odometry();
+    if (options_.estimate_delay && !options_.estimate_clock_offset) undo_delay();
     calibrate();
     if (result_.outcome.code == Outcome::Code::kDegenerate) return std::move(result_);
     solve(options_.kernel);
@@ -99,7 +51,6 @@ class Georeferencer {
 
  private:
   void locate_fixes();
-  void find_dropouts();
   void carry(const AntennaTrack& track);
   void carry_again();
   Eigen::Matrix3d information(int fix) const;
@@ -107,6 +58,11 @@ class Georeferencer {
   GpsAlignment align_component(int component, const std::vector<int>& component_of, Random& random);
   void place(const std::vector<std::optional<Sim3>>& T_enu_map, const std::vector<int>& component);
   void scatter_of_fixes();
+  void bound_odometry();
+  void scale_odometry_by(double translation, double rotation);
+  void scatter_of_odometry();
+  void undo_delay();
+  void take_further(double delay_s);
   void calibrate();
   void solve(const RobustKernel& kernel);
   void finish();
@@ -118,7 +74,9 @@ class Georeferencer {
   GeoreferenceResult result_;
   std::vector<NodeVisit> visits_;        ///< of the nodes that are placed
   PoseGraph graph_;                      ///< T_enu_node of the nodes that are placed
-  std::optional<AntennaTrack> track_;    ///< about their poses in the map
+  PoseGraph map_;                        ///< T_map_node of the same
+  Trajectory motion_;                    ///< T_map_body
+  std::optional<AntennaTrack> track_;    ///< of both
   std::vector<std::int64_t> stamps_ns_;  ///< of the fixes, by the nodes' clock
   std::vector<Eigen::Vector3d> positions_enu_;
   std::vector<double> accuracy_m_;
@@ -144,24 +102,6 @@ void Georeferencer::locate_fixes() {
     require(i == 0 || stamps_ns_[i - 1] < stamps_ns_[i],
             "georeference: times of fixes do not increase");
   }
-}
-
-void Georeferencer::find_dropouts() {
-  if (visits_.empty()) return;
-  const auto [first, last] =
-      std::minmax_element(visits_.begin(), visits_.end(),
-                          [](const auto& a, const auto& b) { return a.stamp_ns < b.stamp_ns; });
-  std::int64_t begin = first->stamp_ns;
-  const auto consider = [&](std::int64_t end) {
-    if (1e-9 * static_cast<double>(end - begin) > options_.dropout_s)
-      result_.dropouts.push_back({begin, end});
-  };
-  for (const std::int64_t stamp : stamps_ns_) {
-    if (stamp < first->stamp_ns || stamp > last->stamp_ns) continue;
-    consider(stamp);
-    begin = stamp;
-  }
-  consider(last->stamp_ns);
 }
 
 Eigen::Matrix3d Georeferencer::information(int fix) const {
@@ -193,7 +133,7 @@ void Georeferencer::carry(const AntennaTrack& track) {
 }
 
 void Georeferencer::carry_again() {
-  if (in_.motion.poses.empty())
+  if (motion_.poses.empty())
     carry(AntennaTrack(graph_, visits_, {}));
   else
     carry(*track_);
@@ -245,8 +185,7 @@ GpsAlignment Georeferencer::align_component(int component, const std::vector<int
     pairs.push_back(
         {rigid_part(T_map_node) * p_node, positions_enu_[fix_of_[i]], accuracy_m_[fix_of_[i]]});
   }
-  return align_to_fixes(pairs, alignment_group(kind), path_length(pairs), options_.alignment,
-                        random);
+  return align_to_fixes(pairs, alignment_group(kind), options_.alignment, random);
 }
 
 void Georeferencer::place(const std::vector<std::optional<Sim3>>& T_enu_map,
@@ -256,8 +195,8 @@ void Georeferencer::place(const std::vector<std::optional<Sim3>>& T_enu_map,
     keep[i] = T_enu_map[static_cast<std::size_t>(component[i])].has_value();
     if (!keep[i]) result_.unplaced_nodes.push_back(in_.graph.nodes[i].id);
   }
-  const PoseGraph map = kept_part(in_.graph, keep);
-  graph_ = map;
+  map_ = kept_part(in_.graph, keep);
+  graph_ = map_;
   std::size_t next = 0;
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (!keep[i]) continue;
@@ -268,7 +207,7 @@ void Georeferencer::place(const std::vector<std::optional<Sim3>>& T_enu_map,
   }
   const auto index = graph_.index_by_id();
   std::erase_if(visits_, [&](const NodeVisit& visit) { return !index.contains(visit.node); });
-  track_.emplace(map, visits_, in_.motion);
+  track_.emplace(map_, visits_, motion_);
   carry_again();
 }
 
@@ -281,33 +220,21 @@ Eigen::Vector3d Georeferencer::residual(const AntennaObservation& seen) const {
   return e;
 }
 
-/// Optimizes with Huber's kernel until the scatter of the fixes stays the same. It is taken from
-/// differences of successive residuals, which know nothing of a map that does not fit: what is left
-/// of it cancels, and the median passes over gross errors.
+/// Optimizes with Huber's kernel until the scatter of the fixes stays the same.
 void Georeferencer::scatter_of_fixes() {
   for (int round = 0; round < 5; ++round) {
     solve({RobustKernel::Kind::kHuber, kHuberWidth});
     if (!options_.estimate_accuracy) return;
-    std::vector<double> horizontal, vertical;
-    int last = -1;
+    std::vector<FixResidual> residuals;
     for (std::size_t i = 0; i < observations_.size(); ++i) {
       const Eigen::Vector3d e = residual(observations_[i]);
       // The first round knows no scale by which to call an error gross.
-      if (round > 0 && e.dot(observations_[i].information * e) > kGrossChi2) continue;
-      const int now = static_cast<int>(i);
-      const int before = std::exchange(last, now);
-      if (before < 0) continue;
-      const int a = fix_of_[static_cast<std::size_t>(before)], b = fix_of_[i];
-      if (1e-9 * static_cast<double>(stamps_ns_[b] - stamps_ns_[a]) > options_.max_gap_s) continue;
-      const Eigen::Vector3d d = (e - residual(observations_[static_cast<std::size_t>(before)])) /
-                                std::hypot(accuracy_m_[a], accuracy_m_[b]);
-      horizontal.push_back(std::abs(d[0]));
-      horizontal.push_back(std::abs(d[1]));
-      vertical.push_back(std::abs(d[2]));
+      if (round == 0 || e.dot(observations_[i].information * e) <= kGrossChi2)
+        residuals.push_back({stamps_ns_[fix_of_[i]], e, accuracy_m_[fix_of_[i]]});
     }
-    if (vertical.size() < 20) return;
-    const double h = std::max(1.0, median(horizontal) / kMedianOfNormal);
-    const double v = std::max(1.0, median(vertical) / kMedianOfNormal);
+    const auto scatter = scatter_of(residuals, options_.max_gap_s);
+    if (!scatter) return;
+    const double h = scatter->horizontal, v = scatter->vertical;
     const double change = std::max(std::abs(std::log(h / result_.accuracy_factor_horizontal)),
                                    std::abs(std::log(v / result_.accuracy_factor_vertical)));
     result_.accuracy_factor_horizontal = h;
@@ -316,6 +243,89 @@ void Georeferencer::scatter_of_fixes() {
       observations_[i].information = information(fix_of_[i]);
     if (change < 0.05) return;
   }
+}
+
+void Georeferencer::scale_odometry_by(double translation, double rotation) {
+  scale_odometry(graph_, translation, rotation);
+  result_.odometry_factor_translation *= translation;
+  result_.odometry_factor_rotation *= rotation;
+}
+
+/// Odometry that claims to be much worse than it fits (information of 1, say) lets the map crumple
+/// before its scatter can be told: it begins with what the rigid fit leaves.
+void Georeferencer::bound_odometry() {
+  if (!options_.estimate_odometry) return;
+  constexpr double kMuchWorse = 5;
+  const ClaimedDrift drift = claimed_drift(map_);
+  const double seen =
+      std::max(result_.alignment_rmse_m, options_.min_accuracy_m) / result_.T_enu_map.scale();
+  const auto bound = [&](double claimed) {
+    return claimed > kMuchWorse * seen ? seen / claimed : 1;
+  };
+  scale_odometry_by(bound(drift.by_translation), bound(drift.by_rotation));
+}
+
+/// Believes what the edges claim of themselves unless the fixes contradict it; then takes the
+/// scatter that the fixes show. None is taken for so good that the fixes could not tell it from a
+/// rigid map.
+void Georeferencer::scatter_of_odometry() {
+  if (!options_.estimate_odometry) return;
+  constexpr int kRounds = 15;
+  constexpr double kContradicted = 3, kSettled = 0.05, kRigid = 0.1;
+  const ClaimedDrift drift = claimed_drift(map_);
+  const double rigid = kRigid * *std::min_element(accuracy_m_.begin(), accuracy_m_.end()) /
+                       std::sqrt(static_cast<double>(observations_.size())) /
+                       result_.T_enu_map.scale();
+  for (int round = 0; round < kRounds; ++round) {
+    const OdometryScatter found = odometry_scatter(result_.graph);
+    const auto change = [&](const ScatterFactor& now, double factor, double claimed) {
+      if (factor == 1 && std::abs(now.deviations) < kContradicted) return 1.0;
+      return std::max(now.factor, std::min(1.0, rigid / claimed) / factor);
+    };
+    const double t = change(found.translation, result_.odometry_factor_translation,
+                            drift.by_translation),
+                 r = change(found.rotation, result_.odometry_factor_rotation, drift.by_rotation);
+    if (std::max(std::abs(std::log(t)), std::abs(std::log(r))) < kSettled) return;
+    scale_odometry_by(t, r);
+    solve({RobustKernel::Kind::kHuber, kHuberWidth});
+  }
+}
+
+/// Where the data show clearly that the map's poses lag behind their stamps (or run ahead), takes
+/// map and motion to their stamps; again, until nothing of the delay is left.
+void Georeferencer::undo_delay() {
+  constexpr int kRounds = 6;
+  constexpr double kClear = 3, kLittle = 0.2;  // standard deviations
+  for (int round = 0; round < kRounds; ++round) {
+    AntennaCalibration prior;
+    prior.value << calibration_.head<3>(), -result_.map_delay_s;
+    prior.sigma[3] = options_.clock_offset_sigma_s;
+    const auto found =
+        calibrate_antenna(graph_, observations_, {RobustKernel::Kind::kHuber, kHuberWidth}, prior,
+                          calibration_, options_.solver.max_iterations);
+    result_.iterations += found.iterations;
+    const double sigma = std::sqrt(found.covariance(3, 3)), delay_s = found.value[3];
+    if (!found.outcome || !(std::abs(delay_s) > (round == 0 ? kClear : kLittle) * sigma)) break;
+    result_.map_delay_s += delay_s;
+    result_.map_delay_sigma_s = sigma;
+    graph_ = found.graph;
+    take_further(delay_s);
+  }
+  if (result_.map_delay_s == 0) return;
+  // What the delay did to the fit is no fault of the edges: from the beginning once more.
+  scale_odometry_by(1 / result_.odometry_factor_translation, 1 / result_.odometry_factor_rotation);
+  bound_odometry();
+  solve({RobustKernel::Kind::kHuber, kHuberWidth});
+  scatter_of_odometry();
+}
+
+void Georeferencer::take_further(double delay_s) {
+  const auto steps = steps_of_delay(map_, visits_, track_->motion(), delay_s, options_.max_gap_s);
+  move_nodes(graph_, steps);
+  if (!motion_.poses.empty()) motion_ = without_delay(motion_, delay_s, options_.max_gap_s);
+  move_nodes(map_, steps);
+  track_.emplace(map_, visits_, motion_);
+  carry_again();
 }
 
 void Georeferencer::calibrate() {

@@ -84,7 +84,19 @@ double angle_sigma_deg(const std::vector<PositionPair>& pairs, const std::vector
   return std::min(180.0, sigma * 180 / std::numbers::pi);
 }
 
+double path_length(const std::vector<PositionPair>& pairs) {
+  double length = 0;
+  for (std::size_t i = 1; i < pairs.size(); ++i) length += (pairs[i].map - pairs[i - 1].map).norm();
+  return length;
+}
+
 }  // namespace
+
+AlignmentGroup alignment_group(PoseKind kind) {
+  return kind == PoseKind::kSE2   ? AlignmentGroup::kPlanar
+         : kind == PoseKind::kSE3 ? AlignmentGroup::kRigid
+                                  : AlignmentGroup::kSimilarity;
+}
 
 void GpsAlignmentOptions::check() const { check_ranges(*this); }
 
@@ -97,8 +109,8 @@ void visit(OptionVisitor& field, GpsAlignmentOptions& o) {
 }
 
 GpsAlignment align_to_fixes(const std::vector<PositionPair>& pairs, AlignmentGroup group,
-                            double path_m, const GpsAlignmentOptions& options, Random& random) {
-  const double bend_m = 0.01 * options.max_bend_percent * path_m;
+                            const GpsAlignmentOptions& options, Random& random) {
+  const double bend_m = 0.01 * options.max_bend_percent * path_length(pairs);
   const int sample_size = group == AlignmentGroup::kPlanar ? 2 : 3;
   const auto found = ransac<Sim3>(
       static_cast<int>(pairs.size()), sample_size, kGate * kGate, options.ransac, random,

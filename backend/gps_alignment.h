@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/lie.h>
+#include <placegraph/graph/constraint.h>
 #include <placegraph/graph/core/ransac.h>
 
 #include <vector>
@@ -18,6 +18,9 @@ enum class AlignmentGroup {
   kSimilarity,  ///< Sim(3)
 };
 
+/// Of a map whose nodes are of that kind.
+AlignmentGroup alignment_group(PoseKind kind);
+
 struct GpsAlignmentOptions {
   double max_bend_percent =
       3;  ///< how far the map may be bent, in percent of its extent along the way
@@ -35,13 +38,13 @@ struct GpsAlignment {
   double angle_sigma_deg = 0;  ///< about the direction least determined
 };
 
-/// The similarity that puts a map of `path_m` length roughly onto its fixes: least squares (Umeyama
-/// 1991) inside of MSAC, so that gross errors have no say. It need not be exact, for the map may be
-/// bent by drift and is unbent afterwards. Outcomes: kTooFewData below three pairs (two in the
-/// plane); kNoConsensus if fewer than half of the pairs agree; kDegenerate if the positions lie on
-/// a line or point, so that a rotation stays open.
+/// The similarity that puts a map roughly onto its fixes, `pairs` in the order of its way: least
+/// squares (Umeyama 1991) inside of MSAC, so that gross errors have no say. It need not be exact,
+/// for the map may be bent by drift and is unbent afterwards. Outcomes: kTooFewData below three
+/// pairs (two in the plane); kNoConsensus if fewer than half of the pairs agree; kDegenerate if the
+/// positions lie on a line or point, so that a rotation stays open.
 [[nodiscard]] GpsAlignment align_to_fixes(const std::vector<PositionPair>& pairs,
-                                          AlignmentGroup group, double path_m,
-                                          const GpsAlignmentOptions& options, Random& random);
+                                          AlignmentGroup group, const GpsAlignmentOptions& options,
+                                          Random& random);
 
 }  // namespace placegraph

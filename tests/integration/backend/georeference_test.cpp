@@ -45,6 +45,39 @@ TEST(Georeference, HoldsKitti00WithinDecimetresThroughNoiseDropoutsAndGrossError
   EXPECT_LE(std::sqrt(inside / walks), 2.0);
 }
 
+TEST(Georeference, HoldsKitti06ThoughItsPosesLagBehindTheClockOfTheFixes) {
+  PLACEGRAPH_DATA_OR_SKIP(folder, "kitti_gt/06");
+  GpsScenarioOptions options;
+  options.dropouts_s = {{40, 80}};
+  double outside = 0, inside = 0;
+  const int walks = 5;
+  for (options.seed = 1; options.seed <= walks; ++options.seed) {
+    const GpsScenario scenario = make_gps_scenario(folder, options);
+    const GeoreferenceResult result = georeference(scenario.input, {});
+    expect_sound(scenario, result);
+    EXPECT_NEAR(result.map_delay_s, 0.118, 4 * result.map_delay_sigma_s);
+    outside += std::pow(position_rmse(scenario, result.graph, false), 2);
+    inside += std::pow(position_rmse(scenario, result.graph, true), 2);
+  }
+  EXPECT_LE(std::sqrt(outside / walks), 0.3);
+  EXPECT_LE(std::sqrt(inside / walks), 2.0);
+}
+
+TEST(Georeference, HoldsKitti00WhateverItsOdometryClaims) {
+  PLACEGRAPH_DATA_OR_SKIP(folder, "kitti_gt/00");
+  GpsScenarioOptions options;
+  options.dropouts_s = {{100, 200}};
+  GpsScenario scenario = make_gps_scenario(folder, options);
+  for (Constraint& constraint : scenario.input.graph.constraints)
+    std::get<RelativePoseConstraint>(constraint).information = Information::Identity(6, 6);
+  const GeoreferenceResult result = georeference(scenario.input, {});
+  expect_sound(scenario, result);
+  EXPECT_LT(result.odometry_factor_rotation, 0.01);
+  EXPECT_LE(position_rmse(scenario, result.graph, false), 0.3);
+  // One walk through one dropout: its posterior has 1.3 m, three times that is next to impossible.
+  EXPECT_LE(position_rmse(scenario, result.graph, true), 3.9);
+}
+
 TEST(Georeference, FindsTheClockOfKitti06AndHoldsItWithinDecimetres) {
   PLACEGRAPH_DATA_OR_SKIP(folder, "kitti_gt/06");
   GpsScenarioOptions options;

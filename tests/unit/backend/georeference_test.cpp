@@ -148,6 +148,47 @@ TEST(Georeference, RejectsGrossErrorsWithoutMovingForThem) {
   EXPECT_LT(largest_error(result, truth), 1e-3);
 }
 
+TEST(Georeference, PutsAMapThatLagsBehindItsStampsToThem) {
+  const auto truth = eight(160);
+  GeoreferenceInput in = exact_drive(truth);
+  // The node of the time i is where the vehicle was two steps of 0.1 s before.
+  for (std::size_t i = 0; i < in.visits.size(); ++i) in.visits[i].stamp_ns += 2 * kStep_ns;
+  const GeoreferenceResult result = georeference(in, {});
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  EXPECT_NEAR(result.map_delay_s, 0.2, 0.01);
+  // Node i now is where the vehicle was at the time i + 2. At the ends the way is gone on with as
+  // it went, through a turn that may have changed.
+  double largest = 0;
+  for (std::size_t i = 2; i + 4 < truth.size(); ++i)
+    largest = std::max(largest, (std::get<SE3>(result.graph.nodes[i].T_world_node).translation() -
+                                 truth[i + 2].translation())
+                                    .norm());
+  EXPECT_LT(largest, 0.2);
+  GeoreferenceOptions as_it_is;
+  as_it_is.estimate_delay = false;
+  EXPECT_EQ(georeference(in, as_it_is).map_delay_s, 0);
+}
+
+TEST(Georeference, FindsWhatOdometryIsWorthWhateverItClaims) {
+  Random random = test::seeded_random(5);
+  const auto truth = eight(300);
+  GeoreferenceInput in = exact_drive(truth);
+  for (std::size_t i = 0; i < in.fixes.size(); ++i) {
+    const Eigen::Vector3d noise(random.normal(0, 0.5), random.normal(0, 0.5),
+                                random.normal(0, 0.5));
+    in.fixes[i] = fix_at(in.fixes[i].stamp_ns, truth[i] * kArm + noise);
+  }
+  for (Constraint& constraint : in.graph.constraints)
+    std::get<RelativePoseConstraint>(constraint).information = Information::Identity(6, 6);
+  const GeoreferenceResult result = georeference(in, {});
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  EXPECT_LT(result.odometry_factor_translation, 0.1);
+  EXPECT_LT(result.odometry_factor_rotation, 0.01);
+  // Exact odometry: 300 fixes of 0.5 m determine six numbers. With a metre a step it would be 0.4
+  // m.
+  EXPECT_LT(largest_error(result, truth), 0.2);
+}
+
 TEST(Georeference, BridgesADropoutAndReportsIt) {
   const auto truth = eight(80);
   GeoreferenceInput in = exact_drive(truth);
