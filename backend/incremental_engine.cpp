@@ -1,5 +1,7 @@
 #include <placegraph/backend/incremental_engine.h>
 #include <placegraph/backend/local_solver.h>
+#include <placegraph/backend/relative_covariance.h>
+#include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +69,8 @@ void IncrementalEngine<Group>::add_node(const PoseNode& node) {
 }
 
 template <class Group>
-void IncrementalEngine<Group>::add_constraints(const std::vector<Constraint>& constraints) {
+void IncrementalEngine<Group>::add_constraints(const std::vector<Constraint>& constraints,
+                                               bool poses_hold) {
   // Odometry first, and nothing depends on the order in which the rest is given.
   std::vector<std::tuple<int, int, int, int>> order;
   const int first = static_cast<int>(constraints_.size());
@@ -82,7 +85,9 @@ void IncrementalEngine<Group>::add_constraints(const std::vector<Constraint>& co
     place_.push_back(-1);
   }
   std::sort(order.begin(), order.end());
+  poses_hold_ = poses_hold;
   for (const auto& entry : order) attach(std::get<3>(entry), 1);
+  poses_hold_ = false;
   apply_held();
 }
 
@@ -169,6 +174,30 @@ void IncrementalEngine<Group>::add_position(const PositionConstraint& constraint
 }
 
 template <class Group>
+void IncrementalEngine<Group>::revise(const ConstraintRevision& revision) {
+  constraints_[revision.constraint] = revision.measured;
+  const int place = place_[revision.constraint];
+  if (place < 0) return;
+  if (const auto* measured = std::get_if<PositionConstraint>(&revision.measured)) {
+    auto& position = positions_[place].position;
+    position.position_world = measured->position_world;
+    position.lever_arm = measured->lever_arm;
+    position.information = measured->information;
+    position.kernel = measured->kernel;
+    evaluate_position(place);
+    return;
+  }
+  const auto& measured = std::get<RelativePoseConstraint>(revision.measured);
+  auto& edge = edges_[place].edge;
+  edge.odometry = measured.source == ConstraintSource::kOdometry;
+  edge.T_to_from = std::get<Group>(measured.T_from_to).inverse();
+  edge.information = measured.information;
+  edge.kernel = measured.kernel;
+  evaluate(place);
+  linearize(place);
+}
+
+template <class Group>
 void IncrementalEngine<Group>::set_weight(const ConstraintWeight& weight) {
   const int place = place_[weight.constraint];
   if (place < 0) {
@@ -191,7 +220,7 @@ void IncrementalEngine<Group>::join(const Edge& edge) {
   const int from = edge.edge.from, to = edge.edge.to;
   if (components_.together(from, to)) return;
   const std::vector<int> moved = components_.join(from, to);
-  if (moved.empty()) return;
+  if (moved.empty() || poses_hold_) return;
   const bool from_moves = std::find(moved.begin(), moved.end(), from) != moved.end();
   const Group &T_world_from = nodes_[from].T_world_node, &T_world_to = nodes_[to].T_world_node;
   const Group T_new_old = from_moves
@@ -483,6 +512,19 @@ Eigen::MatrixXd IncrementalEngine<Group>::covariance(const std::vector<int>& nod
       covariance.template block<dof, dof>(place[i] * dof, place[j] * dof) =
           of_active.template block<dof, dof>(i * dof, j * dof);
   return covariance;
+}
+
+template <class Group>
+Information IncrementalEngine<Group>::relative_covariance(int from, int to) const {
+  require(components_.together(from, to), "incremental optimizer: nothing joins nodes " +
+                                              std::to_string(ids_[from]) + " and " +
+                                              std::to_string(ids_[to]));
+  constexpr int dof = Group::kDof;
+  const Eigen::MatrixXd joint = covariance({from, to});
+  const Group T_to_from = nodes_[to].T_world_node.inverse() * nodes_[from].T_world_node;
+  return placegraph::relative_covariance(T_to_from.adjoint(), joint.topLeftCorner(dof, dof),
+                                         joint.bottomRightCorner(dof, dof),
+                                         joint.topRightCorner(dof, dof));
 }
 
 template class IncrementalEngine<SE2>;

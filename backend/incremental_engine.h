@@ -13,19 +13,23 @@ class IncrementalOptimizer::Engine {
  public:
   virtual ~Engine() = default;
   virtual PoseKind kind() const = 0;
-  /// Both have been checked by the caller.
+  /// All that comes in has been checked by the caller.
   virtual void add_node(const PoseNode& node) = 0;
-  virtual void add_constraints(const std::vector<Constraint>& constraints) = 0;
+  /// `poses_hold`: constraints that join components move neither.
+  virtual void add_constraints(const std::vector<Constraint>& constraints, bool poses_hold) = 0;
+  virtual void revise(const ConstraintRevision& revision) = 0;
   virtual void set_weight(const ConstraintWeight& weight) = 0;
   /// Iterates until the predicted excess is less than `excess` of the cost; fills `step`.
   virtual void optimize(double excess, IncrementalStep& step) = 0;
 
   virtual int constraints() const = 0;
+  virtual const Constraint& constraint(int number) const = 0;
   virtual int find(std::int64_t node_id) const = 0;  ///< -1: unknown
   virtual Pose pose(int node) const = 0;
   virtual PoseGraph graph() const = 0;
   virtual double cost() const = 0;
   virtual Eigen::MatrixXd covariance(const std::vector<int>& nodes) const = 0;
+  virtual Information relative_covariance(int from, int to) const = 0;
 
   static std::unique_ptr<Engine> make(PoseKind kind, const IncrementalOptions& options);
 };
@@ -37,15 +41,18 @@ class IncrementalEngine final : public IncrementalOptimizer::Engine {
 
   PoseKind kind() const override { return static_cast<PoseKind>(Pose(Group()).index()); }
   void add_node(const PoseNode& node) override;
-  void add_constraints(const std::vector<Constraint>& constraints) override;
+  void add_constraints(const std::vector<Constraint>& constraints, bool poses_hold) override;
+  void revise(const ConstraintRevision& revision) override;
   void set_weight(const ConstraintWeight& weight) override;
   void optimize(double excess, IncrementalStep& step) override;
   int constraints() const override { return static_cast<int>(constraints_.size()); }
+  const Constraint& constraint(int number) const override { return constraints_[number]; }
   int find(std::int64_t node_id) const override;
   Pose pose(int node) const override { return nodes_[node].T_world_node; }
   PoseGraph graph() const override;
   double cost() const override;
   Eigen::MatrixXd covariance(const std::vector<int>& nodes) const override;
+  Information relative_covariance(int from, int to) const override;
 
  private:
   using Tangent = typename Group::Tangent;
@@ -101,6 +108,7 @@ class IncrementalEngine final : public IncrementalOptimizer::Engine {
   /// Steps since the tree's damping was raised, and after how many it is lowered again.
   double begin_ = 1;  ///< share of the allowed excess at which iterations begin
   int steps_damped_ = 0, patience_ = 1;
+  bool poses_hold_ = false;  ///< joining components moves neither
   int nodes_when_ordered_ = 0;
   Tree tree_;
 };

@@ -42,6 +42,39 @@ PoseGraph neighbourhood(const IncrementalOptimizer::Engine* engine,
   return graph;
 }
 
+bool same_nodes(const Constraint& a, const Constraint& b) {
+  if (a.index() != b.index()) return false;
+  if (const auto* relative = std::get_if<RelativePoseConstraint>(&a)) {
+    const auto& other = std::get<RelativePoseConstraint>(b);
+    return relative->from == other.from && relative->to == other.to;
+  }
+  return std::get<PositionConstraint>(a).node == std::get<PositionConstraint>(b).node;
+}
+
+void check(const IncrementalOptimizer::Engine* engine, const GraphChange& change) {
+  std::vector<Constraint> measured = change.constraints;
+  const auto check_number = [&](int constraint, const std::string& subject) {
+    if (!engine || constraint < 0 || constraint >= engine->constraints())
+      throw ArgumentError(subject + ": unknown constraint");
+  };
+  for (const ConstraintRevision& revision : change.revised) {
+    const std::string subject =
+        "incremental optimizer: revision of constraint " + std::to_string(revision.constraint);
+    check_number(revision.constraint, subject);
+    if (!same_nodes(engine->constraint(revision.constraint), revision.measured))
+      throw ArgumentError(subject + ": it joins other nodes");
+    measured.push_back(revision.measured);
+  }
+  for (const ConstraintWeight& w : change.weights) {
+    const std::string subject =
+        "incremental optimizer: weight of constraint " + std::to_string(w.constraint);
+    check_number(w.constraint, subject);
+    if (!(w.weight >= 0 && std::isfinite(w.weight)))
+      throw ArgumentError(subject + ": negative or not finite");
+  }
+  neighbourhood(engine, change.nodes, measured).check();
+}
+
 }  // namespace
 
 void IncrementalOptions::check() const { check_ranges(*this); }
@@ -67,37 +100,28 @@ IncrementalOptimizer::~IncrementalOptimizer() = default;
 IncrementalOptimizer::IncrementalOptimizer(IncrementalOptimizer&&) noexcept = default;
 IncrementalOptimizer& IncrementalOptimizer::operator=(IncrementalOptimizer&&) noexcept = default;
 
-IncrementalStep IncrementalOptimizer::add(const std::vector<PoseNode>& nodes,
-                                          const std::vector<Constraint>& constraints) {
-  neighbourhood(engine_.get(), nodes, constraints).check();
-  IncrementalStep step;
-  step.outcome = Outcome::ok();
-  if (nodes.empty() && constraints.empty()) {
-    step.cost = cost();
-    return step;
-  }
-  if (!engine_) engine_ = Engine::make(kind_of(nodes.front().T_world_node), options_);
-  step.first_constraint = engine_->constraints();
-  for (const PoseNode& node : nodes) engine_->add_node(node);
-  engine_->add_constraints(constraints);
-  engine_->optimize(options_.excess, step);
-  return step;
+IncrementalOptimizer::IncrementalOptimizer(const IncrementalOptions& options,
+                                           const PoseGraph& graph)
+    : IncrementalOptimizer(options) {
+  graph.check();
+  if (graph.nodes.empty()) return;
+  engine_ = Engine::make(kind_of(graph.nodes.front().T_world_node), options_);
+  for (const PoseNode& node : graph.nodes) engine_->add_node(node);
+  engine_->add_constraints(graph.constraints, true);
 }
 
-IncrementalStep IncrementalOptimizer::reweight(const std::vector<ConstraintWeight>& weights) {
-  for (const ConstraintWeight& w : weights) {
-    const std::string subject =
-        "incremental optimizer: weight of constraint " + std::to_string(w.constraint);
-    if (!engine_ || w.constraint < 0 || w.constraint >= engine_->constraints())
-      throw ArgumentError(subject + ": unknown constraint");
-    if (!(w.weight >= 0 && std::isfinite(w.weight)))
-      throw ArgumentError(subject + ": negative or not finite");
-  }
+IncrementalStep IncrementalOptimizer::apply(const GraphChange& change) {
+  check(engine_.get(), change);
   IncrementalStep step;
   step.outcome = Outcome::ok();
-  if (!engine_) return step;
+  step.cost = cost();
+  if (!engine_ && change.nodes.empty()) return step;
+  if (!engine_) engine_ = Engine::make(kind_of(change.nodes.front().T_world_node), options_);
   step.first_constraint = engine_->constraints();
-  for (const ConstraintWeight& w : weights) engine_->set_weight(w);
+  for (const PoseNode& node : change.nodes) engine_->add_node(node);
+  engine_->add_constraints(change.constraints, false);
+  for (const ConstraintRevision& revision : change.revised) engine_->revise(revision);
+  for (const ConstraintWeight& weight : change.weights) engine_->set_weight(weight);
   engine_->optimize(options_.excess, step);
   return step;
 }
@@ -111,6 +135,11 @@ IncrementalStep IncrementalOptimizer::finish() {
   return step;
 }
 
+std::optional<PoseKind> IncrementalOptimizer::kind() const {
+  if (!engine_) return std::nullopt;
+  return engine_->kind();
+}
+
 std::optional<Pose> IncrementalOptimizer::pose(std::int64_t node_id) const {
   const int node = engine_ ? engine_->find(node_id) : -1;
   if (node < 0) return std::nullopt;
@@ -118,6 +147,13 @@ std::optional<Pose> IncrementalOptimizer::pose(std::int64_t node_id) const {
 }
 
 PoseGraph IncrementalOptimizer::graph() const { return engine_ ? engine_->graph() : PoseGraph(); }
+
+int IncrementalOptimizer::constraints() const { return engine_ ? engine_->constraints() : 0; }
+
+const Constraint& IncrementalOptimizer::constraint(int number) const {
+  require(number >= 0 && number < constraints(), "incremental optimizer: unknown constraint");
+  return engine_->constraint(number);
+}
 
 double IncrementalOptimizer::cost() const { return engine_ ? engine_->cost() : 0; }
 
@@ -130,6 +166,15 @@ Eigen::MatrixXd IncrementalOptimizer::covariance(const std::vector<std::int64_t>
                           std::to_string(id));
   }
   return engine_ ? engine_->covariance(nodes) : Eigen::MatrixXd();
+}
+
+Information IncrementalOptimizer::relative_covariance(std::int64_t from, std::int64_t to) const {
+  const int a = engine_ ? engine_->find(from) : -1, b = engine_ ? engine_->find(to) : -1;
+  for (const auto& [id, node] : {std::pair(from, a), std::pair(to, b)})
+    if (node < 0)
+      throw ArgumentError("incremental optimizer: covariance of unknown node " +
+                          std::to_string(id));
+  return engine_->relative_covariance(a, b);
 }
 
 }  // namespace placegraph

@@ -46,6 +46,20 @@ struct ConstraintWeight {
   double weight = 1;
 };
 
+/// A constraint as it is measured by now, between the nodes that it was given for.
+struct ConstraintRevision {
+  int constraint = 0;  ///< its number, see IncrementalStep
+  Constraint measured;
+};
+
+/// All that one step may change.
+struct GraphChange {
+  std::vector<PoseNode> nodes;          ///< new ones
+  std::vector<Constraint> constraints;  ///< new ones
+  std::vector<ConstraintRevision> revised;
+  std::vector<ConstraintWeight> weights;
+};
+
 /// Keeps a pose graph at the minimum of sum weight * rho(e^T Omega e) while nodes and constraints
 /// arrive: SE(2), SE(3) or Sim(3), as the first node is.
 ///
@@ -69,30 +83,46 @@ class IncrementalOptimizer {
  public:
   /// Throws ArgumentError as IncrementalOptions::check.
   explicit IncrementalOptimizer(const IncrementalOptions& options = {});
+  /// Begins with a graph at its poses, which are iterated on from there. Throws ArgumentError as
+  /// PoseGraph::check too.
+  IncrementalOptimizer(const IncrementalOptions& options, const PoseGraph& graph);
   ~IncrementalOptimizer();
   IncrementalOptimizer(IncrementalOptimizer&&) noexcept;
   IncrementalOptimizer& operator=(IncrementalOptimizer&&) noexcept;
 
-  /// Throws ArgumentError as PoseGraph::check would for the graph with these; nothing is changed
-  /// then.
+  /// Throws ArgumentError as PoseGraph::check would for the graph with the change, for an unknown
+  /// number, a revision that joins other nodes, or a weight that is negative or not finite; nothing
+  /// is changed then.
+  IncrementalStep apply(const GraphChange& change);
   IncrementalStep add(const std::vector<PoseNode>& nodes,
-                      const std::vector<Constraint>& constraints);
-  /// Gives constraints other weights, all in one step. Throws ArgumentError for an unknown number
-  /// or a weight that is negative or not finite.
-  IncrementalStep reweight(const std::vector<ConstraintWeight>& weights);
+                      const std::vector<Constraint>& constraints) {
+    return apply({nodes, constraints, {}, {}});
+  }
+  /// Gives constraints other weights, all in one step.
+  IncrementalStep reweight(const std::vector<ConstraintWeight>& weights) {
+    return apply({{}, {}, {}, weights});
+  }
   IncrementalStep remove_constraint(int constraint) { return reweight({{constraint, 0.0}}); }
   /// Iterates to final_excess.
   IncrementalStep finish();
 
+  std::optional<PoseKind> kind() const;                  ///< none before the first node
   std::optional<Pose> pose(std::int64_t node_id) const;  ///< T_world_node; none if unknown
   /// All nodes in the order they came and, in theirs, the constraints whose weight is not 0: the
   /// graph whose cost is minimized, so with information and width of the kernel scaled where the
   /// weight is not 1.
   PoseGraph graph() const;
+  int constraints() const;  ///< how many were ever given
+  /// As it is measured by now. Throws ArgumentError for an unknown number.
+  const Constraint& constraint(int number) const;
   double cost() const;
   /// Covariance of the right perturbations of the nodes, in their order, from the factor as it is;
   /// zero for held ones. Throws ArgumentError for an unknown node.
   Eigen::MatrixXd covariance(const std::vector<std::int64_t>& node_ids) const;
+
+  /// Of T_from_to in its own right tangent. Throws ArgumentError for an unknown node and for nodes
+  /// that nothing joins.
+  Information relative_covariance(std::int64_t from, std::int64_t to) const;
 
   class Engine;
 

@@ -1,5 +1,6 @@
 #include <placegraph/backend/normal_equations.h>
 #include <placegraph/backend/pose_marginals.h>
+#include <placegraph/backend/relative_covariance.h>
 #include <placegraph/backend/sparse_inverse.h>
 #include <placegraph/graph/core/error.h>
 
@@ -28,13 +29,9 @@ struct PoseMarginals::Impl {
     require(static_cast<bool>(outcome),
             "PoseMarginals: there are no covariances: " + outcome.reason);
   }
-  /// d T_from_to = d to - Ad d from: Sigma = S_tt - Ad S_ft - S_tf Ad^T + Ad S_ff Ad^T.
   Information relative(int from, int to, const Information& S_from, const Information& S_to,
                        const Information& S_from_to) const {
-    const Information A = adjoint(from, to);
-    const Information cross = A * S_from_to;
-    const Information sum = S_to - cross - cross.transpose() + A * S_from * A.transpose();
-    return 0.5 * (sum + sum.transpose());
+    return placegraph::relative_covariance(adjoint(from, to), S_from, S_to, S_from_to);
   }
 };
 

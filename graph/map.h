@@ -28,8 +28,8 @@ struct LoopRecord {
   std::int64_t query_frame = 0, match_frame = 0;
   int inliers = 0;
   bool accepted = false;
-  std::string
-      stage;  ///< the test that decided: "retrieval", "geometry", "drift", "support", "accepted"
+  /// The test that decided: "retrieval", "geometry", "drift", "covariance", "support", "accepted".
+  std::string stage;
   SE3 T_match_query;  ///< of accepted ones
 };
 

@@ -102,36 +102,63 @@ bool LoopCloser::agree(const Loop& a, const Loop& b, const MotionBetween& odomet
          std::abs(std::log(difference.scale())) < options_.verifier.max_scale_error;
 }
 
+/// How far off two keyframes may be, `distance` apart, by errors that no covariance knows, which
+/// grow with the way between them; a wrong heading bends the way itself.
+LoopCloser::Drift LoopCloser::drift_over(double way, double distance, double median_depth_m) const {
+  const double depths = way / median_depth_m;
+  Drift drift;
+  drift.angle_rad =
+      std::min(M_PI, (options_.support_angle_deg + options_.drift_angle_deg * depths) * M_PI / 180);
+  drift.length =
+      options_.drift_translation * (median_depth_m + way) + drift.angle_rad * 0.5 * distance;
+  drift.log_scale = options_.verifier.max_scale_error + options_.drift_scale * depths;
+  return drift;
+}
+
 /// Whether the odometry can have drifted from the loop to where it says it is.
 bool LoopCloser::within_drift(const Loop& loop, const MotionBetween& odometry,
                               double median_depth_m, bool free_scale) const {
   const auto tracked = odometry(loop.match, loop.query);
   if (!tracked) return true;
   const SE3 difference = tracked->T_a_b.inverse() * loop.T_match_query;
-  const double distance = tracked->T_a_b.translation().norm();
-  const double depths = tracked->way / median_depth_m;
-  // What drifts grows with the way, and a wrong heading bends the way itself.
-  const double angle_rad =
-      (options_.support_angle_deg + options_.drift_angle_deg * depths) * M_PI / 180;
-  double length = options_.drift_translation * (median_depth_m + tracked->way) +
-                  std::min(angle_rad, M_PI) * 0.5 * distance;
+  Drift most = drift_over(tracked->way, tracked->T_a_b.translation().norm(), median_depth_m);
   if (free_scale) {
-    const double log_scale = options_.verifier.max_scale_error + options_.drift_scale * depths;
-    if (std::abs(std::log(loop.scale_match_query)) > log_scale) return false;
+    if (std::abs(std::log(loop.scale_match_query)) > most.log_scale) return false;
     // A unit that changed underway leaves a round trip open by a share of the way.
-    length += std::abs(std::expm1(std::log(loop.scale_match_query))) * tracked->way;
+    most.length += std::abs(std::expm1(std::log(loop.scale_match_query))) * tracked->way;
   }
-  return difference.translation().norm() <= length &&
-         difference.rotation().log().norm() <= angle_rad;
+  return difference.translation().norm() <= most.length &&
+         difference.rotation().log().norm() <= most.angle_rad;
+}
+
+/// Whether the map, as sure as it is of itself, can have its places where the loop says: squared
+/// Mahalanobis distance by the marginal covariance of the two, the loop's own, and what may have
+/// drifted along the shortest way that the map knows between them, loops included.
+bool LoopCloser::within_covariance(const Loop& loop, const KnownMotions& known,
+                                   double median_depth_m) const {
+  constexpr double kChi2 = 22.46;  // 6 degrees of freedom, 99.9 %
+  constexpr double kSigmas = 3;    // what drifts at most, in standard deviations
+  const auto predicted = known.map ? known.map(loop.match, loop.query) : std::nullopt;
+  if (!predicted) return true;
+  const Vector7d error = (predicted->S_a_b.inverse() * loop.S_match_query()).log();
+  const Drift most =
+      drift_over(predicted->way, predicted->S_a_b.translation().norm(), median_depth_m);
+  Vector6d drift;
+  drift << Eigen::Vector3d::Constant(most.length), Eigen::Vector3d::Constant(most.angle_rad);
+  Matrix6d covariance = predicted->covariance.topLeftCorner<6, 6>();
+  covariance += loop.information.topLeftCorner<6, 6>().ldlt().solve(Matrix6d::Identity());
+  covariance.diagonal() += (drift / kSigmas).cwiseAbs2();
+  return error.head<6>().dot(covariance.ldlt().solve(error.head<6>())) < kChi2;
 }
 
 /// Verifies one candidate of the newest view; a loop that passes is appended to pending_.
-LoopRecord LoopCloser::verify(const PlaceCandidate& candidate, const MotionBetween& odometry,
-                              double median_depth_m, bool free_scale) {
+LoopRecord LoopCloser::verify(const PlaceCandidate& candidate, const KnownMotions& known,
+                              double median_depth_m) {
   const View& query = views_.back();
   const View& match = *find_view(candidate.id);
   LoopRecord record{query.frame, match.frame, 0, false, "geometry", {}};
   Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | candidate.id);
+  const bool free_scale = known.units_differ && known.units_differ(candidate.id, query.keyframe);
   const LoopVerification verified = verify_loop(calibration_.camera, query.features, match.features,
                                                 options_.verifier, random, free_scale);
   record.inliers = verified.inliers;
@@ -140,7 +167,9 @@ LoopRecord LoopCloser::verify(const PlaceCandidate& candidate, const MotionBetwe
   record.T_match_query = verified.T_match_query;
   const Loop loop{query.keyframe, match.keyframe, verified.T_match_query,
                   options_.information_scale * verified.information, verified.scale_match_query};
-  if (!within_drift(loop, odometry, median_depth_m, free_scale)) return record;
+  if (!within_drift(loop, known.odometry, median_depth_m, free_scale)) return record;
+  record.stage = "covariance";
+  if (!within_covariance(loop, known, median_depth_m)) return record;
   record.stage = "support";
   pending_.push_back({loop, records_.size(), views_.size(), false});
   return record;
@@ -154,8 +183,7 @@ void LoopCloser::accept(Pending& pending, std::vector<Loop>& accepted) {
   accepted.push_back(pending.loop);
 }
 
-std::vector<Loop> LoopCloser::find_loops(const MotionBetween& odometry, double median_depth_m,
-                                         const UnitsDiffer& units_differ) {
+std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double median_depth_m) {
   std::vector<Loop> accepted;
   const View& query = views_.back();
   const double similarity_to_last =
@@ -170,13 +198,12 @@ std::vector<Loop> LoopCloser::find_loops(const MotionBetween& odometry, double m
       records_.push_back({query.frame, find_view(candidate.id)->frame, 0, false, "retrieval", {}});
       break;  // the rest is less similar still
     }
-    const bool free_scale = units_differ && units_differ(candidate.id, query.keyframe);
-    records_.push_back(verify(candidate, odometry, median_depth_m, free_scale));
+    records_.push_back(verify(candidate, known, median_depth_m));
     if (records_.back().stage != "support") continue;
     Pending& found = pending_.back();
     for (Pending& other : pending_) {
       if (other.loop.query == found.loop.query ||
-          !agree(other.loop, found.loop, odometry, median_depth_m))
+          !agree(other.loop, found.loop, known.odometry, median_depth_m))
         continue;
       accept(other, accepted);
       accept(found, accepted);

@@ -48,12 +48,8 @@ class LoopCloser {
   /// tracking, gives depth to the features both see.
   void add_view(std::int64_t keyframe, const Frame& frame,
                 const std::optional<SE3>& T_previous_this);
-  /// Whether two keyframes have units of length of their own, so that a loop between them must tell
-  /// their ratio.
-  using UnitsDiffer = std::function<bool(std::int64_t match, std::int64_t query)>;
-  /// Revisits that the newest view completes; without `units_differ` all lengths are of one unit.
-  std::vector<Loop> find_loops(const MotionBetween& odometry, double median_depth_m,
-                               const UnitsDiffer& units_differ = {});
+  /// Revisits that the newest view completes.
+  std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
   /// Where a frame stands relative to a known keyframe: T_match_query of the frame; `query` is -1,
   /// as the frame is no keyframe.
   std::optional<Loop> relocalize(const Frame& frame);
@@ -72,8 +68,13 @@ class LoopCloser {
     std::size_t record, view;
     bool accepted;
   };
-  LoopRecord verify(const PlaceCandidate& candidate, const MotionBetween& odometry,
-                    double median_depth_m, bool free_scale);
+  LoopRecord verify(const PlaceCandidate& candidate, const KnownMotions& known,
+                    double median_depth_m);
+  bool within_covariance(const Loop& loop, const KnownMotions& known, double median_depth_m) const;
+  struct Drift {
+    double length, angle_rad, log_scale;
+  };
+  Drift drift_over(double way, double distance, double median_depth_m) const;
   bool within_drift(const Loop& loop, const MotionBetween& odometry, double median_depth_m,
                     bool free_scale) const;
   bool agree(const Loop& a, const Loop& b, const MotionBetween& odometry,

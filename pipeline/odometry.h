@@ -104,8 +104,6 @@ class Odometry {
   Matrix6d motion_information(std::int64_t from, std::int64_t to) const;
   /// The oldest keyframe of the window; -1 while there is none.
   std::int64_t window_begin() const;
-  /// Whether the link is final: one of the two has left the window.
-  bool link_is_final(std::int64_t id) const { return links_.count(id) > 0; }
   /// All landmarks of all runs of tracking, each relative to the keyframe that first saw it.
   std::vector<PointLandmark> landmarks() const;
   double median_depth_m() const { return median_depth_m_; }

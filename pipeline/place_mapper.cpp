@@ -9,7 +9,8 @@ namespace {
 
 SE3 scaled(const SE3& T, double factor) { return SE3(T.rotation(), factor * T.translation()); }
 
-/// Information of the same motion when its unit of length shrinks by `factor`.
+/// Information of the same motion when its unit of length shrinks by `factor`; covariance when it
+/// grows.
 template <int N>
 Eigen::Matrix<double, N, N> scaled(Eigen::Matrix<double, N, N> information, double factor) {
   information.template topRows<3>() /= factor;
@@ -37,7 +38,10 @@ void visit(OptionVisitor& field, PlaceOptions& o) {
         {0, 100});
 }
 
-PlaceMapper::PlaceMapper(const PlaceOptions& options) : options_(options) { options_.check(); }
+PlaceMapper::PlaceMapper(const PlaceOptions& options, const IncrementalOptions& optimizer)
+    : options_(options), optimizer_(optimizer) {
+  options_.check();
+}
 
 SE3 PlaceMapper::T_part_keyframe(const Node& node) const {
   return nodes_.at(node.part).T_run_keyframe.inverse() * node.T_run_keyframe;
@@ -91,7 +95,8 @@ std::optional<TrackedMotion> PlaceMapper::odometry(std::int64_t from, std::int64
 void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
                                const SE3& T_map_guess, double median_depth_m, bool scale_known) {
   require(!nodes_.count(id), "PlaceMapper: keyframe id used twice");
-  Node node{id, link, SE3(), 0, 0};
+  changed(id);
+  Node node{id, link, link ? covariance_of(*link) : Matrix7d(Matrix7d::Zero()), SE3(), 0, 0};
   if (link && link->source == ConstraintSource::kOdometry) {
     const Node& previous = nodes_.at(link->from);
     node.run = previous.run;
@@ -128,6 +133,7 @@ void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
 }
 
 void PlaceMapper::follow_links(std::int64_t first) {
+  changed(first);
   for (auto node = nodes_.lower_bound(first); node != nodes_.end(); ++node) {
     const auto& link = node->second.link;
     if (!link || link->source != ConstraintSource::kOdometry) continue;
@@ -155,6 +161,8 @@ void PlaceMapper::inform_link(std::int64_t id, const Matrix6d& information,
   require(node.link.has_value(), "PlaceMapper::inform_link: the keyframe has no link");
   node.link->information = information;
   node.link->sigma_log_scale = sigma_log_scale;
+  node.covariance = covariance_of(*node.link);
+  changed(id);
 }
 
 std::optional<std::int64_t> PlaceMapper::previous_anchor(std::int64_t anchor) const {
@@ -165,17 +173,13 @@ std::optional<std::int64_t> PlaceMapper::previous_anchor(std::int64_t anchor) co
   return nodes_.at(node->second.link->from).part;
 }
 
-void PlaceMapper::inform_anchor(std::int64_t anchor, const Matrix6d& information) {
-  require(previous_anchor(anchor).has_value(),
-          "PlaceMapper::inform_anchor: no anchor, or the first of its run");
-  parts_.at(anchor).information = information;
-}
-
 void PlaceMapper::add_motion(std::int64_t previous, std::int64_t anchor,
                              const SE3& T_previous_anchor, const Matrix6d& covariance) {
   require(parts_.count(previous) && parts_.count(anchor) && previous != anchor,
           "PlaceMapper::add_motion: two anchors needed");
-  Edge edge{previous,
+  changed(anchor);
+  Edge edge{{PlaceConstraint::Kind::kMotion, static_cast<std::int64_t>(motions_.size())},
+            previous,
             anchor,
             Sim3(T_previous_anchor),
             Matrix7d::Zero(),
@@ -185,7 +189,10 @@ void PlaceMapper::add_motion(std::int64_t previous, std::int64_t anchor,
   motions_.push_back(edge);
 }
 
-void PlaceMapper::add_loop(const Loop& loop) { loops_.push_back(loop); }
+void PlaceMapper::add_loop(const Loop& loop) {
+  loops_.push_back(loop);
+  changed(std::max(loop.match, loop.query));
+}
 
 void PlaceMapper::rescale(std::int64_t first, double factor) {
   const int run = nodes_.at(first).run;
@@ -200,6 +207,7 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
     node.link->T_from_this = scaled(node.link->T_from_this, factor);
     node.link->information = scaled<6>(node.link->information, factor);
     node.link->sigma_log_scale = 0;
+    node.covariance = covariance_of(*node.link);
   }
   for (Loop& loop : loops_) {
     if (in_run(loop.match)) {
@@ -214,7 +222,8 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
   for (auto& [anchor, part] : parts_) {
     const Sim3& S = part.S_place_part;
     const bool place_grows = in_run(places_.at(part.place).anchor_keyframe);
-    if (in_run(anchor) && part.information) part.information = scaled<6>(*part.information, factor);
+    if (in_run(anchor) && part.motion_covariance)
+      part.motion_covariance = scaled<6>(*part.motion_covariance, 1 / factor);
     part.S_place_part =
         Sim3(S.rotation(), (place_grows ? factor : 1) * S.translation(),
              S.scale() * (place_grows ? factor : 1) / (in_run(anchor) ? factor : 1));
@@ -227,6 +236,7 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
               : Sim3(S.rotation(), S.translation(), S.scale() / factor);
   }
   follow_links(first);
+  begin_anew_ = true;
 }
 
 PlaceGraph PlaceMapper::place_graph() const {
@@ -248,9 +258,8 @@ PlaceGraph PlaceMapper::place_graph() const {
     graph.places[index.at(place_of(id))].members.push_back(
         {id, SE3(S.rotation(), S.translation()), S.scale()});
   }
-  for (const Edge& edge : edges())
-    if (parts_.at(edge.from_part).place != parts_.at(edge.to_part).place)
-      graph.constraints.push_back(constraint_of(edge));
+  for (const PlaceConstraint& constraint : constraints(0))
+    if (constraint.measured) graph.constraints.push_back(*constraint.measured);
   return graph;
 }
 

@@ -1,9 +1,10 @@
 #pragma once
-#include <placegraph/backend/pose_graph_optimizer.h>
 #include <placegraph/graph/place_graph.h>
 #include <placegraph/pipeline/loop.h>
+#include <placegraph/pipeline/place_optimizer.h>
 #include <placegraph/pipeline/tracked_motion.h>
 
+#include <limits>
 #include <map>
 
 namespace placegraph {
@@ -29,7 +30,7 @@ void visit(OptionVisitor& field, PlaceOptions& options);
 /// nothing measures make the graph one over Sim(3): every place then has a unit of its own.
 class PlaceMapper {
  public:
-  explicit PlaceMapper(const PlaceOptions& options);
+  explicit PlaceMapper(const PlaceOptions& options, const IncrementalOptions& optimizer = {});
 
   /// The motion from the previous keyframe of the same run of tracking, or from where the run
   /// hangs on an earlier one.
@@ -66,15 +67,19 @@ class PlaceMapper {
   /// stays where it is.
   void rescale(std::int64_t first, double factor);
 
-  /// Optimizes the place graph; joins components that loops connect, and merges places whose
-  /// keyframes are all older than `first_open`.
-  [[nodiscard]] PoseGraphReport optimize(const PoseGraphOptions& options, const LogSink& log,
-                                         std::int64_t first_open = 0);
+  /// Brings the places to the optimum of their graph as it has become since the last call; joins
+  /// components that loops connect, and merges places whose keyframes are all older than
+  /// `first_open`.
+  IncrementalStep optimize(std::int64_t first_open = 0);
+  /// The same, iterated to the end.
+  IncrementalStep finish();
 
   SE3 T_map_keyframe(std::int64_t id) const;
   /// Takes points and camera positions in the keyframe's frame and unit into the map.
   Sim3 S_map_keyframe(std::int64_t id) const;
   std::int64_t place_of(std::int64_t keyframe) const;
+  /// Whether a part begins with the keyframe.
+  bool is_anchor(std::int64_t keyframe) const { return parts_.count(keyframe) != 0; }
   int component_of(std::int64_t keyframe) const;
   /// Whether the two keyframes' lengths are of one unit that is measured.
   bool units_differ(std::int64_t a, std::int64_t b) const;
@@ -82,6 +87,9 @@ class PlaceMapper {
   bool metric() const;
   /// Motion between two keyframes of one component by the links alone; nothing otherwise.
   std::optional<TrackedMotion> odometry(std::int64_t from, std::int64_t to) const;
+  /// What the map knew at the last optimization of how the places of two keyframes lie to each
+  /// other; nothing if they are not joined or one of the places is newer.
+  std::optional<PredictedMotion> predicted(std::int64_t from, std::int64_t to) const;
   /// The graph as it stands; appearances are empty.
   PlaceGraph place_graph() const;
 
@@ -89,15 +97,16 @@ class PlaceMapper {
   struct Node {
     std::int64_t part;
     std::optional<Link> link;
-    SE3 T_run_keyframe;  // along the links of its run of tracking
-    int run;             // consecutive keyframes joined by odometry links
-    double way = 0;      // from the beginning of the run
+    Matrix7d covariance;  // of the link, in its right tangent
+    SE3 T_run_keyframe;   // along the links of its run of tracking
+    int run;              // consecutive keyframes joined by odometry links
+    double way = 0;       // from the beginning of the run
   };
   struct Part {  // numbered by its anchor
     std::int64_t place;
-    Sim3 S_place_part;                         // identity if it founded the place
-    Matrix7d covariance = Matrix7d::Zero();    // of that, in its right tangent
-    std::optional<Matrix6d> information = {};  // of the motion from the previous anchor
+    Sim3 S_place_part;                               // identity if it founded the place
+    Matrix7d covariance = Matrix7d::Zero();          // of that, in its right tangent
+    std::optional<Matrix6d> motion_covariance = {};  // of the motion from the previous anchor
   };
   struct PlaceState {  // numbered as they were founded; of merged ones the oldest stays
     std::int64_t anchor_keyframe;
@@ -106,6 +115,7 @@ class PlaceMapper {
     double reach;  // in the place's unit
   };
   struct Edge {
+    PlaceConstraint::Key key;
     std::int64_t from_part, to_part;
     Sim3 S_from_to;
     Matrix7d covariance;  // in the right tangent
@@ -117,20 +127,27 @@ class PlaceMapper {
   SE3 T_part_keyframe(const Node& node) const;
   Sim3 S_place_keyframe(const Node& node) const;
   void follow_links(std::int64_t first);
+  void changed(std::int64_t keyframe) { changed_since_ = std::min(changed_since_, keyframe); }
   bool free_units() const;
-  std::vector<Edge> edges() const;
+  static Matrix7d covariance_of(const Link& link);
+  std::vector<Edge> edges(std::int64_t since) const;
+  std::vector<Edge> link_edges(std::int64_t since) const;
   Edge odometry_edge(std::int64_t anchor, std::int64_t previous, const Matrix7d& chained) const;
-  Edge loop_edge(const Loop& loop) const;
+  Edge loop_edge(std::size_t number) const;
   RelativePoseConstraint constraint_of(const Edge& edge) const;
+  std::vector<PlaceConstraint> constraints(std::int64_t since) const;
   void bring_together();
   void settle_units();
-  void take_poses(const PlaceGraph& optimized);
+  IncrementalStep follow();
+  void take_poses();
+  double shortest_way(std::int64_t from, std::int64_t to) const;
   struct Merger {
     std::int64_t older, younger;
     Matrix7d covariance;  // of S_older_younger in its right tangent
   };
   bool agrees(const Loop& loop) const;
-  std::vector<Merger> find_mergers(const PoseGraph& graph, std::int64_t first_open) const;
+  std::vector<Merger> find_mergers(std::int64_t first_open) const;
+  void merge_all(std::int64_t first_open);
   void merge(const Merger& merger);
 
   PlaceOptions options_;
@@ -140,6 +157,10 @@ class PlaceMapper {
   std::vector<Loop> loops_;
   std::vector<Edge> motions_;
   std::vector<bool> scale_known_;  // of every run
+  PlaceOptimizer optimizer_;
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  std::int64_t changed_since_ = kNever;  // edges of earlier keyframes are as the optimizer has them
+  bool begin_anew_ = false;              // lengths are of another unit than the optimizer's
 };
 
 }  // namespace placegraph

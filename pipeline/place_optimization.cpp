@@ -1,9 +1,10 @@
-#include <placegraph/backend/pose_marginals.h>
 #include <placegraph/pipeline/place_mapper.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <queue>
 #include <set>
 
 namespace placegraph {
@@ -63,28 +64,90 @@ void PlaceMapper::settle_units() {
   }
 }
 
-void PlaceMapper::take_poses(const PlaceGraph& optimized) {
-  for (const Place& place : optimized.places)
-    places_.at(place.id).S_map_place = place.S_map_place();
+void PlaceMapper::take_poses() {
+  for (auto& [number, place] : places_) place.S_map_place = optimizer_.S_map_place(number);
 }
 
-PoseGraphReport PlaceMapper::optimize(const PoseGraphOptions& options, const LogSink& log,
-                                      std::int64_t first_open) {
+/// Hands the optimizer what has changed.
+IncrementalStep PlaceMapper::follow() {
+  const PoseKind kind = free_units() ? PoseKind::kSim3 : PoseKind::kSE3;
   if (!free_units()) settle_units();
   bring_together();
-  PlaceGraph graph = place_graph();
-  PoseGraphReport report = optimize_pose_graph(graph.pose_graph(), options, log);
-  // Out of iterations is no reason to throw away what they gained.
-  if (report.outcome || (report.outcome.code == Outcome::Code::kNotConverged &&
-                         report.chi2_final < report.chi2_initial)) {
-    report.outcome = Outcome::ok();
-    graph.set_poses(report.graph);
-    take_poses(graph);
-    if (options_.merge)
-      for (const Merger& merger : find_mergers(report.graph, first_open)) merge(merger);
-    settle_units();
+  begin_anew_ |= optimizer_.kind() != kind;
+  std::vector<PoseNode> fresh;
+  for (const auto& [number, place] : places_) {
+    if (!begin_anew_ && optimizer_.knows(number)) continue;
+    const Sim3& S = place.S_map_place;
+    const SE3 T_map_place(S.rotation(), S.translation());
+    fresh.push_back({number, kind == PoseKind::kSim3 ? Pose(S) : Pose(T_map_place), false});
   }
-  return report;
+  const IncrementalStep step = begin_anew_ ? optimizer_.begin(fresh, constraints(0))
+                                           : optimizer_.follow(fresh, constraints(changed_since_));
+  begin_anew_ = false;
+  changed_since_ = kNever;
+  return step;
+}
+
+IncrementalStep PlaceMapper::optimize(std::int64_t first_open) {
+  const IncrementalStep step = follow();
+  take_poses();
+  merge_all(first_open);
+  settle_units();
+  return step;
+}
+
+IncrementalStep PlaceMapper::finish() {
+  (void)follow();
+  (void)optimizer_.finish();
+  take_poses();
+  merge_all(kNever);
+  (void)follow();
+  const IncrementalStep step = optimizer_.finish();
+  take_poses();
+  settle_units();
+  return step;
+}
+
+/// From place to place along links and loops, in the map's unit; infinite if they do not lead
+/// there.
+double PlaceMapper::shortest_way(std::int64_t from, std::int64_t to) const {
+  std::map<std::int64_t, std::vector<std::int64_t>> neighbours;
+  const auto join = [&](std::int64_t a, std::int64_t b) {
+    if (a == b) return;
+    neighbours[a].push_back(b);
+    neighbours[b].push_back(a);
+  };
+  for (const auto& [anchor, part] : parts_)
+    if (const auto& link = nodes_.at(anchor).link) join(part.place, place_of(link->from));
+  for (const Loop& loop : loops_) join(place_of(loop.match), place_of(loop.query));
+
+  using Reached = std::pair<double, std::int64_t>;
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
+  std::set<std::int64_t> done;
+  open.emplace(0, from);
+  while (!open.empty()) {
+    const auto [way, place] = open.top();
+    open.pop();
+    if (place == to) return way;
+    if (!done.insert(place).second) continue;
+    const Eigen::Vector3d& here = places_.at(place).S_map_place.translation();
+    for (const std::int64_t next : neighbours[place])
+      open.emplace(way + (places_.at(next).S_map_place.translation() - here).norm(), next);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+std::optional<PredictedMotion> PlaceMapper::predicted(std::int64_t from, std::int64_t to) const {
+  const std::int64_t a = place_of(from), b = place_of(to);
+  if (component_of(from) != component_of(to) || begin_anew_ || !optimizer_.knows(a) ||
+      !optimizer_.knows(b))
+    return std::nullopt;
+  PredictedMotion motion{S_map_keyframe(from).inverse() * S_map_keyframe(to)};
+  if (a == b) return motion;
+  motion.way = shortest_way(a, b) / S_map_keyframe(to).scale();
+  const Matrix7d adjoint = S_place_keyframe(nodes_.at(to)).inverse().adjoint();
+  motion.covariance = adjoint * optimizer_.relative_covariance(a, b) * adjoint.transpose();
+  return motion;
 }
 
 /// Whether the map is where the loop says: an outlier that the kernel holds off is no witness.
@@ -97,13 +160,11 @@ bool PlaceMapper::agrees(const Loop& loop) const {
 
 /// Pairs of places within reach of each other by a loop that the map agrees with, and well enough
 /// known to each other; of every place only the first, as the others change with it.
-std::vector<PlaceMapper::Merger> PlaceMapper::find_mergers(const PoseGraph& graph,
-                                                           std::int64_t first_open) const {
+std::vector<PlaceMapper::Merger> PlaceMapper::find_mergers(std::int64_t first_open) const {
   std::map<std::int64_t, std::int64_t> last_keyframe;  // of every place
   for (const auto& [id, node] : nodes_) last_keyframe[parts_.at(node.part).place] = id;
   std::vector<Merger> mergers;
   std::set<std::int64_t> taken;
-  std::optional<PoseMarginals> marginals;
   for (const Loop& loop : loops_) {
     const std::int64_t older = std::min(place_of(loop.match), place_of(loop.query));
     const std::int64_t younger = std::max(place_of(loop.match), place_of(loop.query));
@@ -114,18 +175,19 @@ std::vector<PlaceMapper::Merger> PlaceMapper::find_mergers(const PoseGraph& grap
     if (S_a_b.translation().norm() >= a.reach ||
         S_a_b.rotation().log().norm() >= options_.max_angle_deg * M_PI / 180 || !agrees(loop))
       continue;
-    if (!marginals) marginals.emplace(graph);
-    if (!marginals->outcome()) break;
-    const Information covariance = marginals->relative_covariance(older, younger);
+    const Merger merger{older, younger, optimizer_.relative_covariance(older, younger)};
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
-        Eigen::Matrix3d(covariance.topLeftCorner<3, 3>()), Eigen::EigenvaluesOnly);
+        Eigen::Matrix3d(merger.covariance.topLeftCorner<3, 3>()), Eigen::EigenvaluesOnly);
     if (std::sqrt(eigen.eigenvalues()[2]) > options_.merge_sigma * b.reach) continue;
-    Merger merger{older, younger, Matrix7d::Zero()};
-    merger.covariance.topLeftCorner(covariance.rows(), covariance.cols()) = covariance;
     mergers.push_back(merger);
     taken.insert({older, younger});
   }
   return mergers;
+}
+
+void PlaceMapper::merge_all(std::int64_t first_open) {
+  if (!options_.merge) return;
+  for (const Merger& merger : find_mergers(first_open)) merge(merger);
 }
 
 /// The parts of the younger place become parts of the older one, where the map has them now;
@@ -139,6 +201,7 @@ void PlaceMapper::merge(const Merger& merger) {
     part.covariance += adjoint * merger.covariance * adjoint.transpose();
     part.S_place_part = S_older_younger * part.S_place_part;
     part.place = merger.older;
+    changed(anchor);
   }
   places_.erase(merger.younger);
 }

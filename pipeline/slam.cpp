@@ -3,7 +3,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <limits>
 
 namespace placegraph {
 
@@ -21,8 +20,6 @@ void visit(OptionVisitor& field, SlamOptions& o) {
   field.group("loops", o.loops, "spatial memory: recognition of places");
   field.group("places", o.places, "topological places");
   field.group("pose_graph", o.pose_graph, "optimization of the place graph");
-  field("optimize_interval", o.optimize_interval,
-        "keyframes between optimizations while loops come in", {1, 100000});
   field("max_lost_frames", o.max_lost_frames, "then a new component of the map begins",
         {1, 1000000});
 }
@@ -44,7 +41,7 @@ struct Slam::Impl {
         log_sink(std::move(l)),
         odometry(o.odometry, c, o.seed, log_sink),
         closer(o.loops, c, o.seed),
-        mapper(o.places) {}
+        mapper(o.places, o.pose_graph) {}
 
   FrameResult add_frame(const Frame& frame);
   void check_frame(const Frame& frame) const;
@@ -55,9 +52,9 @@ struct Slam::Impl {
   SE3 T_map_located(const Loop& located) const;
   void add_keyframes(const OdometryUpdate& update, FrameResult& result);
   void add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, FrameResult& result);
-  void refresh_links(PlaceMapper& target, bool all_informed) const;
+  void refresh_links();
   void close_loops(FrameResult& result);
-  void optimize(std::int64_t first_open);
+  void report(const IncrementalStep& step) const;
   void apply(const OdometryUpdate::Rescale& rescale);
   Map snapshot() const;
 
@@ -74,11 +71,10 @@ struct Slam::Impl {
   std::int64_t last_keyframe = -1;
   std::optional<Loop> bridge;  // how the next run of tracking hangs on the last one
   SE3 T_map_last;
-  int lost_in_a_row = 0, keyframes_since_optimization = 0;
+  int lost_in_a_row = 0;
   std::shared_ptr<const MeasuredMotion> motion;  // of the camera, by other sensors
   std::optional<std::size_t> origin;  // first view of a single eye, until the second comes
-  bool loops_waiting = false, posed_once = false, finished = false;
-  bool closed_anything = false;  // the graph is more than a chain
+  bool posed_once = false, finished = false;
 };
 
 Slam::Slam(const SlamOptions& options, const Calibration& calibration, LogSink log) {
@@ -101,8 +97,7 @@ Map Slam::snapshot() const { return impl_->snapshot(); }
 
 Map Slam::finish() {
   require(!impl_->finished, "Slam::finish: called twice");
-  if (impl_->loops_waiting || impl_->closed_anything)
-    impl_->optimize(std::numeric_limits<std::int64_t>::max());
+  impl_->report(impl_->mapper.finish());
   impl_->finished = true;
   return impl_->snapshot();
 }
@@ -276,12 +271,11 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
                              odometry.scale_known() ? 0 : kSigmaLogScaleOfBridge,
                              1 / mapper.S_map_keyframe(bridge->match).scale()};
     bridge.reset();
-    closed_anything = true;
   }
-  refresh_links(mapper, false);
   mapper.add_keyframe(keyframe.id, link, T_odom_keyframe, odometry.median_depth_m(),
                       odometry.scale_known());
   last_keyframe = keyframe.id;
+  refresh_links();
   frame_of_keyframe[keyframe.id] = keyframe.frame.id;
   stamp_of_keyframe[keyframe.id] = keyframe.frame.stamp_ns;
   for (FrameRecord& record : records)
@@ -290,6 +284,7 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
       record.T_keyframe_frame = SE3();
     }
   if (motion) add_motion(keyframe.id);
+  if (mapper.is_anchor(keyframe.id)) report(mapper.optimize(odometry.window_begin()));
   closer.add_view(keyframe.id, keyframe.frame, T_previous_this);
   if (options.loops.enabled) close_loops(result);
 }
@@ -307,61 +302,46 @@ void Slam::Impl::add_motion(std::int64_t keyframe) {
   mapper.add_motion(*previous, keyframe, way->T_a_b, covariance);
 }
 
-/// The window goes on refining its last keyframes: their links follow. Information of motions that
-/// may still change is worked out only where it is wanted; that of an anchor to the next one comes
-/// from the window as a whole while it holds both.
-void Slam::Impl::refresh_links(PlaceMapper& target, bool all_informed) const {
+/// The window goes on refining its last keyframes: their links follow. Information of the motion
+/// from an anchor to the next one comes from the window as a whole while it holds both.
+void Slam::Impl::refresh_links() {
   const std::int64_t from = std::max(odometry.first_keyframe(),
                                      last_keyframe - options.odometry.window.max_keyframes - 2);
   for (std::int64_t id = from; id < last_keyframe; ++id) {
-    target.update_link(id + 1,
+    mapper.update_link(id + 1,
                        odometry.keyframe_pose(id).inverse() * odometry.keyframe_pose(id + 1));
-    if (!all_informed && !odometry.link_is_final(id)) continue;
     const Odometry::Link link = odometry.link(id);
-    target.inform_link(id + 1, link.information, link.sigma_log_scale);
+    mapper.inform_link(id + 1, link.information, link.sigma_log_scale);
   }
   const std::int64_t begin = odometry.window_begin();
   for (std::int64_t id = begin + 1; begin >= 0 && id <= last_keyframe; ++id) {
-    const auto previous = target.previous_anchor(id);
-    // The oldest keyframe leaves next: now or never.
-    if (previous && (all_informed ? *previous >= begin : *previous == begin))
-      target.inform_anchor(id, odometry.motion_information(*previous, id));
+    const auto previous = mapper.previous_anchor(id);
+    if (previous && *previous >= begin)
+      mapper.inform_anchor(id, odometry.motion_information(*previous, id));
   }
 }
 
 void Slam::Impl::close_loops(FrameResult& result) {
-  const auto loops =
-      closer.find_loops([&](std::int64_t a, std::int64_t b) { return mapper.odometry(a, b); },
-                        odometry.median_depth_m(),
-                        [&](std::int64_t a, std::int64_t b) { return mapper.units_differ(a, b); });
-  for (const Loop& loop : loops) {
-    closed_anything = true;
-    mapper.add_loop(loop);
-    loops_waiting = true;
-    ++result.loops_accepted;
-  }
-  ++keyframes_since_optimization;
-  if (loops_waiting && keyframes_since_optimization >= options.optimize_interval) {
-    optimize(odometry.window_begin());
-  }
+  const KnownMotions known{
+      [&](std::int64_t a, std::int64_t b) { return mapper.odometry(a, b); },
+      [&](std::int64_t a, std::int64_t b) { return mapper.predicted(a, b); },
+      [&](std::int64_t a, std::int64_t b) { return mapper.units_differ(a, b); }};
+  const auto loops = closer.find_loops(known, odometry.median_depth_m());
+  if (loops.empty()) return;
+  for (const Loop& loop : loops) mapper.add_loop(loop);
+  result.loops_accepted += static_cast<int>(loops.size());
+  // Keyframes from the window's first on are still being refined.
+  report(mapper.optimize(odometry.window_begin()));
 }
 
-/// Keyframes from `first_open` on are still being refined.
-void Slam::Impl::optimize(std::int64_t first_open) {
-  refresh_links(mapper, true);
-  const PoseGraphReport report = mapper.optimize(options.pose_graph, log_sink, first_open);
-  keyframes_since_optimization = 0;
-  if (report.outcome)
-    loops_waiting = false;
-  else
-    log(log_sink, LogLevel::kWarning, "place graph not optimized: " + report.outcome.reason);
+void Slam::Impl::report(const IncrementalStep& step) const {
+  if (!step.outcome)
+    log(log_sink, LogLevel::kWarning, "place graph not optimized: " + step.outcome.reason);
 }
 
 Map Slam::Impl::snapshot() const {
   Map map;
-  PlaceMapper current = mapper;
-  if (last_keyframe >= 0 && !finished) refresh_links(current, true);
-  map.place_graph = current.place_graph();
+  map.place_graph = mapper.place_graph();
   for (Place& place : map.place_graph.places)
     for (const auto& view : closer.views())
       if (view.keyframe == place.anchor_keyframe) place.appearance = closer.describe(view.features);

@@ -11,10 +11,8 @@ struct SlamOptions {
   OdometryOptions odometry;
   LoopOptions loops;
   PlaceOptions places;
-  PoseGraphOptions pose_graph{
-      .start = PoseGraphStart::kFile, .max_iterations = 50, .relative_decrease = 1e-6};
-  int optimize_interval = 10;  ///< keyframes between optimizations while loops come in
-  int max_lost_frames = 10;    ///< then a new component of the map begins
+  IncrementalOptions pose_graph;
+  int max_lost_frames = 10;  ///< then a new component of the map begins
   void check() const;
 };
 void visit(OptionVisitor& field, SlamOptions& options);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/incremental_replay.h>
 #include <placegraph/backend/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_marginals.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 
@@ -188,6 +189,52 @@ TYPED_TEST(IncrementalOptimizerOf, CovarianceOfAChainIsComputedByHand) {
   EXPECT_LT((covariance - expected).norm(), 1e-9);
 }
 
+TYPED_TEST(IncrementalOptimizerOf, ARevisedConstraintIsAsIfItHadBeenMeasuredSo) {
+  GrowingWalk<TypeParam> walk(40, 0.03, 10), other(40, 0.03, 11);
+  IncrementalOptimizer optimizer;
+  feed<TypeParam>(optimizer, walk.graph, false, [](const IncrementalStep&) {});
+  GraphChange change;
+  for (int c = 0; c < optimizer.constraints(); c += 7) {
+    auto measured = std::get<RelativePoseConstraint>(optimizer.constraint(c));
+    measured.T_from_to =
+        other
+            .measure(static_cast<int>(measured.from) - 10, static_cast<int>(measured.to) - 10, 0.03)
+            .T_from_to;
+    measured.information *= 4;
+    change.revised.push_back({c, measured});
+  }
+  optimizer.apply(change);
+  optimizer.finish();
+  const PoseGraph graph = optimizer.graph();
+  EXPECT_EQ(std::get<RelativePoseConstraint>(graph.constraints[7]).information(0, 0), 400);
+  EXPECT_NEAR(chi2(graph, RotationError::kLog), optimizer.cost(), 1e-9 * optimizer.cost());
+  const double best = optimize_pose_graph(graph, tight()).chi2_final;
+  EXPECT_NEAR(optimizer.cost(), best, 1e-6 * best);
+}
+
+TYPED_TEST(IncrementalOptimizerOf, BeginsWithAGraphAtItsPoses) {
+  const GrowingWalk<TypeParam> walk(40, 0.03, 12);
+  const PoseGraph solved = optimize_pose_graph(walk.graph, tight()).graph;
+  IncrementalOptimizer optimizer({}, solved);
+  const IncrementalStep step = optimizer.apply({});
+  EXPECT_EQ(step.iterations, 0);
+  for (const PoseNode& node : solved.nodes)
+    EXPECT_EQ(std::get<TypeParam>(*optimizer.pose(node.id)).matrix(),
+              std::get<TypeParam>(node.T_world_node).matrix());
+}
+
+TYPED_TEST(IncrementalOptimizerOf, RelativeCovarianceIsThatOfTheWholeGraph) {
+  const GrowingWalk<TypeParam> walk(40, 0.03, 13);
+  IncrementalOptions options;
+  options.relinearization = 0;
+  IncrementalOptimizer optimizer(options);
+  feed<TypeParam>(optimizer, walk.graph, false, [](const IncrementalStep&) {});
+  optimizer.finish();
+  const PoseMarginals marginals(optimizer.graph());
+  const Information expected = marginals.relative_covariance(15, 40);
+  EXPECT_LT((optimizer.relative_covariance(15, 40) - expected).norm(), 1e-3 * expected.norm());
+}
+
 TEST(IncrementalOptimizer, RefusesWhatDoesNotFitAndChangesNothing) {
   IncrementalOptimizer optimizer;
   EXPECT_FALSE(optimizer.pose(0));
@@ -199,10 +246,16 @@ TEST(IncrementalOptimizer, RefusesWhatDoesNotFitAndChangesNothing) {
   EXPECT_THROW(optimizer.reweight({{7, 1.0}}), ArgumentError);
   EXPECT_THROW(optimizer.reweight({{0, -1.0}}), ArgumentError);
   EXPECT_THROW((void)optimizer.covariance({99}), ArgumentError);
+  RelativePoseConstraint elsewhere = walk.measure(0, 2, 0);
+  EXPECT_THROW(optimizer.apply({{}, {}, {{0, elsewhere}}, {}}), ArgumentError);
+  EXPECT_THROW(optimizer.apply({{}, {}, {{7, elsewhere}}, {}}), ArgumentError);
+  EXPECT_THROW((void)optimizer.relative_covariance(10, 99), ArgumentError);
+  optimizer.add({{50, SE2(), false}}, {});
+  EXPECT_THROW((void)optimizer.relative_covariance(10, 50), ArgumentError);
   IncrementalOptions bad;
   bad.excess = 0;
   EXPECT_THROW(IncrementalOptimizer{bad}, ArgumentError);
-  EXPECT_EQ(optimizer.graph().nodes.size(), 3u);
+  EXPECT_EQ(optimizer.graph().nodes.size(), 4u);
 }
 
 TEST(IncrementalOptimizer, TwoRunsGiveTheSameBits) {

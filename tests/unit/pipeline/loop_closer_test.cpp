@@ -74,8 +74,8 @@ class LoopCloserOnAStreet : public testing::Test {
       const bool begins = k == 0 || k == kFirst;
       const double unit = k < kFirst ? 1 : unit_m;
       closer.add_view(k, frame(k), begins ? std::nullopt : std::optional(T_previous_this(k, unit)));
-      const auto found = closer.find_loops(
-          odometry, kDepth_m / unit, [&](std::int64_t, std::int64_t) { return units_differ; });
+      const auto differ = [&](std::int64_t, std::int64_t) { return units_differ; };
+      const auto found = closer.find_loops({odometry, {}, differ}, kDepth_m / unit);
       loops.insert(loops.end(), found.begin(), found.end());
     }
     return loops;
@@ -107,6 +107,45 @@ TEST_F(LoopCloserOnAStreet, RefusesALoopThatOdometryCannotHaveDriftedTo) {
   EXPECT_TRUE(std::any_of(closer.records().begin(), closer.records().end(),
                           [](const LoopRecord& r) { return r.stage == "drift"; }))
       << stages(closer);
+}
+
+/// The map knows the two by `sigma`, over `way`, and is `off` from the truth.
+KnownMotions certain_map(const SE3& off, double sigma, double way,
+                         const std::function<SE3(std::int64_t)>& T_world) {
+  KnownMotions known;
+  known.odometry = [=](std::int64_t a, std::int64_t b) {
+    return TrackedMotion{T_world(a).inverse() * T_world(b), 1000};
+  };
+  known.map = [=](std::int64_t a, std::int64_t b) {
+    PredictedMotion motion{Sim3(T_world(a).inverse() * T_world(b) * off)};
+    motion.covariance.diagonal().head<6>().setConstant(sigma * sigma);
+    motion.way = way;
+    return motion;
+  };
+  return known;
+}
+
+TEST_F(LoopCloserOnAStreet, RefusesALoopThatACertainMapContradicts) {
+  const auto found = [&](const SE3& off, double sigma, double way) {
+    const auto known =
+        certain_map(off, sigma, way, [](std::int64_t k) { return T_world(static_cast<int>(k)); });
+    LoopCloser closer(small_options(), one_eye(), 1);
+    std::size_t loops = 0;
+    for (int k = 0; k < kAll; ++k) {
+      closer.add_view(k, frame(k),
+                      k == 0 || k == kFirst ? std::nullopt : std::optional(T_previous_this(k, 1)));
+      loops += closer.find_loops(known, kDepth_m).size();
+    }
+    const bool refused = std::any_of(closer.records().begin(), closer.records().end(),
+                                     [](const LoopRecord& r) { return r.stage == "covariance"; });
+    EXPECT_EQ(refused, loops == 0) << stages(closer);
+    return loops;
+  };
+  const SE3 aside = pose({0, 0, 0}, {2, 0, 0});
+  EXPECT_GE(found(SE3(), 0.01, 5), 2u);
+  EXPECT_EQ(found(aside, 0.01, 5), 0u);
+  EXPECT_GE(found(aside, 2, 5), 2u);       // the map is not so sure
+  EXPECT_GE(found(aside, 0.01, 300), 2u);  // so much may have drifted unseen
 }
 
 TEST_F(LoopCloserOnAStreet, TellsTheRatioOfUnitsWhereTheyDiffer) {

@@ -40,8 +40,8 @@ const SE3 kShort = pose({0, 0.02, 0}, {0.1, 0, 0.5}), kLong = pose({0, 0.05, 0},
 constexpr double kDepth_m = 10;  // a place reaches 3 m
 
 PlaceGraph optimized(PlaceMapper& mapper) {
-  const auto report = mapper.optimize({}, {});
-  EXPECT_TRUE(report.outcome) << report.outcome.reason;
+  const IncrementalStep step = mapper.finish();
+  EXPECT_TRUE(step.outcome) << step.outcome.reason;
   return mapper.place_graph();
 }
 
@@ -236,12 +236,69 @@ TEST(PlaceMapper, GrowsARunAboutItsFirstKeyframe) {
 
 constexpr std::int64_t kAll = 1000;  // no keyframe is being refined any more
 
+TEST(PlaceMapper, GrowsToTheSameOptimumAsTheWholeGraphAtOnce) {
+  const SE3 side = pose({0, M_PI / 2 + 0.04, 0}, {0, 0, 5.2});
+  PlaceOptions apart;
+  apart.merge = false;
+  PlaceMapper growing(apart), whole(apart);
+  for (PlaceMapper* mapper : {&growing, &whole}) {
+    const auto step = [&] {
+      if (mapper == &growing) {
+        EXPECT_TRUE(mapper->optimize().outcome);
+      }
+    };
+    mapper->add_keyframe(0, std::nullopt, {}, kDepth_m);
+    for (int i = 1; i <= 8; ++i) {
+      mapper->add_keyframe(i, link(i - 1, side, 1, 0.5), {}, kDepth_m);
+      step();
+      mapper->update_link(i, side * pose({0, 0, 0.001 * i}, {0, 0, 0.1}));  // the window went on
+      mapper->inform_link(i, information_of(0.1, 0.03));
+      if (i == 5) mapper->inform_anchor(5, information_of(0.05, 0.02));
+      if (i >= 4) mapper->add_loop(loop(i, i - 4, pose({0, 0, 0.01}, {0.1, 0, 0}), 0.02, 0.002));
+      step();
+    }
+    EXPECT_TRUE(mapper->finish().outcome);
+  }
+  for (int i = 0; i <= 8; ++i) {
+    EXPECT_LT(distance_m(growing.T_map_keyframe(i), whole.T_map_keyframe(i)), 1e-4) << i;
+    EXPECT_LT(angle_rad(growing.T_map_keyframe(i), whole.T_map_keyframe(i)), 1e-5) << i;
+  }
+  EXPECT_EQ(growing.place_graph().constraints.size(), 13u);
+}
+
+TEST(PlaceMapper, PredictsHowTwoKeyframesLieAndHowWellThatIsKnown) {
+  PlaceMapper mapper = square();
+  EXPECT_FALSE(mapper.predicted(0, 4));  // nothing was optimized yet
+  (void)mapper.optimize();
+  const auto chain = mapper.predicted(0, 5);
+  ASSERT_TRUE(chain);
+  EXPECT_LT(distance_m(SE3(chain->S_a_b.rotation(), chain->S_a_b.translation()),
+                       mapper.T_map_keyframe(0).inverse() * mapper.T_map_keyframe(5)),
+            1e-9);
+  // Four links of 0.03 rad: each axis of the rotation has four times the variance of one.
+  const auto rotation = [](const PredictedMotion& motion) {
+    return motion.covariance.diagonal().segment<3>(3).sum();
+  };
+  EXPECT_NEAR(rotation(*chain), 4 * 3 * 0.03 * 0.03, 1e-6);
+  EXPECT_NEAR(chain->way, 4 * 5.2, 1e-6);
+  mapper.add_loop(loop(4, 0, SE3(), 0.01, 0.001));
+  (void)mapper.optimize();
+  const auto closed = mapper.predicted(0, 5);
+  ASSERT_TRUE(closed);
+  EXPECT_LT(rotation(*closed), 3.1 * 0.001 * 0.001);
+  EXPECT_LT(closed->way, 0.1);
+  EXPECT_EQ(mapper.predicted(4, 5)->covariance.norm(), 0);  // of one place
+  mapper.add_keyframe(6, std::nullopt, pose({0, 0, 0}, {50, 0, 0}), kDepth_m);
+  (void)mapper.optimize();
+  EXPECT_FALSE(mapper.predicted(0, 6));  // nothing joins them
+}
+
 TEST(PlaceMapper, MergesPlacesThatALoopShowsToBeOne) {
   PlaceMapper mapper = square(true);
   const SE3 T_0_4 = pose({0, 0.02, 0}, {0.1, 0, 0.2});
   mapper.add_loop(loop(4, 0, T_0_4, 0.01, 0.001));
-  const auto report = mapper.optimize({}, {}, kAll);
-  ASSERT_TRUE(report.outcome) << report.outcome.reason;
+  const IncrementalStep step = mapper.finish();
+  ASSERT_TRUE(step.outcome) << step.outcome.reason;
   const PlaceGraph graph = mapper.place_graph();
   // Five corners were places; the fifth is the first, and what hung on it came along.
   ASSERT_EQ(graph.places.size(), 4u);
@@ -250,13 +307,13 @@ TEST(PlaceMapper, MergesPlacesThatALoopShowsToBeOne) {
   ASSERT_EQ(graph.places[0].members.size(), 3u);
   EXPECT_EQ(graph.places[0].members[0].keyframe, 0);
   EXPECT_EQ(graph.places[0].members[1].keyframe, 4);
-  // Nothing moved: every keyframe is where the optimum with the place of its own has it.
+  // Little moved: every keyframe is near where the optimum with the place of its own has it.
   PlaceMapper apart = square(false);
   apart.add_loop(loop(4, 0, T_0_4, 0.01, 0.001));
   (void)optimized(apart);
   for (int id = 0; id <= 5; ++id) {
-    EXPECT_LT(distance_m(mapper.T_map_keyframe(id), apart.T_map_keyframe(id)), 1e-9) << id;
-    EXPECT_LT(angle_rad(mapper.T_map_keyframe(id), apart.T_map_keyframe(id)), 1e-9) << id;
+    EXPECT_LT(distance_m(mapper.T_map_keyframe(id), apart.T_map_keyframe(id)), 2e-3) << id;
+    EXPECT_LT(angle_rad(mapper.T_map_keyframe(id), apart.T_map_keyframe(id)), 5e-4) << id;
   }
   // The last side now ends at the first place, and the loop is inside it.
   ASSERT_EQ(graph.constraints.size(), 4u);
@@ -281,7 +338,7 @@ TEST(PlaceMapper, DoesNotMergeWhatIsBeingRefinedOrFarAwayOrPoorlyKnown) {
   const auto places_after = [](const Loop& seen, std::int64_t first_open) {
     PlaceMapper mapper = square(true);
     mapper.add_loop(seen);
-    EXPECT_TRUE(mapper.optimize({}, {}, first_open).outcome);
+    EXPECT_TRUE(mapper.optimize(first_open).outcome);
     return mapper.place_graph().places.size();
   };
   const SE3 near = pose({0, 0, 0}, {0, 0, 0.2});
