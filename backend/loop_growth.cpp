@@ -224,13 +224,11 @@ void visit(OptionVisitor& field, LoopGrowthOptions& o) {
   field("max_rounds", o.max_rounds, "of testing every loop", {1, 1000});
 }
 
+namespace {
+
 template <class Group>
-LoopGrowth grow_loops(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
-                      const LocalSolverOptions& solver, const LoopGrowthOptions& options,
-                      const GncOptions& gnc) {
-  options.check();
-  Growth<Group> growth(graph, support, probability, solver, options, gnc);
-  growth.take_groups();
+LoopGrowth finish(Growth<Group>& growth, PackedGraph<Group>& graph,
+                  const LocalSolverOptions& solver) {
   growth.settle();
   LoopGrowth result;
   result.local = SubsetSolver<Group>(solver).solve(graph);
@@ -238,14 +236,37 @@ LoopGrowth grow_loops(PackedGraph<Group>& graph, const LoopSupport& support, dou
   return result;
 }
 
-template LoopGrowth grow_loops(PackedGraph<SE2>&, const LoopSupport&, double,
-                               const LocalSolverOptions&, const LoopGrowthOptions&,
-                               const GncOptions&);
-template LoopGrowth grow_loops(PackedGraph<SE3>&, const LoopSupport&, double,
-                               const LocalSolverOptions&, const LoopGrowthOptions&,
-                               const GncOptions&);
-template LoopGrowth grow_loops(PackedGraph<Sim3>&, const LoopSupport&, double,
-                               const LocalSolverOptions&, const LoopGrowthOptions&,
-                               const GncOptions&);
+}  // namespace
+
+template <class Group>
+LoopGrowth grow_loops(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
+                      const LocalSolverOptions& solver, const LoopGrowthOptions& options,
+                      const GncOptions& gnc) {
+  options.check();
+  Growth<Group> growth(graph, support, probability, solver, options, gnc);
+  growth.take_groups();
+  return finish(growth, graph, solver);
+}
+
+template <class Group>
+LoopGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
+                        const LocalSolverOptions& solver, const LoopGrowthOptions& options,
+                        const GncOptions& gnc) {
+  options.check();
+  Growth<Group> growth(graph, support, probability, solver, options, gnc);
+  return finish(growth, graph, solver);
+}
+
+#define PLACEGRAPH_INSTANTIATE(Group)                                                   \
+  template LoopGrowth grow_loops(PackedGraph<Group>&, const LoopSupport&, double,       \
+                                 const LocalSolverOptions&, const LoopGrowthOptions&,   \
+                                 const GncOptions&);                                    \
+  template LoopGrowth settle_loops(PackedGraph<Group>&, const LoopSupport&, double,     \
+                                   const LocalSolverOptions&, const LoopGrowthOptions&, \
+                                   const GncOptions&);
+PLACEGRAPH_INSTANTIATE(SE2)
+PLACEGRAPH_INSTANTIATE(SE3)
+PLACEGRAPH_INSTANTIATE(Sim3)
+#undef PLACEGRAPH_INSTANTIATE
 
 }  // namespace placegraph

@@ -42,4 +42,10 @@ template <class Group>
                                     double probability, const LocalSolverOptions& solver,
                                     const LoopGrowthOptions& options, const GncOptions& gnc);
 
+/// Step 3 alone, from the poses and the weights that `graph` has.
+template <class Group>
+[[nodiscard]] LoopGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support,
+                                      double probability, const LocalSolverOptions& solver,
+                                      const LoopGrowthOptions& options, const GncOptions& gnc);
+
 }  // namespace placegraph

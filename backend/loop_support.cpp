@@ -26,31 +26,38 @@ struct Posterior {
   double log_density;
 };
 
-/// Log of the normal density of a ring's misclosure.
-double log_normal(const RingMisclosure& ring, double scale, int dof) {
-  return -0.5 * (ring.chi2 / scale + dof * std::log(2 * M_PI * scale) + ring.log_determinant);
-}
+/// What is the same for every ring in the posterior of a mixture.
+class RingPosterior {
+ public:
+  RingPosterior(const Mixture& m, int dof, double log_volume)
+      : scale_(m.scale),
+        wide_scale_(m.wide_scale),
+        closes_(std::log(m.share) - 0.5 * dof * std::log(2 * M_PI * m.scale)),
+        confused_(std::log(m.wide_share) - 0.5 * dof * std::log(2 * M_PI * m.wide_scale)),
+        anywhere_(std::log(1 - m.share - m.wide_share) - log_volume) {}
 
-Posterior posterior(const RingMisclosure& ring, const Mixture& m, int dof, double log_volume) {
-  const double closes = std::log(m.share) + log_normal(ring, m.scale, dof);
-  const double confused = std::log(m.wide_share) + log_normal(ring, m.wide_scale, dof);
-  const double anywhere = std::log(1 - m.share - m.wide_share) - log_volume;
-  const double most = std::max({closes, confused, anywhere});
-  const double sum =
-      std::exp(closes - most) + std::exp(confused - most) + std::exp(anywhere - most);
-  return {std::exp(closes - most) / sum, std::exp(confused - most) / sum, most + std::log(sum)};
-}
+  Posterior operator()(const RingMisclosure& ring) const {
+    const double closes = closes_ - 0.5 * (ring.chi2 / scale_ + ring.log_determinant);
+    const double confused = confused_ - 0.5 * (ring.chi2 / wide_scale_ + ring.log_determinant);
+    const double most = std::max({closes, confused, anywhere_});
+    const double p_closes = std::exp(closes - most), p_confused = std::exp(confused - most);
+    const double sum = p_closes + p_confused + std::exp(anywhere_ - most);
+    return {p_closes / sum, p_confused / sum, most + std::log(sum)};
+  }
 
-Mixture fit(const std::vector<RingMisclosure>& rings, int dof, double log_volume, double scale) {
-  constexpr int kIterations = 60;
+ private:
+  double scale_, wide_scale_;
+  double closes_, confused_, anywhere_;  ///< logs of share times density at misclosure zero
+};
+
+Mixture fit(const std::vector<RingMisclosure>& rings, int dof, double log_volume, Mixture mixture,
+            int iterations) {
   const auto n = static_cast<double>(rings.size());
-  Mixture mixture;
-  mixture.scale = scale;
-  mixture.wide_scale = kWide * kWide * scale;
-  for (int i = 0; i < kIterations; ++i) {
+  for (int i = 0; i < iterations; ++i) {
     double closing = 0, confused = 0, chi2_closing = 0, chi2_confused = 0, log_likelihood = 0;
+    const RingPosterior posterior(mixture, dof, log_volume);
     for (const RingMisclosure& ring : rings) {
-      const Posterior p = posterior(ring, mixture, dof, log_volume);
+      const Posterior p = posterior(ring);
       closing += p.closes;
       confused += p.confused;
       chi2_closing += p.closes * ring.chi2;
@@ -121,19 +128,30 @@ void visit(OptionVisitor& field, LoopSupportOptions& o) {
 RingMixture fit_rings(const std::vector<LoopPair>& pairs, int dof, double volume) {
   RingMixture result;
   if (pairs.empty()) return result;
-  constexpr std::size_t kSample = 4000;  // enough for a few numbers
-  const std::size_t stride = 1 + pairs.size() / kSample;
-  std::vector<RingMisclosure> sample;
-  for (std::size_t i = 0; i < pairs.size(); i += stride) sample.push_back(pairs[i].ring);
+  // A few rings choose where to begin, more of them give the few numbers.
+  constexpr std::size_t kFew = 500, kSample = 4000;
+  constexpr int kFewIterations = 20, kIterations = 60;
+  const auto sample = [&](std::size_t size) {
+    std::vector<RingMisclosure> rings;
+    for (std::size_t i = 0; i < pairs.size(); i += 1 + pairs.size() / size)
+      rings.push_back(pairs[i].ring);
+    return rings;
+  };
   const double log_volume = std::log(volume);
+  const std::vector<RingMisclosure> few = sample(kFew);
   Mixture best;
   for (double scale = 1e-5; scale < 1e4; scale *= 10) {
-    const Mixture mixture = fit(sample, dof, log_volume, scale);
+    Mixture start;
+    start.scale = scale;
+    start.wide_scale = kWide * kWide * scale;
+    const Mixture mixture = fit(few, dof, log_volume, start, kFewIterations);
     if (mixture.log_likelihood > best.log_likelihood) best = mixture;
   }
+  if (best.log_likelihood > -std::numeric_limits<double>::infinity())
+    best = fit(sample(kSample), dof, log_volume, best, kIterations);
   result.noise_scale = best.scale;
-  for (const LoopPair& pair : pairs)
-    result.probability.push_back(posterior(pair.ring, best, dof, log_volume).closes);
+  const RingPosterior posterior(best, dof, log_volume);
+  for (const LoopPair& pair : pairs) result.probability.push_back(posterior(pair.ring).closes);
   return result;
 }
 

@@ -24,6 +24,14 @@ double sum(const std::vector<double>& values) {
   return total;
 }
 
+/// Where a robust method begins. False loops spoil starts that are made from loops; of the others
+/// graduated non-convexity needs one that is worth something, whatever the poses are.
+PoseGraphStart robust_start(const PoseGraphOptions& options) {
+  if (options.start != PoseGraphStart::kAuto) return options.start;
+  return options.robust.method == RobustMethod::kGnc ? PoseGraphStart::kOdometry
+                                                     : PoseGraphStart::kFile;
+}
+
 /// From the chosen start to the minimum; fills what the report says of the way there.
 template <class Group>
 void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
@@ -33,10 +41,10 @@ void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
     LocalSolver<Group> solver(local);
     found = solve_from_start(graph, options.start, options.rotation_error, solver);
   } else {
-    set_start(graph, options.start, options.rotation_error);
+    found.used = robust_start(options);
+    set_start(graph, found.used, options.rotation_error);
     RobustSolution robust = solve_robustly(graph, local, options.robust);
     found.solution = std::move(robust.local);
-    found.used = options.start == PoseGraphStart::kAuto ? PoseGraphStart::kFile : options.start;
     found.refined_from_certified = found.used == PoseGraphStart::kCertified;
     report.rejected = std::move(robust.rejected);
   }

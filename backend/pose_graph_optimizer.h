@@ -8,7 +8,8 @@ struct PoseGraphOptions {
   RotationError rotation_error = RotationError::kLog;
   PoseGraphEngine engine = PoseGraphEngine::kNative;
   StepRule step_rule = StepRule::kDogleg;
-  /// kAuto: with `robust` the poses as they are, because false loops spoil the other starts.
+  /// kAuto: with `robust` the poses as they are (with gnc those of the odometry), because false
+  /// loops spoil the other starts.
   PoseGraphStart start = PoseGraphStart::kAuto;
   int max_iterations = 200;
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share

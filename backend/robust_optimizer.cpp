@@ -1,6 +1,7 @@
 #include <placegraph/backend/chi_squared.h>
 #include <placegraph/backend/pcm.h>
 #include <placegraph/backend/robust_optimizer.h>
+#include <placegraph/backend/start_selection.h>
 
 #include <algorithm>
 #include <numeric>
@@ -52,6 +53,27 @@ void start_from_odometry(PackedGraph<Group>& graph, const OdometryChain<Group>& 
     if (!graph.held[i]) graph.poses[i] = T_world_first * chain.pose(static_cast<int>(i));
 }
 
+/// Where the plain descent begins: at the poses as they are, or where these are rough at the
+/// chordal ones if they cost less.
+template <class Group>
+void start_plain(PackedGraph<Group>& graph, RotationError rotation_error) {
+  constexpr double kRough = 0.5;  // [rad]
+  constexpr int dim = Group::kDof == 3 ? 2 : 3, turns = dim == 2 ? 1 : 3;
+  const bool rough = std::any_of(graph.edges.begin(), graph.edges.end(), [&](const auto& edge) {
+    const typename Group::Tangent e =
+        (edge.T_to_from * (graph.poses[edge.from].inverse() * graph.poses[edge.to])).log();
+    return e.template segment<turns>(dim).norm() > kRough;
+  });
+  if (!rough || !graph.positions.empty()) return;
+  PackedGraph<Group> chordal = graph;
+  set_start(chordal, PoseGraphStart::kChordal, rotation_error);
+  const auto cost = [&](const PackedGraph<Group>& at) {
+    const std::vector<double> chi2 = chi2_by_edge(at, rotation_error);
+    return std::accumulate(chi2.begin(), chi2.end(), 0.0);
+  };
+  if (cost(chordal) < cost(graph)) graph.poses = std::move(chordal.poses);
+}
+
 template <class Group>
 RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>& chain,
                           const LoopSupport& support, const LocalSolverOptions& solver,
@@ -68,6 +90,7 @@ RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>&
     constexpr int kSteps = 20;
     LocalSolverOptions short_solver = solver;
     short_solver.max_iterations = std::min(solver.max_iterations, kSteps);
+    start_plain(plain, solver.rotation_error);
     result.local = LocalSolver<Group>(short_solver).solve(plain);
     if (loops == 0 || (result.local.outcome &&
                        beyond_doubt(plain, support.noise_scale, options, solver.rotation_error))) {
@@ -136,9 +159,12 @@ RobustSolution solve_rejecting(PackedGraph<Group>& graph, const LocalSolverOptio
     result.local = growth.local;
     result.noise_scale = growth.noise_scale;
   } else {
-    result.noise_scale = support.noise_scale;
     const double gate = options.growth.margin * quantile * support.noise_scale;
-    result.local = graduated_non_convexity(graph, gate, solver, options.gnc).local;
+    (void)graduated_non_convexity(graph, gate, solver, options.gnc);
+    const LoopGrowth settled =
+        settle_loops(graph, support, options.gate_probability, solver, options.growth, options.gnc);
+    result.local = settled.local;
+    result.noise_scale = settled.noise_scale;
   }
   result.rejected = edges_without_weight(graph, chain, support,
                                          options.growth.margin * quantile * result.noise_scale,

@@ -39,8 +39,8 @@ struct RobustSolution {
 ///   none   all edges as they are, with the kernels they carry
 ///   huber, dcs   that kernel on every loop; none is left out
 ///   gnc    graduated non-convexity from the poses of the graph (gnc.h), with the gate calibrated
-///   by
-///          rings of neighbouring loops (loop_support.h)
+///          by rings of neighbouring loops (loop_support.h), then every loop tested against the
+///          solution (settle_loops)
 ///   pcm    the largest set of loops that agree each with each over all odometry between them
 ///          (pcm.h), then every loop tested against the solution that follows (loop_growth.h)
 ///   auto   the plain minimum if its errors show that no loop is false, else loop_growth.h
