@@ -43,7 +43,8 @@ void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
   } else {
     found.used = robust_start(options);
     set_start(graph, found.used, options.rotation_error);
-    RobustSolution robust = solve_robustly(graph, local, options.robust);
+    RobustSolution robust =
+        solve_robustly(graph, local, options.robust, options.start == PoseGraphStart::kAuto);
     found.solution = std::move(robust.local);
     found.refined_from_certified = found.used == PoseGraphStart::kCertified;
     report.rejected = std::move(robust.rejected);

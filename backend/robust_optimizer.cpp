@@ -77,7 +77,7 @@ void start_plain(PackedGraph<Group>& graph, RotationError rotation_error) {
 template <class Group>
 RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>& chain,
                           const LoopSupport& support, const LocalSolverOptions& solver,
-                          const RobustOptions& options) {
+                          const RobustOptions& options, bool free_start) {
   // Where many loops stand alone the plain minimum is not worth its time: false loops are many.
   constexpr double kManyAlone = 0.05;
   std::size_t loops = 0;
@@ -90,7 +90,7 @@ RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>&
     constexpr int kSteps = 20;
     LocalSolverOptions short_solver = solver;
     short_solver.max_iterations = std::min(solver.max_iterations, kSteps);
-    start_plain(plain, solver.rotation_error);
+    if (free_start) start_plain(plain, solver.rotation_error);
     result.local = LocalSolver<Group>(short_solver).solve(plain);
     if (loops == 0 || (result.local.outcome &&
                        beyond_doubt(plain, support.noise_scale, options, solver.rotation_error))) {
@@ -142,13 +142,13 @@ std::vector<RejectedEdge> edges_without_weight(const PackedGraph<Group>& graph,
 /// The methods that leave loops out.
 template <class Group>
 RobustSolution solve_rejecting(PackedGraph<Group>& graph, const LocalSolverOptions& solver,
-                               const RobustOptions& options) {
+                               const RobustOptions& options, bool free_start) {
   const OdometryChain<Group> chain(graph);
   const LoopSupport support = support_loops(graph, chain, options.support);
   const double quantile = chi_squared_quantile(options.gate_probability, Group::kDof);
   RobustSolution result;
   if (options.method == RobustMethod::kAuto) {
-    result = solve_auto(graph, chain, support, solver, options);
+    result = solve_auto(graph, chain, support, solver, options, free_start);
   } else if (options.method == RobustMethod::kPcm) {
     const double gate = options.growth.margin * quantile * support.noise_scale;
     LoopSupport sets = support;
@@ -190,7 +190,7 @@ void visit(OptionVisitor& field, RobustOptions& o) {
 
 template <class Group>
 RobustSolution solve_robustly(PackedGraph<Group>& graph, const LocalSolverOptions& solver,
-                              const RobustOptions& options) {
+                              const RobustOptions& options, bool free_start) {
   options.check();
   RobustSolution result;
   switch (options.method) {
@@ -208,7 +208,7 @@ RobustSolution solve_robustly(PackedGraph<Group>& graph, const LocalSolverOption
     case RobustMethod::kGnc:
     case RobustMethod::kPcm:
     case RobustMethod::kAuto:
-      result = solve_rejecting(graph, solver, options);
+      result = solve_rejecting(graph, solver, options, free_start);
       break;
   }
   if (!result.rejected.empty())
@@ -218,10 +218,10 @@ RobustSolution solve_robustly(PackedGraph<Group>& graph, const LocalSolverOption
 }
 
 template RobustSolution solve_robustly(PackedGraph<SE2>&, const LocalSolverOptions&,
-                                       const RobustOptions&);
+                                       const RobustOptions&, bool);
 template RobustSolution solve_robustly(PackedGraph<SE3>&, const LocalSolverOptions&,
-                                       const RobustOptions&);
+                                       const RobustOptions&, bool);
 template RobustSolution solve_robustly(PackedGraph<Sim3>&, const LocalSolverOptions&,
-                                       const RobustOptions&);
+                                       const RobustOptions&, bool);
 
 }  // namespace placegraph

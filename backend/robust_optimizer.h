@@ -44,10 +44,11 @@ struct RobustSolution {
 ///   pcm    the largest set of loops that agree each with each over all odometry between them
 ///          (pcm.h), then every loop tested against the solution that follows (loop_growth.h)
 ///   auto   the plain minimum if its errors show that no loop is false, else loop_growth.h
+/// With `free_start` auto's plain descent may begin at the chordal start instead of the poses.
 /// `graph` comes out with the poses of the solution and weight 0 on what was left out.
 template <class Group>
 [[nodiscard]] RobustSolution solve_robustly(PackedGraph<Group>& graph,
                                             const LocalSolverOptions& solver,
-                                            const RobustOptions& options);
+                                            const RobustOptions& options, bool free_start = false);
 
 }  // namespace placegraph
