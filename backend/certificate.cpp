@@ -119,9 +119,14 @@ typename CertificateMatrix<dim>::Curvature CertificateMatrix<dim>::curvature(
   const double largest = lanczos.eigenvalues()[0];
   curvature.smallest_eigenvalue = 1 / largest - shift;
   curvature.direction = inverse.solve(lanczos.eigenvectors().col(0)) / largest;
-  // What was found is proven by a factor: with a little more than the eigenvalue as the shift.
-  const double proven = std::max(0.0, -curvature.smallest_eigenvalue) * 1.001 + floor;
-  if (proven < shift && factorize(proven)) curvature.shift = proven;
+  // What was found is proven by a factor: with a little more than the eigenvalue as the shift, and
+  // no less than the rounding of a row of some hundred entries.
+  for (const double rounding : {0.1 * floor, floor}) {
+    const double proven = std::max(0.0, -curvature.smallest_eigenvalue) * 1.001 + rounding;
+    if (proven >= shift || !factorize(proven)) continue;
+    curvature.shift = proven;
+    break;
+  }
   return curvature;
 }
 
