@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/elimination_plan.h>
 #include <placegraph/backend/matrix_pool.h>
 
 #include <Eigen/Core>
@@ -89,6 +90,7 @@ class EliminationTree {
   bool covered(const Term& term) const;
   void touch(int variable);
   void mark_stale(int front, bool matrix);
+  VariableSets sets_of(const std::vector<int>& top, const std::vector<int>& orphans) const;
   void restructure();
   std::vector<int> collect_top(std::vector<int>& orphans);
   void assemble(Front& front);
