@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
@@ -19,7 +20,7 @@ class FrontendOptions : public testing::Test {};
 using All =
     testing::Types<DetectorOptions, MatcherOptions, StereoMatcherOptions, PointTrackerOptions,
                    MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
-                   PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions>;
+                   PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.

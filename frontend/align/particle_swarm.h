@@ -1,0 +1,63 @@
+#pragma once
+#include <placegraph/graph/core/options.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace placegraph {
+
+/// Value of a point of R^n that a population search makes small. It is called from several threads
+/// at once, so it must not change anything.
+using PopulationCost = std::function<double(const Eigen::VectorXd&)>;
+
+/// What a population search found: the members' best points so far, best first.
+struct PopulationResult {
+  std::vector<Eigen::VectorXd> points;
+  std::vector<double> costs;  ///< as many, ascending
+  int generations = 0, evaluations = 0;
+};
+
+/// Costs of the points, each into its own place, by `threads` threads.
+void evaluate_population(const PopulationCost& cost, const std::vector<Eigen::VectorXd>& points,
+                         int threads, std::vector<double>& costs);
+
+/// Points and costs in ascending order of cost; of equal ones in the order of their indices.
+void sort_population(PopulationResult& population);
+
+/// How a particle's velocity is damped.
+enum class SwarmDamping {
+  kConstriction,  ///< chi = 2 / |2 - phi - sqrt(phi^2 - 4 phi)|, phi = 4.1 (Clerc & Kennedy 2002)
+  kInertia,       ///< weight from 0.9 to 0.4 over the run, c1 = c2 = 1.7 (Shi & Eberhart 1998)
+};
+/// Whose best point draws a particle.
+enum class SwarmTopology {
+  kGlobal,  ///< that of all
+  kRing,    ///< of itself and its two neighbours by index: slower to agree, harder to fool
+};
+
+struct SwarmOptions {
+  SwarmDamping damping = SwarmDamping::kConstriction;
+  SwarmTopology topology = SwarmTopology::kRing;
+  int particles = 40;
+  int generations = 40;
+  int stagnation = 12;     ///< generations without a better best point that end the search
+  double max_speed = 0.8;  ///< per coordinate and generation, in standard deviations of the start
+  double bound = 3;        ///< coordinates stay within, in the same unit; they are reflected there
+  std::uint64_t seed = 1;
+  int threads = 1;  ///< the result does not depend on it
+  void check() const;
+};
+void visit(OptionVisitor& field, SwarmOptions& options);
+
+/// chi for phi > 4: 0.7298 for 4.1.
+double constriction(double phi);
+
+/// Particle swarm search (Kennedy & Eberhart 1995) in n dimensions. Coordinates are in standard
+/// deviations: the first particle starts at the origin, all others normally distributed about it.
+/// Every particle draws from a random stream of its own and the bests are compared in the order of
+/// indices once a generation is complete, so that the same bits come from any number of threads.
+PopulationResult swarm_search(const PopulationCost& cost, int n, const SwarmOptions& options);
+
+}  // namespace placegraph
