@@ -60,8 +60,8 @@ void run(Arguments arguments) {
              start.points.size(), start.observations.size());
   fmt::print("  half the sum of squares {:.6f} -> {:.6f}, {:.4f} px rms\n", report.cost_initial,
              report.cost_final, report.rms_px);
-  fmt::print("  {} iterations, {:.1f} ms CPU, {:.1f} ms wall\n", report.iterations, cpu_ms,
-             wall_ms);
+  fmt::print("  {} iterations, {:.1f} ms CPU, {:.1f} ms wall{}\n", report.iterations, cpu_ms,
+             wall_ms, arguments.out.empty() ? "" : "; written to " + arguments.out);
 }
 
 }  // namespace
@@ -78,8 +78,11 @@ void add_bundle_command(CLI::App& app) {
       ->check(CLI::IsMember(robust_kernel_names()))
       ->capture_default_str();
   command->add_option("--kernel-width", a.options.kernel.width, "its width [px]")
+      ->check(CLI::Range(0.01, 1e6))
       ->capture_default_str();
-  command->add_option("--iterations", a.options.max_iterations, "at most")->capture_default_str();
+  command->add_option("--iterations", a.options.max_iterations, "at most")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
   command->add_flag("--json", a.json, "print JSON");
   command->add_flag("--force", a.force, "overwrite OUT");
   command->callback([arguments] { run(*arguments); });

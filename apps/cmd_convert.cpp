@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/position_of.h>
 #include <placegraph/io/g2o.h>
+#include <placegraph/io/pose_graph_file.h>
 #include <placegraph/io/text_file.h>
 #include <placegraph/io/trajectory_file.h>
 
@@ -28,12 +29,13 @@ struct Arguments {
 using Form = std::optional<TrajectoryFormat>;
 constexpr Form kG2o = std::nullopt;
 
-bool is_g2o(const std::string& path) {
+/// By the first tag, of g2o's, TORO's or iSAM's form.
+bool is_pose_graph(const std::string& path) {
   TextFile file(path);
   std::string_view line;
   if (!file.next_data(line)) return false;
-  return line.starts_with("VERTEX_") || line.starts_with("EDGE_") || line.starts_with("FIX") ||
-         line.starts_with("PARAMS_");
+  return line.starts_with("VERTEX") || line.starts_with("EDGE") || line.starts_with("ODOMETRY") ||
+         line.starts_with("FIX") || line.starts_with("PARAMS_");
 }
 
 /// By --to, else by the extension of OUT.
@@ -77,8 +79,8 @@ Trajectory poses_of(PoseGraph graph) {
 }
 
 void convert_graph(const Arguments& arguments, Form to) {
-  if (!arguments.times.empty()) throw ArgumentError("--times: a g2o file has none");
-  const PoseGraph graph = read_g2o(arguments.in);
+  if (!arguments.times.empty()) throw ArgumentError("--times: a pose graph has none");
+  const PoseGraph graph = read_pose_graph(arguments.in, {.connected = false});
   if (to == TrajectoryFormat::kKitti) {
     write_trajectory(arguments.out, poses_of(graph), *to);
     fmt::print("{}: {} poses in the order of their ids, written to {}\n", arguments.in,
@@ -104,7 +106,7 @@ void convert_trajectory(const Arguments& arguments, TrajectoryFormat to) {
 void run(const Arguments& arguments) {
   const Form to = wanted_form(arguments);
   require_free(arguments.out, arguments.force);
-  const bool graph = is_g2o(arguments.in);
+  const bool graph = is_pose_graph(arguments.in);
   if (!graph && to == kG2o)
     throw ArgumentError(arguments.in + ": is a trajectory, which does not become a pose graph");
   if (graph && to != kG2o && to != TrajectoryFormat::kKitti)
@@ -122,9 +124,9 @@ void run(const Arguments& arguments) {
 void add_convert_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   Arguments& a = *arguments;
-  CLI::App* command = app.add_subcommand(
-      "convert",
-      "Convert trajectories between KITTI, TUM and EuRoC form; normalize a .g2o or take its poses");
+  CLI::App* command = app.add_subcommand("convert",
+                                         "Convert trajectories between KITTI, TUM and EuRoC form; "
+                                         "pose graphs to g2o's, or to their poses");
   command->footer("placegraph convert poses.txt poses.tum --times times.txt");
   command->add_option("IN", a.in, "file to read; what it is, is seen from its content")
       ->required()

@@ -1,6 +1,7 @@
 #include "apps/cmd_optimize.h"
 
 #include <fmt/format.h>
+#include <placegraph/backend/chi_squared.h>
 #include <placegraph/eval/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/g2o.h>
@@ -70,6 +71,33 @@ Json rejected_edges(const GraphSolution& solution) {
   return list;
 }
 
+/// Edges that were kept though their chi2 at the solution is beyond the 99.9 % bound.
+int doubtful_edges(const GraphSolution& solution) {
+  if (solution.chi2_by_constraint.empty()) return 0;
+  const double bound = chi_squared_quantile(0.999, degrees_of_freedom(solution.graph.kind()));
+  const auto beyond =
+      std::count_if(solution.chi2_by_constraint.begin(), solution.chi2_by_constraint.end(),
+                    [&](double chi2) { return chi2 > bound; });
+  const auto rejected = std::count_if(
+      solution.rejected.begin(), solution.rejected.end(),
+      [&](const auto& edge) { return solution.chi2_by_constraint[edge.constraint] > bound; });
+  return static_cast<int>(beyond - rejected);
+}
+
+/// One line where the least squares of a graph with loops look like those of a wrong graph.
+void warn_of_misfit(const Arguments& arguments, const GraphSolution& solution, const Costs& costs) {
+  constexpr double kMuch = 10;  // times what is expected
+  const int dof = degrees_of_freedom(solution.graph.kind());
+  const auto free = static_cast<double>(solution.graph.constraints.size()) -
+                    static_cast<double>(solution.graph.nodes.size()) + solution.components;
+  const double expected = dof * std::max(1.0, free);
+  if (arguments.robust != "none" || costs.log < kMuch * expected) return;
+  std::fprintf(stderr,
+               "placegraph: %s: chi2 is %.0f times what the information of the edges lets expect: "
+               "false loops (try --robust auto), or information that promises too much\n",
+               arguments.in.c_str(), costs.log / expected);
+}
+
 void describe_steps(std::vector<double> cpu_ms, Json& json) {
   if (cpu_ms.empty()) return;
   std::sort(cpu_ms.begin(), cpu_ms.end());
@@ -123,6 +151,7 @@ Json describe(const Arguments& arguments, const Costs& before, const Costs& afte
   describe_steps(solution.step_cpu_ms, json);
   json["rejected"] = solution.rejected.size();
   json["rejected_edges"] = rejected_edges(solution);
+  json["doubtful"] = doubtful_edges(solution);
   return json;
 }
 
@@ -139,6 +168,11 @@ void print(const Arguments& arguments, const Json& json) {
              number("chi2_log"));
   if (!json["rejected_edges"].empty())
     fmt::print("  {} constraints rejected\n", json["rejected_edges"].size());
+  if (const int doubtful = json["doubtful"].get<int>(); doubtful > 0 && arguments.robust != "none")
+    fmt::print("  {} constraints kept that lie beyond the 99.9 % bound of their chi2{}\n", doubtful,
+               arguments.robust == "huber" || arguments.robust == "dcs"
+                   ? "; the method gives them less weight, chi2 above counts them in full"
+                   : "");
   if (json.contains("certificate_gap"))
     fmt::print(
         "  {}: the isotropic chordal problem's minimum here lies at most {:.2g} above its "
@@ -159,7 +193,7 @@ void draw(const Arguments& arguments, const PoseGraph& before, const GraphSoluti
   std::vector<int> rejected;
   for (const RejectedEdge& edge : solution.rejected) rejected.push_back(edge.constraint);
   Plot plot = plot_of(before, solution.graph, rejected);
-  plot.title = fmt::format("{} poses, {} constraints, chi2 {:.6g} (logarithm), {:.6g} (g2o)",
+  plot.title = fmt::format("{} poses, {} constraints, chi2 {:.5g} (log), {:.5g} (g2o)",
                            solution.graph.nodes.size(), solution.graph.constraints.size(),
                            costs.log, costs.g2o);
   write_plot(arguments.plot, plot);
@@ -184,6 +218,8 @@ void check(Arguments& arguments) {
       !arguments.task.incremental ||
           (arguments.robust == "none" && arguments.engine == "native" && arguments.start == "auto"),
       "--incremental goes with --engine native, --robust none and --start auto");
+  require(!arguments.drop_rejected || arguments.robust != "none",
+          "--drop-rejected goes with --robust, which rejects");
   require_plot_name(arguments.plot);
   require(arguments.plot.empty() || arguments.plot != arguments.out,
           "--plot: " + arguments.plot + " is where the graph is to be written");
@@ -214,6 +250,7 @@ void run(Arguments arguments) {
   if (!std::isfinite(after.g2o + after.log))
     throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
   if (!arguments.plot.empty()) draw(arguments, drawn, solution, after);
+  if (!arguments.quiet) warn_of_misfit(arguments, solution, after);
   write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
   const Json json = describe(arguments, before, after, solution);
   if (arguments.json)
@@ -248,7 +285,8 @@ void add_optimize_command(CLI::App& app) {
   command->add_option("--robust", a.robust, "what is done against false loops")
       ->check(CLI::IsMember(backend_option("robust.method").choices))
       ->capture_default_str();
-  command->add_option("--iterations", a.task.options.max_iterations, "at most")
+  command->add_option("--iterations", a.task.options.max_iterations, "of a descent at most")
+      ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command->add_flag("--certify", a.task.certify,
                     "prove how far the isotropic chordal problem is from its global minimum");

@@ -105,6 +105,11 @@ std::optional<Trajectory> truth_of(const Dataset& dataset, const RunOptions& opt
   return truth;
 }
 
+std::int64_t frames_to_run(const Dataset& dataset, const RunOptions& options) {
+  const auto offered = static_cast<std::int64_t>(dataset.size()) - options.first_frame;
+  return options.max_frames > 0 ? std::min<std::int64_t>(options.max_frames, offered) : offered;
+}
+
 void write_results(const std::string& folder, const RunResult& run, const Trajectory& optimized,
                    const std::optional<Trajectory>& truth, const std::string& title,
                    const json& summary) {
@@ -131,6 +136,10 @@ void print_summary(const json& summary, const std::string& folder) {
               summary["frames"].get<int>(), summary["posed_online"].get<int>(),
               summary["keyframes"].get<int>(), summary["places"].get<int>(),
               summary["loops_accepted"].get<int>());
+  if (summary.contains("motion") && summary["motion"]["median_deviation"].is_number())
+    std::printf("%-12s motion by other sensors: %d constraints, %.2f times as far off as claimed\n",
+                "", summary["motion"]["constraints"].get<int>(),
+                summary["motion"]["median_deviation"].get<double>());
   if (summary.contains("evaluation"))
     for (const auto& [name, figures] : summary["evaluation"].items())
       if (figures.contains("ate_rmse_m") && figures["ate_rmse_m"].is_number())
@@ -163,7 +172,7 @@ void run(const Arguments& arguments) {
   getrusage(RUSAGE_SELF, &before);
   RunResult run;
   {
-    Progress progress("running " + dataset->name(), static_cast<std::int64_t>(dataset->size()));
+    Progress progress("running " + dataset->name(), frames_to_run(*dataset, options));
     const LogSink log = [&](LogLevel level, const std::string& message) {
       if (level == LogLevel::kWarning || arguments.verbose)
         std::fprintf(stderr, "\n%s", message.c_str());
@@ -180,6 +189,7 @@ void run(const Arguments& arguments) {
 
   const Trajectory optimized = run.map.trajectory_optimized();
   json summary = describe_run(run, optimized);
+  if (!options.motion.file.empty()) summary["motion"] = describe_motion(run.map.place_graph);
   summary["sequence"] = dataset->name();
   summary["format"] = dataset->format();
   summary["seed"] = options.slam.seed;

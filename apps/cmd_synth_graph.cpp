@@ -110,18 +110,26 @@ void add_synth_graph_command(CLI::App& app) {
           "made harder")
       ->required();
   command->add_option("-o,--out", a.out, "graph to write, in g2o's form")->required();
-  command->add_option("--poses", a.poses, "how many");
-  command->add_option(
-      "--loop-share", a.loop_share,
-      "manhattan-walk, grid-world: share of the chances for a loop that become one");
-  command->add_option("--closures", a.closures, "long-loop: how many loops");
-  command->add_option("--laps", a.laps, "long-loop: how often round");
+  command->add_option("--poses", a.poses, "how many")->check(CLI::Range(2, 1000000));
+  command
+      ->add_option("--loop-share", a.loop_share,
+                   "manhattan-walk, grid-world: share of the chances for a loop that become one")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--closures", a.closures, "long-loop: how many loops")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--laps", a.laps, "long-loop: how often round")
+      ->check(CLI::Range(1, 1000000));
   command->add_flag("--3d", a.spatial, "long-loop: in space");
-  command->add_option("--translation-noise", a.translation_noise_m, "of a measurement [m]");
-  command->add_option("--rotation-noise", a.rotation_noise_rad,
-                      "of a measurement, or added to the odometry of a file [rad]");
-  command->add_option("--false-loops", a.false_loops,
-                      "add so many behind the others, between poses that stand far apart");
+  command->add_option("--translation-noise", a.translation_noise_m, "of a measurement [m]")
+      ->check(CLI::Range(1e-9, 1e9));
+  command
+      ->add_option("--rotation-noise", a.rotation_noise_rad,
+                   "of a measurement, or added to the odometry of a file [rad]")
+      ->check(CLI::Range(1e-9, 1e9));
+  command
+      ->add_option("--false-loops", a.false_loops,
+                   "add so many behind the others, between poses that stand far apart")
+      ->check(CLI::Range(0, 1000000));
   command->add_flag("--shuffle", a.shuffle, "write the constraints in a random order");
   command->add_option("--seed", a.seed, "another seed, other chances")->capture_default_str();
   command->add_flag("--force", a.force, "overwrite OUT");

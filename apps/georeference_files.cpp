@@ -127,9 +127,9 @@ PoseGraph metric_graph(const PoseGraph& graph) {
 std::string fixes_csv(const GeoreferenceResult& result, const std::vector<GpsFix>& fixes) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(
-      out,
-      "stamp_ns,node,east_m,north_m,up_m,sigma_horizontal_m,sigma_vertical_m,weight,rejected\n");
+  fmt::format_to(out,
+                 "stamp_ns,node,residual_east_m,residual_north_m,residual_up_m,sigma_horizontal_m,"
+                 "sigma_vertical_m,weight,rejected\n");
   for (std::size_t i = 0; i < fixes.size(); ++i) {
     const FixReport& fix = result.fixes[i];
     if (fix.node < 0)

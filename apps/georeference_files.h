@@ -19,7 +19,8 @@ GeoreferenceInput read_map(const std::string& path, const std::string& times_pat
 /// positions are left out.
 PoseGraph metric_graph(const PoseGraph& graph);
 
-/// What became of every fix: stamp_s,node,east_m,north_m,up_m (residuals),sigma_m,weight,rejected.
+/// What became of every fix: stamp_ns, node, residual_{east,north,up}_m,
+/// sigma_{horizontal,vertical}_m, weight, rejected.
 std::string fixes_csv(const GeoreferenceResult& result, const std::vector<GpsFix>& fixes);
 
 /// georeference.json.

@@ -51,6 +51,7 @@ void solve_whole(PoseGraph graph, const GraphTask& task, const LogSink& log,
   PoseGraphReport report = optimize(std::move(graph), task, log, solution);
   solution.graph = std::move(report.graph);
   solution.rejected = std::move(report.rejected);
+  solution.chi2_by_constraint = std::move(report.chi2_by_constraint);
 }
 
 void solve_parts(PoseGraph graph, const GraphTask& task, const LogSink& log,
@@ -58,6 +59,7 @@ void solve_parts(PoseGraph graph, const GraphTask& task, const LogSink& log,
   std::vector<GraphPart> parts = split_components(graph);
   solution.components = static_cast<int>(parts.size());
   solution.graph = std::move(graph);
+  if (!task.incremental) solution.chi2_by_constraint.resize(solution.graph.constraints.size());
   for (GraphPart& part : parts) {
     const std::int64_t first = part.graph.nodes.front().id;
     PoseGraphReport report;
@@ -68,6 +70,8 @@ void solve_parts(PoseGraph graph, const GraphTask& task, const LogSink& log,
     }
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
       solution.graph.nodes[part.nodes[i]].T_world_node = report.graph.nodes[i].T_world_node;
+    for (std::size_t i = 0; i < report.chi2_by_constraint.size(); ++i)
+      solution.chi2_by_constraint[part.constraints[i]] = report.chi2_by_constraint[i];
     for (RejectedEdge& edge : report.rejected) {
       edge.constraint = part.constraints[edge.constraint];
       solution.rejected.push_back(std::move(edge));

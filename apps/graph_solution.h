@@ -22,9 +22,10 @@ struct GraphSolution {
   int components = 1;
   int iterations = 0;
   std::string start;  ///< the one that was kept; of several components the dearest
-  bool refined_from_certified = false;  ///< every component
-  std::vector<RejectedEdge> rejected;   ///< in the order of graph.constraints
-  std::vector<double> step_cpu_ms;      ///< incremental: of every pose
+  bool refined_from_certified = false;     ///< every component
+  std::vector<RejectedEdge> rejected;      ///< in the order of graph.constraints
+  std::vector<double> chi2_by_constraint;  ///< in the order of graph.constraints; incremental: none
+  std::vector<double> step_cpu_ms;         ///< incremental: of every pose
   double cpu_ms = 0, wall_ms = 0, peak_mb = 0;
   std::optional<ChordalIsotropicCertificate> certificate;  ///< its cost is not in the times
   double certificate_cpu_ms = 0;

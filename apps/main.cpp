@@ -26,6 +26,12 @@ int complain(int code, const std::string& message) {
   return code;
 }
 
+bool is_command(const CLI::App& app, const std::string& name) {
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  return std::any_of(commands.begin(), commands.end(),
+                     [&](const CLI::App* command) { return command->check_name(name); });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -45,6 +51,8 @@ int main(int argc, char** argv) {
     add_run_command(app);
     add_synth_command(app);
     add_synth_graph_command(app);
+    if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1]))
+      return complain(kUsage, "no command '" + std::string(argv[1]) + "' (see placegraph --help)");
     app.parse(argc, argv);
     return 0;
   } catch (const CLI::Success& asked) {  // --help, --version

@@ -2,8 +2,10 @@
 
 #include <placegraph/eval/evaluate.h>
 #include <placegraph/eval/plot.h>
+#include <placegraph/graph/core/error.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -34,6 +36,10 @@ PlotCurve curve_of(const Trajectory& trajectory, const std::string& name) {
   }
   return curve;
 }
+
+Sim3 similarity_of(const SE2&) { throw ArgumentError("a place graph is not planar"); }
+Sim3 similarity_of(const SE3& T) { return Sim3(T); }
+Sim3 similarity_of(const Sim3& S) { return S; }
 
 }  // namespace
 
@@ -84,6 +90,27 @@ std::string loops_csv(const Map& map) {
     csv << loop.query_frame << ',' << loop.match_frame << ',' << loop.inliers << ','
         << (loop.accepted ? 1 : 0) << ',' << loop.stage << '\n';
   return csv.str();
+}
+
+json describe_motion(const PlaceGraph& graph) {
+  std::vector<double> deviations;
+  for (const RelativePoseConstraint& constraint : graph.constraints) {
+    if (constraint.source != ConstraintSource::kOther) continue;
+    const Sim3 S_from_to =
+        std::visit([](const auto& T) { return similarity_of(T); }, constraint.T_from_to);
+    const Sim3 S_seen = graph.find(constraint.from)->S_map_place().inverse() *
+                        graph.find(constraint.to)->S_map_place();
+    const Eigen::VectorXd error =
+        (S_from_to.inverse() * S_seen).log().head(constraint.information.rows());
+    deviations.push_back(
+        std::sqrt(error.dot(constraint.information * error) / static_cast<double>(error.size())));
+  }
+  json motion = {{"constraints", deviations.size()}, {"median_deviation", nullptr}};
+  if (deviations.empty()) return motion;
+  const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
+  std::nth_element(deviations.begin(), middle, deviations.end());
+  motion["median_deviation"] = *middle;
+  return motion;
 }
 
 json describe_run(const RunResult& run, const Trajectory& optimized) {

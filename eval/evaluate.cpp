@@ -2,6 +2,7 @@
 #include <placegraph/eval/evaluate.h>
 #include <placegraph/eval/plausibility.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace placegraph {
@@ -62,6 +63,16 @@ void add_warnings(EvaluationResult& r, const PairingResult& paired) {
                     paired.pairs.size(), paired.truth_frames));
 }
 
+/// Of the true path, from the first posed frame to the last.
+double posed_path_m(const std::vector<FramePair>& pairs, const std::vector<double>& travelled_m) {
+  const auto posed = [](const FramePair& pair) { return pair.T_world_estimate.has_value(); };
+  const auto first = std::find_if(pairs.begin(), pairs.end(), posed);
+  const auto last = std::find_if(pairs.rbegin(), pairs.rend(), posed);
+  if (first == pairs.end()) return 0;
+  return travelled_m[static_cast<std::size_t>(pairs.rend() - last) - 1] -
+         travelled_m[static_cast<std::size_t>(first - pairs.begin())];
+}
+
 }  // namespace
 
 void EvaluationOptions::check() const { check_ranges(*this); }
@@ -101,6 +112,7 @@ EvaluationResult evaluate(const Trajectory& truth, const Trajectory& estimate,
   r.coverage = static_cast<double>(judged_posed) / static_cast<double>(paired.pairs.size());
   r.travelled_m = travelled_m(paired.pairs);
   r.path_m = r.travelled_m.back();
+  r.posed_path_m = posed_path_m(paired.pairs, r.travelled_m);
 
   r.alignment = align(paired.pairs, options.alignment);
   if (!usable(r.alignment)) {

@@ -33,7 +33,8 @@ Outcome why_not_by_index(const Trajectory& truth, const Trajectory& estimate) {
                           "association by index needs lines of the same number: the ground truth "
                           "has " +
                               std::to_string(truth.size()) + ", the estimate " +
-                              std::to_string(estimate.size()));
+                              std::to_string(estimate.size()) +
+                              " (with times on both sides, as in .tum, they are paired by time)");
 }
 
 Outcome why_not_by_time(const Trajectory& truth, const Trajectory& estimate,

@@ -222,7 +222,8 @@ void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
   if (best_corner(panel, box, lines_px()).second > 0) make_room_on_top(panel, box[1] + 20);
 
   const char* axes[] = {"x [m]", "y [m]", "z [m]"};
-  draw_axes(canvas, panel, axes[horizontal], axes[vertical], "top view");
+  draw_axes(canvas, panel, axes[horizontal], axes[vertical],
+            horizontal == 0 ? "top view" : "side view");
   const std::vector<Points> lines = lines_px();
   const std::vector<LegendEntry> styles = styles_of(plot);
   canvas.begin_clip(panel.corner, panel.size);
@@ -265,7 +266,9 @@ void draw_errors(PlotCanvas& canvas, const Plot& plot, Panel panel) {
 }
 
 std::string draw(const Plot& plot, PlotCanvas& canvas, int width_px) {
-  canvas.text({width_px / 2.0, 38}, plot.title, kTitlePx, kInk, TextAnchor::kMiddle);
+  const double fits = (width_px - 40) / std::max(1.0, canvas.text_width(plot.title, kTitlePx));
+  canvas.text({width_px / 2.0, 38}, plot.title, std::min(1.0, fits) * kTitlePx, kInk,
+              TextAnchor::kMiddle);
   const double right = plot.errors.empty() ? width_px - 40.0 : 860.0;
   if (!plot.curves.empty())
     draw_top_view(canvas, plot, {{90, 92}, {right - 90, kHeight - 92.0 - 76}, {}, {}});
@@ -287,9 +290,8 @@ std::pair<int, int> top_view_axes(const std::vector<std::optional<Eigen::Vector3
   int least = 1;  // of equals, the camera's y is height
   for (const int axis : {0, 2})
     if (extent[axis].size() < extent[least].size()) least = axis;
-  // A camera that drives straight ahead: neither x nor y says much, and y is no part of a top view.
-  const double sideways = std::max(extent[0].size(), extent[1].size());
-  if (least == 0 && sideways < 0.1 * extent[2].size()) least = 1;
+  // A camera that drives straight ahead, be it uphill: y is no part of a top view.
+  if (least == 0 && extent[1].size() < 0.5 * extent[2].size()) least = 1;
   return {least == 0 ? 1 : 0, least == 2 ? 1 : 2};
 }
 

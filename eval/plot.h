@@ -30,7 +30,7 @@ struct Plot {
   std::vector<PlotCurve> curves;
   std::vector<PlotError> errors;
   std::string error_label = "position error";
-  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> links_m;  ///< loop closures
+  std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> links_m;           ///< loop closures
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rejected_links_m;  ///< false ones
 };
 
@@ -41,8 +41,8 @@ Plot plot_of(const std::vector<EvaluationResult>& results);
 std::string to_svg(const Plot& plot);
 std::string to_png(const Plot& plot);
 
-/// The two axes (0 = x, 1 = y, 2 = z), ascending, along which the positions extend furthest; x and z
-/// for a drive along z that goes aside by less than a tenth.
+/// The two axes (0 = x, 1 = y, 2 = z), ascending, along which the positions extend furthest; x and
+/// z for a drive along z that goes aside by less than a tenth.
 std::pair<int, int> top_view_axes(const std::vector<std::optional<Eigen::Vector3d>>& positions_m);
 
 }  // namespace placegraph

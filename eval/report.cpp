@@ -175,9 +175,9 @@ std::string to_latex(const std::vector<EvaluationResult>& results) {
 }
 
 std::string to_text(const EvaluationResult& r) {
+  if (!r.outcome) return fmt::format("{}: no figures: {}\n", r.name, r.outcome.reason);
   std::string text = fmt::format("{}: {} of {} frames posed ({:.1f} %), path {:.1f} m\n", r.name,
                                  r.posed, r.frames, 100 * r.coverage, r.path_m);
-  if (!r.outcome) return text + "  no figures: " + r.outcome.reason + "\n";
   text +=
       fmt::format("  align {}, scale {:.6f}, association by {}\n", to_string(r.protocol.alignment),
                   r.alignment.scale, to_string(r.protocol.association));

@@ -40,8 +40,9 @@ std::vector<Metric> metrics(const EvaluationResult& r) {
   return {
       {"ate_rmse_m", "ATE RMSE", "m", when(has_ape, r.ape.error_m.rmse), ate},
       {"ate_percent_of_path", "ATE/path", "%",
-       when(has_ape && r.path_m > 0, 100 * r.ape.error_m.rmse / r.path_m),
-       fmt::format("ATE RMSE over the true path of {:.1f} m, {}", r.path_m, alignment_text(r))},
+       when(has_ape && r.posed_path_m > 0, 100 * r.ape.error_m.rmse / r.posed_path_m),
+       fmt::format("ATE RMSE over the true path of {:.1f} m, {}", r.posed_path_m,
+                   alignment_text(r))},
       {"ate_mean_m", "ATE mean", "m", when(has_ape, r.ape.error_m.mean), ate},
       {"ate_median_m", "ATE median", "m", when(has_ape, r.ape.error_m.median), ate},
       {"ate_max_m", "ATE max", "m", when(has_ape, r.ape.error_m.max), ate},

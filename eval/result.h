@@ -30,6 +30,7 @@ struct EvaluationResult {
   double coverage = 0;           ///< share of the judged frames that are posed, 0 to 1
   std::vector<int> lost_frames;  ///< judged frames without an estimate, ground-truth indices
   double path_m = 0;             ///< length of the true path
+  double posed_path_m = 0;       ///< of its part from the first posed frame to the last
   AlignmentResult alignment;
   ApeResult ape;
   RpeResult rpe;

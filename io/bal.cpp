@@ -44,7 +44,7 @@ class NumberStream {
     return true;
   }
   std::string_view next(const char* what) {
-    if (!advance()) throw FileError(file_.path(), fmt::format("ends where a {} is expected", what));
+    if (!advance()) file_.fail(fmt::format("the file ends where a {} is expected", what));
     return fields_[at_++];
   }
 

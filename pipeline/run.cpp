@@ -13,8 +13,12 @@ Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
   const auto offered = dataset.sensors();
   if (choice == SensorChoice::kAuto) return offered.front();
   const Sensor wanted = static_cast<Sensor>(static_cast<int>(choice) - 1);
-  require(std::find(offered.begin(), offered.end(), wanted) != offered.end(),
-          dataset.name() + ": cannot be run as " + to_string(wanted));
+  std::string all;
+  for (const Sensor sensor : offered)
+    all += (all.empty() ? "" : ", ") + std::string(to_string(sensor));
+  require(
+      std::find(offered.begin(), offered.end(), wanted) != offered.end(),
+      dataset.name() + ": has not what " + to_string(wanted) + " needs; it can be run as " + all);
   return wanted;
 }
 

@@ -36,7 +36,7 @@ TEST(Report, JsonHasTheKeysScriptsRelyOn) {
   EXPECT_EQ(json["posed"], 59);
   EXPECT_EQ(json["lost_frames"], nlohmann::json({30}));
   EXPECT_EQ(json["ate_rmse_m"], r.ape.error_m.rmse);
-  EXPECT_EQ(json["ate_percent_of_path"], 100 * r.ape.error_m.rmse / r.path_m);
+  EXPECT_EQ(json["ate_percent_of_path"], 100 * r.ape.error_m.rmse / r.posed_path_m);
   EXPECT_EQ(json["t_rel_percent"], r.segments.t_rel_percent);
   EXPECT_EQ(json["r_rel_deg_per_100m"], r.segments.r_rel_deg_per_100m);
   EXPECT_EQ(json["rpe_trans_m"], r.rpe.translation_m.rmse);
