@@ -1,5 +1,6 @@
 // The command line: `placegraph <command> ...`. Exit codes: 0 ok, 1 the data allowed no answer,
 // 2 usage, configuration or file error.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>

@@ -145,8 +145,16 @@ bool LoopCloser::within_covariance(const Loop& loop, const KnownMotions& known,
       drift_over(predicted->way, predicted->S_a_b.translation().norm(), median_depth_m);
   Vector6d drift;
   drift << Eigen::Vector3d::Constant(most.length), Eigen::Vector3d::Constant(most.angle_rad);
+  const bool free_scale = loop.information(6, 6) > 0;
+  if (free_scale &&
+      std::abs(error[6]) > most.log_scale + kSigmas * std::sqrt(predicted->covariance(6, 6)))
+    return false;
+  Matrix7d information = loop.information;
+  if (!free_scale) information(6, 6) = 1;
+  const Eigen::LLT<Matrix7d> factor(information);
+  if (factor.info() != Eigen::Success) return true;  // the loop leaves a direction open
   Matrix6d covariance = predicted->covariance.topLeftCorner<6, 6>();
-  covariance += loop.information.topLeftCorner<6, 6>().ldlt().solve(Matrix6d::Identity());
+  covariance += factor.solve(Matrix7d::Identity()).topLeftCorner<6, 6>();
   covariance.diagonal() += (drift / kSigmas).cwiseAbs2();
   return error.head<6>().dot(covariance.ldlt().solve(error.head<6>())) < kChi2;
 }

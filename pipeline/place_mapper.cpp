@@ -55,6 +55,10 @@ const PlaceMapper::PlaceState& PlaceMapper::place_at(std::int64_t keyframe) cons
   return places_.at(place_of(keyframe));
 }
 
+PlaceMapper::PlaceState& PlaceMapper::place_at(std::int64_t keyframe) {
+  return places_.at(place_of(keyframe));
+}
+
 Sim3 PlaceMapper::S_map_keyframe(std::int64_t id) const {
   return place_at(id).S_map_place * S_place_keyframe(nodes_.at(id));
 }
@@ -108,6 +112,7 @@ void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
             options_.max_distance * median_depth_m * S_place_this.scale() &&
         S_place_this.rotation().log().norm() < options_.max_angle_deg * M_PI / 180) {
       nodes_[id] = node;
+      place_at(id).last_keyframe = id;
       return;
     }
     node.part = id;
@@ -115,7 +120,7 @@ void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
     node.run = static_cast<int>(scale_known_.size());
     scale_known_.push_back(scale_known);
   }
-  PlaceState place{id, Sim3(T_map_guess), 0, options_.max_distance * median_depth_m};
+  PlaceState place{id, Sim3(T_map_guess), 0, options_.max_distance * median_depth_m, id};
   if (link) {
     const Sim3 S_from_this(link->T_from_this.rotation(), link->T_from_this.translation(),
                            link->scale);
@@ -203,11 +208,14 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
   bool alone = true;
   for (const auto& [id, node] : nodes_) alone &= node.run == run || component_of(id) != component;
   for (auto& [id, node] : nodes_) {
-    if (!node.link || node.link->source != ConstraintSource::kOdometry || !in_run(id)) continue;
-    node.link->T_from_this = scaled(node.link->T_from_this, factor);
-    node.link->information = scaled<6>(node.link->information, factor);
-    node.link->sigma_log_scale = 0;
-    node.covariance = covariance_of(*node.link);
+    if (!node.link) continue;
+    Link& link = *node.link;
+    const bool odometry = link.source == ConstraintSource::kOdometry;
+    if (in_run(link.from)) link.T_from_this = scaled(link.T_from_this, factor);
+    if (in_run(id)) link.information = scaled<6>(link.information, factor);
+    if (odometry && in_run(id)) link.sigma_log_scale = 0;
+    if (!odometry) link.scale *= (in_run(link.from) ? factor : 1) / (in_run(id) ? factor : 1);
+    node.covariance = covariance_of(link);
   }
   for (Loop& loop : loops_) {
     if (in_run(loop.match)) {
@@ -222,6 +230,7 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
   for (auto& [anchor, part] : parts_) {
     const Sim3& S = part.S_place_part;
     const bool place_grows = in_run(places_.at(part.place).anchor_keyframe);
+    if (in_run(anchor)) part.covariance = scaled<7>(part.covariance, 1 / factor);
     if (in_run(anchor) && part.motion_covariance)
       part.motion_covariance = scaled<6>(*part.motion_covariance, 1 / factor);
     part.S_place_part =

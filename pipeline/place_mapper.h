@@ -113,6 +113,7 @@ class PlaceMapper {
     Sim3 S_map_place;
     int component;
     double reach;  // in the place's unit
+    std::int64_t last_keyframe;
   };
   struct Edge {
     PlaceConstraint::Key key;
@@ -124,6 +125,7 @@ class PlaceMapper {
   };
 
   const PlaceState& place_at(std::int64_t keyframe) const;
+  PlaceState& place_at(std::int64_t keyframe);
   SE3 T_part_keyframe(const Node& node) const;
   Sim3 S_place_keyframe(const Node& node) const;
   void follow_links(std::int64_t first);

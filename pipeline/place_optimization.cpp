@@ -50,13 +50,14 @@ void PlaceMapper::settle_units() {
     const auto [unit, first] =
         units.try_emplace(place.component, Unit{place.S_map_place.translation()});
     if (first) unit->second.first_measured = known;
-    if (!known) continue;
+    // The first place, which is held, tells it alone if it is measured.
+    if (!known || (!first && unit->second.first_measured)) continue;
     unit->second.log_scales += std::log(place.S_map_place.scale());
     ++unit->second.measured;
   }
   for (auto& [number, place] : places_) {
     const Unit& unit = units.at(place.component);
-    if (unit.measured == 0 || unit.first_measured) continue;
+    if (unit.measured == 0) continue;
     const double factor = std::exp(-unit.log_scales / unit.measured);
     const Sim3& S = place.S_map_place;
     place.S_map_place = Sim3(S.rotation(), unit.centre + factor * (S.translation() - unit.centre),
@@ -161,16 +162,19 @@ bool PlaceMapper::agrees(const Loop& loop) const {
 /// Pairs of places within reach of each other by a loop that the map agrees with, and well enough
 /// known to each other; of every place only the first, as the others change with it.
 std::vector<PlaceMapper::Merger> PlaceMapper::find_mergers(std::int64_t first_open) const {
-  std::map<std::int64_t, std::int64_t> last_keyframe;  // of every place
-  for (const auto& [id, node] : nodes_) last_keyframe[parts_.at(node.part).place] = id;
+  // Old loops have had their chances; they get a last one in the end.
+  constexpr std::size_t kRecent = 100;
+  const std::size_t begin =
+      first_open == kNever || loops_.size() < kRecent ? 0 : loops_.size() - kRecent;
   std::vector<Merger> mergers;
   std::set<std::int64_t> taken;
-  for (const Loop& loop : loops_) {
+  for (std::size_t i = begin; i < loops_.size(); ++i) {
+    const Loop& loop = loops_[i];
     const std::int64_t older = std::min(place_of(loop.match), place_of(loop.query));
     const std::int64_t younger = std::max(place_of(loop.match), place_of(loop.query));
     if (older == younger || taken.count(older) || taken.count(younger)) continue;
     const PlaceState &a = places_.at(older), &b = places_.at(younger);
-    if (last_keyframe.at(younger) >= first_open || a.anchor_keyframe >= first_open) continue;
+    if (b.last_keyframe >= first_open || a.anchor_keyframe >= first_open) continue;
     const Sim3 S_a_b = a.S_map_place.inverse() * b.S_map_place;
     if (S_a_b.translation().norm() >= a.reach ||
         S_a_b.rotation().log().norm() >= options_.max_angle_deg * M_PI / 180 || !agrees(loop))
@@ -193,8 +197,9 @@ void PlaceMapper::merge_all(std::int64_t first_open) {
 /// The parts of the younger place become parts of the older one, where the map has them now;
 /// constraints follow from the parts.
 void PlaceMapper::merge(const Merger& merger) {
-  const Sim3 S_older_younger =
-      places_.at(merger.older).S_map_place.inverse() * places_.at(merger.younger).S_map_place;
+  PlaceState& older = places_.at(merger.older);
+  older.last_keyframe = std::max(older.last_keyframe, places_.at(merger.younger).last_keyframe);
+  const Sim3 S_older_younger = older.S_map_place.inverse() * places_.at(merger.younger).S_map_place;
   for (auto& [anchor, part] : parts_) {
     if (part.place != merger.younger) continue;
     const Matrix7d adjoint = part.S_place_part.inverse().adjoint();

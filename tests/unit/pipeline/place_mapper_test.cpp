@@ -185,5 +185,32 @@ TEST(PlaceMapper, GrowsARunAboutItsFirstKeyframe) {
   EXPECT_LT(distance_m(mapper.odometry(2, 4)->T_a_b, grown(kShort * kLong)), 1e-9);
 }
 
+TEST(PlaceMapper, ABridgeTellsTheRatioOfUnitsWhenOneOfThemIsMeasured) {
+  // Two runs of one eye, the second hung on the first in its unit; then one of them turns out to
+  // have had a unit of 2 m.
+  for (const std::int64_t measured : {0, 5}) {
+    PlaceMapper mapper({});
+    const SE3 step = pose({0, 0, 0}, {5, 0, 0});
+    mapper.add_keyframe(0, std::nullopt, {}, kDepth_m, false);
+    for (int i = 1; i < 10; ++i) {
+      PlaceMapper::Link to_previous = link(i - 1, step, 0.01, 0.001);
+      to_previous.sigma_log_scale = 0.01;
+      if (i == 5) to_previous.source = ConstraintSource::kOther;
+      mapper.add_keyframe(i, to_previous, {}, kDepth_m, false);
+    }
+    (void)mapper.finish();
+    mapper.rescale(measured, 2);
+    (void)mapper.finish();
+    EXPECT_TRUE(mapper.metric());
+    // The way between the two ends, in metres, whichever run the metre came from.
+    EXPECT_NEAR(
+        (mapper.T_map_keyframe(9).translation() - mapper.T_map_keyframe(0).translation()).norm(),
+        90, 0.1)
+        << measured;
+    EXPECT_NEAR(mapper.S_map_keyframe(measured).scale(), 1, 1e-3);
+    EXPECT_NEAR(mapper.S_map_keyframe(5 - measured).scale(), 2, 1e-2);
+  }
+}
+
 }  // namespace
 }  // namespace placegraph
