@@ -52,7 +52,7 @@ TemplateLevel thinned(const TemplateLevel& level, int count) {
 
 /// Similarity of a warp on some samples; -infinity where too few of them are in view.
 double similarity_at(const Job& job, const TemplateLevel& samples, int level,
-                     const Eigen::Matrix3d& H_cur_ref) {
+                     const Eigen::Matrix3d& H_cur_ref, bool robust) {
   SeenSamples seen;
   see_samples(samples, job.planar_template, job.pyramid[static_cast<std::size_t>(level)], level,
               H_cur_ref, false, seen);
@@ -60,7 +60,8 @@ double similarity_at(const Job& job, const TemplateLevel& samples, int level,
   if (static_cast<double>(seen.index.size()) <
       o.min_visible_share * static_cast<double>(samples.samples.size()))
     return -std::numeric_limits<double>::infinity();
-  return similarity(o.similarity, seen.ref, seen.cur);
+  return robust ? robust_similarity(o.similarity, seen.ref, seen.cur)
+                : similarity(o.similarity, seen.ref, seen.cur);
 }
 
 /// Warps found by a population about `start`, best first. A member's coordinates are independent
@@ -78,7 +79,7 @@ std::vector<PlanarWarp> search(const Job& job, const PlanarWarp& start, int leve
   const TemplateLevel samples =
       thinned(job.planar_template.levels()[static_cast<std::size_t>(level)], o.search_samples);
   const PopulationCost cost = [&](const Eigen::VectorXd& z) {
-    return -similarity_at(job, samples, level, warp_at(z).H_cur_ref());
+    return -similarity_at(job, samples, level, warp_at(z).H_cur_ref(), false);
   };
   const PopulationResult found = o.optimizer == AlignOptimizer::kGenetic
                                      ? genetic_search(cost, start.dof(), o.genetic)
@@ -115,7 +116,7 @@ PlanarWarp follow_members(const Job& job, const PlanarWarp& start,
   for (const PlanarWarp& candidate : starts) {
     const GradientAlignmentResult end = follow(job, candidate, job.coarsest);
     result.iterations += end.iterations;
-    const double value = similarity_at(job, samples, job.coarsest, end.warp.H_cur_ref());
+    const double value = similarity_at(job, samples, job.coarsest, end.warp.H_cur_ref(), true);
     if (!(value > best_similarity)) continue;
     best_similarity = value;
     best = end.warp;

@@ -20,7 +20,7 @@ struct AlignOptions {
   GradientAlignmentOptions gradient;  ///< its similarity is that of the searches as well
   /// Of a corner's coordinate where a population starts on the coarsest level, in diagonals of the
   /// template; on every finer level a quarter of the one before.
-  double search_sigma = 0.12;
+  double search_sigma = 0.18;
   int search_samples = 400;  ///< the similarity of a member is that of so many samples
   int followed = 8;          ///< best members of the swarm that ESM follows
   SwarmOptions swarm;

@@ -63,13 +63,11 @@ MatrixXd correlated_sum(const Eigen::MatrixXi& grid, const MatrixXd& J, const Ve
         }
       if (pairs == 0) continue;
       covariance /= pairs;
-      const double distance2 = (dr * dr + dc * dc) / ((kReach + 1.0) * (kReach + 1.0));
-      const double taper = std::max(0.0, 1 - distance2);
       if (dr == 0 && dc == 0) {
         variance = covariance = std::max(covariance, kRounding);
         sum += covariance * products;
       } else {
-        sum += taper * covariance * (products + products.transpose());
+        sum += covariance * (products + products.transpose());
       }
     }
   return sum;

@@ -14,10 +14,11 @@ struct AlignmentCovariance {
 /// Covariance of an alignment from its normal equations, where the residuals of neighbours are
 /// correlated (by the lens, the interpolation, whatever the model leaves out): H^-1 M H^-1 with
 /// H = sum psi'(e_i) J_i J_i^T and M = sum c(i - j) J_i J_j^T over samples up to four grid steps
-/// apart, c the measured covariance of psi(e) by lag (Conley 1999; Huber's sandwich for robust
-/// weights), never below a tenth of what independent samples would give. J has the mean gradient of
-/// both images with gain and bias projected out. Grey values are rounded, so residuals count as no
-/// smaller than a rounding error. Nothing where H is singular. Precondition: samples in view.
+/// apart, c the measured covariance of psi(e) by lag (after Conley 1999; Huber's sandwich for
+/// robust weights), never below a tenth of what independent samples would give. J has the mean
+/// gradient of both images with gain and bias projected out. Grey values are rounded, so residuals
+/// count as no smaller than a rounding error. Nothing where H is singular. Precondition: samples in
+/// view.
 std::optional<AlignmentCovariance> alignment_covariance(const PlanarTemplate& planar_template,
                                                         const Image& image, int level,
                                                         const PlanarWarp& warp,

@@ -32,13 +32,17 @@ double dot(const float* row, const double w[4]) {
 std::vector<Image> grey_pyramid(const Image& grey, int levels) {
   require(grey.type() == CV_8UC1 && !grey.empty(), "grey_pyramid: a grey image is needed");
   std::vector<Image> pyramid(1);
-  grey.convertTo(pyramid[0], CV_32F);
+  Image image;
+  grey.convertTo(image, CV_32F);
+  // Interpolation leaves less of white noise between pixels than at them, and an alignment would
+  // be drawn there; of smoothed noise it leaves as much everywhere.
+  cv::GaussianBlur(image, pyramid[0], {5, 5}, 1);
   while (static_cast<int>(pyramid.size()) < levels) {
-    const Image& last = pyramid.back();
-    if (last.cols < 16 || last.rows < 16) break;
+    if (image.cols < 16 || image.rows < 16) break;
     Image half;
-    cv::pyrDown(last, half);
+    cv::pyrDown(image, half);
     pyramid.push_back(half);
+    image = half;
   }
   return pyramid;
 }

@@ -5,9 +5,9 @@
 
 namespace placegraph {
 
-/// An image in float and its halvings: pixel (u, v) of level i is pixel 2^i (u, v) of the image.
-/// Throws ArgumentError unless `grey` is CV_8UC1 and not empty. There are fewer levels than asked
-/// for where a side would fall below 8 pixels.
+/// An image in float, smoothed by a pixel, and its halvings: pixel (u, v) of level i is pixel 2^i
+/// (u, v) of the image. Throws ArgumentError unless `grey` is CV_8UC1 and not empty. There are
+/// fewer levels than asked for where a side would fall below 8 pixels.
 std::vector<Image> grey_pyramid(const Image& grey, int levels);
 
 /// Value of an image between its pixels, and its derivatives.

@@ -103,7 +103,9 @@ void fit_photometry(Similarity kind, const std::vector<double>& ref, const std::
                     RobustKernel::Kind kernel, double width, PhotometricFit& fit) {
   const std::size_t n = ref.size();
   const RobustKernel robust{kernel, width};
-  if (fit.weight.size() != n || kernel == RobustKernel::Kind::kNone) fit.weight.assign(n, 1);
+  // Without weights from the step before, outliers have to be found first.
+  const bool fresh = fit.weight.size() != n;
+  if (fresh || kernel == RobustKernel::Kind::kNone) fit.weight.assign(n, 1);
   for (auto* values : {&fit.model, &fit.slope, &fit.residual}) values->resize(n);
   if (kind == Similarity::kMi) {
     JointHistogram histogram(ref, cur);
@@ -116,14 +118,28 @@ void fit_photometry(Similarity kind, const std::vector<double>& ref, const std::
   }
   linear_model(kind, ref, cur, fit);
   measure_spread(cur, fit);
-  if (kernel != RobustKernel::Kind::kNone) {
+  for (int i = fresh ? 10 : 1; kernel != RobustKernel::Kind::kNone && i > 0; --i) {
     weigh(cur, robust, fit);
     linear_model(kind, ref, cur, fit);
     measure_spread(cur, fit);
-    weigh(cur, robust, fit);
   }
+  if (kernel != RobustKernel::Kind::kNone) weigh(cur, robust, fit);
   std::fill(fit.slope.begin(), fit.slope.end(), fit.gain);
   fit.similarity = similarity(kind, ref, cur);
+}
+
+double robust_similarity(Similarity kind, const std::vector<double>& ref,
+                         const std::vector<double>& cur) {
+  if (kind == Similarity::kMi || ref.size() < 2) return similarity(kind, ref, cur);
+  PhotometricFit fit;
+  fit_photometry(kind, ref, cur, RobustKernel::Kind::kTukey, 4.685, fit);
+  const Moments m = moments_of(ref, cur, one);
+  const double variance = m.ref_ref / m.weight;
+  const double scale = 4 / (variance * std::max(fit.gain * fit.gain, 1e-6));
+  if (!(variance > 0)) return 0;
+  double lost = 0;
+  for (const double e : fit.residual) lost += std::min(scale * e * e, 1.0);
+  return 1 - lost / static_cast<double>(ref.size());
 }
 
 double agreement(const PhotometricFit& fit, const std::vector<double>& cur) {

@@ -44,6 +44,13 @@ struct PhotometricFit {
 void fit_photometry(Similarity kind, const std::vector<double>& ref, const std::vector<double>& cur,
                     RobustKernel::Kind kernel, double width, PhotometricFit& fit);
 
+/// How well two lists agree where they agree at all, for the choice between rival alignments: MI as
+/// it is; else one less the mean of min(e^2 / t^2, 1), with e the residual of a robust fit in grey
+/// levels of the template and t half its standard deviation. An occluded part counts as one error,
+/// however it looks. Worst possible below two values.
+double robust_similarity(Similarity kind, const std::vector<double>& ref,
+                         const std::vector<double>& cur);
+
 /// How much of the current values the template explains: the weighted correlation of cur and model.
 double agreement(const PhotometricFit& fit, const std::vector<double>& cur);
 

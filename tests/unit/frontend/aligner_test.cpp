@@ -179,8 +179,9 @@ TEST(AlignmentCovariance, CountsBlurredNoiseAsFewerSamples) {
     }
   double share[2];
   for (const int blurred : {0, 1}) {
-    const auto result = alignment_covariance(t, grey_pyramid(blurred ? smooth : white, 1)[0], 0,
-                                             warp, {.similarity = Similarity::kZncc});
+    Image image;
+    (blurred ? smooth : white).convertTo(image, CV_32F);
+    const auto result = alignment_covariance(t, image, 0, warp, {.similarity = Similarity::kZncc});
     ASSERT_TRUE(result);
     EXPECT_NEAR(result->sigma_grey, 5, 0.5);
     share[blurred] = result->independent_share;
