@@ -118,7 +118,7 @@ void add_synth_graph_command(CLI::App& app) {
   command->add_option("--closures", a.closures, "long-loop: how many loops")
       ->check(CLI::Range(1, 1000000));
   command->add_option("--laps", a.laps, "long-loop: how often round")
-      ->check(CLI::Range(1, 1000000));
+      ->check(CLI::Range(1e-6, 1e6));
   command->add_flag("--3d", a.spatial, "long-loop: in space");
   command->add_option("--translation-noise", a.translation_noise_m, "of a measurement [m]")
       ->check(CLI::Range(1e-9, 1e9));
