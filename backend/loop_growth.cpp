@@ -143,16 +143,16 @@ class Growth {
   /// others; returns how many that changed.
   int test(const std::vector<char>& in_question) {
     const std::vector<double> error = chi2();
+    // Odometry that a false loop bends, or that is wrong, says nothing of the noise.
     double sum = 0, worst = 0;
-    int edges = 0;
+    int loops = 0;
     for (std::size_t i = 0; i < graph_.edges.size(); ++i) {
-      if (graph_.edges[i].weight <= 0) continue;
-      ++edges;
+      if (graph_.edges[i].weight <= 0 || graph_.edges[i].odometry) continue;
+      ++loops;
       sum += error[i];
-      if (!graph_.edges[i].odometry) worst = std::max(worst, error[i]);
+      worst = std::max(worst, error[i]);
     }
-    const int redundant = edges - static_cast<int>(graph_.poses.size()) + 1;
-    if (redundant > 0) scale_ = std::max(scale_, sum / (Group::kDof * redundant));
+    if (loops > 0) scale_ = std::max(scale_, sum / (Group::kDof * loops));
     limit_ = std::max(gate(), options_.tail * std::min(worst, limit_));
     std::vector<double> before;
     for (const auto& edge : graph_.edges) before.push_back(edge.weight);

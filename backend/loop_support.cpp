@@ -18,8 +18,9 @@ struct Mixture {
 constexpr double kWide = 100;
 /// Rings that must close at a scale, lest a pair of equal loops be taken for one.
 constexpr double kLeast = 10;
-/// Below this, misclosures are rounding and the solver's tolerance rather than noise.
-constexpr double kLeastScale = 1e-7;
+/// Below this share of the map, misclosures are rounding and the solver's tolerance rather than
+/// noise.
+constexpr double kLeastShare = 1e-7;
 
 struct Posterior {
   double closes, confused;
@@ -50,8 +51,33 @@ class RingPosterior {
   double closes_, confused_, anywhere_;  ///< logs of share times density at misclosure zero
 };
 
+/// The scale of the noise at which a usual ring misses by kLeastShare of the map, in the geometric
+/// mean of its directions: where the information grows by a factor, so does this scale.
+double least_scale(const std::vector<RingMisclosure>& rings, int dof, double log_volume) {
+  std::vector<double> log_determinants;
+  for (const RingMisclosure& ring : rings) log_determinants.push_back(ring.log_determinant);
+  const auto middle =
+      log_determinants.begin() + static_cast<std::ptrdiff_t>(log_determinants.size() / 2);
+  std::nth_element(log_determinants.begin(), middle, log_determinants.end());
+  return std::exp((2 * log_volume - *middle) / dof + 2 * std::log(kLeastShare));
+}
+
+/// Scales to begin at, ten times larger from one to the next: they span what the rings miss by.
+std::vector<double> scales_to_try(const std::vector<RingMisclosure>& rings, int dof, double least) {
+  std::vector<double> chi2;
+  for (const RingMisclosure& ring : rings) chi2.push_back(ring.chi2 / dof);
+  std::sort(chi2.begin(), chi2.end());
+  const auto quantile = [&](double q) {
+    return chi2[static_cast<std::size_t>(q * static_cast<double>(chi2.size() - 1))];
+  };
+  constexpr double kLow = 0.02, kHigh = 0.9;  // quantiles; the extremes say nothing
+  std::vector<double> scales{std::max(0.1 * quantile(kLow), least)};
+  while (10 * scales.back() < quantile(kHigh)) scales.push_back(10 * scales.back());
+  return scales;
+}
+
 Mixture fit(const std::vector<RingMisclosure>& rings, int dof, double log_volume, Mixture mixture,
-            int iterations) {
+            double least, int iterations) {
   const auto n = static_cast<double>(rings.size());
   for (int i = 0; i < iterations; ++i) {
     double closing = 0, confused = 0, chi2_closing = 0, chi2_confused = 0, log_likelihood = 0;
@@ -67,7 +93,7 @@ Mixture fit(const std::vector<RingMisclosure>& rings, int dof, double log_volume
     const double before = mixture.log_likelihood;
     mixture.log_likelihood = log_likelihood;
     if (closing < std::min(kLeast, 0.5 * n)) return {};  // nothing to tell a scale from
-    mixture.scale = std::max(chi2_closing / (dof * closing), kLeastScale);
+    mixture.scale = std::max(chi2_closing / (dof * closing), least);
     mixture.wide_scale =
         std::max(confused > 1 ? chi2_confused / (dof * confused) : 0, kWide * mixture.scale);
     // One of each kind more than was seen: none becomes impossible.
@@ -140,15 +166,16 @@ RingMixture fit_rings(const std::vector<LoopPair>& pairs, int dof, double volume
   const double log_volume = std::log(volume);
   const std::vector<RingMisclosure> few = sample(kFew);
   Mixture best;
-  for (double scale = 1e-5; scale < 1e4; scale *= 10) {
+  const double least = least_scale(few, dof, log_volume);
+  for (const double scale : scales_to_try(few, dof, least)) {
     Mixture start;
     start.scale = scale;
     start.wide_scale = kWide * kWide * scale;
-    const Mixture mixture = fit(few, dof, log_volume, start, kFewIterations);
+    const Mixture mixture = fit(few, dof, log_volume, start, least, kFewIterations);
     if (mixture.log_likelihood > best.log_likelihood) best = mixture;
   }
   if (best.log_likelihood > -std::numeric_limits<double>::infinity())
-    best = fit(sample(kSample), dof, log_volume, best, kIterations);
+    best = fit(sample(kSample), dof, log_volume, best, least, kIterations);
   result.noise_scale = best.scale;
   const RingPosterior posterior(best, dof, log_volume);
   for (const LoopPair& pair : pairs) result.probability.push_back(posterior(pair.ring).closes);
@@ -161,12 +188,19 @@ LoopSupport support_loops(const PackedGraph<Group>& graph, const OdometryChain<G
   options.check();
   LoopSupport support;
   if (graph.poses.empty()) return support;
-  const auto loops = loops_on_chain(graph, chain);
+  auto loops = loops_on_chain(graph, chain);
+  std::vector<std::vector<int>> steps;  // repeat one step of the chain
+  std::erase_if(loops, [&](const LoopOnChain<Group>& loop) {
+    if (!chain.repeats_step(loop.from, loop.to)) return false;
+    steps.push_back({loop.edge});
+    return true;
+  });
   const auto pairs = neighbouring_pairs(loops, chain, options.reach, options.neighbours);
   const RingMixture rings = fit_rings(pairs, Group::kDof, tangent_volume(graph, chain));
   support.noise_scale = rings.noise_scale;
   support.clusters = clusters_of(loops, pairs, rings.probability, options.least_probability);
   for (const auto& cluster : support.clusters) support.alone += cluster.size() == 1;
+  support.clusters.insert(support.clusters.end(), steps.begin(), steps.end());
   return support;
 }
 

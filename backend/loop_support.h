@@ -23,7 +23,8 @@ struct RingMixture {
 /// motion at two places), with noise at least a hundred times larger; or e is uniform over
 /// `volume`, that of the places where a loop may be found (translation x rotation (x log scale)).
 /// `dof` is the dimension of e. From several starting scales the likeliest fit is taken; where too
-/// few rings close to tell, noise_scale is 1.
+/// few rings close to tell, noise_scale is 1. A common factor of all information only multiplies
+/// noise_scale.
 RingMixture fit_rings(const std::vector<LoopPair>& pairs, int dof, double volume);
 
 /// What the loops of a graph say of each other over the short stretches of odometry between them.
@@ -31,9 +32,10 @@ RingMixture fit_rings(const std::vector<LoopPair>& pairs, int dof, double volume
 struct LoopSupport {
   double noise_scale = 1;
   /// Loops that support each other, directly or through others, as positions in
-  /// PackedGraph::edges; the largest first. A loop without support is alone.
+  /// PackedGraph::edges; the largest first. A loop without support is alone. Edges that repeat one
+  /// step of the odometry come last, each by itself: copies of odometry agree without being true.
   std::vector<std::vector<int>> clusters;
-  int alone = 0;
+  int alone = 0;  ///< loops without support, repeated steps apart
 };
 
 template <class Group>

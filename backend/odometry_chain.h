@@ -1,6 +1,8 @@
 #pragma once
 #include <placegraph/backend/packed_graph.h>
 
+#include <cstdlib>
+
 namespace placegraph {
 
 /// The odometry of a packed graph laid end to end: what it says of the motion between any two poses
@@ -21,6 +23,10 @@ class OdometryChain {
   int position(int node) const { return position_[node]; }
   /// T_first_node: the node seen from the first node of its run.
   const Group& pose(int node) const { return pose_[node]; }
+  /// Whether the nodes follow each other in one run.
+  bool repeats_step(int a, int b) const {
+    return run_[a] == run_[b] && std::abs(position_[a] - position_[b]) == 1;
+  }
   /// Covariance of all odometry between two nodes of one run as a left perturbation in the
   /// coordinates of the run's first node: T_first_b = Exp(xi) T_first_a T_a_b, to first order
   /// (Barfoot & Furgale 2014, eq. 37 without the second-order terms).

@@ -1,4 +1,5 @@
 #include <placegraph/backend/chi_squared.h>
+#include <placegraph/backend/parallel_odometry.h>
 #include <placegraph/backend/pcm.h>
 #include <placegraph/backend/robust_optimizer.h>
 #include <placegraph/backend/start_selection.h>
@@ -193,6 +194,7 @@ RobustSolution solve_robustly(PackedGraph<Group>& graph, const LocalSolverOption
                               const RobustOptions& options, bool free_start) {
   options.check();
   RobustSolution result;
+  if (options.method != RobustMethod::kNone) set_parallel_odometry_apart(graph, options.support);
   switch (options.method) {
     case RobustMethod::kNone:
       result.local = LocalSolver<Group>(solver).solve(graph);

@@ -35,7 +35,8 @@ struct RobustSolution {
 };
 
 /// Minimizes a pose graph some of whose loops are false. Odometry (and measured positions) are
-/// believed; every other edge may be left out.
+/// believed, of several odometry edges between the same nodes one (parallel_odometry.h); every
+/// other edge may be left out.
 ///   none   all edges as they are, with the kernels they carry
 ///   huber, dcs   that kernel on every loop; none is left out
 ///   gnc    graduated non-convexity from the poses of the graph (gnc.h), with the gate calibrated

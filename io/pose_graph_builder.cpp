@@ -91,6 +91,7 @@ void PoseGraphBuilder::add_edge(std::string_view from, std::string_view to, cons
   const bool consecutive = std::min(edge.from, edge.to) + 1 == std::max(edge.from, edge.to);
   edge.source =
       source.value_or(consecutive ? ConstraintSource::kOdometry : ConstraintSource::kLoop);
+  source_is_told_.push_back(source.has_value());
   edge_lines_.push_back(file_->line());
 }
 
@@ -116,6 +117,35 @@ void PoseGraphBuilder::require_connected() const {
                   graph_.nodes[apart].id, graph_.nodes[0].id, count));
 }
 
+void PoseGraphBuilder::tell_odometry_by_order() {
+  // Of so many steps to the next id at most one is to id + 1.
+  constexpr std::size_t kHardly = 10;
+  std::vector<std::int64_t> ids;
+  for (const PoseNode& node : graph_.nodes) ids.push_back(node.id);
+  std::sort(ids.begin(), ids.end());
+  // The positions in `ids` from which an edge leads to the next id.
+  std::vector<int> steps;
+  std::vector<std::size_t> edges;
+  for (std::size_t i = 0; i < graph_.constraints.size(); ++i) {
+    if (source_is_told_[i]) continue;
+    const RelativePoseConstraint& edge = edge_of(graph_.constraints[i]);
+    const auto low = std::lower_bound(ids.begin(), ids.end(), std::min(edge.from, edge.to));
+    if (low + 1 == ids.end() || low[1] != std::max(edge.from, edge.to)) continue;
+    steps.push_back(static_cast<int>(low - ids.begin()));
+    edges.push_back(i);
+  }
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  const auto consecutive =
+      std::count_if(steps.begin(), steps.end(), [&](int k) { return ids[k] + 1 == ids[k + 1]; });
+  // A path through at least half of the nodes, or it is none; too few steps tell nothing.
+  if (kHardly * static_cast<std::size_t>(consecutive) > steps.size() ||
+      2 * steps.size() + 1 < ids.size() || steps.size() < kHardly)
+    return;
+  for (const std::size_t i : edges)
+    edge_of(graph_.constraints[i]).source = ConstraintSource::kOdometry;
+}
+
 PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
   if (graph_.nodes.empty()) throw FileError(file_->path(), "holds no vertices");
   const NodeIndex index = graph_.index_by_id();
@@ -128,6 +158,7 @@ PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
     find(index, edge.from, edge_lines_[i]);
     find(index, edge.to, edge_lines_[i]);
   }
+  tell_odometry_by_order();
   for (const auto& [id, line] : fixed_) graph_.nodes[find(index, id, line)].fixed = true;
   if (reading.connected) require_connected();
   return std::move(graph_);

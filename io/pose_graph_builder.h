@@ -32,12 +32,15 @@ class PoseGraphBuilder {
   /// Refuses SE2, SE3 and Sim3 mixed, and positions beyond 1e50 m.
   void add_node(std::string_view id, const Pose& T_world_node);
   /// Refuses mixed kinds, an edge from a node to itself, information that is indefinite, all
-  /// zero or above 1e100, and positions beyond 1e50 m. Edges of consecutive ids are odometry, others loops, unless `source` says what they are.
+  /// zero or above 1e100, and positions beyond 1e50 m. Edges of
+  /// consecutive ids are odometry, others loops, unless `source` says what they are; see finish().
   void add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
                 const Information& information, std::optional<ConstraintSource> source = {});
   void fix(std::string_view id);
 
-  /// The graph, in the order of the file. Refuses ids that are there twice, edges and fixes on
+  /// The graph, in the order of the file. Where ids leave gaps so that hardly an edge joins
+  /// consecutive ones (every tenth frame is a node), edges from an id to the next larger one that
+  /// is there are the odometry instead. Refuses ids that are there twice, edges and fixes on
   /// vertices that are not there, no vertices at all, and what `reading` asks to refuse.
   [[nodiscard]] PoseGraph finish(const PoseGraphReading& reading);
   /// For files of edges alone: the vertices are those the edges name, by ascending id, with poses
@@ -50,11 +53,13 @@ class PoseGraphBuilder {
   int find(const NodeIndex& index, std::int64_t id, int line) const;
   void require_connected() const;
   void add_nodes_of_edges();
+  void tell_odometry_by_order();
 
   const TextFile* file_;
   PoseGraph graph_;
   std::optional<PoseKind> kind_;
   std::vector<int> node_lines_, edge_lines_;
+  std::vector<char> source_is_told_;                 ///< of the edges, by their tags
   std::vector<std::pair<std::int64_t, int>> fixed_;  ///< id and line
 };
 

@@ -119,5 +119,71 @@ TYPED_TEST(RobustLoopsOf, WhatAloneHoldsThePartsTogetherIsKept) {
   for (const int component : kept.components()) EXPECT_EQ(component, 0);
 }
 
+/// Second edges over `n` steps of the walk that say what loops say elsewhere, or the step itself.
+template <class Group>
+void repeat_steps(LoopedWalk<Group>& walk, int n, bool falsely, Random& random) {
+  const auto nodes = static_cast<int>(walk.graph.nodes.size());
+  for (int k = 0; k < n; ++k) {
+    const int i = random.index(nodes - 1);
+    auto repeated = std::get<RelativePoseConstraint>(walk.graph.constraints[i]);
+    if (falsely) {  // beyond what the noise of a loop may be taken for
+      typename Group::Tangent xi;
+      for (int d = 0; d < Group::kDof; ++d) xi[d] = random.uniform(1, 2);
+      repeated.T_from_to = std::get<Group>(repeated.T_from_to) * Group::exp(xi);
+    }
+    walk.graph.constraints.push_back(repeated);
+  }
+}
+
+TYPED_TEST(RobustLoopsOf, FalseSecondOdometryIsRejectedWhereverItStandsInTheFile) {
+  for (const int steps : {1, 3, 10})
+    for (const int false_loops : {0, 100})
+      for (const bool first : {false, true}) {
+        LoopedWalk<TypeParam> walk({.false_loops = false_loops, .seed = 6});
+        PoseGraph clean = walk.graph;
+        clean.constraints.resize(walk.true_constraints);
+        const PoseGraph best = optimize(clean, RobustMethod::kNone).graph;
+        Random random(7);
+        repeat_steps(walk, steps, true, random);
+        const std::size_t n = walk.graph.constraints.size();
+        if (first) std::reverse(walk.graph.constraints.begin(), walk.graph.constraints.end());
+        const PoseGraphReport report = optimize(walk.graph, RobustMethod::kAuto);
+        EXPECT_TRUE(report.outcome) << report.outcome.reason;
+        EXPECT_EQ(report.rejected.size(), static_cast<std::size_t>(false_loops + steps));
+        for (const RejectedEdge& edge : report.rejected) {
+          const auto i = static_cast<std::size_t>(edge.constraint);
+          EXPECT_GE(first ? n - 1 - i : i, walk.true_constraints);
+        }
+        EXPECT_LT(rms_distance<TypeParam>(report.graph, best), 1e-4) << steps;
+      }
+}
+
+TYPED_TEST(RobustLoopsOf, RepeatedTrueOdometryIsKept) {
+  LoopedWalk<TypeParam> walk({.false_loops = 100, .seed = 8});
+  const std::size_t false_end = walk.graph.constraints.size();
+  Random random(9);
+  repeat_steps(walk, 100, false, random);
+  const PoseGraphReport report = optimize(walk.graph, RobustMethod::kAuto);
+  EXPECT_EQ(report.rejected.size(), 100u);
+  for (const RejectedEdge& edge : report.rejected) {
+    EXPECT_GE(edge.constraint, static_cast<int>(walk.true_constraints));
+    EXPECT_LT(edge.constraint, static_cast<int>(false_end));
+  }
+}
+
+TYPED_TEST(RobustLoopsOf, ACommonFactorOfAllInformationChangesNothing) {
+  const LoopedWalk<TypeParam> walk({.false_loops = 100, .seed = 10});
+  const PoseGraphReport report = optimize(walk.graph, RobustMethod::kAuto);
+  EXPECT_EQ(report.rejected.size(), 100u);
+  for (const double factor : {1e-12, 1e-9, 1e-3, 1e3, 1e9, 1e12}) {
+    PoseGraph scaled = walk.graph;
+    for (Constraint& constraint : scaled.constraints)
+      std::get<RelativePoseConstraint>(constraint).information *= factor;
+    const PoseGraphReport again = optimize(scaled, RobustMethod::kAuto);
+    EXPECT_EQ(ends_of_rejected(again), ends_of_rejected(report)) << factor;
+    EXPECT_LT(rms_distance<TypeParam>(again.graph, report.graph), 1e-4) << factor;
+  }
+}
+
 }  // namespace
 }  // namespace placegraph

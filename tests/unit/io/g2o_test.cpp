@@ -60,6 +60,31 @@ TEST(G2o, ReadsASpatialGraphWhoseEdgesComeFirst) {
   EXPECT_EQ(Matrix6d(edge.information), information);
 }
 
+TEST(G2o, TakesTheNextLargerIdForTheNextWhereHardlyAnEdgeJoinsConsecutiveOnes) {
+  const TemporaryFolder folder;
+  const auto sources = [&](int gap, int nodes) {
+    std::string text;
+    for (int i = nodes - 1; i >= 0; --i)  // ids need not ascend
+      text += "VERTEX_SE2 " + std::to_string(gap * i) + " 0 0 0\n";
+    const auto edge = [&](int from, int to) {
+      text += "EDGE_SE2 " + std::to_string(gap * from) + " " + std::to_string(gap * to) +
+              " 1 0 0 1 0 0 1 0 1\n";
+    };
+    for (int i = 0; i + 1 < nodes; ++i) edge(i + i % 2, i + 1 - i % 2);  // forth and back in turn
+    edge(0, 2);
+    std::vector<ConstraintSource> result;
+    for (const Constraint& constraint : read_g2o(folder.write("a.g2o", text)).constraints)
+      result.push_back(std::get<RelativePoseConstraint>(constraint).source);
+    return result;
+  };
+  std::vector<ConstraintSource> expected(19, ConstraintSource::kOdometry);
+  expected.push_back(ConstraintSource::kLoop);
+  EXPECT_EQ(sources(1, 20), expected);
+  EXPECT_EQ(sources(7, 20), expected);
+  // Too few to tell.
+  EXPECT_EQ(sources(7, 3), std::vector<ConstraintSource>(3, ConstraintSource::kLoop));
+}
+
 TEST(G2o, KeepsInformationThatFixesLessThanAllDirections) {
   const TemporaryFolder folder;
   std::string text = kPlanar;
