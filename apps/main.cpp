@@ -12,6 +12,7 @@
 #include "apps/cmd_eval.h"
 #include "apps/cmd_georeference.h"
 #include "apps/cmd_optimize.h"
+#include "apps/cmd_planes.h"
 #include "apps/cmd_run.h"
 #include "apps/cmd_synth.h"
 #include "apps/cmd_synth_graph.h"
@@ -49,6 +50,7 @@ int main(int argc, char** argv) {
     add_eval_command(app);
     add_georeference_command(app);
     add_optimize_command(app);
+    add_planes_command(app);
     add_run_command(app);
     add_synth_command(app);
     add_synth_graph_command(app);

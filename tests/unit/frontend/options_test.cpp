@@ -8,6 +8,7 @@
 #include <placegraph/frontend/places/loop_verifier.h>
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/frontend/planes/ground_plane.h>
+#include <placegraph/frontend/planes/motion_from_planes.h>
 #include <placegraph/graph/core/error.h>
 
 #include <set>
@@ -20,7 +21,8 @@ class FrontendOptions : public testing::Test {};
 using All =
     testing::Types<DetectorOptions, MatcherOptions, StereoMatcherOptions, PointTrackerOptions,
                    MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
-                   PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions>;
+                   PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
+                   PlanarRegionsOptions, MotionFromPlanesOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.

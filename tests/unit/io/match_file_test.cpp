@@ -1,0 +1,46 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/match_file.h>
+
+#include "tests/support/command.h"
+
+namespace placegraph {
+namespace {
+
+using test::TemporaryFolder;
+using test::write_file;
+using ::testing::HasSubstr;
+
+TEST(MatchFile, ReadsTheFirstFourColumnsOnly) {
+  const TemporaryFolder dir;
+  write_file(dir / "m.txt", "# header\n1 2.5 3 -4 7 score\n\n 1e1 0 0 0\n");
+  const MatchFile matches = read_matches(dir / "m.txt");
+  ASSERT_EQ(matches.px_a.size(), 2u);
+  ASSERT_EQ(matches.px_b.size(), 2u);
+  EXPECT_EQ(matches.px_a[0], Eigen::Vector2d(1, 2.5));
+  EXPECT_EQ(matches.px_b[0], Eigen::Vector2d(3, -4));
+  EXPECT_EQ(matches.px_a[1], Eigen::Vector2d(10, 0));
+}
+
+TEST(MatchFile, NamesTheLineThatIsBroken) {
+  const TemporaryFolder dir;
+  const auto message = [&](const std::string& text) {
+    write_file(dir / "m.txt", text);
+    try {
+      (void)read_matches(dir / "m.txt");
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message("1 2 3 4\n1 2 3\n"), HasSubstr("m.txt:2: 3 columns"));
+  EXPECT_THAT(message("1 2 x 4\n"), HasSubstr("m.txt:1: xB"));
+  EXPECT_THAT(message("1 nan 3 4\n"), HasSubstr("m.txt:1: yA"));
+  EXPECT_THAT(message("1 2 3 4\n1 2 3 1e300\n"), HasSubstr("m.txt:2: yB"));
+  EXPECT_THAT(message("# nothing\n"), HasSubstr("m.txt: no match"));
+  EXPECT_THROW((void)read_matches(dir / "none.txt"), FileError);
+}
+
+}  // namespace
+}  // namespace placegraph
