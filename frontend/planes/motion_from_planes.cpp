@@ -285,7 +285,13 @@ MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatch
   while (!result.readings.empty() &&
          result.readings.back().cost > result.readings.front().cost + options.ambiguity_nats)
     result.readings.pop_back();
-  if (!result.readings.empty())
+  // One motion has five parameters and three a plane; eight a plane is what moves freely.
+  const double tied = 5.0 * (static_cast<double>(regions.regions.size()) - 1);
+  if (!result.readings.empty() &&
+      result.readings.front().cost > result.homographies_cost + tied * per_parameter + 1e-6 * count)
+    result.outcome = Outcome::failure(Outcome::Code::kInconsistent,
+                                      "the planes do not share one motion and this camera");
+  else if (!result.readings.empty())
     result.outcome = Outcome::ok();
   else if (fixed)
     result.outcome = Outcome::failure(Outcome::Code::kInconsistent,

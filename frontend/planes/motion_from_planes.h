@@ -42,7 +42,9 @@ struct MotionFromPlanesResult {
 /// error, and readings with matches behind a camera are dropped. Needs a camera without distortion
 /// (ArgumentError). Outcomes: too few data (no region), degenerate (pure rotation, by description
 /// length: then R_cur_ref is given; or the matches leave a parameter free), inconsistent (no
-/// reading has the matches in front of both cameras).
+/// reading has the matches in front of both cameras, or free homographies describe them in fewer
+/// nats: the planes move each their own way or the camera is another; the readings are then
+/// evidence only).
 [[nodiscard]] MotionFromPlanesResult motion_from_planes(const Camera& camera,
                                                         const PointMatches& matches,
                                                         const PlanarRegionsResult& regions,

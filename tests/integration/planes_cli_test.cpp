@@ -47,19 +47,19 @@ class PlanesCli : public test::CliTest {
 };
 
 TEST_F(PlanesCli, LabelsMatchesAndTellsTheMotion) {
-  const test::PlanesWorld world = make_world(3);
+  const test::PlanesWorld world = make_world(2);
   const CommandResult result =
       run("planes two-view matches.txt --out labels.txt --calibration calibration.yaml "
           "--motion motion.json --json");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_LT(test::misclassification(world.labels, labels_of(dir / "labels.txt")), 0.05);
   const json report = json::parse(result.out);
-  EXPECT_EQ(report["matches"], 150);
-  EXPECT_EQ(report["regions"].size(), 3u);
+  EXPECT_EQ(report["matches"], 110);
+  EXPECT_EQ(report["regions"].size(), 2u);
   const json motion = json::parse(read_file(dir / "motion.json"));
   EXPECT_EQ(motion["outcome"], "ok");
   ASSERT_EQ(motion["readings"].size(), 1u);
-  EXPECT_EQ(motion["readings"][0]["planes"].size(), 3u);
+  EXPECT_EQ(motion["readings"][0]["planes"].size(), 2u);
   Eigen::Vector3d t;
   for (int i = 0; i < 3; ++i) t[i] = motion["readings"][0]["t_b_a"][i];
   EXPECT_LT(test::angle_between(t, world.T_cur_ref.translation()), 0.08);

@@ -2,6 +2,8 @@
 #include <placegraph/frontend/planes/label_expansion.h>
 #include <placegraph/graph/core/error.h>
 
+#include <cmath>
+
 #include "tests/support/seed.h"
 
 namespace placegraph {
@@ -33,7 +35,7 @@ TEST(LabelExpansion, FollowsTheNeighboursWhereTheyWeighMore) {
 TEST(LabelExpansion, FindsTheBestOfTwoLabelsAndNeverMoreThanTwiceTheBestOfThree) {
   // With two labels one cut is exact; with more the answer costs at most twice the least (Boykov,
   // Veksler & Zabih 2001, theorem 6.1). All labellings are tried.
-  Random random = seeded_random(65);
+  Random random = test::seeded_random(65);
   for (int run = 0; run < 30; ++run) {
     const int n = 7, kinds = 2 + run % 2;
     LabelProblem problem;
