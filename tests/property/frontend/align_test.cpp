@@ -118,6 +118,25 @@ TEST(Aligner, HoldsUnderThirtyPercentOcclusionAndAnotherExposure) {
   EXPECT_GE(held, 5);
 }
 
+TEST(SwarmWithEsm, ConvergesFromAThirdOfTheTemplatesSide) {
+  Random random = seeded_random(87);
+  int alone = 0, hybrid = 0;
+  constexpr int kTrials = 8;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const World world(6, 2, random, {random.next(), 40, 4, 40, 128});
+    const auto start = world.planar_template.homography(
+        world.H_cur_ref * random_homography(world.planar_template, 26, random));
+    AlignOptions options;
+    alone += world.error_px(
+                 align(world.planar_template, world.image, start, options).warp.H_cur_ref()) < 1;
+    options.optimizer = AlignOptimizer::kSwarmEsm;
+    hybrid += world.error_px(
+                  align(world.planar_template, world.image, start, options).warp.H_cur_ref()) < 1;
+  }
+  EXPECT_GE(hybrid, kTrials - 1);
+  EXPECT_GE(hybrid, alone);
+}
+
 TEST(Aligner, GivesTheSameBitsOnAnyNumberOfThreads) {
   Random random = seeded_random(85);
   const World world(12, 2, random, {5, 40, 3, 40, 128});
