@@ -11,6 +11,7 @@
 #include "apps/cmd_convert.h"
 #include "apps/cmd_eval.h"
 #include "apps/cmd_georeference.h"
+#include "apps/cmd_lines.h"
 #include "apps/cmd_optimize.h"
 #include "apps/cmd_planes.h"
 #include "apps/cmd_run.h"
@@ -49,6 +50,7 @@ int main(int argc, char** argv) {
     add_convert_command(app);
     add_eval_command(app);
     add_georeference_command(app);
+    add_lines_command(app);
     add_optimize_command(app);
     add_planes_command(app);
     add_run_command(app);

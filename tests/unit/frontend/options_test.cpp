@@ -3,6 +3,8 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/frontend/lines/segment_detector.h>
+#include <placegraph/frontend/lines/segment_matcher.h>
 #include <placegraph/frontend/odometry/mono_initializer.h>
 #include <placegraph/frontend/odometry/pose_3d2d.h>
 #include <placegraph/frontend/places/loop_verifier.h>
@@ -22,7 +24,8 @@ using All =
     testing::Types<DetectorOptions, MatcherOptions, StereoMatcherOptions, PointTrackerOptions,
                    MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
                    PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
-                   PlanarRegionsOptions, MotionFromPlanesOptions>;
+                   PlanarRegionsOptions, MotionFromPlanesOptions, SegmentDetectorOptions,
+                   SegmentMatcherOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.

@@ -1,0 +1,9 @@
+#pragma once
+#include <CLI/App.hpp>
+
+namespace placegraph::apps {
+
+/// `placegraph lines detect IMAGE` and `placegraph lines match A B`: straight edges of images.
+void add_lines_command(CLI::App& app);
+
+}  // namespace placegraph::apps

@@ -1,0 +1,17 @@
+#pragma once
+#include <placegraph/graph/core/line_segment.h>
+
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// Line segments of an image in text, `u1 v1 u2 v2` [px] a line, blanks or tabs between, `#` before
+/// a comment. Throws FileError "file:line: ..." if a line is anything else or its segment has no
+/// length: the number of a line is the segment's, so that none may be left out.
+std::vector<LineSegment> read_segments(const std::string& path);
+
+/// Writes them with a thousandth of a pixel. Throws FileError.
+void write_segments(const std::string& path, const std::vector<LineSegment>& segments);
+
+}  // namespace placegraph
