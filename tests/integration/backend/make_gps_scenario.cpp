@@ -79,9 +79,11 @@ void write_scenario(const std::string& kitti, const std::string& out,
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 5 || argc > 6) {
-    std::fputs("make_gps_scenario KITTI_GT OUT SEED FIRST-LAST[,FIRST-LAST...] [time|line]\n",
-               stderr);
+  if (argc < 5 || argc > 8 || argc == 7) {
+    std::fputs(
+        "make_gps_scenario KITTI_GT OUT SEED FIRST-LAST[,FIRST-LAST...] [time|line [WALK_M "
+        "WALK_RAD]]\n",
+        stderr);
     return 2;
   }
   try {
@@ -89,7 +91,7 @@ int main(int argc, char** argv) {
     options.seed = std::stoull(argv[3]);
     options.dropouts_s = parse_spans(argv[4]);
     options.reference_by_line = argc > 5 && std::string(argv[5]) == "line";
-    if (argc > 7) {
+    if (argc == 8) {
       options.translation_walk = std::stod(argv[6]);
       options.rotation_walk = std::stod(argv[7]);
     }
