@@ -109,7 +109,7 @@ TEST_P(LineMatching, IsPreciseAndFindsMostEdges) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Segments, LineMatching, testing::Values("lsd", "ed"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
 }  // namespace placegraph
