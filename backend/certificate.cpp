@@ -1,8 +1,12 @@
 #include <Spectra/SymEigsSolver.h>
 #include <placegraph/backend/certificate.h>
 #include <placegraph/backend/chordal_relaxation.h>
+#include <placegraph/backend/rotation_agreement.h>
+#include <placegraph/backend/tied_problem.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace placegraph {
 namespace {
@@ -10,6 +14,8 @@ namespace {
 /// A cost below this share of n d scale (residuals of 3e-5 rad) is taken for zero: the gap is then
 /// reckoned against it.
 constexpr double kCostFloor = 1e-9;
+/// A matrix that this many times its scale does not make positive is not finite.
+constexpr double kLargestShift = 1e9;
 
 /// (Schur complement of the certificate matrix on the rotations + shift)^-1, for Spectra.
 template <int dim>
@@ -97,8 +103,8 @@ bool CertificateMatrix<dim>::factorize(double shift) {
 }
 
 template <int dim>
-typename CertificateMatrix<dim>::Curvature CertificateMatrix<dim>::curvature(
-    double accepted_shift) {
+typename CertificateMatrix<dim>::Curvature CertificateMatrix<dim>::curvature(double accepted_shift,
+                                                                             int max_restarts) {
   Curvature curvature;
   curvature.shift = accepted_shift;
   if (accepted_shift > 0 && factorize(accepted_shift)) {
@@ -107,12 +113,19 @@ typename CertificateMatrix<dim>::Curvature CertificateMatrix<dim>::curvature(
   }
   const double floor = scale_ > 0 ? 1e-12 * scale_ : 1;
   double shift = std::max(4 * accepted_shift, 100 * floor);
-  while (!factorize(shift)) shift *= 8;
+  curvature.factorizations = 2;
+  for (; !factorize(shift); shift *= 8, ++curvature.factorizations) {
+    if (shift < kLargestShift * std::max(scale_, 1.0)) continue;
+    curvature.shift = std::numeric_limits<double>::infinity();
+    curvature.smallest_eigenvalue = -curvature.shift;
+    return curvature;
+  }
   InverseOfShifted<dim> inverse(matrix_);
   Spectra::SymEigsSolver<InverseOfShifted<dim>> lanczos(
       inverse, 1, static_cast<int>(std::min<Eigen::Index>(inverse.rows(), 24)));
   lanczos.init();
-  lanczos.compute(Spectra::SortRule::LargestAlge, 300, 1e-8);
+  lanczos.compute(Spectra::SortRule::LargestAlge, max_restarts, 1e-8);
+  curvature.solutions = static_cast<int>(lanczos.num_operations());
   curvature.shift = shift;
   curvature.smallest_eigenvalue = -shift;
   if (lanczos.info() != Spectra::CompInfo::Successful) return curvature;
@@ -124,6 +137,7 @@ typename CertificateMatrix<dim>::Curvature CertificateMatrix<dim>::curvature(
   for (const double rounding : {0.1 * floor, floor}) {
     const double proven = std::max(0.0, -curvature.smallest_eigenvalue) * 1.001 + rounding;
     if (proven >= shift || !factorize(proven)) continue;
+    ++curvature.factorizations;
     curvature.shift = proven;
     break;
   }
@@ -138,6 +152,8 @@ double CertificateMatrix<dim>::lower_bound(double shift) const {
 template <int dim>
 double CertificateMatrix<dim>::relative_gap(double cost, double lower_bound) const {
   const double floor = kCostFloor * problem_.nodes * dim * scale_;
+  if (!std::isfinite(cost)) return 1;
+  if (!std::isfinite(lower_bound)) lower_bound = 0;  // no cost is below that
   return std::max(0.0, cost - lower_bound) / std::max(cost, floor);
 }
 
@@ -146,13 +162,7 @@ ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& 
                                                       RotationError rotation_error,
                                                       const CertificateOptions& options) {
   constexpr int dim = kSpaceDim<Group>;
-  Eigen::VectorXd log_scale;
-  if constexpr (Group::kDof == 7) {
-    log_scale.resize(static_cast<Eigen::Index>(graph.poses.size()));
-    for (Eigen::Index i = 0; i < log_scale.size(); ++i)
-      log_scale[i] = std::log(graph.poses[static_cast<std::size_t>(i)].scale());
-  }
-  const IsotropicProblem<dim> problem = isotropic_problem(graph, rotation_error, log_scale);
+  const IsotropicProblem<dim> problem = tied_problem(graph, find_anchors(graph), rotation_error);
   ChordalIsotropicCertificate certificate;
   certificate.cost_of_estimate = isotropic_cost(problem, graph.poses);
   if (problem.edges.empty()) {
@@ -160,15 +170,18 @@ ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& 
     return certificate;
   }
   const ChordalRelaxation<dim> relaxation(problem);
-  Eigen::MatrixXd X = relaxation.point(graph.poses);
+  const Eigen::MatrixXd estimate = relaxation.point(graph.poses);
+  Eigen::MatrixXd X = estimate;
   certificate.cost = relaxation.minimize(X).cost;
   CertificateMatrix<dim> matrix = relaxation.certificate_matrix(X);
   const auto curvature = matrix.curvature(0);
   certificate.smallest_eigenvalue = curvature.smallest_eigenvalue;
   certificate.eigenvalue_scale = matrix.scale();
   certificate.lower_bound = std::max(0.0, matrix.lower_bound(curvature.shift));
-  certificate.relative_gap = matrix.relative_gap(certificate.cost, certificate.lower_bound);
-  certificate.certified = certificate.relative_gap <= options.max_relative_gap;
+  const bool near = std::isfinite(certificate.cost_of_estimate) && points_agree<dim>(estimate, X);
+  certificate.relative_gap = matrix.relative_gap(
+      near ? certificate.cost : certificate.cost_of_estimate, certificate.lower_bound);
+  certificate.certified = near && certificate.relative_gap <= options.max_relative_gap;
   return certificate;
 }
 

@@ -25,11 +25,14 @@ class CertificateMatrix {
     double shift = 0;                ///< with which S was factorized: a proven bound
     /// (d+1)n, v^T S v = smallest_eigenvalue |v on the rotations|^2; empty if it was not searched.
     Eigen::VectorXd direction;
+    int factorizations = 0, solutions = 0;  ///< what it took
   };
   /// If S + `accepted_shift` can be factorized at once, nothing more is computed, and the
   /// eigenvalue is said to be that bound; else a shift-and-invert Lanczos search (Spectra), which
-  /// an accepted shift of zero always starts.
-  Curvature curvature(double accepted_shift);
+  /// an accepted shift of zero always starts; after `max_restarts` it is given up, and the
+  /// eigenvalue is said to be the bound that was proven on the way. A matrix that is not finite has
+  /// the shift infinity: nothing is proven.
+  Curvature curvature(double accepted_shift, int max_restarts = 300);
   /// Whether S + shift is positive definite, by a factorization: nothing is searched.
   [[nodiscard]] bool positive_with(double shift) { return factorize(shift); }
   /// sum tr(Lambda_i) - n d shift
@@ -50,14 +53,18 @@ class CertificateMatrix {
 
 /// What is proven of an estimate. Only the isotropic chordal problem is certified: that its global
 /// minimum is near, not that the graph's own cost, which differs from it by the directions of the
-/// information, kernels, measured positions and fixed nodes, has no lower minimum.
+/// information, kernels and measured positions, has no lower minimum. Fixed nodes are tied to each
+/// other (tied_problem).
 struct ChordalIsotropicCertificate {
   static constexpr const char* kProblem = "chordal_isotropic";
-  bool certified = false;          ///< relative_gap is at most CertificateOptions::max_relative_gap
-  double cost = 0;                 ///< f at its minimum nearest to the estimate
-  double cost_of_estimate = 0;     ///< f at the estimate itself
-  double lower_bound = 0;          ///< of f over all poses
-  double relative_gap = 0;         ///< CertificateMatrix::relative_gap
+  /// relative_gap is at most CertificateOptions::max_relative_gap, and no pose is turned by more
+  /// than 0.3 rad from the minimum that was found: that is the estimate's own.
+  bool certified = false;
+  double cost = 0;              ///< f at its minimum nearest to the estimate
+  double cost_of_estimate = 0;  ///< f at the estimate itself
+  double lower_bound = 0;       ///< of f over all poses
+  /// CertificateMatrix::relative_gap of that minimum; of the estimate where it lies in another.
+  double relative_gap = 0;
   double smallest_eigenvalue = 0;  ///< of the certificate matrix at that minimum
   double eigenvalue_scale = 0;     ///< mean diagonal entry it is to be compared with
 };

@@ -2,6 +2,8 @@
 #include <placegraph/backend/certified_start.h>
 #include <placegraph/backend/chordal_relaxation.h>
 #include <placegraph/backend/initialization.h>
+#include <placegraph/backend/rotation_agreement.h>
+#include <placegraph/backend/tied_problem.h>
 
 #include <algorithm>
 
@@ -16,36 +18,18 @@ constexpr double kFewestLiftedSteps = 20, kMostLiftedSteps = 300;
 /// A lifted descent that lowers the cost by less than this share has left nothing to climb for.
 constexpr double kLiftedGain = 1e-7;
 constexpr double kLiftedPromiseShare = 1e-12;
+/// Where a minimum of higher rank lies by this share below the one that it rounds to, the
+/// relaxation is not tight: a bound is still to be had, but no lower minimum of rank d.
+constexpr double kGapOfNoReturn = 1e-2;
+/// Of the effort, that one descent may take.
+constexpr double kDescentShare = 0.4;
+/// Of the search for an eigenvalue, by Lanczos; a restart solves so many systems.
+constexpr int kSolutionsOfRestart = 12;
+constexpr double kFewestRestarts = 5, kMostRestarts = 300;
 constexpr double kTightGap = 1e-5;
 /// A shift of the certificate matrix that costs this share of the bound is accepted unseen.
 constexpr double kAcceptedShare = 1e-7;
-constexpr int kShortDescent = 15;        ///< steps to a minimum that is near
-constexpr double kCosineOfSame = 0.955;  ///< 0.3 rad: more than noise turns within one minimum
-constexpr double kStiffness = 1e3;  ///< of ties between held nodes, in the heaviest edge's weights
-
-template <class Group>
-void tie_held_nodes(const PackedGraph<Group>& graph, const Anchors& anchors,
-                    IsotropicProblem<kSpaceDim<Group>>& problem) {
-  double rotation_weight = 0, translation_weight = 0;
-  for (const auto& edge : problem.edges) {
-    rotation_weight = std::max(rotation_weight, kStiffness * edge.rotation_weight);
-    translation_weight = std::max(translation_weight, kStiffness * edge.translation_weight);
-  }
-  std::vector<int> last(anchors.components, -1);  // held node of the component
-  for (std::size_t i = 0; i < graph.poses.size(); ++i) {
-    if (!graph.held[i]) continue;
-    int& previous = last[anchors.component[i]];
-    if (previous >= 0) {
-      const auto R_world_from = graph.poses[previous].rotation();
-      const auto R_from_world = R_world_from.inverse();
-      problem.edges.push_back(
-          {previous, static_cast<int>(i), (R_from_world * graph.poses[i].rotation()).matrix(),
-           R_from_world * (graph.poses[i].translation() - graph.poses[previous].translation()),
-           rotation_weight, translation_weight});
-    }
-    previous = static_cast<int>(i);
-  }
-}
+constexpr int kShortDescent = 15;  ///< steps to a minimum that is near
 
 /// Rotations and translations of the point of rank d into the poses, every component moved as a
 /// whole to where its first anchor stands; anchors keep their poses.
@@ -84,15 +68,59 @@ void set_poses(const Eigen::MatrixXd& X, const Anchors& anchors, PackedGraph<Gro
   }
 }
 
-/// The staircase from X, a minimum of rank d; X becomes the lower minimum of rank d.
+/// Descents and searches of one certified start, and what they may cost together.
 template <int dim>
-CertifiedStartReport climb(const ChordalRelaxation<dim>& relaxation, int nodes,
+class Climber {
+ public:
+  Climber(const ChordalRelaxation<dim>& relaxation, double max_effort)
+      : relaxation_(relaxation), max_effort_(max_effort) {}
+
+  double effort() const { return effort_; }
+  bool exhausted() const { return effort_ >= max_effort_; }
+  /// With no more than this share of what may be spent at all.
+  typename ChordalRelaxation<dim>::Descent minimize(
+      Eigen::MatrixXd& X, double share, typename ChordalRelaxation<dim>::DescentOptions options) {
+    options.max_effort = share * max_effort_;
+    const auto descent = relaxation_.minimize(X, options);
+    effort_ += descent.effort;
+    return descent;
+  }
+  typename CertificateMatrix<dim>::Curvature curvature(CertificateMatrix<dim>& matrix,
+                                                       double accepted_shift) {
+    const double restart = relaxation_.certificate_effort(0, kSolutionsOfRestart);
+    const double affordable = std::max(0.0, max_effort_ - effort_) / restart;
+    const auto curvature = matrix.curvature(
+        accepted_shift, static_cast<int>(std::clamp(affordable, kFewestRestarts, kMostRestarts)));
+    effort_ += relaxation_.certificate_effort(curvature.factorizations, curvature.solutions);
+    return curvature;
+  }
+
+ private:
+  const ChordalRelaxation<dim>& relaxation_;
+  double max_effort_, effort_ = 0;
+};
+
+/// The minimum of rank d that the lifted point rounds to, if it is lower than X.
+template <int dim>
+void take_rounded(const ChordalRelaxation<dim>& relaxation, const Eigen::MatrixXd& lifted,
+                  Climber<dim>& climber, Eigen::MatrixXd& X, double& cost) {
+  Eigen::MatrixXd rounded = relaxation.round(lifted);
+  const double rounded_cost = climber.minimize(rounded, kDescentShare, {}).cost;
+  if (rounded_cost >= cost) return;
+  cost = rounded_cost;
+  X = std::move(rounded);
+}
+
+/// The staircase from X, a minimum of rank d; X becomes the lowest minimum of rank d.
+template <int dim>
+CertifiedStartReport climb(const ChordalRelaxation<dim>& relaxation, int nodes, double max_effort,
                            Eigen::MatrixXd& X) {
+  Climber<dim> climber(relaxation, max_effort);
   CertifiedStartReport report;
   report.rank = dim;
-  report.cost = relaxation.minimize(X).cost;
+  report.cost = climber.minimize(X, kDescentShare, {}).cost;
   double lifted_cost = report.cost;
-  bool gained = true;
+  bool promising = true;
   Eigen::MatrixXd lifted = X;
   int steps =
       static_cast<int>(std::clamp(kLiftedEffort / nodes, kFewestLiftedSteps, kMostLiftedSteps));
@@ -100,48 +128,28 @@ CertifiedStartReport climb(const ChordalRelaxation<dim>& relaxation, int nodes,
     CertificateMatrix<dim> matrix = relaxation.certificate_matrix(lifted);
     const double accepted =
         kAcceptedShare * lifted_cost / (static_cast<double>(nodes) * dim) + 1e-13 * matrix.scale();
-    const auto curvature = matrix.curvature(accepted);
+    const auto curvature = climber.curvature(matrix, accepted);
     report.lower_bound = std::max(report.lower_bound, matrix.lower_bound(curvature.shift));
     report.relative_gap = matrix.relative_gap(report.cost, report.lower_bound);
     if (report.relative_gap <= kTightGap || curvature.direction.size() == 0 ||
         curvature.smallest_eigenvalue >= -10 * accepted || lifts == kMostLifts || steps <= 0 ||
-        !gained)
+        !promising || climber.exhausted())
       break;
     lifted = relaxation.escape(lifted, curvature.direction);
-    const auto descent = relaxation.minimize(lifted, {steps, kLiftedPromiseShare});
-    gained = descent.cost < (1 - kLiftedGain) * lifted_cost;
+    const auto descent = climber.minimize(
+        lifted, kDescentShare, {.max_steps = steps, .promise_share = kLiftedPromiseShare});
+    const bool gained = descent.cost < (1 - kLiftedGain) * lifted_cost;
     lifted_cost = descent.cost;
     steps -= descent.iterations + 1;
     report.rank = static_cast<int>(lifted.rows());
+    take_rounded(relaxation, lifted, climber, X, report.cost);
+    const bool far_from_tight =
+        descent.converged && report.cost > (1 + kGapOfNoReturn) * lifted_cost;
+    promising = gained && !far_from_tight;
   }
-  if (report.rank > dim) {
-    Eigen::MatrixXd rounded = relaxation.round(lifted);
-    const double cost = relaxation.minimize(rounded).cost;
-    if (cost < report.cost) {
-      report.cost = cost;
-      X = std::move(rounded);
-    }
-    report.relative_gap =
-        relaxation.certificate_matrix(X).relative_gap(report.cost, report.lower_bound);
-  }
+  report.effort = climber.effort();
   report.tight = report.relative_gap <= kTightGap;
   return report;
-}
-
-/// The isotropic problem of the graph, its held nodes tied to each other.
-template <class Group>
-IsotropicProblem<kSpaceDim<Group>> tied_problem(const PackedGraph<Group>& graph,
-                                                const Anchors& anchors,
-                                                RotationError rotation_error) {
-  Eigen::VectorXd log_scale;
-  if constexpr (Group::kDof == 7) {
-    log_scale.resize(static_cast<Eigen::Index>(graph.poses.size()));
-    for (Eigen::Index i = 0; i < log_scale.size(); ++i)
-      log_scale[i] = std::log(graph.poses[static_cast<std::size_t>(i)].scale());
-  }
-  auto problem = isotropic_problem(graph, rotation_error, log_scale);
-  tie_held_nodes(graph, anchors, problem);
-  return problem;
 }
 
 /// Whether X is a global minimum to kTightGap, by one factorization.
@@ -157,22 +165,11 @@ bool proves_itself(const ChordalRelaxation<dim>& relaxation, int nodes, const Ei
           matrix.relative_gap(cost, matrix.lower_bound(shift)) <= kTightGap);
 }
 
-/// Whether the rotations of X and Z, points of rank d, differ nowhere by more than 0.3 rad.
-template <int dim>
-bool rotations_agree(const Eigen::MatrixXd& X, const Eigen::MatrixXd& Z, int nodes) {
-  constexpr double kTraceOfSame = dim == 2 ? 2 * kCosineOfSame : 1 + 2 * kCosineOfSame;
-  const auto rotation = [](const Eigen::MatrixXd& point, int i) {
-    return point.middleCols<dim>(i * (dim + 1));
-  };
-  for (int i = 0; i < nodes; ++i)
-    if (!(rotation(X, i).cwiseProduct(rotation(Z, i)).sum() > kTraceOfSame)) return false;
-  return true;
-}
-
 }  // namespace
 
 template <class Group>
-CertifiedStartReport certified_start(PackedGraph<Group>& graph, RotationError rotation_error) {
+CertifiedStartReport certified_start(PackedGraph<Group>& graph, RotationError rotation_error,
+                                     double max_effort) {
   constexpr int dim = kSpaceDim<Group>;
   const Anchors anchors = find_anchors(graph);
   const IsotropicProblem<dim> problem = tied_problem(graph, anchors, rotation_error);
@@ -182,7 +179,7 @@ CertifiedStartReport certified_start(PackedGraph<Group>& graph, RotationError ro
   }
   const ChordalRelaxation<dim> relaxation(problem);
   Eigen::MatrixXd X = relaxation.point(graph.poses);
-  const CertifiedStartReport report = climb(relaxation, problem.nodes, X);
+  const CertifiedStartReport report = climb(relaxation, problem.nodes, max_effort, X);
   set_poses(relaxation.round(X), anchors, graph);
   align_to_positions(graph);
   return report;
@@ -199,12 +196,11 @@ bool certified_as_they_are(const PackedGraph<Group>& graph, RotationError rotati
   if (proves_itself(relaxation, problem.nodes, here)) return true;
   Eigen::MatrixXd X = here;
   return relaxation.minimize(X, {.max_steps = kShortDescent}).converged &&
-         rotations_agree<dim>(here, X, problem.nodes) &&
-         proves_itself(relaxation, problem.nodes, X);
+         points_agree<dim>(here, X) && proves_itself(relaxation, problem.nodes, X);
 }
 
-#define PLACEGRAPH_INSTANTIATE(Group)                                                \
-  template CertifiedStartReport certified_start(PackedGraph<Group>&, RotationError); \
+#define PLACEGRAPH_INSTANTIATE(Group)                                                        \
+  template CertifiedStartReport certified_start(PackedGraph<Group>&, RotationError, double); \
   template bool certified_as_they_are(const PackedGraph<Group>&, RotationError);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)

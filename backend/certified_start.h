@@ -9,6 +9,7 @@ struct CertifiedStartReport {
   double lower_bound = 0;  ///< of that problem, as far as it was proven
   double relative_gap = 0;
   int rank = 0;        ///< to which the relaxation had to be lifted; d: not at all
+  double effort = 0;   ///< ChordalRelaxation::Descent::effort, all in all
   bool tight = false;  ///< the poses are the problem's global minimum, to a gap of 1e-5
 };
 
@@ -20,9 +21,14 @@ struct CertifiedStartReport {
 /// of the two minima is taken. Held nodes stay; several held ones of a component are tied to each
 /// other by stiff edges, and one of them places it. Measured positions only place what nothing
 /// holds. Sim(3): the scales in `graph` are kept.
+///
+/// A descent takes no more than 0.4 of `max_effort` (in Gauss-Newton iterations on the graph, by
+/// operations), and nothing is lifted or searched for when that is spent: where the relaxation is
+/// not tight the staircase climbs for long and gains little.
 template <class Group>
 CertifiedStartReport certified_start(PackedGraph<Group>& graph,
-                                     RotationError rotation_error = RotationError::kLog);
+                                     RotationError rotation_error = RotationError::kLog,
+                                     double max_effort = 3000);
 
 /// Whether the poses are, or lie by a minimum of the isotropic chordal problem that is, its global
 /// minimum to a gap of 1e-5: looked for at the poses themselves, which costs one factorization and

@@ -11,6 +11,8 @@ namespace placegraph {
 namespace {
 
 constexpr int kMaxProducts = 200;  ///< of one step
+/// Operations per edge, beside those that grow with the rank, and per node.
+constexpr double kLinearization = 500, kProduct = 200, kNode = 100;
 
 double inner(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) { return A.cwiseProduct(B).sum(); }
 
@@ -156,6 +158,31 @@ struct ChordalRelaxation<dim>::Impl {
     return H;
   }
 
+  // Operations are counted, not timed, so that the same input gives the same bits.
+  double factorization_operations(int block) const {
+    return order.operations * block * block * block;
+  }
+  double solution_operations(int block) const { return 2 * order.fill * block * block; }
+  double edges() const { return static_cast<double>(problem.edges.size()); }
+  /// Of one Gauss-Newton iteration on the pose graph.
+  double iteration_operations() const {
+    constexpr int dof = dim * (dim + 1) / 2;
+    return factorization_operations(dof) + solution_operations(dof) +
+           edges() * dof * kLinearization;
+  }
+  int lifted_block(int rank) const { return dim * rank - dim * (dim + 1) / 2 + rank; }
+  /// Of a product with the Hessian and one with the preconditioner.
+  double product_operations(int rank) const {
+    return solution_operations(lifted_block(rank)) + edges() * (kProduct + 8.0 * rank * dim) +
+           nodes() * (kNode + 8.0 * rank * rank * dim);
+  }
+  /// Of an outer step, beside the products.
+  double step_operations(int rank) const {
+    const int block = lifted_block(rank);
+    return factorization_operations(block) + edges() * (kProduct + 4.0 * rank * block * block) +
+           2 * product_operations(rank);
+  }
+
   struct Step {
     Eigen::MatrixXd eta;
     double promise = 0, length = 0;  // decrease of the model; norm in the preconditioner's metric
@@ -215,7 +242,9 @@ struct ChordalRelaxation<dim>::Impl {
     LiftedPreconditioner<dim> preconditioner(problem, order, static_cast<int>(X.rows()));
     Eigen::MatrixXd XQ = product(X);
     bool moved = true;
-    for (; descent.iterations < options.max_steps; ++descent.iterations) {
+    const int rank = static_cast<int>(X.rows());
+    for (; descent.iterations < options.max_steps && descent.effort < options.max_effort;
+         ++descent.iterations) {
       const Multipliers lambda = multipliers(X, XQ);
       Eigen::MatrixXd gradient = XQ;
       project(X, gradient);
@@ -230,6 +259,8 @@ struct ChordalRelaxation<dim>::Impl {
       const Step step =
           truncated_cg(X, lambda, preconditioner, gradient, preconditioned, radius, forcing);
       descent.products += step.products;
+      descent.effort += (step_operations(rank) + step.products * product_operations(rank)) /
+                        iteration_operations();
       const Eigen::MatrixXd next = retract(X, step.eta);
       const double next_cost = cost(next);
       // At the end both are rounding.
@@ -277,6 +308,13 @@ Eigen::MatrixXd ChordalRelaxation<dim>::point(const std::vector<Group>& poses) c
 template <int dim>
 double ChordalRelaxation<dim>::cost(const Eigen::MatrixXd& X) const {
   return impl_->cost(X);
+}
+
+template <int dim>
+double ChordalRelaxation<dim>::certificate_effort(int factorizations, int solutions) const {
+  return (factorizations * impl_->factorization_operations(dim + 1) +
+          solutions * impl_->solution_operations(dim + 1)) /
+         impl_->iteration_operations();
 }
 
 template <int dim>

@@ -3,6 +3,7 @@
 #include <placegraph/backend/isotropic_problem.h>
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 
 namespace placegraph {
@@ -33,16 +34,23 @@ class ChordalRelaxation {
     int max_steps = 300;
     /// The end: the preconditioned gradient promises less than this share of the cost.
     double promise_share = 1e-14;
+    /// No step is begun after that; in iterations, see Descent.
+    double max_effort = std::numeric_limits<double>::infinity();
   };
   struct Descent {
     double cost = 0;
     int iterations = 0, products = 0;  ///< outer steps; Hessian products inside them
+    /// Operations as a multiple of those of one Gauss-Newton iteration on the pose graph itself.
+    double effort = 0;
     bool converged = false;
   };
   /// Down to a critical point near X, by a Riemannian trust-region method with truncated conjugate
   /// gradients (Absil et al. 2007), preconditioned with the Gauss-Newton Hessian's Cholesky factor.
   Descent minimize(Eigen::MatrixXd& X, const DescentOptions& options) const;
   Descent minimize(Eigen::MatrixXd& X) const { return minimize(X, DescentOptions{}); }
+
+  /// Of so many factorizations of S and solutions with it; see Descent.
+  double certificate_effort(int factorizations, int solutions) const;
 
   /// S at X.
   CertificateMatrix<dim> certificate_matrix(const Eigen::MatrixXd& X) const;

@@ -1,16 +1,26 @@
+#include <placegraph/backend/anchors.h>
 #include <placegraph/backend/certified_start.h>
 #include <placegraph/backend/initialization.h>
 #include <placegraph/backend/isotropic_problem.h>
+#include <placegraph/backend/replayed_start.h>
+#include <placegraph/backend/rotation_agreement.h>
 #include <placegraph/backend/start_selection.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace placegraph {
 namespace {
 
 constexpr double kLogOdds = 6;
-constexpr double kCosineOfNear = 0.88;   // 0.5 rad
-constexpr double kCosineOfSame = 0.955;  // 0.3 rad
+constexpr int kMostContinued = 4;   // times that a descent which ran out of iterations goes on
+constexpr double kWithinReach = 2;  // times the lowest minimum: a descent above that is given up
+/// What the certified start and the replay may cost, in descents like the first one; the certified
+/// start at least so many iterations: where its relaxation is tight it takes a few dozen.
+constexpr double kCertifiedDescents = 5, kLeastCertifiedIterations = 200;
+constexpr double kReplayDescents = 10;
+constexpr double kCosineOfNear = 0.88;  // 0.5 rad
 
 /// The residual rotation of an edge, turned into the world frame (its third component in the
 /// plane), and the inverse of the rotation weight.
@@ -100,6 +110,32 @@ struct Tree {
   }
 };
 
+/// A descent that goes on where it ran out of iterations, was still falling and is below `worth`.
+template <class Group>
+LocalSolution descend_to_the_end(PackedGraph<Group>& graph, LocalSolver<Group>& solver,
+                                 double worth = std::numeric_limits<double>::infinity()) {
+  LocalSolution solution = solver.solve(graph);
+  for (int round = 0; round < kMostContinued && !solution.outcome && solution.cost_final < worth;
+       ++round) {
+    LocalSolution next = solver.solve(graph);
+    const bool fell = next.cost_final < solution.cost_final;
+    solution.outcome = std::move(next.outcome);
+    solution.iterations += next.iterations;
+    solution.cost_final = next.cost_final;
+    if (!fell) break;
+  }
+  return solution;
+}
+
+/// Whether a is to be preferred: first of all it must have ended, then be lower.
+bool better(const LocalSolution& a, const LocalSolution& b) {
+  if (std::isfinite(a.cost_final) != std::isfinite(b.cost_final))
+    return std::isfinite(a.cost_final);
+  if (static_cast<bool>(a.outcome) != static_cast<bool>(b.outcome))
+    return static_cast<bool>(a.outcome);
+  return a.cost_final < b.cost_final;
+}
+
 /// Descents from several starts; remembers the lowest minimum.
 template <class Group>
 class Candidates {
@@ -108,16 +144,25 @@ class Candidates {
       : graph_(graph), solver_(solver) {}
 
   void descend(std::vector<Group> poses, PoseGraphStart start) {
+    starts_.push_back(poses);
     graph_.poses = std::move(poses);
-    LocalSolution solution = solver_.solve(graph_);
+    LocalSolution solution =
+        best_.solution.outcome
+            ? descend_to_the_end(graph_, solver_, kWithinReach * best_.solution.cost_final)
+            : descend_to_the_end(graph_, solver_);
     iterations_ += solution.iterations;
-    if (!poses_.empty() && std::isfinite(best_.solution.cost_final) &&
-        !(solution.cost_final < best_.solution.cost_final))
-      return;
+    if (!poses_.empty() && !better(solution, best_.solution)) return;
     best_.solution = std::move(solution);
     best_.used = start;
     poses_ = graph_.poses;
   }
+  /// Unless a descent from about there has been made.
+  void descend_if_new(const std::vector<Group>& poses, PoseGraphStart start) {
+    for (const std::vector<Group>& earlier : starts_)
+      if (rotations_agree(earlier, poses)) return;
+    descend(poses, start);
+  }
+  int iterations() const { return iterations_; }
   const LocalSolution& best() const { return best_.solution; }
   const std::vector<Group>& poses() const { return poses_; }
   /// Leaves the lowest minimum in the graph.
@@ -131,13 +176,11 @@ class Candidates {
  private:
   PackedGraph<Group>& graph_;
   LocalSolver<Group>& solver_;
+  std::vector<std::vector<Group>> starts_;
   std::vector<Group> poses_;
   StartSolution best_;
   int iterations_ = 0;
 };
-
-double cosine(const SO2& R) { return std::cos(R.angle()); }
-double cosine(const SO3& R) { return 2 * R.quaternion().w() * R.quaternion().w() - 1; }
 
 /// Whether no measured rotation is further from the poses than a step of Gauss-Newton can mend.
 template <class Group>
@@ -146,25 +189,7 @@ bool rotations_are_near(const PackedGraph<Group>& graph) {
     if (edge.weight == 0) continue;
     const auto E = edge.T_to_from.rotation() *
                    (graph.poses[edge.from].rotation().inverse() * graph.poses[edge.to].rotation());
-    double cosine;
-    if constexpr (Group::kDof == 3)
-      cosine = std::cos(E.angle());
-    else
-      cosine = 2 * E.quaternion().w() * E.quaternion().w() - 1;
-    if (!(cosine > kCosineOfNear)) return false;
-  }
-  return true;
-}
-
-/// Whether two estimates differ nowhere by more than the noise could turn a pose within one
-/// minimum: then a descent from either ends in the same.
-template <class Group>
-bool rotations_agree(const std::vector<Group>& a, const std::vector<Group>& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    // Relative to the first, whatever holds the gauge.
-    const auto turn_a = a[0].rotation().inverse() * a[i].rotation();
-    const auto turn_b = b[0].rotation().inverse() * b[i].rotation();
-    if (!(cosine(turn_a.inverse() * turn_b) > kCosineOfSame)) return false;
+    if (!(cosine_of(E) > kCosineOfNear)) return false;
   }
   return true;
 }
@@ -193,13 +218,21 @@ StartSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotat
     return candidates.take();
   graph.poses = chordal.empty() ? file : chordal;
   if (chordal.empty()) make_chordal();
-  const bool tight = certified_start(graph, rotation_error).tight;
+  const double descent = std::max(1, candidates.iterations());
+  const bool tight =
+      certified_start(graph, rotation_error,
+                      std::max(kCertifiedDescents * descent, kLeastCertifiedIterations))
+          .tight;
   if (tight && candidates.best().outcome && rotations_agree(graph.poses, candidates.poses()))
     return candidates.take();
   candidates.descend(std::vector<Group>(graph.poses), PoseGraphStart::kCertified);
-  if (!tight)
-    candidates.descend(file_first ? chordal : file,
-                       file_first ? PoseGraphStart::kChordal : PoseGraphStart::kFile);
+  if (tight) return candidates.take();
+  candidates.descend(file_first ? chordal : file,
+                     file_first ? PoseGraphStart::kChordal : PoseGraphStart::kFile);
+  spanning_tree_start(graph);
+  candidates.descend_if_new(std::vector<Group>(graph.poses), PoseGraphStart::kOdometry);
+  if (replayed_start(graph, rotation_error, kReplayDescents * descent))
+    candidates.descend(std::vector<Group>(graph.poses), PoseGraphStart::kOdometry);
   return candidates.take();
 }
 
@@ -242,6 +275,8 @@ template <class Group>
 bool windings_are_settled(const PackedGraph<Group>& graph) {
   const std::vector<Residual> residuals = rotation_residuals(graph);
   const Tree tree(graph, residuals);
+  // Rotations that hang on translations alone: nothing is said about those.
+  if (tree.roots > find_anchors(graph).components) return false;
   // How many times the scatter is what the weights say.
   double squares = 0;
   int edges = 0;
@@ -273,7 +308,8 @@ StartSolution solve_from_start(PackedGraph<Group>& graph, PoseGraphStart start,
                                RotationError rotation_error, LocalSolver<Group>& solver) {
   if (start == PoseGraphStart::kAuto) return solve_automatically(graph, rotation_error, solver);
   set_start(graph, start, rotation_error);
-  return {solver.solve(graph), start, start == PoseGraphStart::kCertified};
+  const bool certified = start == PoseGraphStart::kCertified;
+  return {certified ? descend_to_the_end(graph, solver) : solver.solve(graph), start, certified};
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                                                         \

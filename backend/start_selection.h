@@ -32,7 +32,13 @@ struct StartSolution {
 ///   doubt, it is `certified_as_they_are`;
 ///   3. else the certified start: if its relaxation is tight and it is turned from the minimum by
 ///   no more than 0.3 rad anywhere, the minimum is kept; else down from it as well and, where the
-///   relaxation is not tight, from the dearer one of the first two; the lowest minimum is kept.
+///   relaxation is not tight, from the dearer one of the first two, from the odometry start and
+///   from the `replayed_start`; of the descents that ended the lowest minimum is kept.
+///
+/// In operations, the certified start is given up where it costs more than five times the first
+/// descent (and 200 iterations), the replay where it costs more than ten times. A descent of kAuto
+/// or kCertified that runs out of iterations while it falls goes on, up to four times, if it has
+/// come within twice the lowest minimum.
 template <class Group>
 StartSolution solve_from_start(PackedGraph<Group>& graph, PoseGraphStart start,
                                RotationError rotation_error, LocalSolver<Group>& solver);

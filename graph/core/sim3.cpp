@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 namespace placegraph {
 namespace {
@@ -53,10 +54,12 @@ Eigen::Matrix3d translation_matrix(const Eigen::Vector3d& w, double sigma) {
 }
 
 /// phi_1(A) = sum A^n / (n + 1)!: the Taylor series of A / 2^k, then k times
-/// phi_1(2 A) = (exp(A) + I) phi_1(A) / 2 (Al-Mohy & Higham 2011).
+/// phi_1(2 A) = (exp(A) + I) phi_1(A) / 2 (Al-Mohy & Higham 2011). Of what is not finite no number.
 Matrix7d phi1(Matrix7d A) {
+  double norm = A.cwiseAbs().rowwise().sum().maxCoeff();
+  if (!std::isfinite(norm)) return Matrix7d::Constant(std::numeric_limits<double>::quiet_NaN());
   int doublings = 0;
-  for (double norm = A.cwiseAbs().rowwise().sum().maxCoeff(); norm > 0.5; norm /= 2) ++doublings;
+  for (; norm > 0.5; norm /= 2) ++doublings;
   A *= std::ldexp(1, -doublings);
   const Matrix7d I = Matrix7d::Identity();
   Matrix7d phi = I;
@@ -125,7 +128,7 @@ Sim3::Jacobian Sim3::ad(const Tangent& xi) {
 Sim3::Jacobian Sim3::right_jacobian(const Tangent& xi) {
   // A change of the unit of length brings a long translation to at most 1, so that it does not
   // drive the number of doublings; a power of two, so that it costs no precision.
-  const double length = xi.head<3>().norm();
+  const double length = xi.head<3>().stableNorm();
   const double unit = length > 1 ? std::ldexp(1, std::ilogb(length) + 1) : 1;
   Tangent scaled = xi;
   scaled.head<3>() /= unit;

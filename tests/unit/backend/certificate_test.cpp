@@ -56,6 +56,57 @@ TYPED_TEST(CertificateOf, AWoundRingIsNoMinimumToCertify) {
   EXPECT_TRUE(certificate_of(pack<TypeParam>(ring<TypeParam>(12, false))).certified);
 }
 
+TYPED_TEST(CertificateOf, SeveralHeldNodesBelongToWhatIsCertified) {
+  const Walk<TypeParam> walk(30, 0);
+  PoseGraph held = walk.graph;
+  for (const int i : {0, 10, 20}) {
+    held.nodes[i].fixed = true;
+    held.nodes[i].T_world_node = walk.truth[i];
+  }
+  PackedGraph<TypeParam> graph = pack<TypeParam>(held);
+  graph.poses = walk.truth;
+  const ChordalIsotropicCertificate exact = certificate_of(graph);
+  EXPECT_TRUE(exact.certified);
+  EXPECT_LT(exact.cost, 1e-12);
+  // One of them half a metre off: free, the graph would cost nothing; held, it cannot.
+  typename TypeParam::Tangent aside = TypeParam::Tangent::Zero();
+  aside[0] = 0.5;
+  graph.poses[10] = graph.poses[10] * TypeParam::exp(aside);
+  LocalSolver<TypeParam> solver({});
+  ASSERT_TRUE(solver.solve(graph).outcome);
+  const ChordalIsotropicCertificate bent = certificate_of(graph);
+  EXPECT_TRUE(bent.certified) << bent.relative_gap;
+  EXPECT_GT(bent.lower_bound, 1);
+  EXPECT_LE(bent.lower_bound, bent.cost_of_estimate);
+}
+
+TYPED_TEST(CertificateOf, WhatIsNotFiniteIsNotCertifiedAndEnds) {
+  const Walk<TypeParam> walk(10, 0.05);
+  PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
+  typename TypeParam::Tangent xi = TypeParam::Tangent::Zero();
+  xi[0] = std::numeric_limits<double>::quiet_NaN();
+  graph.poses[4] = graph.poses[4] * TypeParam::exp(xi);
+  const ChordalIsotropicCertificate certificate = certificate_of(graph);
+  EXPECT_FALSE(certificate.certified);
+  EXPECT_EQ(certificate.relative_gap, 1);
+}
+
+TEST(CertificateMatrix, OfMultipliersThatAreNotFiniteProvesNothing) {
+  const PackedGraph<SE2> graph = pack<SE2>(ring<SE2>(5, false));
+  const IsotropicProblem<2> problem = isotropic_problem(graph, RotationError::kLog);
+  std::vector<std::pair<int, int>> edges;
+  for (const auto& edge : problem.edges) edges.emplace_back(edge.from, edge.to);
+  const BlockOrdering ordering = order_blocks(problem.nodes, 3, edges);
+  CertificateMatrix<2>::Multipliers multipliers(5, Eigen::Matrix2d::Zero());
+  multipliers[2](0, 0) = std::numeric_limits<double>::quiet_NaN();
+  CertificateMatrix<2> matrix(problem, ordering, multipliers);
+  EXPECT_FALSE(matrix.positive_with(1));
+  const auto curvature = matrix.curvature(0);
+  EXPECT_EQ(curvature.shift, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(curvature.smallest_eigenvalue, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(matrix.relative_gap(1, matrix.lower_bound(curvature.shift)), 1);
+}
+
 TYPED_TEST(CertificateOf, NoStartEndsBelowTheBound) {
   // So noisy that minima abound.
   const Walk<TypeParam> walk(8, 0.8);
