@@ -11,6 +11,9 @@ namespace placegraph {
 /// length: the number of a line is the segment's, so that none may be left out.
 std::vector<LineSegment> read_segments(const std::string& path);
 
+/// The same from the first four columns of a table: further ones are not read.
+std::vector<LineSegment> read_segment_columns(const std::string& path);
+
 /// Writes them with a thousandth of a pixel. Throws FileError.
 void write_segments(const std::string& path, const std::vector<LineSegment>& segments);
 

@@ -3,6 +3,7 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/frontend/lines/scene_directions.h>
 #include <placegraph/frontend/lines/segment_detector.h>
 #include <placegraph/frontend/lines/segment_matcher.h>
 #include <placegraph/frontend/odometry/mono_initializer.h>
@@ -25,7 +26,7 @@ using All =
                    MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
                    PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
                    PlanarRegionsOptions, MotionFromPlanesOptions, SegmentDetectorOptions,
-                   SegmentMatcherOptions>;
+                   SegmentMatcherOptions, SceneDirectionOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.

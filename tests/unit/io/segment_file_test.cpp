@@ -25,6 +25,15 @@ TEST(SegmentFile, TakesTabsAndComments) {
             2u);
 }
 
+TEST(SegmentFile, TakesTheFirstFourColumnsOfATable) {
+  const test::TemporaryFolder dir;
+  const std::string path = dir.write("s.txt", "1 2 3 4 17\n5 6 7 8 word\n");
+  const std::vector<LineSegment> segments = read_segment_columns(path);
+  ASSERT_EQ(segments.size(), 2u);
+  EXPECT_EQ(segments[1].end, Eigen::Vector2d(7, 8));
+  EXPECT_THROW((void)read_segments(path), FileError);
+}
+
 TEST(SegmentFile, NamesTheLineThatIsNoSegment) {
   const test::TemporaryFolder dir;
   const auto message = [&](const std::string& text) {
@@ -34,6 +43,7 @@ TEST(SegmentFile, NamesTheLineThatIsNoSegment) {
   EXPECT_THAT(message("1 2 3 4\n1 2 3\n"), testing::HasSubstr("s.txt:2: a segment has 4 numbers"));
   EXPECT_THAT(message("1 2 three 4\n"), testing::HasSubstr("s.txt:1: u2"));
   EXPECT_THAT(message("1 2 1 2\n"), testing::HasSubstr("s.txt:1: the segment has no length"));
+  EXPECT_THAT(message("1 2 3e9 4\n"), testing::HasSubstr("s.txt:1: u2: '3e9' is no pixel"));
   EXPECT_THROW((void)read_segments(dir / "absent.txt"), FileError);
 }
 

@@ -1,0 +1,34 @@
+#pragma once
+#include <placegraph/frontend/lines/manhattan_frame.h>
+
+namespace placegraph {
+
+struct SceneDirectionOptions {
+  VanishingPointOptions points;
+  ManhattanOptions manhattan;
+  void check() const;
+};
+void visit(OptionVisitor& field, SceneDirectionOptions& options);
+
+/// Which axis of which rectangular world a vanishing point is; -1: of none.
+struct PointRole {
+  int frame = -1, axis = -1;
+};
+
+/// All that the segments of one image tell of the directions of its scene.
+struct SceneDirections {
+  VanishingPoints vanishing;
+  std::vector<PointRole> roles;        ///< of vanishing.points
+  std::vector<ManhattanFrame> frames;  ///< most evident first; empty where none is supported
+};
+
+/// Vanishing points and rectangular worlds together. A vanishing point that is an axis of a world
+/// is held to it as closely as the axes of that world keep to right angles; an axis that enough
+/// segments show, but not enough to be found without the others, is a vanishing point too.
+/// Deterministic for a given `random`. Outcome and errors are those of find_vanishing_points.
+[[nodiscard]] SceneDirections find_scene_directions(const std::vector<LineSegment>& segments,
+                                                    const Camera& camera,
+                                                    const SceneDirectionOptions& options,
+                                                    Random& random);
+
+}  // namespace placegraph
