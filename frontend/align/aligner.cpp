@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace placegraph {
@@ -18,10 +19,13 @@ using End = GradientAlignmentResult::End;
 /// What a whole alignment looks at.
 struct Job {
   const PlanarTemplate& planar_template;
-  std::vector<Image> pyramid;
+  const std::vector<Image>& pyramid;
   const AlignOptions& options;
   int coarsest = 0;
 };
+
+using Corners = std::array<Eigen::Vector2d, 4>;
+using Matrix8d = Eigen::Matrix<double, 8, 8>;
 
 bool is_population(AlignOptimizer optimizer) {
   return optimizer == AlignOptimizer::kSwarm || optimizer == AlignOptimizer::kGenetic;
@@ -64,22 +68,55 @@ double similarity_at(const Job& job, const TemplateLevel& samples, int level,
                 : similarity(o.similarity, seen.ref, seen.cur);
 }
 
-/// Warps found by a population about `start`, best first. A member's coordinates are independent
-/// offsets of the corners of `sigma_px`, as far as the family of warps has them.
-std::vector<PlanarWarp> search(const Job& job, const PlanarWarp& start, int level, double sigma_px,
+/// Covariance of the corners at the start of a search: independent offsets of search_sigma and a
+/// common one of search_shift_sigma, both times `reach_px`.
+Matrix8d corner_spread(const AlignOptions& o, double reach_px) {
+  Matrix8d spread = o.search_sigma * o.search_sigma * Matrix8d::Identity();
+  for (int i = 0; i < 8; ++i)
+    for (int j = i % 2; j < 8; j += 2) spread(i, j) += o.search_shift_sigma * o.search_shift_sigma;
+  return reach_px * reach_px * spread;
+}
+
+/// From the coordinates of a population, one standard deviation each, to warps about `start`: those
+/// of 8 degrees of freedom by their corners, however far they go; of other families the corners
+/// follow to first order. Nothing where no camera sees the template so.
+std::function<std::optional<PlanarWarp>(const Eigen::VectorXd&)> members_about(
+    const Job& job, const PlanarWarp& start, double reach_px) {
+  const Matrix8d spread = corner_spread(job.options, reach_px);
+  const auto& corners_px = job.planar_template.corners_px();
+  if (start.kind() == PlanarWarp::Kind::kHomography) {
+    Corners at;
+    for (std::size_t c = 0; c < 4; ++c) at[c] = *map_pixel(start.H_cur_ref(), corners_px[c]);
+    const Matrix8d root = spread.llt().matrixL();
+    return [=](const Eigen::VectorXd& z) -> std::optional<PlanarWarp> {
+      const Eigen::Matrix<double, 8, 1> offset = root * z;
+      Corners moved = at;
+      for (int c = 0; c < 4; ++c) moved[static_cast<std::size_t>(c)] += offset.segment<2>(2 * c);
+      const auto H_cur_ref = homography_of_box(corners_px, moved);
+      if (!H_cur_ref) return std::nullopt;
+      return start.at(*H_cur_ref);
+    };
+  }
+  const auto J = job.planar_template.corner_jacobian(start);
+  const Eigen::LLT<Eigen::MatrixXd> llt(J.transpose() * spread.llt().solve(J));
+  if (llt.info() != Eigen::Success) return [](const Eigen::VectorXd&) { return std::nullopt; };
+  const Eigen::MatrixXd upper = llt.matrixU();
+  return [=](const Eigen::VectorXd& z) -> std::optional<PlanarWarp> {
+    return start.plus(upper.triangularView<Eigen::Upper>().solve(z));
+  };
+}
+
+/// Warps found by a population about `start`, best first.
+std::vector<PlanarWarp> search(const Job& job, const PlanarWarp& start, int level, double reach_px,
                                int& evaluations) {
   const AlignOptions& o = job.options;
-  const auto J = job.planar_template.corner_jacobian(start);
-  const Eigen::MatrixXd metric = J.transpose() * J;
-  const Eigen::LLT<Eigen::MatrixXd> llt(metric);
-  if (llt.info() != Eigen::Success) return {};
-  const auto warp_at = [&](const Eigen::VectorXd& z) {
-    return start.plus(sigma_px * llt.matrixU().solve(z));
-  };
+  const auto member = members_about(job, start, reach_px);
   const TemplateLevel samples =
       thinned(job.planar_template.levels()[static_cast<std::size_t>(level)], o.search_samples);
   const PopulationCost cost = [&](const Eigen::VectorXd& z) {
-    return -similarity_at(job, samples, level, warp_at(z).H_cur_ref(), false);
+    const auto warp = member(z);
+    if (!warp) return std::numeric_limits<double>::infinity();
+    return -similarity_at(job, samples, level, warp->H_cur_ref(), false);
   };
   const PopulationResult found = o.optimizer == AlignOptimizer::kGenetic
                                      ? genetic_search(cost, start.dof(), o.genetic)
@@ -87,7 +124,7 @@ std::vector<PlanarWarp> search(const Job& job, const PlanarWarp& start, int leve
   evaluations += found.evaluations;
   std::vector<PlanarWarp> warps;
   for (std::size_t i = 0; i < found.points.size(); ++i)
-    if (std::isfinite(found.costs[i])) warps.push_back(warp_at(found.points[i]));
+    if (std::isfinite(found.costs[i])) warps.push_back(*member(found.points[i]));
   return warps;
 }
 
@@ -131,12 +168,12 @@ double diagonal_px(const PlanarTemplate& t) {
 /// Coarse to fine; false with an outcome where it had to stop.
 bool descend(const Job& job, AlignResult& result) {
   const AlignOptions& o = job.options;
-  double sigma_px = o.search_sigma * diagonal_px(job.planar_template);
-  for (int level = job.coarsest; level >= 0; --level, sigma_px /= 4) {
+  double reach_px = diagonal_px(job.planar_template);
+  for (int level = job.coarsest; level >= 0; --level, reach_px /= 4) {
     const bool searched = is_population(o.optimizer) ||
                           (o.optimizer == AlignOptimizer::kSwarmEsm && level == job.coarsest);
     if (searched) {
-      const auto members = search(job, result.warp, level, sigma_px, result.evaluations);
+      const auto members = search(job, result.warp, level, reach_px, result.evaluations);
       if (is_population(o.optimizer)) {
         if (members.empty()) {
           result.outcome = Outcome::failure(Code::kTooFewData, "the template is out of view");
@@ -179,6 +216,8 @@ void measure(const Job& job, AlignResult& result) {
   result.similarity = fit.similarity;
   result.agreement = agreement(fit, seen.cur);
   result.inlier_share = fit.inlier_share;
+  result.likeness = robust_similarity(
+      o.similarity == Similarity::kMi ? Similarity::kZncc : o.similarity, seen.ref, seen.cur);
   result.gain = fit.gain, result.bias = fit.bias;
   const auto covariance =
       alignment_covariance(job.planar_template, job.pyramid[0], 0, result.warp, o);
@@ -198,7 +237,8 @@ Outcome judge(const AlignResult& result, const AlignOptions& o) {
   if (result.inlier_share < o.min_inlier_share)
     return Outcome::failure(Code::kInconsistent,
                             "share of inliers " + std::to_string(result.inlier_share));
-  if (result.last_step_px > o.max_sigma_px)
+  constexpr double kUnsettledPx = 1;
+  if (result.last_step_px > std::min(o.max_sigma_px, kUnsettledPx))
     return Outcome::failure(Code::kNotConverged,
                             "last step " + std::to_string(result.last_step_px) + " px");
   if (!(result.corner_sigma_px <= o.max_sigma_px))
@@ -225,6 +265,8 @@ void visit(OptionVisitor& field, AlignOptions& o) {
   field.group("gradient", o.gradient, "similarity and the optimizers that follow derivatives");
   field("search_sigma", o.search_sigma,
         "spread of a population's corners, in diagonals of the template", {0.001, 2});
+  field("search_shift_sigma", o.search_shift_sigma,
+        "spread of a shift of all corners together, in the same unit", {0, 10});
   field("search_samples", o.search_samples, "samples that judge a member", {20, 1000000});
   field("followed", o.followed, "best members of the swarm that ESM follows", {1, 1000});
   field.group("swarm", o.swarm, "particle swarm");
@@ -237,7 +279,15 @@ void visit(OptionVisitor& field, AlignOptions& o) {
 
 AlignResult align(const PlanarTemplate& planar_template, const Image& image_cur,
                   const PlanarWarp& start, const AlignOptions& options) {
+  return align(planar_template,
+               grey_pyramid(image_cur, static_cast<int>(planar_template.levels().size())), start,
+               options);
+}
+
+AlignResult align(const PlanarTemplate& planar_template, const std::vector<Image>& pyramid_cur,
+                  const PlanarWarp& start, const AlignOptions& options) {
   options.check();
+  require(!pyramid_cur.empty(), "align: a pyramid without levels");
   const auto& levels = planar_template.levels();
   AlignResult result;
   result.warp = start;
@@ -251,15 +301,16 @@ AlignResult align(const PlanarTemplate& planar_template, const Image& image_cur,
     result.outcome = Outcome::failure(Code::kTooFewData, "the template starts beyond the horizon");
     return result;
   }
-  // Two grey levels of noise, one sample in ten of its own.
+  // Two grey levels of noise, one sample in ten of its own. Where the warp starts is no matter.
+  const PlanarWarp unmoved = start.at(Eigen::Matrix3d::Identity());
   const double promised_px =
-      promised_corner_sigma_px(planar_template, 0, start, 2 * std::sqrt(10.0));
+      promised_corner_sigma_px(planar_template, 0, unmoved, 2 * std::sqrt(10.0));
   if (!(promised_px <= options.max_sigma_px)) {
     result.corner_sigma_px = promised_px;
     result.outcome = Outcome::failure(Code::kDegenerate, "the template has too little texture");
     return result;
   }
-  Job job{planar_template, grey_pyramid(image_cur, static_cast<int>(levels.size())), options};
+  Job job{planar_template, pyramid_cur, options};
   const int most = static_cast<int>(std::min(levels.size(), job.pyramid.size()));
   while (job.coarsest + 1 < most &&
          static_cast<int>(levels[static_cast<std::size_t>(job.coarsest) + 1].samples.size()) >=

@@ -21,6 +21,9 @@ struct AlignOptions {
   /// Of a corner's coordinate where a population starts on the coarsest level, in diagonals of the
   /// template; on every finer level a quarter of the one before.
   double search_sigma = 0.18;
+  /// Of a shift of all corners together on top of that, in the same unit: where the template may
+  /// have gone far without having changed its shape as much.
+  double search_shift_sigma = 0;
   int search_samples = 400;  ///< the similarity of a member is that of so many samples
   int followed = 8;          ///< best members of the swarm that ESM follows
   SwarmOptions swarm;
@@ -41,6 +44,7 @@ struct AlignResult {
   double independent_share = 0;
   double similarity = 0;     ///< on the finest level
   double agreement = 0;      ///< weighted correlation of the image and what the template predicts
+  double likeness = 0;       ///< robust_similarity on the finest level, of ZNCC under MI
   double visible_share = 0;  ///< of the samples
   double inlier_share = 0;   ///< of those in view
   double gain = 1, bias = 0;
@@ -53,9 +57,13 @@ struct AlignResult {
 /// greatest, coarse to fine over the levels of the template. Outcomes: too few data (the template
 /// has less than min_samples, or less than min_visible_share of it is in view), degenerate (too
 /// little texture: a corner would stay uncertain by more than max_sigma_px), not converged (the
-/// last step moved a corner by more than max_sigma_px, or the step could not be told), inconsistent
-/// (what was found does not look like the template).
+/// last step moved a corner by more than max_sigma_px or a pixel, or could not be told),
+/// inconsistent (what was found does not look like the template).
 [[nodiscard]] AlignResult align(const PlanarTemplate& planar_template, const Image& image_cur,
                                 const PlanarWarp& start, const AlignOptions& options);
+/// The same in an image whose grey_pyramid is at hand.
+[[nodiscard]] AlignResult align(const PlanarTemplate& planar_template,
+                                const std::vector<Image>& pyramid_cur, const PlanarWarp& start,
+                                const AlignOptions& options);
 
 }  // namespace placegraph

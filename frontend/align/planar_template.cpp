@@ -117,20 +117,38 @@ double PlanarTemplate::corner_distance_px(const Eigen::Matrix3d& Ha_cur_ref,
 
 Eigen::Matrix<double, 8, Eigen::Dynamic> PlanarTemplate::corner_jacobian(
     const PlanarWarp& warp) const {
-  const PlanarWarp::Generators A = warp.generators();
-  Eigen::Matrix<double, 8, Eigen::Dynamic> J(8, A.cols());
-  for (int c = 0; c < 4; ++c) {
-    const Eigen::Vector3d p = corners_px_[c].homogeneous();
-    const Eigen::Vector3d q = warp.H_cur_ref() * p;
-    Eigen::Matrix<double, 2, 3> by_q;
-    by_q << 1 / q.z(), 0, -q.x() / (q.z() * q.z()), 0, 1 / q.z(), -q.y() / (q.z() * q.z());
-    for (Eigen::Index k = 0; k < A.cols(); ++k) {
-      const Eigen::Vector3d moved(A.col(k).segment<3>(0).dot(p), A.col(k).segment<3>(3).dot(p),
-                                  A.col(k).segment<3>(6).dot(p));
-      J.block<2, 1>(2 * c, k) = by_q * (warp.H_cur_ref() * moved);
-    }
-  }
+  Eigen::Matrix<double, 8, Eigen::Dynamic> J(8, warp.dof());
+  for (int c = 0; c < 4; ++c) J.middleRows<2>(2 * c) = warp.pixel_jacobian(corners_px_[c]);
   return J;
+}
+
+std::optional<Eigen::Matrix3d> homography_of_box(const std::array<Vector2d, 4>& box,
+                                                 const std::array<Vector2d, 4>& corners) {
+  const auto cross = [](const Vector2d& a, const Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  constexpr double kLeastSine = 0.01;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector2d in = corners[(i + 1) % 4] - corners[i];
+    const Vector2d out = corners[(i + 2) % 4] - corners[(i + 1) % 4];
+    if (!(cross(in, out) > kLeastSine * in.norm() * out.norm())) return std::nullopt;
+  }
+  // From the unit square: (0, 0), (1, 0), (1, 1), (0, 1).
+  const Vector2d across = corners[1] - corners[2], along = corners[3] - corners[2];
+  const Vector2d sum = corners[0] - corners[1] + corners[2] - corners[3];
+  const double area = cross(across, along);
+  const double g = cross(sum, along) / area, h = cross(across, sum) / area;
+  Eigen::Matrix3d square;
+  square.col(0) << corners[1] - corners[0] + g * corners[1], g;
+  square.col(1) << corners[3] - corners[0] + h * corners[3], h;
+  square.col(2) << corners[0], 1;
+  const Vector2d size = box[2] - box[0];
+  Eigen::Matrix3d to_square;
+  to_square << 1 / size.x(), 0, -box[0].x() / size.x(), 0, 1 / size.y(), -box[0].y() / size.y(), 0,
+      0, 1;
+  const Eigen::Matrix3d H = square * to_square;
+  if (!(std::abs(H.determinant()) > 1e-14 * std::pow(H.norm(), 3))) return std::nullopt;
+  return H;
 }
 
 }  // namespace placegraph

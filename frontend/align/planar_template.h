@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/image.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace placegraph {
@@ -59,5 +60,12 @@ class PlanarTemplate {
   double half_px_;
   std::array<Eigen::Vector2d, 4> corners_px_;
 };
+
+/// The homography that takes the corners of a box, as corners_px() has them, to four others
+/// (Heckbert 1989, "Fundamentals of texture mapping and image warping", sec. 2.2.3). Nothing where
+/// no camera sees the box so from its front: a corner that is not convex, by a hundredth at least,
+/// or all of them in a point.
+std::optional<Eigen::Matrix3d> homography_of_box(const std::array<Eigen::Vector2d, 4>& box,
+                                                 const std::array<Eigen::Vector2d, 4>& corners);
 
 }  // namespace placegraph

@@ -155,6 +155,35 @@ PlanarWarp::Generators PlanarWarp::generators() const {
   return all;
 }
 
+PlanarWarp PlanarWarp::at(const Matrix3d& H_cur_ref) const {
+  const Eigen::Vector2d centre_px = frame_.topRightCorner<2, 1>();
+  if (kind_ == Kind::kHomography) return homography(H_cur_ref, centre_px, frame_(0, 0));
+  const SE3 unit = motion_from_homography(frame_, H_cur_ref, plane_ref_.normal);
+  const SE3 T_cur_ref(unit.rotation(), plane_ref_.distance_m * unit.translation());
+  if (kind_ == Kind::kRigidMotion) return rigid_motion(frame_, T_cur_ref, plane_ref_);
+  const SE3 R(R_ref_plane_, Vector3d::Zero());
+  const SE3 along = R.inverse() * T_cur_ref * R;
+  const Matrix3d turn = along.rotation().matrix();
+  const double angle = std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1));
+  return planar_motion(frame_, SE2(along.translation().x(), along.translation().y(), angle),
+                       plane_ref_);
+}
+
+Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, PlanarWarp::kMaxDof> PlanarWarp::pixel_jacobian(
+    const Eigen::Vector2d& px_ref) const {
+  const Generators A = generators();
+  const Vector3d p = px_ref.homogeneous(), q = H_ * p;
+  Eigen::Matrix<double, 2, 3> by_q;
+  by_q << 1 / q.z(), 0, -q.x() / (q.z() * q.z()), 0, 1 / q.z(), -q.y() / (q.z() * q.z());
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMaxDof> J(2, A.cols());
+  for (Eigen::Index k = 0; k < A.cols(); ++k) {
+    const Vector3d moved(A.col(k).segment<3>(0).dot(p), A.col(k).segment<3>(3).dot(p),
+                         A.col(k).segment<3>(6).dot(p));
+    J.col(k) = by_q * (H_ * moved);
+  }
+  return J;
+}
+
 std::optional<SE3> PlanarWarp::T_cur_ref() const {
   if (kind_ == Kind::kHomography) return std::nullopt;
   return rigid_;

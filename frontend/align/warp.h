@@ -42,8 +42,16 @@ class PlanarWarp {
   int dof() const { return kind_ == Kind::kHomography ? 8 : kind_ == Kind::kRigidMotion ? 6 : 3; }
   const Eigen::Matrix3d& H_cur_ref() const { return H_; }
   PlanarWarp plus(const Step& x) const;
+  /// The member of this family that comes close to a homography: itself; the motion that it fits
+  /// before the plane (motion_from_homography); of that motion what is along the plane. Throws
+  /// ArgumentError if H is singular.
+  PlanarWarp at(const Eigen::Matrix3d& H_cur_ref) const;
   /// 9 x dof, the rows of each A_k one after the other; a multiple of the identity may be in it.
   Generators generators() const;
+  /// 2 x dof: how the image of a pixel of the reference moves [px of the current image] per unit of
+  /// the parameters. Precondition: it is in front of the camera.
+  Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kMaxDof> pixel_jacobian(
+      const Eigen::Vector2d& px_ref) const;
 
   /// The rigid motion, in the unit of the plane's distance; nothing for a bare homography.
   std::optional<SE3> T_cur_ref() const;

@@ -8,37 +8,39 @@
 namespace placegraph {
 namespace {
 
-struct Points {
-  std::vector<cv::KeyPoint> keys;
-  cv::Mat descriptors;
-};
+PointPair pair_of(const WidePoints& a, int i, const WidePoints& b, int j) {
+  PointPair pair;
+  pair.px_a = a.px[i];
+  pair.px_b = b.px[j];
+  const double turn = b.angle_rad[j] - a.angle_rad[i], scale = b.size_px[j] / a.size_px[i];
+  pair.turn_b_a << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
+  pair.turn_b_a *= scale;
+  return pair;
+}
 
-/// SIFT with the square roots of normalized histograms: their distance is Hellinger's.
-Points detect(const Image& image, const WideMatcherOptions& options) {
-  Points points;
+}  // namespace
+
+WidePoints detect_wide(const Image& image, const WideMatcherOptions& options, const Image& mask) {
   constexpr int kLayers = 3;
   const auto sift = cv::SIFT::create(options.max_features, kLayers, kLayers * options.min_contrast);
-  sift->detectAndCompute(image, cv::noArray(), points.keys, points.descriptors);
+  std::vector<cv::KeyPoint> keys;
+  WidePoints points;
+  sift->detectAndCompute(image, mask, keys, points.descriptors);
   for (int i = 0; i < points.descriptors.rows; ++i) {
     cv::Mat row = points.descriptors.row(i);
     const double sum = cv::norm(row, cv::NORM_L1);
     if (sum > 0) row /= sum;
     cv::sqrt(row, row);
   }
+  for (const cv::KeyPoint& key : keys) {
+    points.px.emplace_back(key.pt.x, key.pt.y);
+    points.angle_rad.push_back(key.angle * M_PI / 180);
+    points.size_px.push_back(key.size);
+  }
   return points;
 }
 
-PointPair pair_of(const cv::KeyPoint& a, const cv::KeyPoint& b) {
-  PointPair pair;
-  pair.px_a = {a.pt.x, a.pt.y};
-  pair.px_b = {b.pt.x, b.pt.y};
-  const double turn = (b.angle - a.angle) * M_PI / 180, scale = b.size / a.size;
-  pair.turn_b_a << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
-  pair.turn_b_a *= scale;
-  return pair;
-}
-
-std::vector<PointPair> mutual_matches(const Points& a, const Points& b, double max_ratio) {
+std::vector<PointPair> match_points(const WidePoints& a, const WidePoints& b, double max_ratio) {
   std::vector<PointPair> pairs;
   if (a.descriptors.rows < 2 || b.descriptors.rows < 2) return pairs;
   const cv::BFMatcher matcher(cv::NORM_L2);
@@ -49,12 +51,10 @@ std::vector<PointPair> mutual_matches(const Points& a, const Points& b, double m
   for (const auto& best : forth) {
     if (best.size() < 2 || best[0].distance > max_ratio * best[1].distance) continue;
     if (back[best[0].trainIdx].trainIdx != best[0].queryIdx) continue;
-    pairs.push_back(pair_of(a.keys[best[0].queryIdx], b.keys[best[0].trainIdx]));
+    pairs.push_back(pair_of(a, best[0].queryIdx, b, best[0].trainIdx));
   }
   return pairs;
 }
-
-}  // namespace
 
 void visit(OptionVisitor& field, WideMatcherOptions& o) {
   field("max_features", o.max_features, "points of an image", {50, 100000});
@@ -71,7 +71,7 @@ WideMatches match_wide(const Image& a, const Image& b, const WideMatcherOptions&
     require(!image->empty() && image->type() == CV_8UC1, "match_wide: grey images needed");
   WideMatches result;
   const std::vector<PointPair> all =
-      mutual_matches(detect(a, options), detect(b, options), options.max_ratio);
+      match_points(detect_wide(a, options), detect_wide(b, options), options.max_ratio);
   result.candidates = static_cast<int>(all.size());
   const auto no_consensus = [&](int inliers) {
     result.outcome = Outcome::failure(

@@ -24,6 +24,21 @@ struct PointPair {
   Eigen::Matrix2d turn_b_a = Eigen::Matrix2d::Identity();  ///< similarity: scale times rotation
 };
 
+/// Points of one image as match_wide compares them, made ready for any number of comparisons.
+struct WidePoints {
+  std::vector<Eigen::Vector2d> px;
+  std::vector<double> angle_rad, size_px;
+  Image descriptors;  ///< CV_32FC1, a row each
+};
+
+/// SIFT (Lowe 2004) with the square roots of normalized histograms, whose distance is Hellinger's
+/// (Arandjelovic & Zisserman 2012). `mask`, if not empty, has zeros where no point is wanted.
+WidePoints detect_wide(const Image& image, const WideMatcherOptions& options,
+                       const Image& mask = {});
+
+/// Mutually best matches that pass the ratio test, before any geometry.
+std::vector<PointPair> match_points(const WidePoints& a, const WidePoints& b, double max_ratio);
+
 struct WideMatches {
   Outcome outcome;               ///< kNoConsensus: `F_b_a` and `pairs` say nothing
   std::vector<PointPair> pairs;  ///< inliers of F_b_a

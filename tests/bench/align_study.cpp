@@ -1,11 +1,15 @@
 // How far from the truth direct alignment of a planar template may start: the share of trials that
 // end within a pixel (photographs: three, their homographies are known to half a pixel), against
 // the offset of the corners at the start, for every optimizer and similarity, as it is and under
-// another illumination, blur and 30 % occlusion.
+// another illumination, blur and 30 % occlusion. Starts are views that a camera may have: with the
+// corners of a convex quadrilateral. On rendered templates also how many steps ESM takes from 4 px
+// to a hundredth pixel, and how much further than ESM alone swarm and ESM reach.
 //   bench_align_study OUT_PREFIX [TRIALS=20] [PLANAR_HOMOGRAPHY_FOLDER]
-// writes OUT_PREFIX.tsv, OUT_PREFIX_optimizers.png and OUT_PREFIX_similarities.png.
+// writes OUT_PREFIX.tsv, OUT_PREFIX.md, OUT_PREFIX_optimizers.png, OUT_PREFIX_similarities.png
+// and, of rendered templates, OUT_PREFIX_targets.tsv.
 #include <fmt/format.h>
 #include <placegraph/frontend/align/aligner.h>
+#include <placegraph/frontend/align/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -154,6 +158,23 @@ Trial photographed(const std::vector<Photograph>& pairs, int number, Random& ran
   }
 }
 
+/// A move of the template's corners by `offset_px` each, after which the trial's camera would still
+/// see them as a convex quadrilateral.
+Matrix3d visible_move(const Trial& trial, double offset_px, Random& random) {
+  const auto& corners = trial.planar_template.corners_px();
+  for (;;) {
+    const Matrix3d moved = test::random_homography(trial.planar_template, offset_px, random);
+    auto seen = corners;
+    bool in_front = true;
+    for (Vector2d& corner : seen) {
+      const auto px = map_pixel(trial.H_cur_ref * moved, corner);
+      in_front = in_front && px;
+      if (px) corner = *px;
+    }
+    if (in_front && homography_of_box(corners, seen)) return moved;
+  }
+}
+
 void run_trial(const Trial& trial, std::size_t condition, const Matrix3d& start, double offset,
                Study& study) {
   for (int optimizer = 0; optimizer < kOptimizers; ++optimizer)
@@ -231,10 +252,130 @@ void draw(const std::string& prefix, const Study& study) {
                          label, similarities, 4);
 }
 
+/// The largest offset up to which at least 90 % of the trials converged, at every offset below it
+/// too; 0 for none.
+double offset_at_90(const Study& study, std::size_t condition, int optimizer,
+                    Similarity similarity) {
+  double reached = 0;
+  for (const auto& [key, tally] : study) {
+    const auto& [c, o, s, offset] = key;
+    if (c != condition || o != optimizer || s != static_cast<int>(similarity)) continue;
+    if (tally.rate() < 0.9) break;
+    reached = offset;
+  }
+  return reached;
+}
+
+/// Rows of Markdown: optimizer, similarity, that offset under each condition, what was wrong though
+/// the outcome was ok, time.
+std::string reach_table(const Study& study) {
+  std::string text = "| optimizer | similarity |";
+  for (const std::string& condition : kConditions) text += " " + condition + " |";
+  text += " wrong but ok | CPU [ms] |\n|---|---|---|---|---|---|---|---|\n";
+  for (int optimizer = 0; optimizer < kOptimizers; ++optimizer)
+    for (const Similarity similarity : kSimilarities) {
+      text +=
+          fmt::format("| {} | {} |", align_optimizer_names()[static_cast<std::size_t>(optimizer)],
+                      similarity_names()[static_cast<std::size_t>(similarity)]);
+      int trials = 0, confident = 0;
+      double cpu_s = 0;
+      for (const auto& [key, tally] : study) {
+        if (std::get<1>(key) != optimizer || std::get<2>(key) != static_cast<int>(similarity))
+          continue;
+        trials += tally.trials, confident += tally.confident, cpu_s += tally.cpu_s;
+      }
+      for (std::size_t condition = 0; condition < kConditions.size(); ++condition)
+        text += fmt::format(" {:g} |", offset_at_90(study, condition, optimizer, similarity));
+      text +=
+          fmt::format(" {:.1f} % | {:.1f} |\n", 100.0 * confident / trials, 1e3 * cpu_s / trials);
+    }
+  return text;
+}
+
+/// Steps of ESM on full resolution, without noise, until all corners are within 0.01 px, from 4 px.
+std::string precision_rows() {
+  std::vector<int> steps;
+  std::vector<double> after_six;
+  for (int i = 0; i < 40; ++i) {
+    Random random(5000, static_cast<std::uint64_t>(i));
+    const test::Texture texture{random.next(), 40, 4, 40, 128};
+    const PlanarTemplate t(test::texture_image(kWidth, kHeight, texture), square_at({80, 60}), 1,
+                           kSide * kSide);
+    const Matrix3d H = test::random_homography(t, 4, random);
+    const auto pyramid = grey_pyramid(test::warped_texture(kWidth, kHeight, texture, H), 1);
+    int needed = 99;
+    for (int limit = 1; limit <= 12; ++limit) {
+      GradientAlignmentOptions options;
+      options.iterations = limit;
+      const auto end = align_level(t, pyramid[0], 0, t.homography(Matrix3d::Identity()),
+                                   Gradients::kEsm, options);
+      const double error_px = t.corner_distance_px(end.warp.H_cur_ref(), H);
+      if (limit == 6) after_six.push_back(error_px);
+      if (error_px <= 0.01 && needed == 99) needed = limit;
+    }
+    steps.push_back(needed);
+  }
+  std::sort(steps.begin(), steps.end());
+  std::sort(after_six.begin(), after_six.end());
+  const auto within =
+      std::count_if(steps.begin(), steps.end(), [](int needed) { return needed <= 6; });
+  return fmt::format(
+      "steps of ESM to 0.01 px from 4 px, median of {}\t{}\n"
+      "share within 6 steps [%]\t{:.0f}\n"
+      "error after 6 steps, median [px]\t{:.4f}\n",
+      steps.size(), steps[steps.size() / 2],
+      100.0 * static_cast<double>(within) / static_cast<double>(steps.size()),
+      after_six[after_six.size() / 2]);
+}
+
+/// How far ESM and swarm with ESM reach with 60 trials an offset.
+std::string reach_rows() {
+  Study study;
+  const std::vector<AlignOptimizer> both = {AlignOptimizer::kEsm, AlignOptimizer::kSwarmEsm};
+  for (int i = 0; i < 60; ++i) {
+    Random random(6000, static_cast<std::uint64_t>(i));
+    const Trial trial = rendered(random);
+    for (double offset = 10; offset <= 46; offset += 3) {
+      const auto start =
+          trial.planar_template.homography(trial.H_cur_ref * visible_move(trial, offset, random));
+      for (const AlignOptimizer optimizer : both) {
+        AlignOptions options;
+        options.optimizer = optimizer;
+        const AlignResult result = align(trial.planar_template, trial.image, start, options);
+        Tally& tally =
+            study[{0, static_cast<int>(optimizer), static_cast<int>(Similarity::kZncc), offset}];
+        ++tally.trials;
+        tally.converged +=
+            trial.planar_template.corner_distance_px(result.warp.H_cur_ref(), trial.H_cur_ref) < 1;
+      }
+    }
+  }
+  std::string text;
+  for (const AlignOptimizer optimizer : both) {
+    text += align_optimizer_names()[static_cast<std::size_t>(optimizer)] +
+            ", share converged by offset\t";
+    for (const auto& [key, tally] : study)
+      if (std::get<1>(key) == static_cast<int>(optimizer))
+        text += fmt::format("{:g}: {:.2f}  ", std::get<3>(key), tally.rate());
+    text += "\n";
+  }
+  const double alone = offset_at_90(study, 0, static_cast<int>(both[0]), Similarity::kZncc);
+  const double hybrid = offset_at_90(study, 0, static_cast<int>(both[1]), Similarity::kZncc);
+  return text + fmt::format("esm at 90 % [px]\t{:g}\nswarm_esm at 90 % [px]\t{:g}\nratio\t{:.2f}\n",
+                            alone, hybrid, hybrid / alone);
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  require(file.good(), path + ": cannot be written");
+}
+
 void run(int argc, char** argv) {
   require(argc >= 2 && argc <= 4, "bench_align_study OUT_PREFIX [TRIALS] [FOLDER]");
   const int trials = argc > 2 ? std::atoi(argv[2]) : 20;
   require(trials > 0, "TRIALS must be positive");
+  const std::string prefix = argv[1];
   const auto photographs = argc > 3 ? read_photographs(argv[3]) : std::vector<Photograph>();
   Study study;
   for (int i = 0; i < trials; ++i) {
@@ -245,16 +386,18 @@ void run(int argc, char** argv) {
       const Trial trial = under(plain, condition, random);
       for (const double offset : kOffsets) {
         // The start differs from the truth by moves of the corners in the template.
-        const Matrix3d moved = test::random_homography(trial.planar_template, offset, random);
+        const Matrix3d moved = visible_move(trial, offset, random);
         run_trial(trial, condition, trial.H_cur_ref * moved, offset, study);
       }
     }
     std::fprintf(stderr, "trial %d of %d\n", i + 1, trials);
+    // A study that is cut short leaves what it has.
+    write_text(prefix + ".tsv", table(study));
+    write_text(prefix + ".md", reach_table(study));
+    draw(prefix, study);
   }
-  const std::string prefix = argv[1], text = table(study);
-  std::ofstream(prefix + ".tsv") << text;
-  std::fputs(text.c_str(), stdout);
-  draw(prefix, study);
+  std::fputs(table(study).c_str(), stdout);
+  if (photographs.empty()) write_text(prefix + "_targets.tsv", precision_rows() + reach_rows());
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/align/aligner.h>
+#include <placegraph/frontend/align/plane_tracker.h>
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
@@ -26,7 +26,7 @@ using All =
                    MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
                    PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
                    PlanarRegionsOptions, MotionFromPlanesOptions, SegmentDetectorOptions,
-                   SegmentMatcherOptions, SceneDirectionOptions>;
+                   SegmentMatcherOptions, SceneDirectionOptions, PlaneTrackerOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.
