@@ -134,6 +134,14 @@ void write_poses(const std::string& path, const FrameSource& source,
                    path.ends_with(".tum") ? TrajectoryFormat::kTum : TrajectoryFormat::kKitti);
 }
 
+void draw(const std::string& path, const FrameSource& source,
+          const std::vector<PlaneTrack>& tracks) {
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const auto file = std::filesystem::path(path) / fmt::format("{:06d}.png", i);
+    write_file(file.string(), track_picture(source.image(i), tracks[i], i));
+  }
+}
+
 void run(Arguments& arguments) {
   PlaneTrackerOptions& options = arguments.options;
   options.check();
@@ -147,6 +155,8 @@ void run(Arguments& arguments) {
   if (!arguments.trajectory.empty()) require_free(arguments.trajectory, arguments.force);
   if (!arguments.draw.empty()) require_free_folder(arguments.draw, arguments.force);
 
+  std::optional<OutputFolder> folder;
+  if (!arguments.draw.empty()) folder.emplace(arguments.draw);
   const FrameSource source(arguments.in);
   require(
       arguments.trajectory.empty() || !arguments.trajectory.ends_with(".tum") || source.stamp_ns(0),
@@ -158,21 +168,14 @@ void run(Arguments& arguments) {
   const Stopwatch watch;
   PlaneTracker tracker(image_ref, corners, options, camera, normal);
   if (!tracker.outcome()) throw NoAnswer("--template: " + tracker.outcome().reason);
-  std::optional<OutputFolder> folder;
-  if (!arguments.draw.empty()) folder.emplace(arguments.draw);
   std::vector<PlaneTrack> tracks;
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    const Image image = source.image(i);
-    tracks.push_back(tracker.track(image));
-    if (arguments.draw.empty()) continue;
-    const auto path = std::filesystem::path(arguments.draw) / fmt::format("{:06d}.png", i);
-    write_file(path.string(), track_picture(image, tracks.back(), i));
-  }
+  for (std::size_t i = 0; i < source.size(); ++i) tracks.push_back(tracker.track(source.image(i)));
   const double cpu_ms = watch.cpu_ms();
   if (std::none_of(tracks.begin(), tracks.end(),
                    [](const PlaneTrack& track) { return static_cast<bool>(track.outcome); }))
     throw NoAnswer(fmt::format("{}: the template is in none of {} frames: {}", arguments.in,
                                tracks.size(), tracks.front().outcome.reason));
+  if (!arguments.draw.empty()) draw(arguments.draw, source, tracks);
   write_file(arguments.out, track_lines(tracks));
   if (!arguments.trajectory.empty()) write_poses(arguments.trajectory, source, tracks);
   print(arguments, tracker, tracks, cpu_ms);

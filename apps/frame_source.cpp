@@ -25,7 +25,10 @@ std::vector<std::string> bare_images(const std::string& path) {
 }  // namespace
 
 FrameSource::FrameSource(const std::string& path) : images_(bare_images(path)) {
-  if (images_.empty()) dataset_ = open_dataset(path);
+  if (images_.empty())
+    dataset_ = open_dataset(path);
+  else
+    first_ = read_image(images_.front()).grey;
 }
 
 std::optional<Camera> FrameSource::camera() const {
@@ -41,10 +44,7 @@ std::optional<std::int64_t> FrameSource::stamp_ns(std::size_t index) const {
 Image FrameSource::image(std::size_t index) const {
   if (dataset_) return dataset_->frame(index, Sensor::kMono).image;
   const Image image = read_image(images_.at(index)).grey;
-  if (index > 0) {
-    const Image first = read_image(images_.front()).grey;
-    require_size(images_[index], image, first.cols, first.rows);
-  }
+  require_size(images_[index], image, first_.cols, first_.rows);
   return image;
 }
 

@@ -25,6 +25,7 @@ class FrameSource {
  private:
   std::unique_ptr<Dataset> dataset_;
   std::vector<std::string> images_;
+  Image first_;  ///< of a bare folder
 };
 
 }  // namespace placegraph::apps
