@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
+#include "apps/draw_frame.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/run_files.h"
@@ -29,13 +30,13 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct Arguments {
-  std::string sequence, out, config, odometry;
+  std::string sequence, out, config, odometry, draw;
   std::vector<std::string> settings;
   std::optional<std::string> sensor;
   std::optional<double> camera_height_m;
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
-  bool no_loops = false, as_json = false, force = false, verbose = false;
+  bool no_loops = false, as_json = false, force = false, verbose = false, profile = false;
 };
 
 /// Defaults < file < --set < explicit flags.
@@ -150,6 +151,24 @@ void print_summary(const json& summary, const std::string& folder) {
       1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(), folder.c_str());
 }
 
+json describe_stages(const RunResult& run) {
+  json stages = json::array();
+  for (const StageTimes::Stage& stage : run.stages)
+    stages.push_back({{"name", stage.name}, {"cpu_s", stage.cpu_s}, {"calls", stage.calls}});
+  return stages;
+}
+
+void print_stages(const json& summary) {
+  const double frames = std::max(1, summary["frames"].get<int>());
+  std::printf("%-22s %9s %13s %13s\n", "stage", "calls", "CPU ms/call", "CPU ms/frame");
+  for (const json& stage : summary["stages"]) {
+    const double ms = 1000 * stage["cpu_s"].get<double>();
+    const auto calls = stage["calls"].get<std::int64_t>();
+    std::printf("%-22s %9lld %13.2f %13.2f\n", stage["name"].get<std::string>().c_str(),
+                static_cast<long long>(calls), ms / static_cast<double>(calls), ms / frames);
+  }
+}
+
 double path_length_m(const Trajectory& truth) {
   double length = 0;
   for (std::size_t i = 1; i < truth.size(); ++i)
@@ -163,8 +182,17 @@ double path_length_m(const Trajectory& truth) {
 void run(const Arguments& arguments) {
   const RunOptions options = options_of(arguments);
   require_free_folder(arguments.out, arguments.force);
+  if (!arguments.draw.empty()) require_free_folder(arguments.draw, arguments.force);
   const auto dataset = open_dataset(arguments.sequence);
   const OutputFolder folder(arguments.out);
+  std::optional<OutputFolder> drawings;
+  FrameObserver observer;
+  if (!arguments.draw.empty()) {
+    drawings.emplace(arguments.draw);
+    observer = [&](const Frame& frame, const FrameResult& result, const FrameView& view) {
+      write_frame_drawing(arguments.draw, frame, result, view);
+    };
+  }
   cv::setNumThreads(options.threads);
 
   const auto begin = std::chrono::steady_clock::now();
@@ -182,7 +210,7 @@ void run(const Arguments& arguments) {
         [&](std::size_t done, std::size_t, const FrameResult&) {
           progress.update(static_cast<std::int64_t>(done));
         },
-        log);
+        log, observer);
   }
   getrusage(RUSAGE_SELF, &after);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
@@ -197,6 +225,7 @@ void run(const Arguments& arguments) {
   summary["wall_s"] = wall.count();
   summary["cpu_s"] = cpu_seconds(after) - cpu_seconds(before);
   summary["peak_mb"] = peak_mb();
+  summary["stages"] = describe_stages(run);
   const auto truth = truth_of(*dataset, options, optimized.size());
   if (truth) {
     summary["path_m"] = path_length_m(*truth);
@@ -210,6 +239,7 @@ void run(const Arguments& arguments) {
     std::printf("%s\n", summary.dump(1).c_str());
   else
     print_summary(summary, arguments.out);
+  if (arguments.profile && !arguments.as_json) print_stages(summary);
   if (run.broken_off)
     throw Error(*run.broken_off + " (results of the " + std::to_string(optimized.size()) +
                 " frames before it are in " + arguments.out + ")");
@@ -240,6 +270,9 @@ void add_run_command(CLI::App& app) {
   command->add_option("--threads", arguments->threads, "the result does not depend on it");
   command->add_flag("--json", arguments->as_json, "print result.json");
   command->add_flag("--force", arguments->force, "write into a folder that is not empty");
+  command->add_option("--draw", arguments->draw,
+                      "folder for every frame drawn with tracks, residuals and ground");
+  command->add_flag("--profile", arguments->profile, "print the CPU time of every stage");
   command->add_flag("--verbose", arguments->verbose, "log messages on stderr");
   command->callback([arguments] { run(*arguments); });
 }

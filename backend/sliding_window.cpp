@@ -1,6 +1,7 @@
 #include <placegraph/backend/factors/reprojection.h>
 #include <placegraph/backend/sliding_window.h>
 #include <placegraph/backend/whitening.h>
+#include <placegraph/backend/window_information.h>
 #include <placegraph/backend/window_state.h>
 #include <placegraph/graph/core/error.h>
 
@@ -22,23 +23,39 @@ void visit(OptionVisitor& field, SlidingWindowOptions& o) {
 }
 
 struct SlidingWindow::Impl {
-  WindowState state;
   /// Nothing but the prior leads back to the keyframe that set the map's frame; once another has to
   /// be held instead, what is known is known from there only.
   bool tied_to_map = true;
 
-  SE3& keyframe(std::int64_t id) { return find(state.keyframes, id, "keyframe"); }
-  WindowLandmark& landmark(std::int64_t id) { return find(state.landmarks, id, "landmark"); }
-  WindowLine& line(std::int64_t id) { return find(state.lines, id, "line"); }
-  void require_plane(std::int64_t id) { find(state.planes, id, "plane"); }
+  const WindowState& state() const { return state_; }
+  /// What follows from the state is forgotten.
+  WindowState& change() {
+    information_.reset();
+    return state_;
+  }
+  const WindowInformation& information() const {
+    if (!information_) information_ = window_information(state_);
+    return *information_;
+  }
 
+  const SE3& keyframe(std::int64_t id) const { return find(state_.keyframes, id, "keyframe"); }
+  const WindowLandmark& landmark(std::int64_t id) const {
+    return find(state_.landmarks, id, "landmark");
+  }
+  const WindowLine& line(std::int64_t id) const { return find(state_.lines, id, "line"); }
+  void require_plane(std::int64_t id) const { find(state_.planes, id, "plane"); }
+
+ private:
   template <class T>
-  static T& find(std::map<std::int64_t, T>& all, std::int64_t id, const char* what) {
+  static const T& find(const std::map<std::int64_t, T>& all, std::int64_t id, const char* what) {
     const auto it = all.find(id);
     require(it != all.end(), std::string("sliding window: ") + what + " " + std::to_string(id) +
                                  " is not in the window");
     return it->second;
   }
+
+  WindowState state_;
+  mutable std::optional<WindowInformation> information_;
 };
 
 namespace {
@@ -77,15 +94,15 @@ SlidingWindow::SlidingWindow(const SlidingWindowOptions& options, const Camera& 
   options.check();
   camera.check();
   require(camera.distortion == Distortion::kNone, "sliding window: the camera must be undistorted");
-  impl_->state.options = options;
-  impl_->state.camera = camera;
+  impl_->change().options = options;
+  impl_->change().camera = camera;
 }
 SlidingWindow::~SlidingWindow() = default;
 SlidingWindow::SlidingWindow(SlidingWindow&&) noexcept = default;
 SlidingWindow& SlidingWindow::operator=(SlidingWindow&&) noexcept = default;
 
 void SlidingWindow::add_keyframe(std::int64_t id, const SE3& T_map_cam) {
-  WindowState& state = impl_->state;
+  WindowState& state = impl_->change();
   require(state.keyframes.empty() || id > state.keyframes.rbegin()->first,
           "sliding window: keyframe " + std::to_string(id) + " is not newer than the last one");
   require(T_map_cam.matrix().allFinite(),
@@ -96,13 +113,15 @@ void SlidingWindow::add_keyframe(std::int64_t id, const SE3& T_map_cam) {
 
 void SlidingWindow::add_landmark(std::int64_t id, const Eigen::Vector3d& p_map) {
   require(p_map.allFinite(), "sliding window: landmark " + std::to_string(id) + " is not finite");
-  const bool added = impl_->state.landmarks.try_emplace(id, WindowLandmark{p_map, {}, {}}).second;
+  const bool added =
+      impl_->change().landmarks.try_emplace(id, WindowLandmark{p_map, {}, {}}).second;
   require(added, "sliding window: landmark " + std::to_string(id) + " is there already");
 }
 
 void SlidingWindow::add_observation(const WindowObservation& o) {
   impl_->keyframe(o.keyframe);
-  std::vector<WindowObservation>& list = impl_->landmark(o.landmark).observations;
+  impl_->landmark(o.landmark);
+  std::vector<WindowObservation>& list = impl_->change().landmarks.at(o.landmark).observations;
   const std::string name = "sliding window: observation of landmark " + std::to_string(o.landmark) +
                            " in keyframe " + std::to_string(o.keyframe);
   require(o.px.allFinite() && std::isfinite(o.sigma_px) && o.sigma_px > 0,
@@ -120,27 +139,28 @@ void SlidingWindow::add_distance(const DistanceObservation& d) {
   require(
       std::isfinite(d.distance_m) && d.distance_m >= 0 && std::isfinite(d.sigma_m) && d.sigma_m > 0,
       "sliding window: distance_m must be finite and not negative, sigma_m positive");
-  impl_->state.distances.push_back(d);
+  impl_->change().distances.push_back(d);
 }
 
 void SlidingWindow::keep(std::int64_t keyframe, bool kept) {
   impl_->keyframe(keyframe);
   if (kept)
-    impl_->state.kept.insert(keyframe);
+    impl_->change().kept.insert(keyframe);
   else
-    impl_->state.kept.erase(keyframe);
+    impl_->change().kept.erase(keyframe);
 }
 
 void SlidingWindow::add_line(std::int64_t id, const Line3& line_map) {
   require(line_map.coordinates().allFinite(),
           "sliding window: line " + std::to_string(id) + " is not finite");
-  const bool added = impl_->state.lines.try_emplace(id, WindowLine{line_map, {}}).second;
+  const bool added = impl_->change().lines.try_emplace(id, WindowLine{line_map, {}}).second;
   require(added, "sliding window: line " + std::to_string(id) + " is there already");
 }
 
 void SlidingWindow::add_line_observation(const LineObservation& o) {
   impl_->keyframe(o.keyframe);
-  std::vector<LineObservation>& list = impl_->line(o.line).observations;
+  impl_->line(o.line);
+  std::vector<LineObservation>& list = impl_->change().lines.at(o.line).observations;
   const std::string name = "sliding window: observation of line " + std::to_string(o.line) +
                            " in keyframe " + std::to_string(o.keyframe);
   require(o.start_px.allFinite() && o.end_px.allFinite() && positive(o.sigma_px),
@@ -150,11 +170,11 @@ void SlidingWindow::add_line_observation(const LineObservation& o) {
 
 void SlidingWindow::remove_line(std::int64_t id) {
   impl_->line(id);
-  impl_->state.lines.erase(id);
+  impl_->change().lines.erase(id);
 }
 
 void SlidingWindow::add_plane(std::int64_t id, const Plane3& plane_map) {
-  const bool added = impl_->state.planes.try_emplace(id, plane_map).second;
+  const bool added = impl_->change().planes.try_emplace(id, plane_map).second;
   require(added, "sliding window: plane " + std::to_string(id) + " is there already");
 }
 
@@ -163,12 +183,13 @@ void SlidingWindow::add_height(const HeightObservation& h) {
   impl_->require_plane(h.plane);
   require(positive(h.height_m) && positive(h.sigma_m),
           "sliding window: height_m and sigma_m must be finite and positive");
-  impl_->state.heights.push_back(h);
+  impl_->change().heights.push_back(h);
 }
 
 void SlidingWindow::add_plane_point(const PlanePoint& point) {
   impl_->require_plane(point.plane);
-  WindowLandmark& landmark = impl_->landmark(point.landmark);
+  impl_->landmark(point.landmark);
+  WindowLandmark& landmark = impl_->change().landmarks.at(point.landmark);
   require(positive(point.sigma_m), "sliding window: sigma_m must be finite and positive");
   require(!landmark.on_plane, "sliding window: landmark " + std::to_string(point.landmark) +
                                   " lies on a plane already");
@@ -185,29 +206,43 @@ void SlidingWindow::add_pose_prior(const PosePrior& prior) {
   const double least = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[5];
   require(largest > 0 && least >= -1e-9 * largest,
           name + ": the information must be positive semi-definite and not zero");
-  impl_->state.pose_priors.push_back(prior);
+  impl_->change().pose_priors.push_back(prior);
   bool deficient = false;
   whitening(prior.information, &deficient);
-  if (!deficient && impl_->state.fixed == prior.keyframe) impl_->state.fixed.reset();
+  if (!deficient && impl_->change().fixed == prior.keyframe) impl_->change().fixed.reset();
 }
 
 void SlidingWindow::remove_landmark(std::int64_t id) {
   impl_->landmark(id);
-  impl_->state.landmarks.erase(id);
+  impl_->change().landmarks.erase(id);
 }
 
 void SlidingWindow::remove_observation(std::int64_t keyframe, std::int64_t landmark) {
+  impl_->landmark(landmark);
   const std::size_t removed =
-      std::erase_if(impl_->landmark(landmark).observations,
+      std::erase_if(impl_->change().landmarks.at(landmark).observations,
                     [&](const WindowObservation& o) { return o.keyframe == keyframe; });
   require(removed > 0, "sliding window: landmark " + std::to_string(landmark) +
                            " has no observation in keyframe " + std::to_string(keyframe));
 }
 
-WindowSummary SlidingWindow::optimize() { return optimize_window(impl_->state); }
+void SlidingWindow::revise_inverse_depth(std::int64_t keyframe, std::int64_t landmark,
+                                         double inverse_depth) {
+  require(positive(inverse_depth), "sliding window: inverse_depth must be finite and positive");
+  impl_->landmark(landmark);
+  for (WindowObservation& o : impl_->change().landmarks.at(landmark).observations)
+    if (o.keyframe == keyframe && o.inverse_depth) {
+      o.inverse_depth = inverse_depth;
+      return;
+    }
+  throw ArgumentError("sliding window: landmark " + std::to_string(landmark) +
+                      " has no inverse depth in keyframe " + std::to_string(keyframe));
+}
+
+WindowSummary SlidingWindow::optimize() { return optimize_window(impl_->change()); }
 
 std::vector<std::int64_t> SlidingWindow::marginalize() {
-  WindowState& state = impl_->state;
+  WindowState& state = impl_->change();
   std::vector<std::int64_t> left;
   while (static_cast<int>(state.keyframes.size()) > state.options.max_keyframes) {
     // The newest stays in any case.
@@ -225,7 +260,7 @@ std::vector<std::int64_t> SlidingWindow::marginalize() {
 }
 
 void SlidingWindow::rescale(double scale) {
-  WindowState& state = impl_->state;
+  WindowState& state = impl_->change();
   require(std::isfinite(scale) && scale > 0, "sliding window: scale must be positive");
   require(!has_metric_observation(state) && !state.prior_is_metric && state.prior.planes.empty(),
           "sliding window: the scale is measured already, it cannot be set");
@@ -252,34 +287,34 @@ void SlidingWindow::rescale(double scale) {
 }
 
 std::vector<std::int64_t> SlidingWindow::keyframes() const {
-  return ids_of(impl_->state.keyframes);
+  return ids_of(impl_->state().keyframes);
 }
 
 std::vector<std::int64_t> SlidingWindow::landmarks() const {
-  return ids_of(impl_->state.landmarks);
+  return ids_of(impl_->state().landmarks);
 }
 
-std::vector<std::int64_t> SlidingWindow::lines() const { return ids_of(impl_->state.lines); }
+std::vector<std::int64_t> SlidingWindow::lines() const { return ids_of(impl_->state().lines); }
 
-std::vector<std::int64_t> SlidingWindow::planes() const { return ids_of(impl_->state.planes); }
+std::vector<std::int64_t> SlidingWindow::planes() const { return ids_of(impl_->state().planes); }
 
 std::optional<Line3> SlidingWindow::line(std::int64_t id) const {
-  const auto it = impl_->state.lines.find(id);
-  if (it == impl_->state.lines.end()) return std::nullopt;
+  const auto it = impl_->state().lines.find(id);
+  if (it == impl_->state().lines.end()) return std::nullopt;
   return it->second.line_map;
 }
 
 std::optional<Plane3> SlidingWindow::plane(std::int64_t id) const {
-  const auto it = impl_->state.planes.find(id);
-  if (it == impl_->state.planes.end()) return std::nullopt;
+  const auto it = impl_->state().planes.find(id);
+  if (it == impl_->state().planes.end()) return std::nullopt;
   return it->second;
 }
 
 SE3 SlidingWindow::pose(std::int64_t keyframe) const { return impl_->keyframe(keyframe); }
 
 std::optional<Eigen::Vector3d> SlidingWindow::landmark(std::int64_t id) const {
-  const auto it = impl_->state.landmarks.find(id);
-  if (it == impl_->state.landmarks.end()) return std::nullopt;
+  const auto it = impl_->state().landmarks.find(id);
+  if (it == impl_->state().landmarks.end()) return std::nullopt;
   return it->second.p_map;
 }
 
@@ -288,22 +323,22 @@ const std::vector<WindowObservation>& SlidingWindow::observations(std::int64_t l
 }
 
 std::optional<Eigen::Vector2d> SlidingWindow::residual_px(const WindowObservation& o) const {
-  const auto keyframe = impl_->state.keyframes.find(o.keyframe);
-  const auto landmark = impl_->state.landmarks.find(o.landmark);
-  if (keyframe == impl_->state.keyframes.end() || landmark == impl_->state.landmarks.end())
+  const auto keyframe = impl_->state().keyframes.find(o.keyframe);
+  const auto landmark = impl_->state().landmarks.find(o.landmark);
+  if (keyframe == impl_->state().keyframes.end() || landmark == impl_->state().landmarks.end())
     return std::nullopt;
   const SE3& T_map_cam = keyframe->second;
   const PointInCamera point(T_map_cam.rotation().matrix(), T_map_cam.translation(),
                             landmark->second.p_map);
   if (!point.projectable()) return std::nullopt;
-  return Reprojection(impl_->state.camera, o.px, 1.0).residual(point.p_cam);
+  return Reprojection(impl_->state().camera, o.px, 1.0).residual(point.p_cam);
 }
 
 Matrix6d SlidingWindow::relative_information(std::int64_t from, std::int64_t to) const {
   impl_->keyframe(from);
   impl_->keyframe(to);
   require(from != to, "sliding window: a relative pose needs two keyframes");
-  return placegraph::relative_information(impl_->state, from, to);
+  return placegraph::relative_information(impl_->state(), impl_->information(), from, to);
 }
 
 std::optional<Matrix6d> SlidingWindow::relative_covariance(std::int64_t from,
@@ -314,8 +349,8 @@ std::optional<Matrix6d> SlidingWindow::relative_covariance(std::int64_t from,
 std::optional<Matrix6d> SlidingWindow::covariance(std::int64_t keyframe) const {
   impl_->keyframe(keyframe);
   if (!impl_->tied_to_map) return std::nullopt;
-  if (impl_->state.fixed == keyframe) return Matrix6d(Matrix6d::Zero());
-  return inverse_if_full(absolute_information(impl_->state, keyframe));
+  if (impl_->state().fixed == keyframe) return Matrix6d(Matrix6d::Zero());
+  return inverse_if_full(absolute_information(impl_->state(), impl_->information(), keyframe));
 }
 
 double SlidingWindow::sigma_log_length_ratio(std::int64_t first, std::int64_t middle,
@@ -323,7 +358,8 @@ double SlidingWindow::sigma_log_length_ratio(std::int64_t first, std::int64_t mi
   for (const std::int64_t id : {first, middle, last}) impl_->keyframe(id);
   require(first != middle && middle != last && first != last,
           "sliding window: a ratio of lengths needs three keyframes");
-  return placegraph::sigma_log_length_ratio(impl_->state, first, middle, last);
+  return placegraph::sigma_log_length_ratio(impl_->state(), impl_->information(), first, middle,
+                                            last);
 }
 
 }  // namespace placegraph

@@ -115,6 +115,9 @@ class SlidingWindow {
   /// Forgets a landmark with its observations (an outlier).
   void remove_landmark(std::int64_t id);
   void remove_observation(std::int64_t keyframe, std::int64_t landmark);
+  /// The inverse depth [1/m] of an observation that has one, as it is measured by a better
+  /// calibration.
+  void revise_inverse_depth(std::int64_t keyframe, std::int64_t landmark, double inverse_depth);
 
   [[nodiscard]] WindowSummary optimize();
   /// Marginalizes the oldest keyframes until at most max_keyframes are left: landmarks and lines

@@ -1,4 +1,4 @@
-#include <placegraph/backend/window_state.h>
+#include <placegraph/backend/window_information.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -6,8 +6,8 @@
 
 namespace placegraph {
 
-double sigma_log_length_ratio(const WindowState& state, std::int64_t first, std::int64_t middle,
-                              std::int64_t last) {
+double sigma_log_length_ratio(const WindowState& state, const WindowInformation& information,
+                              std::int64_t first, std::int64_t middle, std::int64_t last) {
   const SE3 &T_a = state.keyframes.at(first), &T_b = state.keyframes.at(middle),
             &T_c = state.keyframes.at(last);
   const Eigen::Vector3d ab = T_b.translation() - T_a.translation();
@@ -24,7 +24,7 @@ double sigma_log_length_ratio(const WindowState& state, std::int64_t first, std:
 
   // The ratio does not feel the gauge, whose directions the information leaves open: they are left
   // out of the inverse. Scaled to a unit diagonal, as metres and radians have no common size.
-  const Eigen::MatrixXd H = joint_information(state, {first, middle, last});
+  const Eigen::MatrixXd H = joint_information(state, information, {first, middle, last});
   const Eigen::VectorXd scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H *
                                                              scale.asDiagonal());

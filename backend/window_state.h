@@ -65,18 +65,4 @@ WindowSummary optimize_window(WindowState& state);
 /// (window_marginalization.cpp).
 void marginalize_keyframe(WindowState& state, std::int64_t leaving);
 
-/// See SlidingWindow::relative_information (window_marginalization.cpp).
-Matrix6d relative_information(const WindowState& state, std::int64_t from, std::int64_t to);
-/// Information of the poses of `keyframes` (right tangents, in that order) from everything in the
-/// window with all else marginalized, the keyframe that is held as constant unless it is one of
-/// them; singular along the gauge (window_marginalization.cpp).
-Eigen::MatrixXd joint_information(const WindowState& state,
-                                  const std::vector<std::int64_t>& keyframes);
-/// The information of a keyframe's pose in the map, all else marginalized.
-Matrix6d absolute_information(const WindowState& state, std::int64_t keyframe);
-
-/// See SlidingWindow::sigma_log_length_ratio (window_lengths.cpp).
-double sigma_log_length_ratio(const WindowState& state, std::int64_t first, std::int64_t middle,
-                              std::int64_t last);
-
 }  // namespace placegraph

@@ -2,12 +2,31 @@
 
 #include <bit>
 
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define PLACEGRAPH_COUNTS_BITS __attribute__((target_clones("popcnt", "default")))
+#else
+#define PLACEGRAPH_COUNTS_BITS
+#endif
+
 namespace placegraph {
 
+PLACEGRAPH_COUNTS_BITS
 int hamming_distance(const BinaryDescriptor& a, const BinaryDescriptor& b) {
   int bits = 0;
   for (std::size_t i = 0; i < a.size(); ++i) bits += std::popcount(a[i] ^ b[i]);
   return bits;
+}
+
+PLACEGRAPH_COUNTS_BITS
+void hamming_distances(const BinaryDescriptor& from, const std::vector<BinaryDescriptor>& to,
+                       std::vector<int>& distances) {
+  distances.resize(to.size());
+  for (std::size_t j = 0; j < to.size(); ++j) {
+    int bits = 0;
+    for (std::size_t i = 0; i < from.size(); ++i)
+      bits += std::popcount(from[i] ^ to[j][i]);
+    distances[j] = bits;
+  }
 }
 
 }  // namespace placegraph

@@ -14,6 +14,11 @@ using BinaryDescriptor = std::array<std::uint64_t, 4>;
 /// Number of differing bits.
 int hamming_distance(const BinaryDescriptor& a, const BinaryDescriptor& b);
 
+/// Number of bits in which `from` differs from each of `to`; several times as fast as one by one
+/// where the machine counts bits.
+void hamming_distances(const BinaryDescriptor& from, const std::vector<BinaryDescriptor>& to,
+                       std::vector<int>& distances);
+
 /// A described image point of a keyframe; `point_cam` [m], in the keyframe's camera frame, where
 /// its depth is known.
 struct Feature {

@@ -40,6 +40,20 @@ GroundScale::GroundScale(const GroundScaleOptions& options, const Camera& camera
   require(camera_height_m > 0, "camera_height_m: must be positive");
 }
 
+std::vector<Eigen::Vector2d> GroundScale::outline_px() const {
+  const GroundPlaneOptions& o = options_.plane;
+  std::vector<Eigen::Vector2d> outline;
+  for (const auto& [x, z] : {std::pair(-o.half_width_heights, o.near_heights),
+                             std::pair(-o.half_width_heights, o.far_heights),
+                             std::pair(o.half_width_heights, o.far_heights),
+                             std::pair(o.half_width_heights, o.near_heights)}) {
+    // The point (x, y, z) of the plane, in camera heights: n x = 1.
+    const double y = (1 - normal_cam_.x() * x - normal_cam_.z() * z) / normal_cam_.y();
+    if (const auto px = camera_.project({x, y, z})) outline.push_back(*px);
+  }
+  return outline;
+}
+
 GroundPlanePrior GroundScale::prior() const {
   const double frame = options_.pitching_sigma_deg * M_PI / 180;
   return {plane_cam(), std::sqrt(normal_variance_rad2_ + frame * frame)};

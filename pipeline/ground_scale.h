@@ -35,6 +35,8 @@ class GroundScale {
   /// For a motion whose scale is roughly right.
   std::optional<Length> follow(const Image& image_new, const Image& image_old,
                                const SE3& T_old_new);
+  /// Outline in the image of the ground that is looked at.
+  std::vector<Eigen::Vector2d> outline_px() const;
   double min_baseline_m() const { return options_.min_baseline_heights * camera_height_m_; }
   /// Mean ground plane in the camera frame, at the camera's height.
   Plane plane_cam() const { return {normal_cam_, camera_height_m_}; }

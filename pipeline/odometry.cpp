@@ -1,4 +1,3 @@
-#include <placegraph/frontend/features/depth_lookup.h>
 #include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/median.h>
@@ -6,15 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace placegraph {
 Odometry::Odometry(const OdometryOptions& options, const Calibration& calibration,
-                   std::uint64_t seed, LogSink log)
+                   std::uint64_t seed, LogSink log, StageTimes& times)
     : options_(options),
       calibration_(calibration),
       seed_(seed),
       log_(std::move(log)),
+      times_(times),
       tracker_(options.tracker),
       window_(options.window, calibration.camera) {
   options_.check();
@@ -24,6 +23,8 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
   scale_known_ = calibration_.baseline_m > 0 || calibration_.depth;
   if (!scale_known_ && calibration_.camera_height_m && options_.ground.enabled)
     ground_.emplace(options_.ground, calibration_.camera, *calibration_.camera_height_m);
+  if (calibration_.baseline_m > 0 && options_.rectification.enabled)
+    rectification_.emplace(options_.rectification);
 }
 
 void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
@@ -52,9 +53,12 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
 OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>& T_odom_cam_known) {
   if (!started_) return begin(frame);
   const PointTracker before = tracker_;
-  tracker_.track(frame.image, state_ == TrackingState::kWaiting
-                                  ? std::vector<Eigen::Vector2f>{}
-                                  : predict(T_odom_last_ * T_last_cur_));
+  {
+    const auto span = times_.measure("point tracking");
+    tracker_.track(frame.image, state_ == TrackingState::kWaiting
+                                    ? std::vector<Eigen::Vector2f>{}
+                                    : predict(T_odom_last_ * T_last_cur_));
+  }
   OdometryUpdate update =
       state_ == TrackingState::kWaiting ? try_initialize(frame, T_odom_cam_known) : track(frame);
   if (update.state == TrackingState::kLost) {
@@ -84,6 +88,7 @@ std::vector<Eigen::Vector2f> Odometry::predict(const SE3& T_odom_cam) const {
 }
 
 OdometryUpdate Odometry::track(const Frame& frame) {
+  const auto span = times_.measure("frame pose");
   OdometryUpdate update;
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> px;
@@ -148,7 +153,10 @@ bool Odometry::keyframe_due(const Frame& frame, int inliers) const {
 void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update) {
   const std::int64_t id = next_keyframe_++;
   window_.add_keyframe(id, T_odom_cam);
-  tracker_.detect(frame.mask);
+  {
+    const auto span = times_.measure("point detection");
+    tracker_.detect(frame.mask);
+  }
   observe_tracks(id, frame);
   last_keyframe_ = id;
   if (ground_ || motion_) measure_scale(frame, update);
@@ -161,25 +169,6 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
     landmarks_at_keyframe_ += window_.landmark(track.id).has_value();
   }
   update.new_keyframes.push_back({id, frame});
-}
-
-std::vector<std::optional<Odometry::DepthMeasurement>> Odometry::measure_depth(
-    const Frame& frame) const {
-  std::vector<Eigen::Vector2f> px;
-  for (const PointTrack& track : tracker_.tracks()) px.push_back(track.px);
-  std::vector<std::optional<DepthMeasurement>> result(px.size());
-  if (calibration_.baseline_m > 0 && !frame.right.empty()) {
-    const double per_px = 1 / (calibration_.camera.fx * calibration_.baseline_m);
-    const auto disparities = match_stereo(frame.image, frame.right, px, options_.stereo);
-    for (std::size_t i = 0; i < px.size(); ++i)
-      if (disparities[i])
-        result[i] = {*disparities[i] * per_px, options_.stereo.sigma_disparity_px * per_px};
-  } else if (calibration_.depth && !frame.depth.empty()) {
-    const auto depths = lookup_depth(frame.depth, calibration_.camera, *calibration_.depth, px);
-    for (std::size_t i = 0; i < px.size(); ++i)
-      if (depths[i]) result[i] = {1 / *depths[i], calibration_.depth->sigma_at_1m};
-  }
-  return result;
 }
 
 void Odometry::add_observation(std::int64_t keyframe, std::int64_t landmark,
@@ -198,9 +187,10 @@ void Odometry::add_observation(std::int64_t keyframe, std::int64_t landmark,
 }
 
 void Odometry::observe_tracks(std::int64_t keyframe, const Frame& frame) {
+  const auto span = times_.measure("triangulation");
   const Camera& camera = calibration_.camera;
   const SE3 T_odom_cam = window_.pose(keyframe);
-  const auto depths = measure_depth(frame);
+  const auto depths = measure_depth(frame, T_odom_cam);
   const auto in_window = window_.keyframes();
   const std::int64_t oldest = in_window.front();
   const double min_parallax_rad = options_.min_parallax_deg * M_PI / 180;
@@ -240,6 +230,7 @@ void Odometry::observe_tracks(std::int64_t keyframe, const Frame& frame) {
 }
 
 void Odometry::refine_window() {
+  const auto span = times_.measure("window");
   const bool alone = window_.keyframes().size() < 2;  // a first stereo or RGB-D keyframe
   const WindowSummary summary = alone ? WindowSummary{} : window_.optimize();
   if (!alone && !summary.outcome)
@@ -261,6 +252,8 @@ void Odometry::refine_window() {
   }
   if (!depths.empty()) median_depth_m_ = std::max(1e-3, median_of(depths));
   for (const std::int64_t id : window_.keyframes()) keyframe_poses_[id] = window_.pose(id);
+  if (rectification_ && !alone) calibrate_eyes();
+  const auto leaving = times_.measure("marginalization");
   // Before a keyframe leaves, what it knew of its successor is written down.
   const auto keyframes = window_.keyframes();
   for (std::size_t i = 0;
@@ -320,6 +313,21 @@ PointLandmark Odometry::describe_landmark(std::int64_t id) const {
   landmark.point_cam = window_.pose(landmark.keyframe).inverse() * *window_.landmark(id);
   landmark.observations = static_cast<int>(observations.size());
   return landmark;
+}
+
+FrameView Odometry::view() const {
+  FrameView view;
+  const SE3 T_cam_odom = T_odom_last_.inverse();
+  for (const PointTrack& track : tracker_.tracks()) {
+    FrameView::Track& seen = view.tracks.emplace_back();
+    seen.id = track.id;
+    seen.px = track.px.cast<double>();
+    seen.px_previous = track.px_previous.cast<double>();
+    if (const auto point = window_.landmark(track.id))
+      seen.px_projected = calibration_.camera.project(T_cam_odom * *point);
+  }
+  if (ground_ && scale_known_) view.ground_px = ground_->outline_px();
+  return view;
 }
 
 std::vector<PointLandmark> Odometry::landmarks() const {

@@ -1,17 +1,21 @@
 #pragma once
 #include <placegraph/backend/sliding_window.h>
+#include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/frontend/odometry/mono_initializer.h>
 #include <placegraph/frontend/odometry/pose_3d2d.h>
 #include <placegraph/graph/core/log.h>
+#include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/landmark.h>
 #include <placegraph/graph/measured_motion.h>
+#include <placegraph/pipeline/frame_view.h>
 #include <placegraph/pipeline/ground_scale.h>
 
 #include <map>
 #include <memory>
+#include <set>
 
 namespace placegraph {
 
@@ -29,6 +33,7 @@ struct OdometryOptions {
   Pose3d2dOptions pose;
   MonoInitializerOptions initializer;
   StereoMatcherOptions stereo;
+  RectificationOptions rectification;
   GroundScaleOptions ground;
   KeyframeOptions keyframe;
   SlidingWindowOptions window{.max_keyframes = 10};
@@ -70,8 +75,9 @@ struct OdometryUpdate {
 /// views with parallax, and takes its scale from the ground where the camera height is known.
 class Odometry {
  public:
+  /// `times`, which must outlive it, learns what its stages take.
   Odometry(const OdometryOptions& options, const Calibration& calibration, std::uint64_t seed,
-           LogSink log);
+           LogSink log, StageTimes& times);
 
   /// `T_odom_cam_known`, where the frame has been recognized in the map, gives a single eye that
   /// begins anew its unit and place.
@@ -107,6 +113,8 @@ class Odometry {
   /// All landmarks of all runs of tracking, each relative to the keyframe that first saw it.
   std::vector<PointLandmark> landmarks() const;
   double median_depth_m() const { return median_depth_m_; }
+  /// Tracks and ground of the last frame.
+  FrameView view() const;
 
  private:
   struct View {  // a frame while mono waits for its second view
@@ -139,7 +147,13 @@ class Odometry {
   void refine_window();
   double unit_drift() const;
   PointLandmark describe_landmark(std::int64_t id) const;
-  std::vector<std::optional<DepthMeasurement>> measure_depth(const Frame& frame) const;
+  std::vector<std::optional<DepthMeasurement>> measure_depth(const Frame& frame,
+                                                             const SE3& T_odom_cam) const;
+  std::vector<std::optional<double>> expected_disparities(const SE3& T_odom_cam,
+                                                          const RectificationError& error) const;
+  void calibrate_eyes();
+  std::optional<DisparitySample> disparity_sample(std::int64_t landmark) const;
+  void revise_disparities(const RectificationError& before);
   void add_observation(std::int64_t keyframe, std::int64_t landmark, const Eigen::Vector2d& px,
                        const std::optional<DepthMeasurement>& depth);
 
@@ -147,9 +161,12 @@ class Odometry {
   Calibration calibration_;
   std::uint64_t seed_;
   LogSink log_;
+  StageTimes& times_;
   PointTracker tracker_;
   SlidingWindow window_;
   std::optional<GroundScale> ground_;
+  std::optional<RectificationEstimator> rectification_;  // of two eyes
+  std::set<std::int64_t> calibrated_;                    // landmarks of the window it has heard of
   std::shared_ptr<const MeasuredMotion> motion_;  // of the camera, where nothing else is metric
   std::map<std::int64_t, std::int64_t> stamps_;   // of this run's keyframes, for that
   TrackingState state_ = TrackingState::kWaiting;

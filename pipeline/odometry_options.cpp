@@ -17,6 +17,7 @@ void visit(OptionVisitor& field, KeyframeOptions& o) {
 void OdometryOptions::check() const {
   check_ranges(*this);
   tracker.check();
+  rectification.check();
   ground.check();
   window.check();
 }
@@ -26,6 +27,7 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
   field.group("pose", o.pose, "pose of a frame from landmarks");
   field.group("initializer", o.initializer, "first two views of a single eye");
   field.group("stereo", o.stereo, "matching of the right eye");
+  field.group("rectification", o.rectification, "self-calibration of the two eyes");
   field.group("ground", o.ground, "metric scale from the road");
   field.group("keyframe", o.keyframe, "when a frame becomes a keyframe");
   field.group("window", o.window, "bundle adjustment over the last keyframes");

@@ -11,6 +11,7 @@ void Odometry::set_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
 }
 
 void Odometry::measure_scale(const Frame& frame, OdometryUpdate& update) {
+  const auto span = times_.measure("scale");
   stamps_[last_keyframe_] = frame.stamp_ns;
   if (ground_) measure_ground(frame, update);
   if (motion_) measure_way(update);

@@ -101,7 +101,8 @@ void visit(OptionVisitor& field, MotionOptions& o) {
 }
 
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
-                       const RunProgress& progress, const LogSink& log) {
+                       const RunProgress& progress, const LogSink& log,
+                       const FrameObserver& observer) {
   options.check();
   RunResult result;
   result.sensor = choose_sensor(dataset, options.sensor);
@@ -116,10 +117,12 @@ RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
 
   Slam slam(options.slam, result.calibration, log);
   if (!options.motion.file.empty()) slam.set_motion(read_motion(dataset, options.motion));
+  StageTimes reading;
   FrameReader reader(dataset, result.sensor, end, options.threads > 1);
   for (std::size_t i = begin; i < end; ++i) {
     Frame frame;
     try {
+      const auto span = reading.measure("reading");
       frame = reader.read(i);
     } catch (const FileError& error) {
       if (i == begin) throw;
@@ -127,9 +130,12 @@ RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
       break;
     }
     const FrameResult frame_result = slam.add_frame(frame);
+    if (observer) observer(frame, frame_result, slam.view());
     if (progress) progress(i + 1 - begin, end - begin, frame_result);
   }
   result.map = slam.finish();
+  result.stages = reading.stages();
+  result.stages.insert(result.stages.end(), slam.stages().begin(), slam.stages().end());
   return result;
 }
 

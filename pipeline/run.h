@@ -39,16 +39,24 @@ struct RunResult {
   Map map;
   /// A frame could not be read: the map holds the frames before it. The message of its FileError.
   std::optional<std::string> broken_off;
+  /// Reading and the stages of Slam. With more than one thread the next frame is read while the
+  /// last is worked on, and counts for the stage that is open then.
+  std::vector<StageTimes::Stage> stages;
 };
 
 /// Called after each frame with the number done and of all, and what became of it.
 using RunProgress = std::function<void(std::size_t done, std::size_t total, const FrameResult&)>;
 
+/// Called after each frame with its images, what became of it, and what the frontend sees in it.
+using FrameObserver =
+    std::function<void(const Frame& frame, const FrameResult& result, const FrameView& view)>;
+
 /// Runs the system over a sequence, every frame, never sleeping. Same result for any number of
 /// threads. Throws as Slam and the data set do; an unreadable frame that is not the first ends the
 /// run.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
-                       const RunProgress& progress = {}, const LogSink& log = {});
+                       const RunProgress& progress = {}, const LogSink& log = {},
+                       const FrameObserver& observer = {});
 
 /// "mono", "stereo", "rgbd".
 const char* to_string(Sensor sensor);

@@ -39,7 +39,7 @@ struct Slam::Impl {
       : options(o),
         calibration(c),
         log_sink(std::move(l)),
-        odometry(o.odometry, c, o.seed, log_sink),
+        odometry(o.odometry, c, o.seed, log_sink, times),
         closer(o.loops, c, o.seed),
         mapper(o.places, o.pose_graph) {}
 
@@ -61,6 +61,7 @@ struct Slam::Impl {
   SlamOptions options;
   Calibration calibration;
   LogSink log_sink;
+  StageTimes times;
   Odometry odometry;
   LoopCloser closer;
   PlaceMapper mapper;
@@ -94,6 +95,8 @@ void Slam::set_motion(const MeasuredMotion& motion_cam) {
 
 FrameResult Slam::add_frame(const Frame& frame) { return impl_->add_frame(frame); }
 Map Slam::snapshot() const { return impl_->snapshot(); }
+FrameView Slam::view() const { return impl_->odometry.view(); }
+const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times.stages(); }
 
 Map Slam::finish() {
   require(!impl_->finished, "Slam::finish: called twice");
@@ -272,10 +275,14 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
                              1 / mapper.S_map_keyframe(bridge->match).scale()};
     bridge.reset();
   }
+  const auto span = times.measure("place graph");
   mapper.add_keyframe(keyframe.id, link, T_odom_keyframe, odometry.median_depth_m(),
                       odometry.scale_known());
   last_keyframe = keyframe.id;
-  refresh_links();
+  {
+    const auto inner = times.measure("constraints");
+    refresh_links();
+  }
   frame_of_keyframe[keyframe.id] = keyframe.frame.id;
   stamp_of_keyframe[keyframe.id] = keyframe.frame.stamp_ns;
   for (FrameRecord& record : records)
@@ -285,7 +292,10 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
     }
   if (motion) add_motion(keyframe.id);
   if (mapper.is_anchor(keyframe.id)) report(mapper.optimize(odometry.window_begin()));
-  closer.add_view(keyframe.id, keyframe.frame, T_previous_this);
+  {
+    const auto inner = times.measure("described features");
+    closer.add_view(keyframe.id, keyframe.frame, T_previous_this);
+  }
   if (options.loops.enabled) close_loops(result);
 }
 
@@ -326,7 +336,10 @@ void Slam::Impl::close_loops(FrameResult& result) {
       [&](std::int64_t a, std::int64_t b) { return mapper.odometry(a, b); },
       [&](std::int64_t a, std::int64_t b) { return mapper.predicted(a, b); },
       [&](std::int64_t a, std::int64_t b) { return mapper.units_differ(a, b); }};
-  const auto loops = closer.find_loops(known, odometry.median_depth_m());
+  const auto loops = [&] {
+    const auto span = times.measure("loop closure");
+    return closer.find_loops(known, odometry.median_depth_m());
+  }();
   if (loops.empty()) return;
   for (const Loop& loop : loops) mapper.add_loop(loop);
   result.loops_accepted += static_cast<int>(loops.size());

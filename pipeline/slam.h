@@ -55,6 +55,10 @@ class Slam {
   Map snapshot() const;
   /// Optimizes once more and returns the map; neither it nor add_frame may be called afterwards.
   Map finish();
+  /// What the frontend sees in the last frame.
+  FrameView view() const;
+  /// CPU time that each stage has taken so far.
+  const std::vector<StageTimes::Stage>& stages() const;
 
  private:
   struct Impl;

@@ -47,13 +47,20 @@ std::vector<FeatureMatch> match_features(const std::vector<Feature>& a,
                                          const MatcherOptions& options,
                                          const std::vector<bool>& use_b) {
   std::vector<Best> best_a(a.size()), best_b(b.size());
-  for (int i = 0; i < static_cast<int>(a.size()); ++i)
-    for (int j = 0; j < static_cast<int>(b.size()); ++j) {
-      if (!use_b.empty() && !use_b[j]) continue;
-      const int d = hamming_distance(a[i].descriptor, b[j].descriptor);
-      best_a[i].offer(j, d);
-      best_b[j].offer(i, d);
+  std::vector<int> used, distances;
+  std::vector<BinaryDescriptor> descriptors;
+  for (int j = 0; j < static_cast<int>(b.size()); ++j) {
+    if (!use_b.empty() && !use_b[j]) continue;
+    used.push_back(j);
+    descriptors.push_back(b[j].descriptor);
+  }
+  for (int i = 0; i < static_cast<int>(a.size()); ++i) {
+    hamming_distances(a[i].descriptor, descriptors, distances);
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      best_a[i].offer(used[k], distances[k]);
+      best_b[used[k]].offer(i, distances[k]);
     }
+  }
   return mutual(best_a, best_b, options);
 }
 

@@ -38,6 +38,24 @@ std::optional<Peak> search_row(const Image& from, const Image& to, int u, int v,
   return peak;
 }
 
+constexpr double kAboutExpected = 6;  // px of disparity on either side
+
+/// The disparity of a point between `d_min` and `d_max`, there and back.
+std::optional<double> match_within(const Image& left, const Image& right, const Eigen::Vector2f& px,
+                                   double d_min, double d_max, const StereoMatcherOptions& o) {
+  // The patch is cut at whole pixels; the fraction is taken back at the end.
+  const int u = cvRound(px.x()), v = cvRound(px.y());
+  const int near = static_cast<int>(std::floor(d_min)), far = static_cast<int>(std::ceil(d_max));
+  const auto there = search_row(left, right, u, v, u - far, u - near, o);
+  if (!there || !there->interior || there->score < o.min_score) return std::nullopt;
+  const int u_right = cvRound(there->u);
+  const auto back = search_row(right, left, u_right, v, u_right + near, u_right + far, o);
+  if (!back || std::abs(back->u - (u + u_right - there->u)) > o.max_left_right_px)
+    return std::nullopt;
+  const double disparity = u - there->u;
+  return disparity > 0.1 ? std::optional(disparity) : std::nullopt;
+}
+
 }  // namespace
 
 void StereoMatcherOptions::check() const { check_ranges(*this); }
@@ -51,24 +69,24 @@ void visit(OptionVisitor& field, StereoMatcherOptions& o) {
   field("sigma_disparity_px", o.sigma_disparity_px, "noise of the disparity", {0.01, 10});
 }
 
-std::vector<std::optional<double>> match_stereo(const Image& left, const Image& right,
-                                                const std::vector<Eigen::Vector2f>& px_left,
-                                                const StereoMatcherOptions& o) {
+std::vector<std::optional<double>> match_stereo(
+    const Image& left, const Image& right, const std::vector<Eigen::Vector2f>& px_left,
+    const StereoMatcherOptions& o, const std::vector<std::optional<double>>& expected_px) {
   require(left.type() == CV_8UC1 && right.type() == CV_8UC1 && left.size() == right.size(),
           "match_stereo: two grey images of one size needed");
+  require(expected_px.empty() || expected_px.size() == px_left.size(),
+          "match_stereo: one expectation a point needed");
   std::vector<std::optional<double>> disparities(px_left.size());
-  const int reach = static_cast<int>(o.max_disparity_px);
+  const double reach = o.max_disparity_px;
   cv::parallel_for_(cv::Range(0, static_cast<int>(px_left.size())), [&](const cv::Range& range) {
     for (int i = range.start; i < range.end; ++i) {
-      // The patch is cut at whole pixels; the fraction is taken back at the end.
-      const int u = cvRound(px_left[i].x()), v = cvRound(px_left[i].y());
-      const auto there = search_row(left, right, u, v, u - reach, u + 2, o);
-      if (!there || !there->interior || there->score < o.min_score) continue;
-      const int u_right = cvRound(there->u);
-      const auto back = search_row(right, left, u_right, v, u_right - 2, u_right + reach, o);
-      if (!back || std::abs(back->u - (u + u_right - there->u)) > o.max_left_right_px) continue;
-      const double disparity = u - there->u;
-      if (disparity > 0.1) disparities[i] = disparity;
+      const Eigen::Vector2f& px = px_left[i];
+      if (!expected_px.empty() && expected_px[i]) {
+        const double d = std::min(*expected_px[i], reach);
+        disparities[i] = match_within(left, right, px, std::max(-2.0, d - kAboutExpected),
+                                      d + kAboutExpected, o);
+      }
+      if (!disparities[i]) disparities[i] = match_within(left, right, px, -2, reach, o);
     }
   });
   return disparities;

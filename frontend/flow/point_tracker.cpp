@@ -64,10 +64,17 @@ void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>&
     cv::calcOpticalFlowPyrLK(pyramid_, pyramid, from, to, found, error, window,
                              options_.pyramid_levels - 1, stop, cv::OPTFLOW_USE_INITIAL_FLOW,
                              options_.min_eigenvalue);
+    // The way back starts as far off its goal as the prediction was: there the fine levels are
+    // enough, and what slid off elsewhere does not come home by itself.
     std::vector<cv::Point2f> back = from;
-    cv::calcOpticalFlowPyrLK(pyramid, pyramid_, to, back, found_back, error, window,
-                             options_.pyramid_levels - 1, stop, cv::OPTFLOW_USE_INITIAL_FLOW,
-                             options_.min_eigenvalue);
+    int levels_back = options_.pyramid_levels - 1;
+    if (!predicted_px.empty()) {
+      levels_back = std::min(levels_back, 1);
+      for (std::size_t i = 0; i < tracks_.size(); ++i)
+        back[i] += to[i] - cv::Point2f(predicted_px[i].x(), predicted_px[i].y());
+    }
+    cv::calcOpticalFlowPyrLK(pyramid, pyramid_, to, back, found_back, error, window, levels_back,
+                             stop, cv::OPTFLOW_USE_INITIAL_FLOW, options_.min_eigenvalue);
     const double limit = options_.max_forward_backward_px * options_.max_forward_backward_px;
     const float border = 3;
     std::size_t kept = 0;

@@ -221,7 +221,7 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
     motion.correct(step.segment<3>(3), step.segment<2>(6));
     fit.gain += step[8];
     fit.bias += step[9];
-    if (moved < 1e-5) break;
+    if (moved < 1e-4) break;
   }
 }
 
@@ -286,8 +286,9 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
                                             t, prior_ref, options);
   std::vector<Sample> samples;
   for (int i = static_cast<int>(levels.size()) - 1; i >= 0; --i) {
-    // As many samples on every level, or the coarse ones would have too few to hold the fit.
-    samples = collect_samples(levels[i], prior_ref, options, i == 0 ? options.step_px : 1);
+    // The grid grows with the pixels: as many samples on every level.
+    const int step = std::max(1, (options.step_px + (1 << i) - 1) >> i);
+    samples = collect_samples(levels[i], prior_ref, options, step);
     align_level(levels[i], samples, prior, options, motion, fit);
   }
   result.samples = fit.seen;

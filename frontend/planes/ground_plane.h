@@ -6,8 +6,9 @@
 namespace placegraph {
 
 struct GroundPlaneOptions {
-  /// The part of the ground that is looked at, in camera heights: it must be road.
-  double near_heights = 2.5, far_heights = 12, half_width_heights = 2;
+  /// The part of the ground that is looked at, in camera heights: it must be road, and of one lane,
+  /// as roads are arched.
+  double near_heights = 2.5, far_heights = 12, half_width_heights = 1.4;
   int step_px = 3;  ///< grid of samples in the reference image
   int pyramid_levels = 3;
   int iterations = 12;             ///< per level

@@ -81,6 +81,23 @@ TEST(StereoMatcher, SaysNothingWithoutTexture) {
   for (const auto& d : match_stereo(flat, flat, grid(40), {})) EXPECT_FALSE(d);
 }
 
+TEST(StereoMatcher, AnExpectationChangesWhereItLooksFirstNotWhatItFinds) {
+  const Pair pair = see({wall(6.1)});
+  const double truth = kCamera.fx * kBaseline_m / 6.1;
+  const auto px = grid(35);
+  const auto alone = match_stereo(pair.left.grey, pair.right.grey, px, {});
+  for (const double expected : {truth + 3, truth + 40}) {  // right, and far off
+    const std::vector<std::optional<double>> all(px.size(), expected);
+    const auto found = match_stereo(pair.left.grey, pair.right.grey, px, {}, all);
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < px.size(); ++i)
+      same += alone[i].has_value() == found[i].has_value() &&
+              (!alone[i] || std::abs(*alone[i] - *found[i]) < 1e-3);
+    EXPECT_GE(same, px.size() * 95 / 100) << expected;
+  }
+  EXPECT_THROW(match_stereo(pair.left.grey, pair.right.grey, px, {}, {1.0}), ArgumentError);
+}
+
 TEST(StereoMatcher, SaysNothingBeyondTheGreatestDisparity) {
   const Pair pair = see({wall(2.05, 0, 6)});  // 61 px
   StereoMatcherOptions options;

@@ -1,0 +1,24 @@
+#pragma once
+#include <placegraph/graph/core/camera.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// What the frontend sees in one frame, for drawing and looking on; pixels of the (left) eye.
+struct FrameView {
+  struct Track {
+    std::int64_t id = 0;
+    Eigen::Vector2d px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d px_previous = Eigen::Vector2d::Zero();  ///< in the frame before
+    /// Where the landmark of this track projects to, if the track has one and the frame a pose.
+    std::optional<Eigen::Vector2d> px_projected;
+  };
+  std::vector<Track> tracks;
+  /// Outline of the ground that is aligned for the scale; empty if it is not looked at.
+  std::vector<Eigen::Vector2d> ground_px;
+};
+
+}  // namespace placegraph
