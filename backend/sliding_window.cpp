@@ -20,6 +20,9 @@ void visit(OptionVisitor& field, SlidingWindowOptions& o) {
   field("huber_px", o.huber_px, "width of the Huber kernel, in standard deviations", {1e-3, 1e6});
   field("relative_decrease", o.relative_decrease,
         "stop when the cost falls by less than this share", {0, 1});
+  field("scale_drift", o.scale_drift,
+        "how far the prior's unit of length wanders with each keyframe that leaves (logarithm)",
+        {0, 1});
 }
 
 struct SlidingWindow::Impl {

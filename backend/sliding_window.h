@@ -17,6 +17,9 @@ struct SlidingWindowOptions {
   int max_iterations = 10;
   double huber_px = 2.0;            ///< width of the Huber kernel on reprojection errors, in sigmas
   double relative_decrease = 1e-4;  ///< of the cost, to stop
+  /// The prior forgets its unit of length by this deviation (logarithm) with each keyframe that
+  /// leaves: a single eye's unit wanders by more than the noise of its points explains.
+  double scale_drift = 0;
   void check() const;
 };
 void visit(OptionVisitor& field, SlidingWindowOptions& options);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace placegraph {
@@ -69,14 +70,18 @@ bool holds_pose(const MarginalPrior& prior) {
   return eigen.eigenvalues()[0] > kGaugeFloor;
 }
 
-/// Whether the prior resists a growth of all the window about `center_map`.
-bool holds_scale(const MarginalPrior& prior, const Eigen::Vector3d& center_map) {
-  if (prior.empty()) return false;
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(prior.J.rows());
-  double size = 0;
+/// What a growth of all the window about a centre, by a logarithm of one, does to the residuals of
+/// the prior.
+struct Growth {
+  Eigen::VectorXd change;
+  double size = 0;  ///< sum of the squares of what the variables bring, one by one
+};
+
+Growth growth_of(const MarginalPrior& prior, const Eigen::Vector3d& center_map) {
+  Growth growth{Eigen::VectorXd::Zero(prior.J.rows())};
   const auto add = [&](const Eigen::VectorXd& share) {
-    change += share;
-    size += share.squaredNorm();
+    growth.change += share;
+    growth.size += share.squaredNorm();
   };
   for (std::size_t k = 0; k < prior.keyframes.size(); ++k) {
     const SE3& T_map_cam = prior.T_map_cam_lin[k];
@@ -90,7 +95,27 @@ bool holds_scale(const MarginalPrior& prior, const Eigen::Vector3d& center_map) 
     add(prior.plane_columns(k) * J_distance.transpose() *
         (-prior.plane_lin[k].distance_to(center_map) / J_distance.squaredNorm()));
   }
-  return change.squaredNorm() > kGaugeFloor * size;
+  return growth;
+}
+
+/// Whether the prior resists a growth of all the window about `center_map`.
+bool holds_scale(const MarginalPrior& prior, const Eigen::Vector3d& center_map) {
+  if (prior.empty()) return false;
+  const Growth growth = growth_of(prior, center_map);
+  return growth.change.squaredNorm() > kGaugeFloor * growth.size;
+}
+
+/// The prior of a window that has grown about `center_map` by a random logarithm of deviation
+/// `sigma`: J s being what the growth does, the residuals are whitened by I + sigma^2 J s (J s)^T.
+void relax_scale(MarginalPrior& prior, const Eigen::Vector3d& center_map, double sigma) {
+  if (prior.empty()) return;
+  const Eigen::VectorXd change = growth_of(prior, center_map).change;
+  const double length = change.norm();
+  if (!(length > 0)) return;
+  const Eigen::VectorXd along = change / length;
+  const double lost = 1 - 1 / std::hypot(1.0, sigma * length);
+  prior.J -= lost * along * (along.transpose() * prior.J).eval();
+  prior.e -= lost * along * along.dot(prior.e);
 }
 
 /// Planes that nothing in the window but what leaves with a keyframe speaks of.
@@ -185,6 +210,8 @@ void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
   // Where everything the leaving keyframe saw is still in view, nothing went into the prior.
   const auto& [oldest, T_map_oldest] = *state.keyframes.begin();
   if (!state.fixed && !holds_pose(state.prior) && !has_full_pose_prior(state)) state.fixed = oldest;
+  if (state.options.scale_drift > 0)
+    relax_scale(state.prior, T_map_oldest.translation(), state.options.scale_drift);
   state.prior_holds_scale = holds_scale(state.prior, T_map_oldest.translation());
 }
 

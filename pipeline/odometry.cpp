@@ -25,6 +25,13 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
     ground_.emplace(options_.ground, calibration_.camera, *calibration_.camera_height_m);
   if (calibration_.baseline_m > 0 && options_.rectification.enabled)
     rectification_.emplace(options_.rectification);
+  window_ = empty_window();
+}
+
+SlidingWindow Odometry::empty_window() const {
+  SlidingWindowOptions options = options_.window;
+  if (ground_ || motion_) options.scale_drift = options_.scale_drift;
+  return SlidingWindow(options, calibration_.camera);
 }
 
 void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
@@ -34,7 +41,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
   px_at_keyframe_.clear();
   past_landmarks_ = landmarks();
   tracker_.reset();
-  window_ = SlidingWindow(options_.window, calibration_.camera);
+  window_ = empty_window();
   state_ = TrackingState::kWaiting;
   started_ = false;
   scale_known_ = calibration_.baseline_m > 0 || calibration_.depth;

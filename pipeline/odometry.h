@@ -40,6 +40,8 @@ struct OdometryOptions {
   double sigma_px = 0.7;          ///< noise of a track
   double outlier_px = 4;          ///< a landmark that misses its pixel by more is dropped
   double min_parallax_deg = 0.5;  ///< to triangulate a landmark from keyframes
+  /// window.scale_drift of a single eye whose unit the ground or another sensor measures.
+  double scale_drift = 0.003;
   void check() const;
 };
 void visit(OptionVisitor& field, OdometryOptions& options);
@@ -129,6 +131,7 @@ class Odometry {
     double inverse_depth, sigma;
   };
 
+  SlidingWindow empty_window() const;
   OdometryUpdate begin(const Frame& frame);
   OdometryUpdate replace_reference(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate try_initialize(const Frame& frame, const std::optional<SE3>& T_known);

@@ -36,6 +36,9 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
         {0.5, 100});
   field("min_parallax_deg", o.min_parallax_deg, "to triangulate a landmark from keyframes",
         {0.01, 45});
+  field("scale_drift", o.scale_drift,
+        "window.scale_drift of a single eye whose unit the ground or another sensor measures",
+        {0, 1});
 }
 
 }  // namespace placegraph

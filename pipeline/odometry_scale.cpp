@@ -8,6 +8,7 @@ namespace placegraph {
 
 void Odometry::set_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
   motion_ = scale_known_ ? nullptr : std::move(motion_cam);
+  window_ = empty_window();
 }
 
 void Odometry::measure_scale(const Frame& frame, OdometryUpdate& update) {
