@@ -253,6 +253,26 @@ TEST(SlidingWindow, RemovedObservationsAndLandmarksNoLongerCount) {
   expect_poses(window, world, 1e-7, 1e-8);
 }
 
+TEST(SlidingWindow, ARevisedInverseDepthTakesTheMeasuredOnesPlace) {
+  Random random(7);
+  WindowWorldOptions options;
+  options.stereo = true;
+  const WindowWorld world = make_window_world(options, random);
+  WindowWorld biased = world;  // by a tenth of a pixel of 0.5 m
+  for (WindowObservation& o : biased.observations) *o.inverse_depth += 0.1 / (718 * 0.5);
+  SlidingWindow window(exact_options(), world.camera);
+  fill_window(window, biased, random, 0.02, 0.002, 0.1);
+  const Matrix6d before = window.relative_information(0, 1);
+  for (const WindowObservation& o : world.observations)
+    window.revise_inverse_depth(o.keyframe, o.landmark, *o.inverse_depth);
+  ASSERT_TRUE(window.optimize().outcome);
+  expect_poses(window, world, 1e-7, 1e-8);
+  EXPECT_NE(window.relative_information(0, 1), before);  // of the new state, not the old one's
+  EXPECT_THROW(window.revise_inverse_depth(0, 0, -1), ArgumentError);
+  EXPECT_THROW(window.revise_inverse_depth(99, 0, 0.1), ArgumentError);
+  EXPECT_THROW(window.revise_inverse_depth(0, 9999, 0.1), ArgumentError);
+}
+
 TEST(SlidingWindow, APointSeenOnceMovesWithItsKeyframe) {
   Random random(8);
   WindowWorldOptions options;

@@ -145,6 +145,58 @@ TEST(WindowMarginalization, OfKeyframesWithoutObservationsLeavesNoNaN) {
   EXPECT_TRUE(window.relative_information(3, 4).allFinite());
 }
 
+/// Length of the newest step over its true one, after a drive whose measured distances grow by a
+/// tenth half-way, as where a single eye's unit has crept.
+double newest_step(const WindowWorld& world, double scale_drift) {
+  Random random(9);
+  test::WindowDrive how = test::WindowDrive::exact(5);
+  how.options.scale_drift = scale_drift;
+  SlidingWindow window(how.options, world.camera);
+  const auto true_pose = [&](std::int64_t id) {
+    return world.T_map_cam[static_cast<std::size_t>(id)];
+  };
+  const auto last = static_cast<std::int64_t>(world.T_map_cam.size()) - 1;
+  for (std::int64_t id = 0; id <= last; ++id) {
+    window.add_keyframe(
+        id, id == 0 ? true_pose(0)
+                    : window.pose(id - 1) * (true_pose(id - 1).inverse() * true_pose(id)));
+    test::add_view(window, world, id, 0, random);
+    if (id > 0) {
+      const double truth_m = distance_m(true_pose(id - 1), true_pose(id));
+      window.add_distance({id - 1, id, (id < last / 2 ? 1 : 1.1) * truth_m, 0.05 * truth_m});
+      EXPECT_TRUE(window.optimize().outcome);
+    }
+    window.marginalize();
+  }
+  return distance_m(window.pose(last - 1), window.pose(last)) /
+         distance_m(true_pose(last - 1), true_pose(last));
+}
+
+TEST(WindowScaleDrift, APriorWhoseUnitMayWanderFollowsTheDistancesOfNow) {
+  Random random(8);
+  WindowWorldOptions options = stereo_world(0.05);
+  options.sigma_px = 0.05;
+  options.stereo = false;
+  options.keyframes = 24;
+  options.landmarks = 400;
+  const WindowWorld world = make_window_world(options, random);
+  const double stiff = newest_step(world, 0), free = newest_step(world, 0.02);
+  // Points followed from one half into the other keep the old unit in the stiff window.
+  EXPECT_LT(stiff, 1.08);
+  EXPECT_GT(free, stiff + 0.01);
+  EXPECT_NEAR(free, 1.1, 0.02);
+}
+
+TEST(WindowScaleDrift, DoesNotMoveAnExactDrive) {
+  Random random(3);
+  const WindowWorld stereo = make_window_world(stereo_world(0), random);
+  test::WindowDrive how = test::WindowDrive::exact(5);
+  how.options.scale_drift = 0.05;
+  const SlidingWindow window = test::drive_window(stereo, how, 4);
+  for (const std::int64_t id : window.keyframes())
+    EXPECT_LT(distance_m(window.pose(id), stereo.T_map_cam[static_cast<std::size_t>(id)]), 1e-6);
+}
+
 TEST(WindowRescale, MovesEverythingAboutTheOldestKeyframeAndKeepsTheCost) {
   Random random(10);
   WindowWorldOptions options = stereo_world(0.3);

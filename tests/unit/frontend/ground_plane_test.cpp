@@ -51,8 +51,10 @@ struct Drive {
     return std::log(result.plane_ref.distance_m / truth.distance_m);
   }
   GroundPlaneResult align(double start_factor = 1.1) const {
+    GroundPlaneOptions options;
+    options.half_width_heights = 2;  // an empty plane: more of it tells more
     return align_ground_plane(image_ref, image_cur, kCamera, T_cur_ref,
-                              {{truth.normal, start_factor * truth.distance_m}, 0.01}, {});
+                              {{truth.normal, start_factor * truth.distance_m}, 0.01}, options);
   }
 };
 
