@@ -230,7 +230,8 @@ TEST(SlamOnAStreet, GoesOnWithOneEyeAfterAJumpToAKnownPlace) {
     const auto& again = optimized.poses[i].T_world_body;
     ASSERT_TRUE(again) << i;
     const Eigen::Vector3d first = optimized.poses[i - kFrames + 8].T_world_body->translation();
-    EXPECT_LT((again->translation() - first).norm(), 0.05 * path) << i;
+    // The unit comes from two recognized frames: it is known, and claimed, to a tenth.
+    EXPECT_LT((again->translation() - first).norm(), 0.1 * path) << i;
   }
 }
 
