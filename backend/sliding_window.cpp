@@ -23,6 +23,8 @@ void visit(OptionVisitor& field, SlidingWindowOptions& o) {
   field("scale_drift", o.scale_drift,
         "how far the prior's unit of length wanders with each keyframe that leaves (logarithm)",
         {0, 1});
+  field("hold_oldest", o.hold_oldest,
+        "the oldest keyframe stays where it is; what is known is relative to it");
 }
 
 struct SlidingWindow::Impl {

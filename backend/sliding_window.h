@@ -20,6 +20,11 @@ struct SlidingWindowOptions {
   /// The prior forgets its unit of length by this deviation (logarithm) with each keyframe that
   /// leaves: a single eye's unit wanders by more than the noise of its points explains.
   double scale_drift = 0;
+  /// Where the window lies as a whole is integrated out as it moves on, and its oldest keyframe
+  /// stays where it is: for drives whose past is not corrected by the window any more. Otherwise
+  /// the prior holds the window in the map's frame, and a hair of heading it learns late moves all
+  /// of it, the more the longer the way behind it.
+  bool hold_oldest = false;
   void check() const;
 };
 void visit(OptionVisitor& field, SlidingWindowOptions& options);

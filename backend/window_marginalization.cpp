@@ -47,11 +47,9 @@ MarginalPrior make_prior(const QuadraticForm& form, const WindowVariables& varia
 /// window below which it does not hold them.
 constexpr double kGaugeFloor = 1e-8;
 
-/// Whether the prior ties the window to the map: it resists every motion xi of all keyframes and
-/// planes together, exp(xi) T_map_cam, whose tangents are Ad(T_map_cam^-1) xi.
-bool holds_pose(const MarginalPrior& prior) {
-  if (prior.J.rows() < 6 || prior.keyframes.empty()) return false;
-  // About the first keyframe, so that far from the origin rotation and translation stay apart.
+/// What a motion of all keyframes and planes together, by a right tangent of the prior's first
+/// keyframe, does to the residuals: the others' tangents are Ad(T_k^-1 T_first) times it.
+Eigen::MatrixXd common_motion_of(const MarginalPrior& prior) {
   const SE3 T_map_first = prior.T_map_cam_lin.front();
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(prior.J.rows(), 6);
   for (std::size_t k = 0; k < prior.keyframes.size(); ++k)
@@ -63,6 +61,13 @@ bool holds_pose(const MarginalPrior& prior) {
     transform_to(SE3(), prior.plane_lin[k], &J_plane);
     J.noalias() -= prior.plane_columns(k) * J_plane * T_map_first.adjoint();
   }
+  return J;
+}
+
+/// Whether the prior ties the window to the map: it resists every motion of all of it.
+bool holds_pose(const MarginalPrior& prior) {
+  if (prior.J.rows() < 6 || prior.keyframes.empty()) return false;
+  Eigen::MatrixXd J = common_motion_of(prior);
   const Vector6d length = J.colwise().norm();
   if (!(length.minCoeff() > 0)) return false;
   J *= length.cwiseInverse().asDiagonal();
@@ -116,6 +121,23 @@ void relax_scale(MarginalPrior& prior, const Eigen::Vector3d& center_map, double
   const double lost = 1 - 1 / std::hypot(1.0, sigma * length);
   prior.J -= lost * along * (along.transpose() * prior.J).eval();
   prior.e -= lost * along * along.dot(prior.e);
+}
+
+/// The prior of the window relative to its first keyframe, which has no columns any more: where all
+/// of it lies together is integrated out, that is, the residuals are projected on the complement of
+/// what common motions do.
+void hold_first(MarginalPrior& prior) {
+  const Eigen::MatrixXd common = common_motion_of(prior);
+  // An orthonormal basis of the common motions' part; what is not resisted has none.
+  const Eigen::VectorXd length = common.colwise().norm().transpose().cwiseMax(1e-300);
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(common * length.cwiseInverse().asDiagonal());
+  const Eigen::MatrixXd basis =
+      qr.householderQ() * Eigen::MatrixXd::Identity(common.rows(), qr.rank());
+  prior.J -= basis * (basis.transpose() * prior.J).eval();
+  prior.e -= basis * (basis.transpose() * prior.e).eval();
+  prior.J = prior.J.rightCols(prior.J.cols() - 6).eval();
+  prior.keyframes.erase(prior.keyframes.begin());
+  prior.T_map_cam_lin.erase(prior.T_map_cam_lin.begin());
 }
 
 /// Planes that nothing in the window but what leaves with a keyframe speaks of.
@@ -209,7 +231,13 @@ void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
   if (was_fixed) state.fixed.reset();
   // Where everything the leaving keyframe saw is still in view, nothing went into the prior.
   const auto& [oldest, T_map_oldest] = *state.keyframes.begin();
-  if (!state.fixed && !holds_pose(state.prior) && !has_full_pose_prior(state)) state.fixed = oldest;
+  if (state.options.hold_oldest) {
+    if (!state.prior.keyframes.empty() && state.prior.keyframes.front() == oldest)
+      hold_first(state.prior);
+    state.fixed = oldest;
+  } else if (!state.fixed && !holds_pose(state.prior) && !has_full_pose_prior(state)) {
+    state.fixed = oldest;
+  }
   if (state.options.scale_drift > 0)
     relax_scale(state.prior, T_map_oldest.translation(), state.options.scale_drift);
   state.prior_holds_scale = holds_scale(state.prior, T_map_oldest.translation());

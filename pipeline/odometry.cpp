@@ -31,6 +31,8 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
 SlidingWindow Odometry::empty_window() const {
   SlidingWindowOptions options = options_.window;
   if (ground_ || motion_) options.scale_drift = options_.scale_drift;
+  // A single eye's unit is handed on by where the window lies: it needs the prior's hold.
+  if (calibration_.baseline_m > 0 || calibration_.depth) options.hold_oldest = true;
   return SlidingWindow(options, calibration_.camera);
 }
 

@@ -145,6 +145,42 @@ TEST(WindowMarginalization, OfKeyframesWithoutObservationsLeavesNoNaN) {
   EXPECT_TRUE(window.relative_information(3, 4).allFinite());
 }
 
+TEST(WindowHoldOldest, GivesTheSameMotionsAsTheWholeBatch) {
+  Random random(1);
+  const WindowWorld world = make_window_world(stereo_world(0.01), random);
+  test::WindowDrive how = test::WindowDrive::exact(5);
+  how.options.hold_oldest = true;
+  const SlidingWindow window = test::drive_window(world, how, 2);
+  const SlidingWindow batch = drive(world, 100, 2);
+  const auto motion = [](const SlidingWindow& w, std::int64_t a, std::int64_t b) {
+    return w.pose(a).inverse() * w.pose(b);
+  };
+  for (const std::int64_t id : {8, 9, 10, 11}) {
+    EXPECT_LT(distance_m(motion(window, 7, id), motion(batch, 7, id)), 2e-6);
+    EXPECT_LT(angle_rad(motion(window, 7, id), motion(batch, 7, id)), 2e-7);
+  }
+  const Matrix6d a = window.relative_information(8, 11), b = batch.relative_information(8, 11);
+  EXPECT_LT((a - b).norm(), 0.02 * b.norm());
+}
+
+TEST(WindowHoldOldest, LeavesTheOldestKeyframeWhereItIs) {
+  Random random(4);
+  const WindowWorld world = make_window_world(stereo_world(0.5), random);
+  test::WindowDrive how = test::WindowDrive::exact(4);
+  how.options.hold_oldest = true;
+  WindowWorld part = world;  // all but the last keyframe, then that one
+  part.T_map_cam.pop_back();
+  SlidingWindow window = test::drive_window(part, how, 2);
+  const SE3 before = window.pose(window.keyframes().front());
+  const std::int64_t oldest = window.keyframes().front(), next = window.keyframes().back() + 1;
+  window.add_keyframe(
+      next, window.pose(next - 1) * (world.T_map_cam[10].inverse() * world.T_map_cam[11]));
+  test::add_view(window, world, next, 1, random);
+  ASSERT_TRUE(window.optimize().outcome);
+  EXPECT_EQ(distance_m(window.pose(oldest), before), 0);
+  EXPECT_GT(window.relative_information(oldest, next).trace(), 0);
+}
+
 /// Length of the newest step over its true one, after a drive whose measured distances grow by a
 /// tenth half-way, as where a single eye's unit has crept.
 double newest_step(const WindowWorld& world, double scale_drift) {
