@@ -6,8 +6,11 @@
 #include <placegraph/frontend/lines/scene_directions.h>
 #include <placegraph/frontend/lines/segment_detector.h>
 #include <placegraph/frontend/lines/segment_matcher.h>
+#include <placegraph/frontend/odometry/circular_motion.h>
 #include <placegraph/frontend/odometry/mono_initializer.h>
 #include <placegraph/frontend/odometry/pose_3d2d.h>
+#include <placegraph/frontend/odometry/pose_3d3d.h>
+#include <placegraph/frontend/odometry/pose_gravity.h>
 #include <placegraph/frontend/places/loop_verifier.h>
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/frontend/planes/ground_plane.h>
@@ -26,7 +29,8 @@ using All =
                    MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
                    PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
                    PlanarRegionsOptions, MotionFromPlanesOptions, SegmentDetectorOptions,
-                   SegmentMatcherOptions, SceneDirectionOptions, PlaneTrackerOptions>;
+                   SegmentMatcherOptions, SceneDirectionOptions, PlaneTrackerOptions,
+                   GravityPoseOptions, CircularMotionOptions, Pose3d3dOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.
