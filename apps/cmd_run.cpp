@@ -32,7 +32,7 @@ using nlohmann::json;
 struct Arguments {
   std::string sequence, out, config, odometry, draw;
   std::vector<std::string> settings;
-  std::optional<std::string> sensor;
+  std::optional<std::string> sensor, cues;
   std::optional<double> camera_height_m;
   std::optional<std::uint64_t> seed;
   std::optional<int> threads;
@@ -45,6 +45,7 @@ RunOptions options_of(const Arguments& arguments) {
   if (!arguments.config.empty()) read_options(arguments.config, options);
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
+  if (arguments.cues) options.slam.odometry.cues = *arguments.cues;
   if (arguments.camera_height_m) {
     require(*arguments.camera_height_m > 0, "--camera-height: must be positive");
     options.camera_height_m = *arguments.camera_height_m;
@@ -257,6 +258,8 @@ void add_run_command(CLI::App& app) {
   command->add_option("--out", arguments->out, "folder for the results")->required();
   command->add_option("--sensor", arguments->sensor, "what to run it as; default: the best it has")
       ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}));
+  command->add_option("--cues", arguments->cues,
+                      "what motion is seen by: points, lines, plane, joined by commas");
   command->add_option("--camera-height", arguments->camera_height_m,
                       "height above the ground [m]: gives a single eye its scale");
   command->add_option("--odometry", arguments->odometry,

@@ -1,3 +1,4 @@
+#include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/reprojection.h>
 #include <placegraph/backend/sliding_window.h>
 #include <placegraph/backend/whitening.h>
@@ -170,7 +171,26 @@ void SlidingWindow::add_line_observation(const LineObservation& o) {
                            " in keyframe " + std::to_string(o.keyframe);
   require(o.start_px.allFinite() && o.end_px.allFinite() && positive(o.sigma_px),
           name + ": its ends must be finite and sigma_px positive");
+  require(!o.second || (o.second->eye_cam.allFinite() && o.second->eye_cam.norm() > 0 &&
+                        o.second->start_px.allFinite() && o.second->end_px.allFinite() &&
+                        positive(o.second->sigma_px)),
+          name + ": a second eye must lie elsewhere, be finite and its sigma_px positive");
   insert_observation(list, o, name);
+}
+
+const std::vector<LineObservation>& SlidingWindow::line_observations(std::int64_t line) const {
+  return impl_->line(line).observations;
+}
+
+std::optional<Eigen::Vector2d> SlidingWindow::residual_px(const LineObservation& o) const {
+  const auto keyframe = impl_->state.keyframes.find(o.keyframe);
+  const auto line = impl_->state.lines.find(o.line);
+  if (keyframe == impl_->state.keyframes.end() || line == impl_->state.lines.end())
+    return std::nullopt;
+  LineReprojectionFactor::Residual r;
+  LineReprojectionFactor(impl_->state.camera, o.start_px, o.end_px, 1.0)
+      .compute(keyframe->second, line->second.line_map, r, nullptr);
+  return Eigen::Vector2d(r);
 }
 
 void SlidingWindow::remove_line(std::int64_t id) {

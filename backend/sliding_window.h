@@ -54,6 +54,16 @@ struct LineObservation {
   Eigen::Vector2d start_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d end_px = Eigen::Vector2d::Zero();
   double sigma_px = 1;  ///< across the line
+
+  /// The same line in a second eye at `eye_cam` [m] in the keyframe's camera, of its orientation
+  /// and calibration: the right eye of a rectified pair, or one made up from depths on the line.
+  struct SecondEye {
+    Eigen::Vector3d eye_cam = Eigen::Vector3d::Zero();
+    Eigen::Vector2d start_px = Eigen::Vector2d::Zero();
+    Eigen::Vector2d end_px = Eigen::Vector2d::Zero();
+    double sigma_px = 1;
+  };
+  std::optional<SecondEye> second = std::nullopt;
 };
 
 /// A camera at a known height above a plane landmark, as above the ground a vehicle drives on.
@@ -107,12 +117,16 @@ class SlidingWindow {
   void add_landmark(std::int64_t id, const Eigen::Vector3d& p_map);
   void add_observation(const WindowObservation& observation);
   void add_distance(const DistanceObservation& observation);
-  /// A line counts from three observations on: fewer say nothing of the poses (two planes always
-  /// meet in a line). Its planes through the cameras should have turned by a few degrees: nearer to
-  /// the epipolar plane its position is hardly determined, and no covariance describes that.
+  /// A line counts from three images on, of two keyframes or more: fewer say nothing of the poses
+  /// (two planes always meet in a line). Its planes through the cameras should have turned by a few
+  /// degrees: nearer to the epipolar plane its position is hardly determined, and no covariance
+  /// describes that.
   void add_line(std::int64_t id, const Line3& line_map);
   void add_line_observation(const LineObservation& observation);
   void remove_line(std::int64_t id);
+  const std::vector<LineObservation>& line_observations(std::int64_t line) const;
+  /// Distances of both ends from the projected line [px].
+  std::optional<Eigen::Vector2d> residual_px(const LineObservation& observation) const;
   /// A plane leaves the window with the last keyframe whose height above it is known and the last
   /// point on it. Heights give the scale where at least three points lie on their plane.
   void add_plane(std::int64_t id, const Plane3& plane_map);

@@ -114,13 +114,14 @@ void WindowEquations::add_line(const WindowLine& line) {
   line_.clear();
   for (const LineObservation& o : line.observations) {
     const Linearized<SE3>& at = keyframes_.at(o.keyframe);
-    LineReprojectionFactor::Residual r;
-    LineReprojectionFactor::Jacobians J;
-    LineReprojectionFactor(state_.camera, o.start_px, o.end_px, o.sigma_px)
-        .compute(at.now, line.line_map, at.lin, r, &J);
-    const double w = kernel_.evaluate(r.squaredNorm()).first;
-    if (at.column >= 0) r -= std::get<0>(J) * at.delta;
-    line_.add(r, w, std::get<1>(J), at.column, std::get<0>(J));
+    for_factors(state_.camera, o, [&](const LineReprojectionFactor& factor) {
+      LineReprojectionFactor::Residual r;
+      LineReprojectionFactor::Jacobians J;
+      factor.compute(at.now, line.line_map, at.lin, r, &J);
+      const double w = kernel_.evaluate(r.squaredNorm()).first;
+      if (at.column >= 0) r -= std::get<0>(J) * at.delta;
+      line_.add(r, w, std::get<1>(J), at.column, std::get<0>(J));
+    });
   }
   line_.eliminate(form);
 }

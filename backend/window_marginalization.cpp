@@ -205,8 +205,11 @@ void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
     equations.add_landmark(landmark);
     for (const WindowObservation& o : landmark.observations) metric |= o.inverse_depth.has_value();
   }
-  for (const auto& [id, line] : state.lines)
-    if (sees(line, leaving) && !sees(line, newest)) equations.add_line(line);
+  for (const auto& [id, line] : state.lines) {
+    if (!sees(line, leaving) || sees(line, newest)) continue;
+    equations.add_line(line);
+    for (const LineObservation& o : line.observations) metric |= o.second.has_value();
+  }
   if (const auto reference = scale_reference(state)) equations.add_distance(*reference);
   for (const DistanceObservation& distance : state.distances)
     if (distance.from == leaving || distance.to == leaving) {

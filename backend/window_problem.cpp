@@ -208,9 +208,10 @@ class WindowProblem {
         for (const LineObservation& o : line.observations) {
           const std::size_t k = position(o.keyframe);
           ++points_by_keyframe_[k];
-          problem_.AddResidualBlock(&segments_.emplace_back(LineReprojectionFactor(
-                                        state_.camera, o.start_px, o.end_px, o.sigma_px)),
-                                    &loss_, &poses_[7 * k], block);
+          for_factors(state_.camera, o, [&](const LineReprojectionFactor& factor) {
+            problem_.AddResidualBlock(&segments_.emplace_back(factor), &loss_, &poses_[7 * k],
+                                      block);
+          });
         }
         problem_.SetManifold(block, &line_manifold_);
         ordering_->AddElementToGroup(block, 1);
@@ -281,7 +282,11 @@ std::vector<const WindowObservation*> usable_observations(const WindowState& sta
   return usable;
 }
 
-bool is_usable(const WindowLine& line) { return line.observations.size() >= 3; }
+bool is_usable(const WindowLine& line) {
+  std::size_t images = line.observations.size();
+  for (const LineObservation& o : line.observations) images += o.second.has_value();
+  return line.observations.size() >= 2 && images >= 3;
+}
 
 bool has_full_pose_prior(const WindowState& state) {
   return std::any_of(state.pose_priors.begin(), state.pose_priors.end(), [](const PosePrior& p) {
@@ -303,6 +308,9 @@ bool has_metric_observation(const WindowState& state) {
   for (const auto& [id, landmark] : state.landmarks)
     for (const WindowObservation& o : landmark.observations)
       if (o.inverse_depth) return true;
+  for (const auto& [id, line] : state.lines)
+    for (const LineObservation& o : line.observations)
+      if (o.second) return true;
   return false;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/marginal_prior.h>
 #include <placegraph/backend/sliding_window.h>
 
@@ -43,8 +44,17 @@ struct WindowState {
 std::vector<const WindowObservation*> usable_observations(const WindowState& state,
                                                           const WindowLandmark& landmark);
 
-/// A line that an estimate can use: seen at least three times.
+/// A line that an estimate can use: at least three images of it, in two keyframes or more.
 bool is_usable(const WindowLine& line);
+
+/// Calls `use` with the one or two factors of an observation.
+template <class Use>
+void for_factors(const Camera& camera, const LineObservation& o, Use&& use) {
+  use(LineReprojectionFactor(camera, o.start_px, o.end_px, o.sigma_px));
+  if (o.second)
+    use(LineReprojectionFactor(camera, o.second->start_px, o.second->end_px, o.second->sigma_px,
+                               o.second->eye_cam));
+}
 
 /// A full-rank pose prior in the window holds it in the map.
 bool has_full_pose_prior(const WindowState& state);

@@ -15,13 +15,18 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
       log_(std::move(log)),
       times_(times),
       tracker_(options.tracker),
-      window_(options.window, calibration.camera) {
+      window_(options.window, calibration.camera),
+      cues_(parse_cues(options.cues)) {
   options_.check();
   calibration_.check();
   require(calibration.camera.distortion == Distortion::kNone,
           "calibration.camera: undistorted images needed (rectify them first)");
   scale_known_ = calibration_.baseline_m > 0 || calibration_.depth;
-  if (!scale_known_ && calibration_.camera_height_m && options_.ground.enabled)
+  require(cues_.points || scale_known_,
+          "cues: lines without points need a right eye or depth; two views of lines never tell how "
+          "a single eye moved");
+  if (cues_.lines) lines_.emplace(options_.lines, calibration_, options_.stereo);
+  if (!scale_known_ && calibration_.camera_height_m && options_.ground.enabled && cues_.plane)
     ground_.emplace(options_.ground, calibration_.camera, *calibration_.camera_height_m);
   if (calibration_.baseline_m > 0 && options_.rectification.enabled)
     rectification_.emplace(options_.rectification);
@@ -43,12 +48,14 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
   px_at_keyframe_.clear();
   past_landmarks_ = landmarks();
   tracker_.reset();
+  if (lines_) lines_->reset();
   window_ = empty_window();
   state_ = TrackingState::kWaiting;
   started_ = false;
   scale_known_ = calibration_.baseline_m > 0 || calibration_.depth;
   T_odom_start_ = T_odom_last_ = T_odom_cam;
   T_last_cur_ = SE3();
+  velocity_known_ = false;
   first_keyframe_ = next_keyframe_;
   last_keyframe_ = -1;
   sightings_.clear();
@@ -62,7 +69,8 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
 OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>& T_odom_cam_known) {
   if (!started_) return begin(frame);
   const PointTracker before = tracker_;
-  {
+  const std::optional<LineCue> lines_before = lines_;
+  if (cues_.points) {
     const auto span = times_.measure("point tracking");
     tracker_.track(frame.image, state_ == TrackingState::kWaiting
                                     ? std::vector<Eigen::Vector2f>{}
@@ -73,7 +81,9 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
   if (update.state == TrackingState::kLost) {
     // The next frame may still be found from the last good one.
     tracker_ = before;
+    lines_ = lines_before;
     T_last_cur_ = SE3();
+    velocity_known_ = false;
   }
   return update;
 }
@@ -96,9 +106,9 @@ std::vector<Eigen::Vector2f> Odometry::predict(const SE3& T_odom_cam) const {
   return predicted;
 }
 
-OdometryUpdate Odometry::track(const Frame& frame) {
-  const auto span = times_.measure("frame pose");
-  OdometryUpdate update;
+/// `keep` tells which tracks do not contradict the pose: others slid off their point, or it moves.
+Pose3d2dResult Odometry::pose_from_points(const SE3& prior, Random& random,
+                                          std::vector<bool>& keep) const {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> px;
   std::vector<int> track_of;
@@ -109,31 +119,43 @@ OdometryUpdate Odometry::track(const Frame& frame) {
       px.push_back(tracks[i].px.cast<double>());
       track_of.push_back(i);
     }
-  Random random(seed_, frame.id);
-  const SE3 prior = T_odom_last_ * T_last_cur_;
-  const Pose3d2dResult pose =
+  Pose3d2dResult pose =
       estimate_pose_3d2d(calibration_.camera, points, px, options_.pose, random, &prior);
-  update.inliers = static_cast<int>(pose.inliers.size());
-  if (!pose.outcome) {
-    log(log_, LogLevel::kInfo,
-        "frame " + std::to_string(frame.id) + " lost: " + pose.outcome.reason);
-    update.state = TrackingState::kLost;
-    return update;
-  }
-  // Tracks that contradict the pose slid off their point, or their point moves.
-  std::vector<bool> keep(tracks.size(), true);
+  keep.assign(tracks.size(), true);
+  if (!pose.outcome) return pose;
   const SE3 T_cam_odom = pose.T_ref_cam.inverse();
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto projected = calibration_.camera.project(T_cam_odom * points[k]);
     keep[track_of[k]] = projected && (*projected - px[k]).norm() < 2 * options_.pose.threshold_px;
   }
+  return pose;
+}
+
+OdometryUpdate Odometry::track(const Frame& frame) {
+  const auto span = times_.measure("frame pose");
+  OdometryUpdate update;
+  Random random(seed_, frame.id);
+  const SE3 prior = T_odom_last_ * T_last_cur_;
+  std::vector<bool> keep;
+  const Pose3d2dResult points = pose_from_points(prior, random, keep);
+  update.inliers = static_cast<int>(points.inliers.size());
+  std::optional<SE3> T_odom_cam;
+  if (points.outcome) T_odom_cam = points.T_ref_cam;
+  if (lines_) T_odom_cam = pose_with_lines(frame, prior, points, random, update.inliers);
+  if (!T_odom_cam) {
+    log(log_, LogLevel::kInfo,
+        "frame " + std::to_string(frame.id) + " lost: " + points.outcome.reason);
+    update.state = TrackingState::kLost;
+    return update;
+  }
   tracker_.keep(keep);
 
-  T_last_cur_ = T_odom_last_.inverse() * pose.T_ref_cam;
-  T_odom_last_ = pose.T_ref_cam;
+  T_last_cur_ = T_odom_last_.inverse() * *T_odom_cam;
+  velocity_known_ = true;
+  T_odom_last_ = *T_odom_cam;
   ++frames_since_keyframe_;
   if (keyframe_due(frame, update.inliers)) {
-    add_keyframe(frame, pose.T_ref_cam, update);
+    add_keyframe(frame, *T_odom_cam, update);
     T_odom_last_ = window_.pose(last_keyframe_);
     if (update.rescale)
       T_last_cur_ = SE3(T_last_cur_.rotation(), update.rescale->factor * T_last_cur_.translation());
@@ -153,6 +175,7 @@ bool Odometry::keyframe_due(const Frame& frame, int inliers) const {
     if (at_keyframe != px_at_keyframe_.end())
       flow_px.push_back((track.px.cast<double>() - at_keyframe->second).norm());
   }
+  if (lines_ && !cues_.points) flow_px = lines_->flow_px();
   if (flow_px.size() < 10) return true;
   const double share = median_of(flow_px) / frame.image.cols;
   return share > o.max_flow_share ||
@@ -162,11 +185,12 @@ bool Odometry::keyframe_due(const Frame& frame, int inliers) const {
 void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update) {
   const std::int64_t id = next_keyframe_++;
   window_.add_keyframe(id, T_odom_cam);
-  {
+  if (cues_.points) {
     const auto span = times_.measure("point detection");
     tracker_.detect(frame.mask);
   }
   observe_tracks(id, frame);
+  if (lines_) lines_->observe(id, frame, window_);
   last_keyframe_ = id;
   if (ground_ || motion_) measure_scale(frame, update);
   refine_window();
@@ -177,6 +201,7 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
     px_at_keyframe_[track.id] = track.px.cast<double>();
     landmarks_at_keyframe_ += window_.landmark(track.id).has_value();
   }
+  if (lines_) landmarks_at_keyframe_ += lines_->followed(window_);
   update.new_keyframes.push_back({id, frame});
 }
 
@@ -259,6 +284,11 @@ void Odometry::refine_window() {
     }
     if (live.count(id)) depths.push_back((T_cam_odom * *window_.landmark(id)).z());
   }
+  if (lines_) {
+    lines_->prune(window_);
+    if (!cues_.points) depths = lines_->depths(window_);
+    lines_->accept(window_, window_.pose(last_keyframe_));
+  }
   if (!depths.empty()) median_depth_m_ = std::max(1e-3, median_of(depths));
   for (const std::int64_t id : window_.keyframes()) keyframe_poses_[id] = window_.pose(id);
   if (rectification_ && !alone) calibrate_eyes();
@@ -312,6 +342,10 @@ Matrix6d Odometry::motion_information(std::int64_t from, std::int64_t to) const 
 std::int64_t Odometry::window_begin() const {
   const auto ids = window_.keyframes();
   return ids.empty() ? -1 : ids.front();
+}
+
+int Odometry::landmarks_in_window() const {
+  return static_cast<int>(window_.landmarks().size() + window_.lines().size());
 }
 
 PointLandmark Odometry::describe_landmark(std::int64_t id) const {

@@ -10,8 +10,10 @@
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/landmark.h>
 #include <placegraph/graph/measured_motion.h>
+#include <placegraph/pipeline/cues.h>
 #include <placegraph/pipeline/frame_view.h>
 #include <placegraph/pipeline/ground_scale.h>
+#include <placegraph/pipeline/line_cue.h>
 
 #include <map>
 #include <memory>
@@ -29,12 +31,14 @@ struct KeyframeOptions {
 void visit(OptionVisitor& field, KeyframeOptions& options);
 
 struct OdometryOptions {
+  std::string cues = "points,plane";  ///< see parse_cues
   PointTrackerOptions tracker;
   Pose3d2dOptions pose;
   MonoInitializerOptions initializer;
   StereoMatcherOptions stereo;
   RectificationOptions rectification;
   GroundScaleOptions ground;
+  LineCueOptions lines;
   KeyframeOptions keyframe;
   SlidingWindowOptions window{.max_keyframes = 10};
   double sigma_px = 0.7;          ///< noise of a track
@@ -72,9 +76,10 @@ struct OdometryUpdate {
   std::optional<Rescale> rescale;
 };
 
-/// Motion memory: follows points, poses every frame against the landmarks of a sliding window, and
-/// refines the window at keyframes. Stereo and RGB-D start with the first frame; mono waits for two
-/// views with parallax, and takes its scale from the ground where the camera height is known.
+/// Motion memory: follows points, lines or both, poses every frame against the landmarks of a
+/// sliding window, and refines the window at keyframes. Stereo and RGB-D start with the first
+/// frame; mono waits for two views with parallax, and takes its scale from the ground where the
+/// camera height is known.
 class Odometry {
  public:
   /// `times`, which must outlive it, learns what its stages take.
@@ -136,6 +141,10 @@ class Odometry {
   OdometryUpdate replace_reference(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate try_initialize(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate track(const Frame& frame);
+  Pose3d2dResult pose_from_points(const SE3& prior, Random& random, std::vector<bool>& keep) const;
+  std::optional<SE3> pose_with_lines(const Frame& frame, const SE3& prior,
+                                     const Pose3d2dResult& points, Random& random, int& inliers);
+  int landmarks_in_window() const;
   void fill_between(std::int64_t ref, std::int64_t cur, Random& random,
                     OdometryUpdate& update) const;
   std::vector<Eigen::Vector2f> predict(const SE3& T_odom_cam) const;
@@ -167,6 +176,8 @@ class Odometry {
   StageTimes& times_;
   PointTracker tracker_;
   SlidingWindow window_;
+  Cues cues_;
+  std::optional<LineCue> lines_;
   std::optional<GroundScale> ground_;
   std::optional<RectificationEstimator> rectification_;  // of two eyes
   std::set<std::int64_t> calibrated_;                    // landmarks of the window it has heard of
@@ -178,6 +189,7 @@ class Odometry {
   bool in_known_map_ = false;
 
   SE3 T_odom_start_, T_odom_last_, T_last_cur_;  // the last one: velocity over one frame
+  bool velocity_known_ = false;
   std::int64_t next_keyframe_ = 0, first_keyframe_ = 0, last_keyframe_ = -1;
   int landmarks_at_keyframe_ = 0, frames_since_keyframe_ = 0;
   std::map<std::int64_t, Frame> keyframe_frames_;  // of the window, where the ground is looked at

@@ -16,19 +16,23 @@ void visit(OptionVisitor& field, KeyframeOptions& o) {
 
 void OdometryOptions::check() const {
   check_ranges(*this);
+  (void)parse_cues(cues);
   tracker.check();
   rectification.check();
   ground.check();
+  lines.check();
   window.check();
 }
 
 void visit(OptionVisitor& field, OdometryOptions& o) {
+  field("cues", o.cues, "what motion is seen by: points, lines, plane, joined by commas");
   field.group("tracker", o.tracker, "points followed over time");
   field.group("pose", o.pose, "pose of a frame from landmarks");
   field.group("initializer", o.initializer, "first two views of a single eye");
   field.group("stereo", o.stereo, "matching of the right eye");
   field.group("rectification", o.rectification, "self-calibration of the two eyes");
   field.group("ground", o.ground, "metric scale from the road");
+  field.group("lines", o.lines, "lines followed over time, where they are among the cues");
   field.group("keyframe", o.keyframe, "when a frame becomes a keyframe");
   field.group("window", o.window, "bundle adjustment over the last keyframes");
   field("sigma_px", o.sigma_px, "noise of a track", {0.05, 10});

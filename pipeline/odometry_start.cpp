@@ -5,11 +5,11 @@ namespace placegraph {
 
 OdometryUpdate Odometry::begin(const Frame& frame) {
   started_ = true;
-  tracker_.track(frame.image);
+  if (cues_.points) tracker_.track(frame.image);
   OdometryUpdate update;
   if (scale_known_) {  // stereo and RGB-D have their landmarks at once
     add_keyframe(frame, T_odom_start_, update);
-    if (window_.landmarks().size() < static_cast<std::size_t>(options_.pose.ransac.min_inliers)) {
+    if (landmarks_in_window() < options_.pose.ransac.min_inliers) {
       update.new_keyframes.clear();
       next_keyframe_ = last_keyframe_;
       // Nothing came of it: neither the keyframe nor its few landmarks belong to the map.
@@ -153,6 +153,7 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   frames_since_keyframe_ = 0;
   T_odom_last_ = window_.pose(cur);
   T_last_cur_ = SE3::exp((window_.pose(ref).inverse() * T_odom_last_).log() / steps);
+  velocity_known_ = true;
   state_ = update.state = TrackingState::kTracking;
   update.T_odom_cam = T_odom_last_;
   update.keyframe = cur;

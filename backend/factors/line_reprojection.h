@@ -8,18 +8,21 @@ namespace placegraph {
 /// A segment seen of a line: signed distances of its end points from the projected line, in
 /// standard deviations (undistorted pinhole camera):
 ///
-///   l = K_line m_cam,   K_line = det(K) K^-T,   [m_cam, v_cam] = the line in the camera
+///   l = K_line m_eye,   K_line = det(K) K^-T,   [m_cam, v_cam] = the line in the camera
+///   m_eye = m_cam - c x v_cam,   c = the eye that sees it, oriented as the camera is; 0: itself
 ///   r = [p_start^T l, p_end^T l] / (sqrt(l_1^2 + l_2^2) sigma),   p = [u, v, 1]
 ///   d r_i / d l = (p_i - (p_i^T l) [l_1, l_2, 0] / (l_1^2 + l_2^2)) / (sqrt(l_1^2 + l_2^2) sigma)
-///   d m_cam / d xi = [hat(v_cam), hat(m_cam)],   d m_cam / d line: see transform_to
+///   d m_cam / d xi = [hat(v_cam), hat(m_cam)],   d v_cam / d xi = [0, hat(v_cam)],
+///   d [m_cam, v_cam] / d line: see transform_to
 ///
 /// The end points say where across the line, never where along it. A line whose plane with the
 /// camera's centre is parallel to the image has no image: kUnprojectableResidual, and no pull.
 class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
  public:
   LineReprojectionFactor(const Camera& camera, const Eigen::Vector2d& start_px,
-                         const Eigen::Vector2d& end_px, double sigma_px)
-      : inverse_sigma_(1.0 / sigma_px) {
+                         const Eigen::Vector2d& end_px, double sigma_px,
+                         const Eigen::Vector3d& eye_cam = Eigen::Vector3d::Zero())
+      : inverse_sigma_(1.0 / sigma_px), hat_eye_(hat(eye_cam)) {
     K_line_ << camera.fy, 0, 0,  //
         0, camera.fx, 0,         //
         -camera.fy * camera.cx, -camera.fx * camera.cy, camera.fx * camera.fy;
@@ -34,7 +37,7 @@ class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
   /// The residual at `T_map_cam` with derivatives at `T_map_cam_lin`.
   bool compute(const SE3& T_map_cam, const Line3& line_map, const SE3& T_map_cam_lin, Residual& r,
                Jacobians* J) const {
-    const Eigen::Vector3d l = K_line_ * transform_to(T_map_cam, line_map).head<3>();
+    const Eigen::Vector3d l = K_line_ * in_eye(transform_to(T_map_cam, line_map));
     const double length = l.head<2>().norm();
     if (length > kMinLength * l.norm())
       r = ends_ * l * (inverse_sigma_ / length);
@@ -44,7 +47,7 @@ class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
     Eigen::Matrix<double, 6, 6> J_pose;
     Eigen::Matrix<double, 6, 4> J_line;
     const Eigen::Vector3d l_lin =
-        K_line_ * transform_to(T_map_cam_lin, line_map, &J_pose, &J_line).head<3>();
+        K_line_ * in_eye(transform_to(T_map_cam_lin, line_map, &J_pose, &J_line));
     const double length_lin = l_lin.head<2>().norm();
     Eigen::Matrix<double, 2, 3> J_l = Eigen::Matrix<double, 2, 3>::Zero();
     if (length > kMinLength * l.norm() && length_lin > kMinLength * l_lin.norm()) {
@@ -53,14 +56,18 @@ class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
             (inverse_sigma_ / length_lin);
     }
     const Eigen::Matrix<double, 2, 3> J_m = J_l * K_line_;
-    std::get<0>(*J).noalias() = J_m * J_pose.topRows<3>();
-    std::get<1>(*J).noalias() = J_m * J_line.topRows<3>();
+    std::get<0>(*J).noalias() = J_m * (J_pose.topRows<3>() - hat_eye_ * J_pose.bottomRows<3>());
+    std::get<1>(*J).noalias() = J_m * (J_line.topRows<3>() - hat_eye_ * J_line.bottomRows<3>());
     return true;
   }
 
  private:
   static constexpr double kMinLength = 1e-9;
+  Eigen::Vector3d in_eye(const Line3::Coordinates& L_cam) const {
+    return L_cam.head<3>() - hat_eye_ * L_cam.tail<3>();
+  }
   double inverse_sigma_;
+  Eigen::Matrix3d hat_eye_;
   Eigen::Matrix3d K_line_;
   Eigen::Matrix<double, 2, 3> ends_;
 };

@@ -8,6 +8,8 @@
 namespace placegraph {
 namespace {
 
+constexpr int kLeastPoints = 4;
+
 /// The edge of one polarity nearest to the middle of a row of gradients across a segment: where
 /// the parabola through the steepest three has its top; nothing if none is steep enough.
 struct Peak {
@@ -66,36 +68,29 @@ double EdgeRefiner::grey(const Eigen::Vector2d& px) const {
   return (1 - y) * ((1 - x) * top[0] + x * top[1]) + y * ((1 - x) * bottom[0] + x * bottom[1]);
 }
 
-std::vector<EdgePoint> EdgeRefiner::edge_points(const LineSegment& segment) const {
+/// The edge of the given polarity on every profile that has one.
+std::vector<EdgePoint> EdgeRefiner::edge_points(const LineSegment& segment, int sign) const {
   const Eigen::Vector2d normal = segment.normal();
   const int reach = options_.reach_px, samples = static_cast<int>(segment.length());
-  std::vector<EdgePoint> points[2];  // of either polarity: the stronger one is the segment's
-  double strength[2] = {0, 0};
+  std::vector<EdgePoint> points;
   std::vector<double> profile(2 * reach + 3), gradient(2 * reach + 1);
   for (int s = 0; s < samples; ++s) {
-    const Eigen::Vector2d p = segment.start + (s + 0.5) / samples * segment.vector();
+    const double share = (s + 0.5) / samples;
+    const Eigen::Vector2d p = segment.start + share * segment.vector();
     if (p.x() < 1 || p.y() < 1 || p.x() > smooth_.cols - 2 || p.y() > smooth_.rows - 2) continue;
     for (int k = 0; k < 2 * reach + 3; ++k) profile[k] = grey(p + (k - reach - 1) * normal);
     for (int k = 0; k < 2 * reach + 1; ++k) gradient[k] = 0.5 * (profile[k + 2] - profile[k]);
-    for (int sign : {-1, 1}) {
-      const auto peak = nearest_peak(gradient, sign, options_.min_gradient);
-      if (!peak) continue;
-      points[sign > 0].push_back({p + (peak->position - reach) * normal, peak->gradient});
-      strength[sign > 0] += std::abs(peak->gradient);
-    }
+    if (const auto peak = nearest_peak(gradient, sign, options_.min_gradient))
+      points.push_back(
+          {p + (peak->position - reach) * normal, peak->gradient, share * segment.length()});
   }
-  return points[strength[1] >= strength[0]];
+  return points;
 }
 
-std::optional<EdgeSegment> EdgeRefiner::refine(const LineSegment& given) const {
-  constexpr int kLeastPoints = 4;
-  const int samples = static_cast<int>(given.length());
-  const int least =
-      std::max(kLeastPoints, static_cast<int>(std::ceil(options_.min_support * samples)));
-  if (samples < kLeastPoints) return std::nullopt;
-  const std::vector<EdgePoint> points = edge_points(given);
-  if (static_cast<int>(points.size()) < least) return std::nullopt;
-
+/// Line, contrast and support of the edge through the points; `least` of them must be there, and
+/// half as many fit.
+std::optional<EdgeSegment> EdgeRefiner::fit(const std::vector<EdgePoint>& points, int least) const {
+  if (static_cast<int>(points.size()) < std::max(kLeastPoints, least)) return std::nullopt;
   std::vector<Eigen::Vector2d> kept;
   std::vector<double> gradients;
   for (const EdgePoint& point : points) {
@@ -120,16 +115,49 @@ std::optional<EdgeSegment> EdgeRefiner::refine(const LineSegment& given) const {
   const double variance = std::max(options_.min_sigma_px * options_.min_sigma_px,
                                    squared / static_cast<double>(kept.size() - 2));
   line->covariance *= variance * std::max(1.0, 2 * std::sqrt(M_PI) * options_.blur_px);
+  return EdgeSegment{{}, *line, median(gradients), static_cast<int>(kept.size())};
+}
 
-  const Eigen::Vector2d n = line->normal();
-  const auto foot = [&](const Eigen::Vector2d& px) -> Eigen::Vector2d {
-    return px - (n.dot(px) - line->offset_px) * n;
+std::optional<EdgeSegment> EdgeRefiner::refine(const LineSegment& given) const {
+  const int samples = static_cast<int>(given.length());
+  if (samples < kLeastPoints) return std::nullopt;
+  std::vector<EdgePoint> points = edge_points(given, 1), dark = edge_points(given, -1);
+  const auto strength = [](const std::vector<EdgePoint>& edge) {
+    double sum = 0;
+    for (const EdgePoint& point : edge) sum += std::abs(point.gradient);
+    return sum;
   };
-  EdgeSegment edge{{foot(given.start), foot(given.end)},
-                   *line,
-                   median(gradients),
-                   static_cast<int>(kept.size())};
-  if (points.front().gradient < 0) std::swap(edge.segment.start, edge.segment.end);
+  const bool turned = strength(dark) > strength(points);
+  if (turned) points = std::move(dark);
+  auto edge = fit(points, static_cast<int>(std::ceil(options_.min_support * samples)));
+  if (!edge) return std::nullopt;
+  edge->segment = {edge->line.foot(given.start), edge->line.foot(given.end)};
+  if (turned) std::swap(edge->segment.start, edge->segment.end);
+  return edge;
+}
+
+std::optional<EdgeSegment> EdgeRefiner::follow(const LineSegment& expected,
+                                               const EdgeGrowth& growth) const {
+  if (expected.length() < kLeastPoints) return std::nullopt;
+  const Eigen::Vector2d beyond = growth.beyond_px * expected.direction();
+  const LineSegment wide{expected.start - beyond, expected.end + beyond};
+  const std::vector<EdgePoint> inside = edge_points(expected, 1);
+  const auto core = fit(inside, static_cast<int>(options_.min_support * expected.length() / 2));
+  if (!core) return std::nullopt;
+  // The line of the middle part decides what else belongs to it.
+  const double gate = std::max(0.5, 3 * std::sqrt(core->line.covariance(1, 1)));
+  std::vector<EdgePoint> run, longest;
+  for (const EdgePoint& point : edge_points(wide, 1)) {
+    if (distance(core->line, point.px) > gate + 1) continue;
+    if (!run.empty() && point.position - run.back().position > growth.max_gap_px) run.clear();
+    run.push_back(point);
+    if (run.size() > longest.size()) longest = run;
+  }
+  if (longest.size() < 2) return std::nullopt;
+  const double length = longest.back().position - longest.front().position;
+  auto edge = fit(longest, static_cast<int>(std::ceil(options_.min_support * length)));
+  if (!edge) return std::nullopt;
+  edge->segment = {edge->line.foot(longest.front().px), edge->line.foot(longest.back().px)};
   return edge;
 }
 

@@ -30,6 +30,13 @@ struct EdgeSegment {
 struct EdgePoint {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double gradient = 0;  ///< along the normal of the segment, grey levels / px
+  double position = 0;  ///< of the profile along the segment, from its start [px]
+};
+
+/// How far an edge is followed beyond the ends it is expected to have.
+struct EdgeGrowth {
+  double beyond_px = 6;
+  double max_gap_px = 10;  ///< without support, inside one edge
 };
 
 /// Fits segments anew to the place of the steepest grey value across them: one point every pixel,
@@ -45,9 +52,14 @@ class EdgeRefiner {
   /// Nothing if fewer than `min_support` of the samples see an edge of one polarity. The ends are
   /// the feet of the given ones on the line.
   std::optional<EdgeSegment> refine(const LineSegment& segment) const;
+  /// The same for an edge known from another image, its brighter side on the right of `expected`:
+  /// edges of the other polarity are passed over, and the ends are where the longest run of support
+  /// begins and ends, up to `growth.beyond_px` outside those expected.
+  std::optional<EdgeSegment> follow(const LineSegment& expected, const EdgeGrowth& growth) const;
 
  private:
-  std::vector<EdgePoint> edge_points(const LineSegment& segment) const;
+  std::vector<EdgePoint> edge_points(const LineSegment& segment, int sign) const;
+  std::optional<EdgeSegment> fit(const std::vector<EdgePoint>& points, int least) const;
   double grey(const Eigen::Vector2d& px) const;
 
   EdgeRefinementOptions options_;

@@ -25,6 +25,21 @@ Eigen::Vector3d ImageLine::homogeneous() const {
   return {n.x(), n.y(), -offset_px};
 }
 
+Eigen::Vector2d ImageLine::foot(const Eigen::Vector2d& px) const {
+  const Eigen::Vector2d n = normal();
+  return px - (n.dot(px) - offset_px) * n;
+}
+
+ImageLine::Carriers ImageLine::carriers(double sigma_floor_px) const {
+  require(covariance(0, 0) > 0 && covariance(1, 1) > 0, "ImageLine: its covariance is not known");
+  // At an arm s from the anchor the distance varies by shift + s turn, at both arms independently
+  // if s^2 var(turn) = var(shift).
+  const double arm = std::sqrt(covariance(1, 1) / covariance(0, 0));
+  const Eigen::Vector2d n = normal(), along(-n.y(), n.x());
+  return {foot(anchor - arm * along), foot(anchor + arm * along),
+          std::sqrt(2 * covariance(1, 1) + sigma_floor_px * sigma_floor_px)};
+}
+
 double ImageLine::variance_at(const Eigen::Vector2d& px) const {
   const Eigen::Vector2d n = normal();
   // Turning the normal by w moves the line at arm s along the direction (-n_v, n_u) by -s w.

@@ -40,8 +40,19 @@ struct ImageLine {
   Eigen::Vector2d normal() const;
   /// Homogeneous line (n, -offset) with |n| = 1: l^T (u, v, 1) is a signed distance [px].
   Eigen::Vector3d homogeneous() const;
+  /// The point of the line nearest to a given one.
+  Eigen::Vector2d foot(const Eigen::Vector2d& px) const;
   /// Variance of the line's signed distance to a fixed point [px^2]: it grows beyond the support.
   double variance_at(const Eigen::Vector2d& px) const;
+  /// Two points of the line where its distances are independent and equally well known: they stand
+  /// for the infinite line with its covariance, wherever the ends of its segment are. The anchor
+  /// must be where turn and shift part, as `fit_line` leaves it. `sigma_floor_px` is what no
+  /// distance is known better than.
+  struct Carriers {
+    Eigen::Vector2d first, second;
+    double sigma_px = 0;  ///< of the distance at either
+  };
+  Carriers carriers(double sigma_floor_px = 0) const;
 };
 
 /// The line through edge points by total least squares with the standard deviations of each across

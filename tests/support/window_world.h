@@ -70,7 +70,7 @@ inline void add_lines(WindowWorld& world, const WindowWorldOptions& options, Ran
     world.lines.push_back(Line3::from_direction(middle, direction));
     for (int k = first; k <= last; ++k) {
       const SE3 T_cam_map = world.T_map_cam[static_cast<std::size_t>(k)].inverse();
-      LineObservation o{k, i, {}, {}, options.sigma_px};
+      LineObservation o{k, i, {}, {}, options.sigma_px, {}};
       for (Eigen::Vector2d* end : {&o.start_px, &o.end_px}) {
         const double along_m = (end == &o.start_px ? -1 : 1) * random.uniform(1, 2.5);
         *end = *world.camera.project(T_cam_map * (middle + along_m * direction));

@@ -106,6 +106,18 @@ TEST(LineReprojectionFactor, HasTheJacobiansOfFiniteDifferences) {
         1e-6);
 }
 
+TEST(LineReprojectionFactor, OfASecondEyeIsThatOfACameraThere) {
+  const Eigen::Vector3d eye(0.4, -0.1, 0);
+  const Line3 line = Line3::from_direction(kT_world_a * Eigen::Vector3d(1, -0.5, 8), {1, 0.7, 0.3});
+  const LineReprojectionFactor beside(test::window_camera(), {500, 100}, {800, 200}, 0.7, eye);
+  const LineReprojectionFactor there(test::window_camera(), {500, 100}, {800, 200}, 0.7);
+  LineReprojectionFactor::Residual r, expected;
+  beside.compute(kT_world_a, line, r, nullptr);
+  there.compute(kT_world_a * SE3(SO3(), eye), line, expected, nullptr);
+  EXPECT_LT((r - expected).norm(), 1e-9);
+  expect_jacobians_match(beside, {kT_world_a, line}, 1e-6);
+}
+
 TEST(LineReprojectionFactor, OfALineWithoutImageIsDearAndPullsNowhere) {
   const LineReprojectionFactor factor(test::window_camera(), {500, 100}, {800, 200}, 0.7);
   std::vector<Eigen::MatrixXd> J;

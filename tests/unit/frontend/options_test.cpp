@@ -3,6 +3,9 @@
 #include <placegraph/frontend/features/detector.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/frontend/lines/line_stereo.h>
+#include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/frontend/lines/scene_directions.h>
 #include <placegraph/frontend/lines/segment_detector.h>
 #include <placegraph/frontend/lines/segment_matcher.h>
@@ -30,7 +33,8 @@ using All =
                    PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
                    PlanarRegionsOptions, MotionFromPlanesOptions, SegmentDetectorOptions,
                    SegmentMatcherOptions, SceneDirectionOptions, PlaneTrackerOptions,
-                   GravityPoseOptions, CircularMotionOptions, Pose3d3dOptions>;
+                   GravityPoseOptions, CircularMotionOptions, Pose3d3dOptions, LineTrackerOptions,
+                   LineStereoOptions, LineTriangulationOptions, PoseFromLinesOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.

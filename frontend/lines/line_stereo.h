@@ -1,0 +1,33 @@
+#pragma once
+#include <placegraph/frontend/features/stereo_matcher.h>
+#include <placegraph/frontend/lines/edge_refinement.h>
+#include <placegraph/frontend/lines/segment_flow.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+struct LineStereoOptions {
+  SegmentFlowOptions flow;
+  double min_sine = 0.17;  ///< of a segment's angle to the rows; flatter ones tell no depth
+  int samples = 7;         ///< points along a segment whose disparities begin the search
+  double max_disparity_miss_px = 1.5;  ///< of a sample that counts, from the common line
+  double min_similarity = 0.8;  ///< correlation of the strips of both eyes, of one side or both
+  void check() const;
+};
+void visit(OptionVisitor& field, LineStereoOptions& options);
+
+/// Where the right eye of a rectified pair sees edges of the left one. Disparities of points along
+/// a segment, found by correlation of rows, lie on a straight line over its length (the inverse
+/// depth of a line is affine along its image); the consensus of the samples places the segment in
+/// the right eye, where it is aligned across and measured on the gradient, same polarity. Its ends
+/// are those of its support there: only the infinite lines correspond. Nothing for edges that run
+/// along the rows (the epipolar lines), are hidden from the right eye, or lie beyond infinity.
+/// Images: CV_8UC1 of one size, else ArgumentError.
+std::vector<std::optional<EdgeSegment>> match_stereo_segments(
+    const Image& left, const Image& right, const std::vector<LineSegment>& segments_left,
+    const StereoMatcherOptions& points, const EdgeRefinementOptions& refinement,
+    const LineStereoOptions& options);
+
+}  // namespace placegraph

@@ -1,0 +1,72 @@
+#pragma once
+#include <placegraph/frontend/lines/segment_detector.h>
+#include <placegraph/frontend/lines/segment_flow.h>
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace placegraph {
+
+struct LineTrackerOptions {
+  SegmentDetectorOptions detector;
+  SegmentFlowOptions flow;
+  EdgeGrowth growth;
+  int max_tracks = 150;
+  double max_shift_px = 12;     ///< of a segment from where it is expected
+  double min_new_px = 25;       ///< length of an edge that becomes a track
+  double min_length_px = 20;    ///< of a track; shorter pieces die
+  double min_similarity = 0.8;  ///< correlation of the strips of two frames, of one side or both
+  double max_forward_backward_px = 1;  ///< of the ends, across
+  double max_contrast_ratio = 2.5;     ///< between two frames
+  void check() const;
+};
+void visit(OptionVisitor& field, LineTrackerOptions& options);
+
+/// A straight edge followed over time. Its line, with the covariance of its support in the newest
+/// frame, is measured anew in every frame and does not drift; its ends are those of its support.
+struct LineTrack {
+  std::int64_t id = 0;
+  EdgeSegment edge;      ///< in the newest image, brighter side on the right
+  LineSegment previous;  ///< in the image before
+  int age = 0;           ///< frames since detection
+};
+
+/// Follows straight edges over frames. Each is aligned across its direction from where it is
+/// expected, measured on the gradient, held to the same polarity and the same surroundings, and
+/// followed back as a check. Pieces that turn out to lie on one edge become one track, the older
+/// one's. Ids are never used twice.
+class LineTracker {
+ public:
+  explicit LineTracker(const LineTrackerOptions& options);
+
+  /// Follows all tracks into `image` (CV_8UC1, the size of the last); lost ones are dropped.
+  /// `expected` holds a segment for each present track, its ends those of the track where they are
+  /// now thought to be, or is empty (nothing moved); one without length means that the track cannot
+  /// be seen.
+  void track(const Image& image, const std::vector<LineSegment>& expected = {});
+  /// Detects edges of the last image that no track covers; `mask` 0 = not here (may be empty).
+  void detect(const Image& mask = {});
+  /// Drops the tracks whose flag is false (one flag a track, in order).
+  void keep(const std::vector<bool>& flags);
+  /// Forgets tracks and images; ids go on counting.
+  void reset();
+
+  const std::vector<LineTrack>& tracks() const { return tracks_; }
+  /// Tracks that `track` or `detect` found last to be part of another: (its id, the id it is now).
+  const std::vector<std::pair<std::int64_t, std::int64_t>>& merged() const { return merged_; }
+  const Image& image() const { return image_; }
+
+ private:
+  void merge_tracks();
+
+  LineTrackerOptions options_;
+  std::vector<LineTrack> tracks_;
+  std::vector<std::pair<std::int64_t, std::int64_t>> merged_;
+  Image image_;
+  std::shared_ptr<const StripImage> strips_;  // of image_
+  std::int64_t next_id_ = 0;
+};
+
+}  // namespace placegraph

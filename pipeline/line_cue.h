@@ -1,0 +1,77 @@
+#pragma once
+#include <placegraph/backend/sliding_window.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
+#include <placegraph/frontend/lines/line_stereo.h>
+#include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/frontend/lines/pose_from_lines.h>
+#include <placegraph/graph/frame.h>
+
+#include <map>
+#include <set>
+#include <vector>
+
+namespace placegraph {
+
+struct LineCueOptions {
+  LineTrackerOptions tracker;
+  LineStereoOptions stereo;
+  LineTriangulationOptions triangulation;
+  PoseFromLinesOptions pose;
+  double sigma_floor_px = 0.15;  ///< no line is placed better across: lens, rolling shutter, blur
+  double outlier_px = 4;         ///< a line of the window that is missed by more is dropped
+  void check() const;
+};
+void visit(OptionVisitor& field, LineCueOptions& options);
+
+/// The share of lines in motion memory: follows edges from frame to frame, poses a frame against
+/// the lines of the window, and gives keyframes' sightings to it, with second eyes where there is a
+/// right one or depth.
+class LineCue {
+ public:
+  LineCue(const LineCueOptions& options, const Calibration& calibration,
+          const StereoMatcherOptions& stereo);
+
+  /// Follows all lines into an image taken at about `T_odom_cam`; those not in the window are
+  /// thought to lie at `depth`.
+  void track(const Image& image, const SlidingWindow& window, const SE3& T_odom_cam, double depth);
+  /// Pose of the newest image against the lines of the window.
+  PoseFromLines pose(const SlidingWindow& window, const PoseGuess& guess, Random& random) const;
+  /// Tells where the newest image was taken. Lines that contradict it are no longer followed.
+  void accept(const SlidingWindow& window, const SE3& T_odom_cam);
+  /// Detects new lines in the newest image, which is that of `keyframe`, and adds what it sees to
+  /// the window; lines with enough parallax become lines of the window.
+  void observe(std::int64_t keyframe, const Frame& frame, SlidingWindow& window);
+  /// Drops lines of the window that the newest keyframe contradicts.
+  void prune(SlidingWindow& window);
+  /// Depths, in the newest image, of the lines of the window that it sees.
+  std::vector<double> depths(const SlidingWindow& window) const;
+  /// How far lines have moved across since the last keyframe [px].
+  std::vector<double> flow_px() const;
+  /// Lines of the window that are followed.
+  int followed(const SlidingWindow& window) const;
+  void reset();
+
+ private:
+  struct Sighting {
+    std::int64_t keyframe;
+    ImageLine::Carriers seen;
+    std::optional<LineObservation::SecondEye> second;
+  };
+  std::vector<LineSegment> expected(const SlidingWindow& window, const SE3& T_odom_cam,
+                                    double depth) const;
+  std::vector<std::optional<LineObservation::SecondEye>> second_eyes(const Frame& frame) const;
+  void add_to_window(std::int64_t id, const Sighting& sighting, SlidingWindow& window) const;
+  void follow_mergers();
+
+  LineCueOptions options_;
+  StereoMatcherOptions stereo_;
+  Calibration calibration_;
+  LineTracker tracker_;
+  SE3 T_odom_last_;                                          // of the newest image, once accepted
+  std::map<std::int64_t, std::vector<Sighting>> sightings_;  // of live tracks
+  std::map<std::int64_t, LineSegment> at_keyframe_;
+  std::map<std::int64_t, Eigen::Matrix4d> covariances_;  // of lines of the window
+  std::map<std::int64_t, double> drift_px_;  // across, beyond what `expected` foresaw last
+};
+
+}  // namespace placegraph

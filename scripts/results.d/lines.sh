@@ -1,0 +1,30 @@
+# Lines followed over frames: motion from them alone and beside points.
+title="Lines: motion without points"
+s=$data/sequences
+render corridor corridor-loop --difficulty standard --stereo --depth --frames 620
+heading "$title"
+command_line "placegraph synth corridor-loop --out WORLD --difficulty standard --stereo --depth --frames 620"
+command_line "placegraph run SEQUENCE --out OUT --sensor SENSOR --cues CUES --no-loops"
+command_line "placegraph eval SEQUENCE OUT/trajectory_optimized.kitti --align ALIGN --lengths LENGTHS --step STEP"
+columns sequence sensor cues "posed frames" align "ATE RMSE [m]" "lengths [m], step" "t_rel [%]" "RPE rot median [deg]" "CPU a frame [ms]" "target met"
+# line_row NAME SEQUENCE SENSOR CUES ALIGN LENGTHS STEP [LIMIT]
+line_row() {
+  run "$1" "$2" --sensor "$3" --cues "$4" --no-loops
+  judge "$1" "$2" "$out/$1/trajectory_optimized.kitti" --align "$5" --lengths "$6" --step "$7"
+  f=$out/$1.json; r=$out/$1/result.json
+  met=-
+  [ -z "${8:-}" ] || met="t_rel <= $8: $(verdict "$(number "$f" t_rel_percent)" "<=" "$8")"
+  cells "$(basename "$2" | sed 's/^corridor-world$/corridor-loop/')" "$3" "$4" "$(number "$f" posed) of $(number "$r" frames)" "$5" \
+    "$(digits "$(number "$f" ate_rmse_m)" 4)" "$6, $7" "$(digits "$(number "$f" t_rel_percent)")" "$(digits "$(number "$f" rpe_rot_median_deg)" 4)" \
+    "$(LC_ALL=C awk -v c="$(number "$r" cpu_s)" -v n="$(number "$r" frames)" 'BEGIN { printf "%.1f", 1000 * c / n }')" "$met"
+}
+for sensor in stereo rgbd; do
+  for cues in lines points points,lines; do
+    limit=; [ "$cues" != lines ] || limit=2
+    line_row "corridor-$sensor-$cues" "$out/corridor-world" $sensor $cues origin 5,10,20,40 5 $limit
+  done
+done
+for cues in lines points points,lines; do
+  [ ! -d "$s/kitti06_stereo51" ] || line_row "kitti06-$cues" "$s/kitti06_stereo51" stereo $cues origin 10,20,30,40,50 1
+  [ ! -d "$s/sevenscenes_rgbd334" ] || line_row "sevenscenes-$cues" "$s/sevenscenes_rgbd334" rgbd $cues se3 1,2,4 1
+done
