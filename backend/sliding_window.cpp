@@ -183,12 +183,12 @@ const std::vector<LineObservation>& SlidingWindow::line_observations(std::int64_
 }
 
 std::optional<Eigen::Vector2d> SlidingWindow::residual_px(const LineObservation& o) const {
-  const auto keyframe = impl_->state.keyframes.find(o.keyframe);
-  const auto line = impl_->state.lines.find(o.line);
-  if (keyframe == impl_->state.keyframes.end() || line == impl_->state.lines.end())
-    return std::nullopt;
+  const WindowState& state = impl_->state();
+  const auto keyframe = state.keyframes.find(o.keyframe);
+  const auto line = state.lines.find(o.line);
+  if (keyframe == state.keyframes.end() || line == state.lines.end()) return std::nullopt;
   LineReprojectionFactor::Residual r;
-  LineReprojectionFactor(impl_->state.camera, o.start_px, o.end_px, 1.0)
+  LineReprojectionFactor(state.camera, o.start_px, o.end_px, 1.0)
       .compute(keyframe->second, line->second.line_map, r, nullptr);
   return Eigen::Vector2d(r);
 }

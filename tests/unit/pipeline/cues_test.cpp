@@ -14,7 +14,8 @@ TEST(Cues, AreThoseNamed) {
 }
 
 TEST(Cues, UnknownRepeatedOrUselessOnesAreRefusedByName) {
-  for (const char* names : {"", "plane", "points,wheels", "points,points", "points,,lines"})
+  for (const char* names : {"", "plane", "points,wheels", "points,points", "points,,lines",
+                            "points,manhattan", "points,direct"})
     EXPECT_THROW((void)parse_cues(names), ArgumentError) << names;
   try {
     (void)parse_cues("points,wheels");
