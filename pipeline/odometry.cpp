@@ -64,6 +64,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
   keyframe_poses_.clear();
   links_.clear();
   views_.clear();
+  between_.clear();
 }
 
 OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>& T_odom_cam_known) {
@@ -159,6 +160,8 @@ OdometryUpdate Odometry::track(const Frame& frame) {
     T_odom_last_ = window_.pose(last_keyframe_);
     if (update.rescale)
       T_last_cur_ = SE3(T_last_cur_.rotation(), update.rescale->factor * T_last_cur_.translation());
+  } else {
+    remember(frame.id);
   }
   update.state = TrackingState::kTracking;
   update.T_odom_cam = T_odom_last_;
@@ -191,9 +194,11 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
   }
   observe_tracks(id, frame);
   if (lines_) lines_->observe(id, frame, window_);
+  const std::int64_t previous = last_keyframe_;
   last_keyframe_ = id;
   if (ground_ || motion_) measure_scale(frame, update);
   refine_window();
+  pose_between(previous, update);
   frames_since_keyframe_ = 0;
   px_at_keyframe_.clear();
   landmarks_at_keyframe_ = 0;

@@ -65,7 +65,9 @@ struct OdometryUpdate {
     Frame frame;
   };
   std::vector<NewKeyframe> new_keyframes;
-  /// Frames before initialization, posed afterwards: frame id, T_odom_cam.
+  /// Frames that are posed afterwards, frame id and T_odom_cam: those before the initialization,
+  /// and those since the last keyframe, against landmarks that a new keyframe has made better
+  /// known.
   std::vector<std::pair<std::int64_t, SE3>> filled;
   /// The scale became known: every earlier position p of this run of tracking is now
   /// centre + factor (p - centre).
@@ -128,6 +130,11 @@ class Odometry {
     std::int64_t frame;
     std::map<std::int64_t, Eigen::Vector2d> px;
   };
+  struct FrameBetween {  // tracked since the last keyframe
+    std::int64_t frame;
+    SE3 T_keyframe_cam;
+    std::vector<std::pair<std::int64_t, Eigen::Vector2d>> px;  // of landmarks
+  };
   struct Sighting2d {
     std::int64_t keyframe;
     Eigen::Vector2d px;
@@ -149,6 +156,8 @@ class Odometry {
                     OdometryUpdate& update) const;
   std::vector<Eigen::Vector2f> predict(const SE3& T_odom_cam) const;
   bool keyframe_due(const Frame& frame, int inliers) const;
+  void remember(std::int64_t frame);
+  void pose_between(std::int64_t keyframe, OdometryUpdate& update);
   void add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);
   void observe_tracks(std::int64_t keyframe, const Frame& frame);
   void measure_scale(const Frame& frame, OdometryUpdate& update);
@@ -199,6 +208,7 @@ class Odometry {
   std::map<std::int64_t, Link> links_;         // of keyframes that left the window
   std::vector<PointLandmark> past_landmarks_;  // that left the window
   std::vector<View> views_;
+  std::vector<FrameBetween> between_;
   Frame reference_frame_;
   static constexpr double kUnknownDepth = 10;  // of a map whose unit is arbitrary
   double median_depth_m_ = kUnknownDepth;

@@ -247,13 +247,13 @@ void Slam::Impl::add_keyframes(const OdometryUpdate& update, FrameResult& result
   for (const auto& keyframe : update.new_keyframes) add_keyframe(keyframe, result);
   if (update.new_keyframes.empty()) return;
   result.keyframe = true;
-  // Frames from before the initialization hang on its first keyframe.
+  // Frames from before the initialization hang on its first keyframe, others where they did.
   const std::int64_t first = update.new_keyframes.front().id;
   for (const auto& [frame, T_odom_cam] : update.filled)
     for (FrameRecord& record : records)
       if (record.frame == frame) {
-        record.keyframe = first;
-        record.T_keyframe_frame = odometry.keyframe_pose(first).inverse() * T_odom_cam;
+        if (record.keyframe < odometry.first_keyframe()) record.keyframe = first;
+        record.T_keyframe_frame = odometry.keyframe_pose(record.keyframe).inverse() * T_odom_cam;
       }
 }
 
