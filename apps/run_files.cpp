@@ -130,7 +130,8 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
           {"components", components.size()},
           {"loops_checked", map.loops.size()},
           {"loops_accepted", accepted},
-          {"metric", map.metric}};
+          {"metric", map.metric},
+          {"lens_k1", run.lens_k1}};
 }
 
 std::string run_plot(const RunResult& run, const Trajectory& optimized,

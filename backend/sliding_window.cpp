@@ -12,7 +12,10 @@
 
 namespace placegraph {
 
-void SlidingWindowOptions::check() const { check_ranges(*this); }
+void SlidingWindowOptions::check() const {
+  check_ranges(*this);
+  require(scale_drift >= 0 && scale_drift <= 1, "scale_drift: must lie between 0 and 1");
+}
 
 void visit(OptionVisitor& field, SlidingWindowOptions& o) {
   field("max_keyframes", o.max_keyframes, "the oldest keyframe is marginalized beyond this",
@@ -21,11 +24,6 @@ void visit(OptionVisitor& field, SlidingWindowOptions& o) {
   field("huber_px", o.huber_px, "width of the Huber kernel, in standard deviations", {1e-3, 1e6});
   field("relative_decrease", o.relative_decrease,
         "stop when the cost falls by less than this share", {0, 1});
-  field("scale_drift", o.scale_drift,
-        "how far the prior's unit of length wanders with each keyframe that leaves (logarithm)",
-        {0, 1});
-  field("hold_oldest", o.hold_oldest,
-        "the oldest keyframe stays where it is; what is known is relative to it");
 }
 
 struct SlidingWindow::Impl {
@@ -253,7 +251,7 @@ void SlidingWindow::remove_observation(std::int64_t keyframe, std::int64_t landm
 
 void SlidingWindow::revise_inverse_depth(std::int64_t keyframe, std::int64_t landmark,
                                          double inverse_depth) {
-  require(positive(inverse_depth), "sliding window: inverse_depth must be finite and positive");
+  require(std::isfinite(inverse_depth), "sliding window: inverse_depth must be finite");
   impl_->landmark(landmark);
   for (WindowObservation& o : impl_->change().landmarks.at(landmark).observations)
     if (o.keyframe == keyframe && o.inverse_depth) {
@@ -376,6 +374,10 @@ std::optional<Matrix6d> SlidingWindow::covariance(std::int64_t keyframe) const {
   if (!impl_->tied_to_map) return std::nullopt;
   if (impl_->state().fixed == keyframe) return Matrix6d(Matrix6d::Zero());
   return inverse_if_full(absolute_information(impl_->state(), impl_->information(), keyframe));
+}
+
+LensEvidence SlidingWindow::lens_evidence() const {
+  return placegraph::lens_evidence(impl_->state());
 }
 
 double SlidingWindow::sigma_log_length_ratio(std::int64_t first, std::int64_t middle,

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/lens_evidence.h>
 #include <placegraph/graph/core/camera.h>
 #include <placegraph/graph/core/line3.h>
 #include <placegraph/graph/core/options.h>
@@ -27,6 +28,7 @@ struct SlidingWindowOptions {
   bool hold_oldest = false;
   void check() const;
 };
+/// All but what follows from the sensor: scale_drift and hold_oldest are set by the window's owner.
 void visit(OptionVisitor& field, SlidingWindowOptions& options);
 
 /// A landmark seen in a keyframe. The inverse depth (1 / z in the camera frame) comes from stereo
@@ -174,6 +176,8 @@ class SlidingWindow {
   /// direction is unobservable, and nothing once the way back to that frame is lost: where all that
   /// a leaving keyframe saw was still in view, the next one has to be held in its place.
   std::optional<Matrix6d> covariance(std::int64_t keyframe) const;
+  /// What the points of the window, at its estimate and without its prior, say of the lens.
+  LensEvidence lens_evidence() const;
   /// Standard deviation of log(|t_middle_last| / |t_first_middle|) between three keyframes of the
   /// window: how well it holds its unit of length where nothing measures that. The gauge plays no
   /// part in it. Infinite if two of the three stand in one point.

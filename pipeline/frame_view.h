@@ -8,6 +8,7 @@
 namespace placegraph {
 
 /// What the frontend sees in one frame, for drawing and looking on; pixels of the (left) eye.
+/// Nothing in a frame that is lost.
 struct FrameView {
   struct Track {
     std::int64_t id = 0;

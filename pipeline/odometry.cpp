@@ -51,7 +51,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
   if (lines_) lines_->reset();
   window_ = empty_window();
   state_ = TrackingState::kWaiting;
-  started_ = false;
+  started_ = lost_ = false;
   scale_known_ = calibration_.baseline_m > 0 || calibration_.depth;
   T_odom_start_ = T_odom_last_ = T_odom_cam;
   T_last_cur_ = SE3();
@@ -79,7 +79,8 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
   }
   OdometryUpdate update =
       state_ == TrackingState::kWaiting ? try_initialize(frame, T_odom_cam_known) : track(frame);
-  if (update.state == TrackingState::kLost) {
+  lost_ = update.state == TrackingState::kLost;
+  if (lost_) {
     // The next frame may still be found from the last good one.
     tracker_ = before;
     lines_ = lines_before;
@@ -297,9 +298,15 @@ void Odometry::refine_window() {
   if (!depths.empty()) median_depth_m_ = std::max(1e-3, median_of(depths));
   for (const std::int64_t id : window_.keyframes()) keyframe_poses_[id] = window_.pose(id);
   if (rectification_ && !alone) calibrate_eyes();
+  const auto keyframes = window_.keyframes();
+  // Windows of the lens share no keyframe.
+  if (calibration_.baseline_m == 0 && !alone && keyframes.front() > newest_of_lens_ &&
+      keyframes.size() > static_cast<std::size_t>(options_.window.max_keyframes)) {
+    newest_of_lens_ = keyframes.back();
+    lens_.add(window_.lens_evidence());
+  }
   const auto leaving = times_.measure("marginalization");
   // Before a keyframe leaves, what it knew of its successor is written down.
-  const auto keyframes = window_.keyframes();
   for (std::size_t i = 0;
        i + 1 < keyframes.size() &&
        keyframes.size() - i > static_cast<std::size_t>(options_.window.max_keyframes);
@@ -365,6 +372,7 @@ PointLandmark Odometry::describe_landmark(std::int64_t id) const {
 
 FrameView Odometry::view() const {
   FrameView view;
+  if (lost_) return view;
   const SE3 T_cam_odom = T_odom_last_.inverse();
   for (const PointTrack& track : tracker_.tracks()) {
     FrameView::Track& seen = view.tracks.emplace_back();

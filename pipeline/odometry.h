@@ -13,6 +13,7 @@
 #include <placegraph/pipeline/cues.h>
 #include <placegraph/pipeline/frame_view.h>
 #include <placegraph/pipeline/ground_scale.h>
+#include <placegraph/pipeline/lens_estimator.h>
 #include <placegraph/pipeline/line_cue.h>
 
 #include <map>
@@ -44,7 +45,8 @@ struct OdometryOptions {
   double sigma_px = 0.7;          ///< noise of a track
   double outlier_px = 4;          ///< a landmark that misses its pixel by more is dropped
   double min_parallax_deg = 0.5;  ///< to triangulate a landmark from keyframes
-  /// window.scale_drift of a single eye whose unit the ground or another sensor measures.
+  /// SlidingWindowOptions::scale_drift of a single eye whose unit the ground or another sensor
+  /// measures.
   double scale_drift = 0.003;
   void check() const;
 };
@@ -122,7 +124,9 @@ class Odometry {
   /// All landmarks of all runs of tracking, each relative to the keyframe that first saw it.
   std::vector<PointLandmark> landmarks() const;
   double median_depth_m() const { return median_depth_m_; }
-  /// Tracks and ground of the last frame.
+  /// Of all runs of tracking; nothing is asked of two eyes.
+  const LensEstimator& lens() const { return lens_; }
+  /// Tracks and ground of the last frame; nothing where it is lost.
   FrameView view() const;
 
  private:
@@ -190,10 +194,13 @@ class Odometry {
   std::optional<GroundScale> ground_;
   std::optional<RectificationEstimator> rectification_;  // of two eyes
   std::set<std::int64_t> calibrated_;                    // landmarks of the window it has heard of
+  LensEstimator lens_;
+  std::int64_t newest_of_lens_ = -1;              // keyframe it has heard of
   std::shared_ptr<const MeasuredMotion> motion_;  // of the camera, where nothing else is metric
   std::map<std::int64_t, std::int64_t> stamps_;   // of this run's keyframes, for that
   TrackingState state_ = TrackingState::kWaiting;
   bool started_ = false;  // the first frame of this run has been seen
+  bool lost_ = false;     // the last frame
   bool scale_known_ = false;
   bool in_known_map_ = false;
 

@@ -20,9 +20,10 @@ std::vector<std::optional<Odometry::DepthMeasurement>> Odometry::measure_depth(
     for (std::size_t i = 0; i < px.size(); ++i) {
       const auto ray = calibration_.camera.unproject(px[i].cast<double>());
       if (!disparities[i] || !ray) continue;
-      const double disparity = *disparities[i] - error.at(ray->head<2>());
-      if (disparity > 0)
-        result[i] = {disparity * per_px, options_.stereo.sigma_disparity_px * per_px};
+      // Of points far away the noise may leave less than nothing; that is information like any
+      // other.
+      result[i] = {(*disparities[i] - error.at(ray->head<2>())) * per_px,
+                   options_.stereo.sigma_disparity_px * per_px};
     }
   } else if (calibration_.depth && !frame.depth.empty()) {
     const auto depths = lookup_depth(frame.depth, calibration_.camera, *calibration_.depth, px);
@@ -123,7 +124,7 @@ void Odometry::revise_disparities(const RectificationError& before) {
       if (!o.inverse_depth || !ray) continue;
       const Eigen::Vector2d x = ray->head<2>();
       const double revised = *o.inverse_depth + (before.at(x) - now.at(x)) * per_px;
-      if (revised > 0) window_.revise_inverse_depth(o.keyframe, id, revised);
+      window_.revise_inverse_depth(o.keyframe, id, revised);
     }
 }
 

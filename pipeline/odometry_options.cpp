@@ -41,7 +41,8 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
   field("min_parallax_deg", o.min_parallax_deg, "to triangulate a landmark from keyframes",
         {0.01, 45});
   field("scale_drift", o.scale_drift,
-        "window.scale_drift of a single eye whose unit the ground or another sensor measures",
+        "how far the unit of a single eye wanders from keyframe to keyframe (logarithm), where the "
+        "ground or another sensor measures it",
         {0, 1});
 }
 

@@ -1,5 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/odometry_file.h>
+#include <placegraph/pipeline/lens_correction.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
@@ -35,24 +36,50 @@ MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options)
 /// Reads frames in order, one ahead of its user if it may have a thread for that.
 class FrameReader {
  public:
-  FrameReader(const Dataset& dataset, Sensor sensor, std::size_t end, bool ahead)
-      : dataset_(dataset), sensor_(sensor), end_(end), ahead_(ahead) {}
+  FrameReader(const Dataset& dataset, const LensCorrection& lens, Sensor sensor, std::size_t end,
+              bool ahead)
+      : dataset_(dataset), lens_(lens), sensor_(sensor), end_(end), ahead_(ahead) {}
 
   Frame read(std::size_t index) {
-    Frame frame = next_.valid() ? next_.get() : dataset_.frame(index, sensor_);
+    Frame frame = next_.valid() ? next_.get() : load(index);
     if (ahead_ && index + 1 < end_)
-      next_ = std::async(std::launch::async,
-                         [this, index] { return dataset_.frame(index + 1, sensor_); });
+      next_ = std::async(std::launch::async, [this, index] { return load(index + 1); });
     return frame;
   }
 
  private:
+  Frame load(std::size_t index) const {
+    Frame frame = dataset_.frame(index, sensor_);
+    lens_.apply(frame);
+    return frame;
+  }
+
   const Dataset& dataset_;
+  LensCorrection lens_;
   Sensor sensor_;
   std::size_t end_;
   bool ahead_;
   std::future<Frame> next_;
 };
+
+/// Whether the images proved to be distorted by more than `lens` takes out, which then does. The
+/// first finding leans towards no distortion, as tracks that contradict it were dropped: it is
+/// refined once.
+bool learn_lens(const LensEstimator& seen, int pass, const LensOptions& options,
+                LensCorrection& lens, const LogSink& log) {
+  if (pass > 1) return false;
+  LensOptions refined = options;
+  if (pass == 1) {
+    refined.min_sigmas *= 0.5;
+    refined.min_effect *= 0.25;
+  }
+  if (!seen.distorted(refined)) return false;
+  lens.add(seen.k1());
+  placegraph::log(log, LogLevel::kInfo,
+                  "images are distorted, k1 = " + std::to_string(lens.k1()) + " +- " +
+                      std::to_string(seen.sigma_k1()) + ": once more from the beginning without");
+  return true;
+}
 
 }  // namespace
 
@@ -71,6 +98,7 @@ const char* to_string(Sensor sensor) {
 void RunOptions::check() const {
   check_ranges(*this);
   motion.check();
+  lens.check();
   slam.check();
 }
 
@@ -83,6 +111,7 @@ void visit(OptionVisitor& field, RunOptions& o) {
   field("max_frames", o.max_frames, "frames run; 0: all", {0, 1e9});
   field("threads", o.threads, "threads; the result does not depend on it", {1, 256});
   field.group("motion", o.motion, "motion that other sensors measured");
+  field.group("lens", o.lens, "self-calibration of one eye's radial distortion");
   visit(field, o.slam);
 }
 
@@ -115,28 +144,36 @@ RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                               ? std::min(dataset.size(), begin + options.max_frames)
                               : dataset.size();
 
-  Slam slam(options.slam, result.calibration, log);
-  if (!options.motion.file.empty()) slam.set_motion(read_motion(dataset, options.motion));
-  StageTimes reading;
-  FrameReader reader(dataset, result.sensor, end, options.threads > 1);
-  for (std::size_t i = begin; i < end; ++i) {
-    Frame frame;
-    try {
-      const auto span = reading.measure("reading");
-      frame = reader.read(i);
-    } catch (const FileError& error) {
-      if (i == begin) throw;
-      result.broken_off = error.what();
-      break;
+  LensCorrection lens(result.calibration);
+  for (int pass = 0;; ++pass) {
+    result.calibration = lens.calibration();
+    Slam slam(options.slam, result.calibration, log);
+    if (!options.motion.file.empty()) slam.set_motion(read_motion(dataset, options.motion));
+    StageTimes reading;
+    FrameReader reader(dataset, lens, result.sensor, end, options.threads > 1);
+    bool again = false;
+    for (std::size_t i = begin; i < end && !again; ++i) {
+      Frame frame;
+      try {
+        const auto span = reading.measure("reading");
+        frame = reader.read(i);
+      } catch (const FileError& error) {
+        if (i == begin) throw;
+        result.broken_off = error.what();
+        break;
+      }
+      const FrameResult frame_result = slam.add_frame(frame);
+      if (observer) observer(frame, frame_result, slam.view());
+      if (progress) progress(i + 1 - begin, end - begin, frame_result);
+      again = learn_lens(slam.lens(), pass, options.lens, lens, log);
     }
-    const FrameResult frame_result = slam.add_frame(frame);
-    if (observer) observer(frame, frame_result, slam.view());
-    if (progress) progress(i + 1 - begin, end - begin, frame_result);
+    if (again) continue;
+    result.lens_k1 = lens.k1();
+    result.map = slam.finish();
+    result.stages = reading.stages();
+    result.stages.insert(result.stages.end(), slam.stages().begin(), slam.stages().end());
+    return result;
   }
-  result.map = slam.finish();
-  result.stages = reading.stages();
-  result.stages.insert(result.stages.end(), slam.stages().begin(), slam.stages().end());
-  return result;
 }
 
 }  // namespace placegraph

@@ -27,6 +27,7 @@ struct RunOptions {
   int max_frames = 0;  ///< 0: all
   int threads = 2;     ///< 2 or more: the next frame is read while this one is worked on
   MotionOptions motion;
+  LensOptions lens;
   SlamOptions slam;
   void check() const;
 };
@@ -36,6 +37,8 @@ void visit(OptionVisitor& field, RunOptions& options);
 struct RunResult {
   Sensor sensor = Sensor::kMono;
   Calibration calibration;
+  /// Radial distortion (k1) that was taken out of the images, which should have had none.
+  double lens_k1 = 0;
   Map map;
   /// A frame could not be read: the map holds the frames before it. The message of its FileError.
   std::optional<std::string> broken_off;
@@ -51,9 +54,9 @@ using RunProgress = std::function<void(std::size_t done, std::size_t total, cons
 using FrameObserver =
     std::function<void(const Frame& frame, const FrameResult& result, const FrameView& view)>;
 
-/// Runs the system over a sequence, every frame, never sleeping. Same result for any number of
-/// threads. Throws as Slam and the data set do; an unreadable frame that is not the first ends the
-/// run.
+/// Runs the system over a sequence, every frame, never sleeping; once or twice from the beginning
+/// where the images of one eye prove to be distorted. Same result for any number of threads. Throws
+/// as Slam and the data set do; an unreadable frame that is not the first ends the run.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                        const RunProgress& progress = {}, const LogSink& log = {},
                        const FrameObserver& observer = {});

@@ -95,6 +95,7 @@ void Slam::set_motion(const MeasuredMotion& motion_cam) {
 
 FrameResult Slam::add_frame(const Frame& frame) { return impl_->add_frame(frame); }
 Map Slam::snapshot() const { return impl_->snapshot(); }
+const LensEstimator& Slam::lens() const { return impl_->odometry.lens(); }
 FrameView Slam::view() const { return impl_->odometry.view(); }
 const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times.stages(); }
 

@@ -55,6 +55,9 @@ class Slam {
   Map snapshot() const;
   /// Optimizes once more and returns the map; neither it nor add_frame may be called afterwards.
   Map finish();
+  /// The radial distortion that the images of one eye (or of a depth camera's) still show, though
+  /// they should not; run_sequence begins again without it.
+  const LensEstimator& lens() const;
   /// What the frontend sees in the last frame.
   FrameView view() const;
   /// CPU time that each stage has taken so far.

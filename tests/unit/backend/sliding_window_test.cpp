@@ -268,7 +268,7 @@ TEST(SlidingWindow, ARevisedInverseDepthTakesTheMeasuredOnesPlace) {
   ASSERT_TRUE(window.optimize().outcome);
   expect_poses(window, world, 1e-7, 1e-8);
   EXPECT_NE(window.relative_information(0, 1), before);  // of the new state, not the old one's
-  EXPECT_THROW(window.revise_inverse_depth(0, 0, -1), ArgumentError);
+  EXPECT_THROW(window.revise_inverse_depth(0, 0, std::nan("")), ArgumentError);
   EXPECT_THROW(window.revise_inverse_depth(99, 0, 0.1), ArgumentError);
   EXPECT_THROW(window.revise_inverse_depth(0, 9999, 0.1), ArgumentError);
 }

@@ -1,0 +1,25 @@
+#pragma once
+#include <placegraph/graph/frame.h>
+#include <placegraph/io/rectification.h>
+
+namespace placegraph {
+
+/// Takes radial distortion out of the images of one eye that should show none.
+class LensCorrection {
+ public:
+  explicit LensCorrection(const Calibration& as_given) : as_given_(as_given) {}
+
+  /// Adds to the distortion that is taken out: what was found in corrected images.
+  void add(double k1);
+  double k1() const { return k1_; }
+  /// Of the corrected images.
+  Calibration calibration() const;
+  void apply(Frame& frame) const;
+
+ private:
+  Calibration as_given_;
+  double k1_ = 0;
+  UndistortedCamera undistorted_;
+};
+
+}  // namespace placegraph
