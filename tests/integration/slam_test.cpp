@@ -212,6 +212,26 @@ TEST(SlamOnAStreet, GivesFramesBeforeTheLightNoPose) {
   }
 }
 
+TEST(SlamOnAStreet, MovesEvenlyFromOneKeyframeToTheNext) {
+  // Keyframes are rare; the frames between them were posed against landmarks of poor depth at first.
+  RunOptions options = run_as(SensorChoice::kMono);
+  options.slam.odometry.keyframe.max_flow_share = 0.12;
+  const RunResult run = run_sequence(drive(), options);
+  EXPECT_LT(run.map.keyframes.size(), drive().size() / 2);
+  EXPECT_EQ(run.lens_k1, 0);
+  const Trajectory optimized = run.map.trajectory_optimized(), truth = *drive().ground_truth();
+  std::vector<double> units;  // of each step
+  for (std::size_t i = 1; i < drive().size(); ++i) {
+    const auto step_m = [i](const Trajectory& t) {
+      return (t.poses[i].T_world_body->translation() - t.poses[i - 1].T_world_body->translation())
+          .norm();
+    };
+    units.push_back(step_m(optimized) / step_m(truth));
+  }
+  const auto [least, most] = std::minmax_element(units.begin(), units.end());
+  EXPECT_LT(*most / *least, 1.04);  // 1.049 without
+}
+
 TEST(SlamOnAStreet, GoesOnWithOneEyeAfterAJumpToAKnownPlace) {
   // Frames 0 to 23, then from 8 on again: the new run takes place and unit from the map.
   Slam slam(small_options(), drive().calibration(Sensor::kMono));
