@@ -91,6 +91,12 @@ std::optional<Matrix6d> inverse_if_full(const Matrix6d& information) {
   return Matrix6d(information.llt().solve(Matrix6d::Identity()));
 }
 
+void require_sound(const LineObservation::SecondEye& eye, const std::string& name) {
+  require(eye.eye_cam.allFinite() && eye.eye_cam.norm() > 0 && eye.start_px.allFinite() &&
+              eye.end_px.allFinite() && positive(eye.sigma_px),
+          name + ": a second eye must lie elsewhere, be finite and its sigma_px positive");
+}
+
 }  // namespace
 
 SlidingWindow::SlidingWindow(const SlidingWindowOptions& options, const Camera& camera)
@@ -169,10 +175,7 @@ void SlidingWindow::add_line_observation(const LineObservation& o) {
                            " in keyframe " + std::to_string(o.keyframe);
   require(o.start_px.allFinite() && o.end_px.allFinite() && positive(o.sigma_px),
           name + ": its ends must be finite and sigma_px positive");
-  require(!o.second || (o.second->eye_cam.allFinite() && o.second->eye_cam.norm() > 0 &&
-                        o.second->start_px.allFinite() && o.second->end_px.allFinite() &&
-                        positive(o.second->sigma_px)),
-          name + ": a second eye must lie elsewhere, be finite and its sigma_px positive");
+  if (o.second) require_sound(*o.second, name);
   insert_observation(list, o, name);
 }
 
@@ -260,6 +263,20 @@ void SlidingWindow::revise_inverse_depth(std::int64_t keyframe, std::int64_t lan
     }
   throw ArgumentError("sliding window: landmark " + std::to_string(landmark) +
                       " has no inverse depth in keyframe " + std::to_string(keyframe));
+}
+
+void SlidingWindow::revise_second_eye(std::int64_t keyframe, std::int64_t line,
+                                      const LineObservation::SecondEye& second) {
+  impl_->line(line);
+  require_sound(second, "sliding window: line " + std::to_string(line) + " in keyframe " +
+                            std::to_string(keyframe));
+  for (LineObservation& o : impl_->change().lines.at(line).observations)
+    if (o.keyframe == keyframe && o.second) {
+      o.second = second;
+      return;
+    }
+  throw ArgumentError("sliding window: line " + std::to_string(line) +
+                      " has no second eye in keyframe " + std::to_string(keyframe));
 }
 
 WindowSummary SlidingWindow::optimize() { return optimize_window(impl_->change()); }

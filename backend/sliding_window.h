@@ -126,6 +126,9 @@ class SlidingWindow {
   void add_line(std::int64_t id, const Line3& line_map);
   void add_line_observation(const LineObservation& observation);
   void remove_line(std::int64_t id);
+  /// What a second eye saw is known better now, as after its calibration. It must be there.
+  void revise_second_eye(std::int64_t keyframe, std::int64_t line,
+                         const LineObservation::SecondEye& second);
   const std::vector<LineObservation>& line_observations(std::int64_t line) const;
   /// Distances of both ends from the projected line [px].
   std::optional<Eigen::Vector2d> residual_px(const LineObservation& observation) const;

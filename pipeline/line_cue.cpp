@@ -1,4 +1,3 @@
-#include <placegraph/frontend/lines/line_depth.h>
 #include <placegraph/pipeline/line_cue.h>
 
 #include <algorithm>
@@ -41,6 +40,7 @@ void LineCue::reset() {
   at_keyframe_.clear();
   covariances_.clear();
   drift_px_.clear();
+  calibrated_.clear();
 }
 
 /// Where the tracks should be seen from `T_odom_cam`: the points at their ends, on the line of the
@@ -145,45 +145,19 @@ void LineCue::accept(const SlidingWindow& window, const SE3& T_odom_cam) {
   tracker_.keep(keep);
 }
 
-std::vector<std::optional<LineObservation::SecondEye>> LineCue::second_eyes(
-    const Frame& frame) const {
-  std::vector<LineSegment> segments;
-  for (const LineTrack& track : tracker_.tracks()) segments.push_back(track.edge.segment);
-  std::vector<std::optional<LineObservation::SecondEye>> result(segments.size());
-  if (calibration_.baseline_m > 0 && !frame.right.empty()) {
-    const auto right = match_stereo_segments(frame.image, frame.right, segments, stereo_,
-                                             options_.tracker.detector.refinement, options_.stereo);
-    for (std::size_t i = 0; i < right.size(); ++i) {
-      if (!right[i]) continue;
-      const auto seen = right[i]->line.carriers(options_.sigma_floor_px);
-      result[i] = {Eigen::Vector3d(calibration_.baseline_m, 0, 0), seen.first, seen.second,
-                   seen.sigma_px};
-    }
-  } else if (calibration_.depth && !frame.depth.empty()) {
-    const auto depths =
-        lookup_depth_along(frame.depth, calibration_.camera, *calibration_.depth, segments);
-    for (std::size_t i = 0; i < depths.size(); ++i) {
-      if (!depths[i]) continue;
-      const MadeUpEye eye = eye_from_depth(calibration_.camera, segments[i], *depths[i]);
-      result[i] = {eye.eye_cam, eye.seen.first, eye.seen.second,
-                   std::hypot(eye.seen.sigma_px, options_.sigma_floor_px)};
-    }
-  }
-  return result;
-}
-
 void LineCue::add_to_window(std::int64_t id, const Sighting& sighting,
                             SlidingWindow& window) const {
   window.add_line_observation({sighting.keyframe, id, sighting.seen.first, sighting.seen.second,
                                sighting.seen.sigma_px, sighting.second});
 }
 
-void LineCue::observe(std::int64_t keyframe, const Frame& frame, SlidingWindow& window) {
+void LineCue::observe(std::int64_t keyframe, const Frame& frame,
+                      const RectificationError& rectification, SlidingWindow& window) {
   T_odom_last_ = window.pose(keyframe);
   if (tracker_.image().empty()) tracker_.track(frame.image);
   tracker_.detect(frame.mask);
   follow_mergers();
-  const auto seconds = second_eyes(frame);
+  const auto seconds = second_eyes(frame, rectification);
   const std::int64_t oldest = window.keyframes().front();
   std::map<std::int64_t, std::vector<Sighting>> all;
   std::map<std::int64_t, Eigen::Matrix4d> covariances;

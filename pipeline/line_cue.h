@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/sliding_window.h>
+#include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/frontend/lines/line_tracker.h>
@@ -39,8 +40,17 @@ class LineCue {
   /// Tells where the newest image was taken. Lines that contradict it are no longer followed.
   void accept(const SlidingWindow& window, const SE3& T_odom_cam);
   /// Detects new lines in the newest image, which is that of `keyframe`, and adds what it sees to
-  /// the window; lines with enough parallax become lines of the window.
-  void observe(std::int64_t keyframe, const Frame& frame, SlidingWindow& window);
+  /// the window; lines with enough parallax become lines of the window. `rectification`: what the
+  /// two eyes, where there are two, are thought to be off by.
+  void observe(std::int64_t keyframe, const Frame& frame, const RectificationError& rectification,
+               SlidingWindow& window);
+  /// Disparities of lines of the window beside what the left eye's motion says of them, each line's
+  /// once.
+  std::vector<DisparitySample> disparity_samples(const SlidingWindow& window,
+                                                 const RectificationError& rectification);
+  /// What right eyes saw follows a better calibration.
+  void revise_eyes(SlidingWindow& window, const RectificationError& before,
+                   const RectificationError& now);
   /// Drops lines of the window that the newest keyframe contradicts.
   void prune(SlidingWindow& window);
   /// Depths, in the newest image, of the lines of the window that it sees.
@@ -59,7 +69,10 @@ class LineCue {
   };
   std::vector<LineSegment> expected(const SlidingWindow& window, const SE3& T_odom_cam,
                                     double depth) const;
-  std::vector<std::optional<LineObservation::SecondEye>> second_eyes(const Frame& frame) const;
+  std::vector<std::optional<LineObservation::SecondEye>> second_eyes(
+      const Frame& frame, const RectificationError& rectification) const;
+  std::optional<DisparitySample> disparity_sample(const SlidingWindow& window, std::int64_t line,
+                                                  const RectificationError& rectification) const;
   void add_to_window(std::int64_t id, const Sighting& sighting, SlidingWindow& window) const;
   void follow_mergers();
 
@@ -71,6 +84,7 @@ class LineCue {
   std::map<std::int64_t, std::vector<Sighting>> sightings_;  // of live tracks
   std::map<std::int64_t, LineSegment> at_keyframe_;
   std::map<std::int64_t, Eigen::Matrix4d> covariances_;  // of lines of the window
+  std::set<std::int64_t> calibrated_;                    // lines of the window, see above
   std::map<std::int64_t, double> drift_px_;  // across, beyond what `expected` foresaw last
 };
 

@@ -194,7 +194,9 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
     tracker_.detect(frame.mask);
   }
   observe_tracks(id, frame);
-  if (lines_) lines_->observe(id, frame, window_);
+  if (lines_)
+    lines_->observe(id, frame, rectification_ ? rectification_->error() : RectificationError(),
+                    window_);
   const std::int64_t previous = last_keyframe_;
   last_keyframe_ = id;
   if (ground_ || motion_) measure_scale(frame, update);

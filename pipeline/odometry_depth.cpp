@@ -106,6 +106,9 @@ void Odometry::calibrate_eyes() {
   }
   calibrated_ = std::move(heard);
   const RectificationError before = rectification_->error();
+  if (lines_)
+    for (const DisparitySample& sample : lines_->disparity_samples(window_, before))
+      samples.push_back(sample);
   rectification_->add(samples);
   calibrated_.insert(fresh.begin(), fresh.end());
   revise_disparities(before);
@@ -126,6 +129,7 @@ void Odometry::revise_disparities(const RectificationError& before) {
       const double revised = *o.inverse_depth + (before.at(x) - now.at(x)) * per_px;
       window_.revise_inverse_depth(o.keyframe, id, revised);
     }
+  if (lines_) lines_->revise_eyes(window_, before, now);
 }
 
 }  // namespace placegraph

@@ -57,7 +57,10 @@ double share_inside(const LineSegment& segment, const Image& mask) {
 /// Two measurements of one edge: of one sense, on one line, one over the other.
 bool same_edge(const LineSegment& a, const LineSegment& b, double max_distance_px) {
   constexpr double kMaxAngle = 0.05, kLeastOverlap = 0.3;  // rad; of the shorter
-  if (a.vector().dot(b.vector()) <= 0) return false;
+  const Eigen::Vector2d along_a = a.vector(), along_b = b.vector();
+  const double reach = max_distance_px + 0.5 * (a.length() + b.length());
+  if (along_a.dot(along_b) <= 0 || (a.middle() - b.middle()).squaredNorm() > reach * reach)
+    return false;
   const Collinearity lie = collinearity(a, b);
   return lie.angle_rad < kMaxAngle && lie.distance_px < max_distance_px &&
          -lie.gap_px > kLeastOverlap * std::min(a.length(), b.length());
@@ -78,6 +81,7 @@ void visit(OptionVisitor& field, LineTrackerOptions& o) {
         {0, 100});
   field("max_gap_px", o.growth.max_gap_px, "without support, inside one edge", {1, 1000});
   field("max_tracks", o.max_tracks, "lines followed at once", {1, 10000});
+  field("enough_share", o.enough_share, "of max_tracks: no new ones are looked for", {0.01, 1});
   field("max_shift_px", o.max_shift_px, "of a segment from where it is expected", {1, 200});
   field("min_new_px", o.min_new_px, "length of an edge that becomes a track", {5, 1000});
   field("min_length_px", o.min_length_px, "shorter pieces die", {5, 1000});
@@ -164,7 +168,9 @@ void LineTracker::merge_tracks() {
 }
 
 void LineTracker::detect(const Image& mask) {
-  if (image_.empty() || static_cast<int>(tracks_.size()) >= options_.max_tracks) return;
+  if (image_.empty() ||
+      static_cast<double>(tracks_.size()) >= options_.enough_share * options_.max_tracks)
+    return;
   for (const EdgeSegment& edge : detect_segments(image_, options_.detector)) {
     if (static_cast<int>(tracks_.size()) >= options_.max_tracks) break;
     if (edge.segment.length() < options_.min_new_px || share_inside(edge.segment, mask) < 0.5)

@@ -13,7 +13,8 @@ struct LineTrackerOptions {
   SegmentDetectorOptions detector;
   SegmentFlowOptions flow;
   EdgeGrowth growth;
-  int max_tracks = 150;
+  int max_tracks = 80;          ///< the longest edges
+  double enough_share = 0.75;   ///< of max_tracks: with so many no new ones are looked for
   double max_shift_px = 12;     ///< of a segment from where it is expected
   double min_new_px = 25;       ///< length of an edge that becomes a track
   double min_length_px = 20;    ///< of a track; shorter pieces die
@@ -46,7 +47,8 @@ class LineTracker {
   /// now thought to be, or is empty (nothing moved); one without length means that the track cannot
   /// be seen.
   void track(const Image& image, const std::vector<LineSegment>& expected = {});
-  /// Detects edges of the last image that no track covers; `mask` 0 = not here (may be empty).
+  /// Detects edges of the last image that no track covers, where tracks are few; `mask` 0 = not
+  /// here (may be empty).
   void detect(const Image& mask = {});
   /// Drops the tracks whose flag is false (one flag a track, in order).
   void keep(const std::vector<bool>& flags);

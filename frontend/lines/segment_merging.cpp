@@ -8,9 +8,19 @@
 namespace placegraph {
 namespace {
 
-bool joined(const LineSegment& a, const LineSegment& b, const SegmentMergingOptions& options) {
-  if (a.vector().dot(b.vector()) <= 0) return false;
-  const Collinearity lie = collinearity(a, b);
+/// A piece with what most pairs can be told apart by.
+struct Piece {
+  LineSegment segment;
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero(), middle = Eigen::Vector2d::Zero();
+  double half_length = 0;
+};
+
+bool joined(const Piece& a, const Piece& b, double least_cosine,
+            const SegmentMergingOptions& options) {
+  if (a.direction.dot(b.direction) < least_cosine) return false;
+  const double reach = a.half_length + b.half_length + options.max_gap_px + options.max_distance_px;
+  if ((a.middle - b.middle).squaredNorm() > reach * reach) return false;
+  const Collinearity lie = collinearity(a.segment, b.segment);
   return lie.gap_px <= options.max_gap_px && lie.distance_px <= options.max_distance_px &&
          lie.angle_rad <= options.max_angle_deg * M_PI / 180;
 }
@@ -50,10 +60,14 @@ std::vector<LineSegment> merge_segments(const std::vector<LineSegment>& pieces,
                                         const SegmentMergingOptions& options) {
   options.check();
   const int n = static_cast<int>(pieces.size());
+  std::vector<Piece> known;
+  for (const LineSegment& piece : pieces)
+    known.push_back({piece, piece.direction(), piece.middle(), 0.5 * piece.length()});
+  const double least_cosine = std::cos(options.max_angle_deg * M_PI / 180) - 1e-9;
   DisjointSets sets(pieces.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)
-      if (joined(pieces[i], pieces[j], options)) sets.join(i, j);
+      if (joined(known[i], known[j], least_cosine, options)) sets.join(i, j);
   const std::vector<int> number = sets.numbers();
   std::vector<std::vector<LineSegment>> edges;
   for (int i = 0; i < n; ++i) {
