@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/cmd_lines_track.h"
 #include "apps/output.h"
 
 namespace placegraph::apps {
@@ -111,11 +112,12 @@ void add_match(CLI::App& lines) {
 }  // namespace
 
 void add_lines_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("lines", "Straight edges of images: find, match");
+  CLI::App* command = app.add_subcommand("lines", "Straight edges of images: find, match, follow");
   command->footer("placegraph lines match a.png b.png -o matches.txt");
   command->require_subcommand(1);
   add_detect(*command);
   add_match(*command);
+  add_lines_track_command(*command);
 }
 
 }  // namespace placegraph::apps

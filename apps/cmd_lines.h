@@ -3,7 +3,8 @@
 
 namespace placegraph::apps {
 
-/// `placegraph lines detect IMAGE` and `placegraph lines match A B`: straight edges of images.
+/// `placegraph lines detect IMAGE` and `placegraph lines match A B` and `placegraph lines track
+/// SEQUENCE`: straight edges of images.
 void add_lines_command(CLI::App& app);
 
 }  // namespace placegraph::apps

@@ -17,10 +17,10 @@ cv::Point sixteenths(const Eigen::Vector2d& px) {
   return {cvRound(px.x() * (1 << kShift)), cvRound(px.y() * (1 << kShift))};
 }
 
-cv::Scalar colour_of(const FrameView::Track& track) {
-  if (!track.px_projected) return {255, 255, 255};
+cv::Scalar colour_of(std::optional<double> off_px) {
+  if (!off_px) return {255, 255, 255};
   constexpr double kRedAtPx = 3;
-  const double off = std::min(1.0, (*track.px_projected - track.px).norm() / kRedAtPx);
+  const double off = std::min(1.0, *off_px / kRedAtPx);
   return {0, 255 * std::min(1.0, 2 - 2 * off), 255 * std::min(1.0, 2 * off)};
 }
 
@@ -32,6 +32,7 @@ std::string caption(const FrameResult& result, const FrameView& view) {
                                     [](const auto& track) { return track.px_projected; });
   return std::to_string(result.frame) + " " + state + (result.keyframe ? ", keyframe" : "") + ", " +
          std::to_string(view.tracks.size()) + " tracks, " + std::to_string(mapped) + " landmarks" +
+         (view.lines.empty() ? "" : ", " + std::to_string(view.lines.size()) + " lines") +
          (result.loops_accepted > 0 ? ", loop" : "");
 }
 
@@ -45,8 +46,13 @@ Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView&
     for (const Eigen::Vector2d& px : view.ground_px) outline.push_back(sixteenths(px));
     cv::polylines(canvas, outline, true, {255, 128, 0}, 1, cv::LINE_AA, kShift);
   }
+  for (const FrameView::Line& line : view.lines)
+    cv::line(canvas, sixteenths(line.segment.start), sixteenths(line.segment.end),
+             colour_of(line.off_px), 2, cv::LINE_AA, kShift);
   for (const FrameView::Track& track : view.tracks) {
-    const cv::Scalar colour = colour_of(track);
+    std::optional<double> off_px;
+    if (track.px_projected) off_px = (*track.px_projected - track.px).norm();
+    const cv::Scalar colour = colour_of(off_px);
     cv::line(canvas, sixteenths(track.px_previous), sixteenths(track.px), colour, 1, cv::LINE_AA,
              kShift);
     cv::circle(canvas, sixteenths(track.px), 2 << kShift, colour, 1, cv::LINE_AA, kShift);

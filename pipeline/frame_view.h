@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/core/line_segment.h>
 
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,14 @@ struct FrameView {
     std::optional<Eigen::Vector2d> px_projected;
   };
   std::vector<Track> tracks;
+  struct Line {
+    std::int64_t id = 0;
+    LineSegment segment;       ///< its support in this frame
+    ImageLine::Carriers seen;  ///< its infinite line
+    /// How far off, at the worse carrier, the line of the window is projected [px], if it has one.
+    std::optional<double> off_px;
+  };
+  std::vector<Line> lines;
   /// Outline of the ground that is aligned for the scale; empty if it is not looked at.
   std::vector<Eigen::Vector2d> ground_px;
 };

@@ -231,4 +231,18 @@ int LineCue::followed(const SlidingWindow& window) const {
   return count;
 }
 
+std::vector<FrameView::Line> LineCue::view(const SlidingWindow& window,
+                                           const SE3& T_odom_cam) const {
+  std::vector<FrameView::Line> lines;
+  for (const LineTrack& track : tracker_.tracks()) {
+    FrameView::Line seen{track.id, track.edge.segment, track.edge.line.carriers(), std::nullopt};
+    if (const auto line = window.line(track.id))
+      if (const auto r = line_residual_px(calibration_.camera, T_odom_cam, *line, seen.seen.first,
+                                          seen.seen.second))
+        seen.off_px = r->cwiseAbs().maxCoeff();
+    lines.push_back(seen);
+  }
+  return lines;
+}
+
 }  // namespace placegraph

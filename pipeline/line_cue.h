@@ -6,6 +6,7 @@
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/graph/frame.h>
+#include <placegraph/pipeline/frame_view.h>
 
 #include <map>
 #include <set>
@@ -59,6 +60,7 @@ class LineCue {
   std::vector<double> flow_px() const;
   /// Lines of the window that are followed.
   int followed(const SlidingWindow& window) const;
+  std::vector<FrameView::Line> view(const SlidingWindow& window, const SE3& T_odom_cam) const;
   void reset();
 
  private:

@@ -384,6 +384,7 @@ FrameView Odometry::view() const {
     if (const auto point = window_.landmark(track.id))
       seen.px_projected = calibration_.camera.project(T_cam_odom * *point);
   }
+  if (lines_) view.lines = lines_->view(window_, T_odom_last_);
   if (ground_ && scale_known_) view.ground_px = ground_->outline_px();
   return view;
 }
