@@ -5,6 +5,9 @@
 #include <exception>
 #include <iostream>
 #include <string>
+#ifdef __GLIBC__  // known once a header of the library has been read
+#include <malloc.h>
+#endif
 
 #include "apps/cmd_bundle.h"
 #include "apps/cmd_config.h"
@@ -37,10 +40,21 @@ bool is_command(const CLI::App& app, const std::string& name) {
                      [&](const CLI::App* command) { return command->check_name(name); });
 }
 
+/// Images come and go with every frame: their memory is kept instead of being handed back to the
+/// system and cleared by it anew, which costs a twentieth of a run.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kLargestKept = 64 << 20, kKept = 256 << 20;  // bytes
+  mallopt(M_MMAP_THRESHOLD, kLargestKept);
+  mallopt(M_TRIM_THRESHOLD, kKept);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace placegraph::apps;
+  keep_freed_memory();
   CLI::App app("Visual odometry, place recognition and pose graphs.", "placegraph");
   try {
     app.formatter(std::make_shared<ExampleFormatter>());

@@ -159,6 +159,20 @@ bool LoopCloser::within_covariance(const Loop& loop, const KnownMotions& known,
   return error.head<6>().dot(covariance.ldlt().solve(error.head<6>())) < kChi2;
 }
 
+/// Whether the two can be so near to each other, by what the odometry may have drifted, that a
+/// verified loop would be within_drift: from afar there is nothing to look at.
+bool LoopCloser::within_reach(const View& query, const View& match, const MotionBetween& odometry,
+                              double median_depth_m) const {
+  const auto tracked = odometry(match.keyframe, query.keyframe);
+  if (!tracked) return true;
+  double farthest = 0;
+  for (const Feature& feature : match.features)
+    if (feature.point_cam) farthest = std::max<double>(farthest, feature.point_cam->z());
+  const double distance = tracked->T_a_b.translation().norm();
+  return distance <= options_.verifier.max_baseline_depths * farthest +
+                         drift_over(tracked->way, distance, median_depth_m).length;
+}
+
 /// Verifies one candidate of the newest view; a loop that passes is appended to pending_.
 LoopRecord LoopCloser::verify(const PlaceCandidate& candidate, const KnownMotions& known,
                               double median_depth_m) {
@@ -167,6 +181,10 @@ LoopRecord LoopCloser::verify(const PlaceCandidate& candidate, const KnownMotion
   LoopRecord record{query.frame, match.frame, 0, false, "geometry", {}};
   Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | candidate.id);
   const bool free_scale = known.units_differ && known.units_differ(candidate.id, query.keyframe);
+  if (!free_scale && !within_reach(query, match, known.odometry, median_depth_m)) {
+    record.stage = "drift";
+    return record;
+  }
   const LoopVerification verified = verify_loop(calibration_.camera, query.features, match.features,
                                                 options_.verifier, random, free_scale);
   record.inliers = verified.inliers;

@@ -75,6 +75,8 @@ class LoopCloser {
     double length, angle_rad, log_scale;
   };
   Drift drift_over(double way, double distance, double median_depth_m) const;
+  bool within_reach(const View& query, const View& match, const MotionBetween& odometry,
+                    double median_depth_m) const;
   bool within_drift(const Loop& loop, const MotionBetween& odometry, double median_depth_m,
                     bool free_scale) const;
   bool agree(const Loop& a, const Loop& b, const MotionBetween& odometry,

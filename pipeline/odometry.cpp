@@ -90,24 +90,6 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
   return update;
 }
 
-std::vector<Eigen::Vector2f> Odometry::predict(const SE3& T_odom_cam) const {
-  const SE3 T_cam_odom = T_odom_cam.inverse();
-  const Camera& camera = calibration_.camera;
-  std::vector<Eigen::Vector2f> predicted;
-  for (const PointTrack& track : tracker_.tracks()) {
-    predicted.push_back(track.px);
-    auto point = window_.landmark(track.id);
-    if (!point) {
-      const auto ray = camera.unproject(track.px.cast<double>());
-      if (!ray) continue;
-      point = T_odom_last_ * Eigen::Vector3d(median_depth_m_ * *ray);
-    }
-    const auto px = camera.project(T_cam_odom * *point);
-    if (px && camera.contains(*px, 2)) predicted.back() = px->cast<float>();
-  }
-  return predicted;
-}
-
 /// `keep` tells which tracks do not contradict the pose: others slid off their point, or it moves.
 Pose3d2dResult Odometry::pose_from_points(const SE3& prior, Random& random,
                                           std::vector<bool>& keep) const {

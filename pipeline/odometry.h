@@ -41,7 +41,7 @@ struct OdometryOptions {
   GroundScaleOptions ground;
   LineCueOptions lines;
   KeyframeOptions keyframe;
-  SlidingWindowOptions window{.max_keyframes = 10};
+  SlidingWindowOptions window{.max_keyframes = 10, .relative_decrease = 1e-3};
   double sigma_px = 0.7;          ///< noise of a track
   double outlier_px = 4;          ///< a landmark that misses its pixel by more is dropped
   double min_parallax_deg = 0.5;  ///< to triangulate a landmark from keyframes

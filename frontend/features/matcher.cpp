@@ -73,6 +73,12 @@ std::vector<FeatureMatch> match_epipolar(const Camera& camera, const std::vector
   const Eigen::Matrix3d F =
       K_inverse.transpose() * hat(T_b_a.translation()) * T_b_a.rotation().matrix() * K_inverse;
   const Eigen::Matrix3d H_infinity = camera.K() * T_b_a.rotation().matrix() * K_inverse;
+  struct Place {
+    Eigen::Vector2d px;
+    int octave;
+  };
+  std::vector<Place> places_b;  // side by side, as all are asked for every line
+  for (const Feature& feature : b) places_b.push_back({feature.px.cast<double>(), feature.octave});
   std::vector<Best> best_a(a.size()), best_b(b.size());
   for (int i = 0; i < static_cast<int>(a.size()); ++i) {
     const Eigen::Vector3d x_a = a[i].px.cast<double>().homogeneous();
@@ -86,9 +92,9 @@ std::vector<FeatureMatch> match_epipolar(const Camera& camera, const std::vector
     const Eigen::Vector3d Kt = camera.K() * T_b_a.translation();
     const Eigen::Vector2d direction = (Kt.head<2>() - Kt.z() * px_infinity).normalized();
     for (int j = 0; j < static_cast<int>(b.size()); ++j) {
-      if (std::abs(a[i].octave - b[j].octave) > 2) continue;
-      const Eigen::Vector2d px_b = b[j].px.cast<double>();
+      const auto& [px_b, octave_b] = places_b[j];
       if (std::abs(line.dot(px_b.homogeneous())) > band_px) continue;
+      if (std::abs(a[i].octave - octave_b) > 2) continue;
       if (direction.dot(px_b - px_infinity) < -band_px) continue;
       const int d = hamming_distance(a[i].descriptor, b[j].descriptor);
       best_a[i].offer(j, d);

@@ -1,7 +1,9 @@
+#include <placegraph/frontend/flow/corners.h>
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
+#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
@@ -48,44 +50,36 @@ void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>&
           "PointTracker::track: image size changed");
   require(predicted_px.empty() || predicted_px.size() == tracks_.size(),
           "PointTracker::track: one prediction a track needed");
-  const cv::Size window(options_.window_px, options_.window_px);
   std::vector<Image> pyramid;
-  cv::buildOpticalFlowPyramid(image, pyramid, window, options_.pyramid_levels - 1);
+  cv::buildOpticalFlowPyramid(image, pyramid, cv::Size(options_.window_px, options_.window_px),
+                              options_.pyramid_levels - 1);
   if (!tracks_.empty()) {
-    std::vector<cv::Point2f> from, to;
-    for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      from.emplace_back(tracks_[i].px.x(), tracks_[i].px.y());
-      const Eigen::Vector2f& guess = predicted_px.empty() ? tracks_[i].px : predicted_px[i];
-      to.emplace_back(guess.x(), guess.y());
+    std::vector<int> all(tracks_.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<std::optional<Eigen::Vector2f>> found(tracks_.size());
+    const int coarsest = options_.pyramid_levels - 1;
+    if (predicted_px.empty()) {
+      follow(pyramid, all, predicted_px, coarsest, coarsest, found);
+    } else {
+      // Most predictions are good to some pixels: there the fine levels are enough, and the finest
+      // for the way back, which starts as far off its goal as the prediction was. What slid off
+      // elsewhere does not come home by itself; it is sought again from the coarsest level.
+      follow(pyramid, all, predicted_px, std::min(coarsest, 1), 0, found);
+      std::vector<int> lost;
+      for (const int i : all)
+        if (!found[i]) lost.push_back(i);
+      if (2 * lost.size() > all.size())
+        follow(pyramid, lost, predicted_px, coarsest, std::min(coarsest, 1), found);
     }
-    const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.01);
-    std::vector<unsigned char> found, found_back;
-    std::vector<float> error;
-    cv::calcOpticalFlowPyrLK(pyramid_, pyramid, from, to, found, error, window,
-                             options_.pyramid_levels - 1, stop, cv::OPTFLOW_USE_INITIAL_FLOW,
-                             options_.min_eigenvalue);
-    // The way back starts as far off its goal as the prediction was: there the fine levels are
-    // enough, and what slid off elsewhere does not come home by itself.
-    std::vector<cv::Point2f> back = from;
-    int levels_back = options_.pyramid_levels - 1;
-    if (!predicted_px.empty()) {
-      levels_back = std::min(levels_back, 1);
-      for (std::size_t i = 0; i < tracks_.size(); ++i)
-        back[i] += to[i] - cv::Point2f(predicted_px[i].x(), predicted_px[i].y());
-    }
-    cv::calcOpticalFlowPyrLK(pyramid, pyramid_, to, back, found_back, error, window, levels_back,
-                             stop, cv::OPTFLOW_USE_INITIAL_FLOW, options_.min_eigenvalue);
-    const double limit = options_.max_forward_backward_px * options_.max_forward_backward_px;
     const float border = 3;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      const cv::Point2f d = back[i] - from[i];
-      const bool inside = to[i].x >= border && to[i].y >= border && to[i].x < image.cols - border &&
-                          to[i].y < image.rows - border;
-      if (!found[i] || !found_back[i] || !inside || d.dot(d) > limit) continue;
+      if (!found[i] || found[i]->x() < border || found[i]->y() < border ||
+          found[i]->x() >= image.cols - border || found[i]->y() >= image.rows - border)
+        continue;
       PointTrack track = tracks_[i];
       track.px_previous = track.px;
-      track.px = Eigen::Vector2f(to[i].x, to[i].y);
+      track.px = *found[i];
       ++track.age;
       tracks_[kept++] = track;
     }
@@ -95,14 +89,51 @@ void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>&
   pyramid_ = std::move(pyramid);
 }
 
+/// Where the tracks `which` are in the new image; those that come back to their start are written
+/// to `found`. `coarsest` and `coarsest_back` are the first levels of the two ways.
+void PointTracker::follow(const std::vector<Image>& pyramid, const std::vector<int>& which,
+                          const std::vector<Eigen::Vector2f>& predicted_px, int coarsest,
+                          int coarsest_back,
+                          std::vector<std::optional<Eigen::Vector2f>>& found) const {
+  if (which.empty()) return;
+  std::vector<cv::Point2f> from, guess;
+  for (const int i : which) {
+    from.emplace_back(tracks_[i].px.x(), tracks_[i].px.y());
+    const Eigen::Vector2f& g = predicted_px.empty() ? tracks_[i].px : predicted_px[i];
+    guess.emplace_back(g.x(), g.y());
+  }
+  const cv::Size window(options_.window_px, options_.window_px);
+  // What converges does so in a few steps, from a prediction in fewer.
+  const int iterations = predicted_px.empty() ? 30 : 12;
+  const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, iterations, 0.01);
+  const auto lucas_kanade = [&](const std::vector<Image>& a, const std::vector<Image>& b,
+                                const std::vector<cv::Point2f>& start, int level,
+                                std::vector<cv::Point2f>& end) {
+    std::vector<unsigned char> status;
+    std::vector<float> error;
+    cv::calcOpticalFlowPyrLK(a, b, start, end, status, error, window, level, stop,
+                             cv::OPTFLOW_USE_INITIAL_FLOW, options_.min_eigenvalue);
+    return status;
+  };
+  std::vector<cv::Point2f> to = guess;
+  const auto there = lucas_kanade(pyramid_, pyramid, from, coarsest, to);
+  std::vector<cv::Point2f> back = from;
+  if (!predicted_px.empty())
+    for (std::size_t k = 0; k < which.size(); ++k) back[k] += to[k] - guess[k];
+  const auto home = lucas_kanade(pyramid, pyramid_, to, coarsest_back, back);
+  const double limit = options_.max_forward_backward_px * options_.max_forward_backward_px;
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const cv::Point2f d = back[k] - from[k];
+    if (there[k] && home[k] && d.dot(d) <= limit)
+      found[which[k]] = Eigen::Vector2f(to[k].x, to[k].y);
+  }
+}
+
 void PointTracker::detect(const Image& mask) {
   require(!image_.empty(), "PointTracker::detect: no image yet");
   const int missing = options_.max_tracks - static_cast<int>(tracks_.size());
   if (missing <= 0) return;
 
-  Image strength, local_max;
-  cv::cornerMinEigenVal(image_, strength, 5, 3);
-  cv::dilate(strength, local_max, Image());
   Image blocked = Image::zeros(image_.size(), CV_8UC1);
   for (const PointTrack& track : tracks_)
     cv::circle(blocked, cv::Point(cvRound(track.px.x()), cvRound(track.px.y())),
@@ -110,10 +141,6 @@ void PointTracker::detect(const Image& mask) {
 
   // Strongest corners of every cell first, cells in turn: what is even matters more than what is
   // strong.
-  struct Corner {
-    float strength;
-    int u, v;
-  };
   const int columns = (image_.cols + options_.cell_px - 1) / options_.cell_px;
   const int rows = (image_.rows + options_.cell_px - 1) / options_.cell_px;
   std::vector<std::vector<Corner>> cells(columns * rows);
@@ -122,16 +149,8 @@ void PointTracker::detect(const Image& mask) {
     ++occupied[static_cast<int>(track.px.y()) / options_.cell_px * columns +
                static_cast<int>(track.px.x()) / options_.cell_px];
   constexpr int kBorder = 8;
-  const float threshold = static_cast<float>(options_.min_eigenvalue);
-  for (int v = kBorder; v < image_.rows - kBorder; ++v) {
-    const float* s = strength.ptr<float>(v);
-    const float* m = local_max.ptr<float>(v);
-    const unsigned char* b = blocked.ptr(v);
-    const unsigned char* allowed = mask.empty() ? nullptr : mask.ptr(v);
-    for (int u = kBorder; u < image_.cols - kBorder; ++u)
-      if (s[u] > threshold && s[u] == m[u] && !b[u] && (!allowed || allowed[u]))
-        cells[v / options_.cell_px * columns + u / options_.cell_px].push_back({s[u], u, v});
-  }
+  for (const Corner& corner : find_corners(image_, options_.min_eigenvalue, kBorder, blocked, mask))
+    cells[corner.v / options_.cell_px * columns + corner.u / options_.cell_px].push_back(corner);
   for (auto& cell : cells)
     std::stable_sort(cell.begin(), cell.end(),
                      [](const Corner& a, const Corner& b) { return a.strength > b.strength; });

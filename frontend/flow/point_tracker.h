@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace placegraph {
@@ -50,6 +51,10 @@ class PointTracker {
   const Image& image() const { return image_; }
 
  private:
+  void follow(const std::vector<Image>& pyramid, const std::vector<int>& which,
+              const std::vector<Eigen::Vector2f>& predicted_px, int coarsest, int coarsest_back,
+              std::vector<std::optional<Eigen::Vector2f>>& found) const;
+
   PointTrackerOptions options_;
   std::vector<PointTrack> tracks_;
   Image image_;

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <numeric>
 
 namespace placegraph {
@@ -10,31 +10,35 @@ namespace {
 
 using Indices = std::vector<int>;
 
-/// Bitwise majority; ties go to zero.
+/// Bitwise majority; ties go to zero. All 64 bits of a word are counted at once: bit b of plane k
+/// is bit k of the count of bit b.
 BinaryDescriptor majority(const std::vector<BinaryDescriptor>& descriptors,
                           const Indices& members) {
-  std::array<int, 256> ones{};
-  for (int i : members)
-    for (int word = 0; word < 4; ++word)
-      for (std::uint64_t bits = descriptors[i][word]; bits; bits &= bits - 1)
-        ++ones[64 * word + std::countr_zero(bits)];
+  constexpr int kPlanes = 31;  // counts of an int
   BinaryDescriptor centre{};
-  for (int bit = 0; bit < 256; ++bit)
-    if (2 * ones[bit] > static_cast<int>(members.size()))
-      centre[bit / 64] |= std::uint64_t{1} << (bit % 64);
+  for (std::size_t word = 0; word < centre.size(); ++word) {
+    std::array<std::uint64_t, kPlanes> planes{};
+    for (const int i : members) {
+      std::uint64_t carry = descriptors[i][word];
+      for (int k = 0; carry; ++k) {
+        const std::uint64_t sum = planes[k] ^ carry;
+        carry &= planes[k];
+        planes[k] = sum;
+      }
+    }
+    for (int bit = 0; bit < 64; ++bit) {
+      std::size_t ones = 0;
+      for (int k = 0; k < kPlanes; ++k) ones |= (planes[k] >> bit & 1) << k;
+      if (2 * ones > members.size()) centre[word] |= std::uint64_t{1} << bit;
+    }
+  }
   return centre;
 }
 
-int nearest(const std::vector<BinaryDescriptor>& centres, const BinaryDescriptor& d) {
-  int best = 0, best_distance = 257;
-  for (int c = 0; c < static_cast<int>(centres.size()); ++c) {
-    const int distance = hamming_distance(centres[c], d);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = c;
-    }
-  }
-  return best;
+int nearest(const std::vector<BinaryDescriptor>& centres, const BinaryDescriptor& d,
+            std::vector<int>& distances) {
+  hamming_distances(d, centres, distances);
+  return static_cast<int>(std::min_element(distances.begin(), distances.end()) - distances.begin());
 }
 
 /// Splits `members` into at most `k` non-empty clusters.
@@ -46,9 +50,10 @@ std::vector<std::pair<BinaryDescriptor, Indices>> cluster(
   std::vector<BinaryDescriptor> centres;
   for (int seed : seeds) centres.push_back(descriptors[members[seed]]);
   std::vector<Indices> groups;
+  std::vector<int> distances;
   for (int iteration = 0; iteration <= iterations; ++iteration) {
     groups.assign(centres.size(), {});
-    for (int i : members) groups[nearest(centres, descriptors[i])].push_back(i);
+    for (int i : members) groups[nearest(centres, descriptors[i], distances)].push_back(i);
     if (iteration == iterations) break;
     std::vector<BinaryDescriptor> moved = centres;
     for (std::size_t c = 0; c < centres.size(); ++c)

@@ -74,6 +74,15 @@ std::vector<Sample> collect_samples(const Level& level, const Plane& plane,
   return samples;
 }
 
+/// Every n-th, so that about `most` are left: enough to come near, where a finer level follows.
+std::vector<Sample> thinned(std::vector<Sample> samples, std::size_t most = 1500) {
+  const std::size_t stride = samples.size() / most + 1;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < samples.size(); i += stride) samples[kept++] = samples[i];
+  samples.resize(kept, {Vector3d::Zero(), 0});
+  return samples;
+}
+
 /// The pixel of a sample in the current image for g = n/d; X is its point, scaled by 1 / depth.
 bool warp(const Level& level, const Matrix3d& R, const Vector3d& t, const Vector3d& g,
           const Sample& sample, Vector2d& px, Vector3d& X) {
@@ -188,6 +197,7 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
                  Fit& fit) {
   std::vector<double> residuals(samples.size()), magnitudes;
   std::vector<Parameters> jacobians(samples.size());
+  constexpr double kMoved = 5e-4;  // of the distance: a twentieth of what a road is even to
   for (int iteration = 0; iteration < o.iterations; ++iteration) {
     magnitudes.clear();
     for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -221,7 +231,7 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
     motion.correct(step.segment<3>(3), step.segment<2>(6));
     fit.gain += step[8];
     fit.bias += step[9];
-    if (moved < 1e-4) break;
+    if (moved < kMoved) break;
   }
 }
 
@@ -229,7 +239,7 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
 /// falls into whatever dip of a fine texture lies nearest.
 double start_distance(const Level& level, const Matrix3d& R, const Vector3d& t, const Plane& prior,
                       const GroundPlaneOptions& o) {
-  const auto samples = collect_samples(level, prior, o, 2);
+  const auto samples = thinned(collect_samples(level, prior, o, 2));
   double best = -1, best_distance = prior.distance_m;
   for (double factor = 0.7; factor < 1.4; factor *= 1.02) {
     const double distance = factor * prior.distance_m;
@@ -289,6 +299,7 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
     // The grid grows with the pixels: as many samples on every level.
     const int step = std::max(1, (options.step_px + (1 << i) - 1) >> i);
     samples = collect_samples(levels[i], prior_ref, options, step);
+    if (i > 0) samples = thinned(std::move(samples));
     align_level(levels[i], samples, prior, options, motion, fit);
   }
   result.samples = fit.seen;
