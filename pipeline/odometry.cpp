@@ -71,14 +71,12 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
   if (!started_) return begin(frame);
   const PointTracker before = tracker_;
   const std::optional<LineCue> lines_before = lines_;
-  if (cues_.points) {
+  const bool waiting = state_ == TrackingState::kWaiting;
+  if (cues_.points && waiting) {
     const auto span = times_.measure("point tracking");
-    tracker_.track(frame.image, state_ == TrackingState::kWaiting
-                                    ? std::vector<Eigen::Vector2f>{}
-                                    : predict(T_odom_last_ * T_last_cur_));
+    tracker_.track(frame.image);
   }
-  OdometryUpdate update =
-      state_ == TrackingState::kWaiting ? try_initialize(frame, T_odom_cam_known) : track(frame);
+  OdometryUpdate update = waiting ? try_initialize(frame, T_odom_cam_known) : track(frame);
   lost_ = update.state == TrackingState::kLost;
   if (lost_) {
     // The next frame may still be found from the last good one.
@@ -88,6 +86,29 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
     velocity_known_ = false;
   }
   return update;
+}
+
+/// Follows the points and poses the frame by them. From a known velocity they are sought nearby;
+/// where half of the landmarks are not found again so, the camera has jerked: all around.
+Pose3d2dResult Odometry::follow_points(const Frame& frame, const SE3& prior, Random& random,
+                                       std::vector<bool>& keep) {
+  constexpr double kEnough = 0.5;
+  const auto followed_from = [&](PointTracker::Search search) {
+    const auto span = times_.measure("point tracking");
+    tracker_.track(frame.image, predict(prior), search);
+  };
+  if (cues_.points && velocity_known_) {
+    const PointTracker before = tracker_;
+    double landmarks = 0;
+    for (const PointTrack& track : before.tracks())
+      landmarks += window_.landmark(track.id).has_value();
+    followed_from(PointTracker::Search::kNear);
+    const Pose3d2dResult pose = pose_from_points(prior, random, keep);
+    if (pose.outcome && static_cast<double>(pose.inliers.size()) > kEnough * landmarks) return pose;
+    tracker_ = before;
+  }
+  if (cues_.points) followed_from(PointTracker::Search::kWide);
+  return pose_from_points(prior, random, keep);
 }
 
 /// `keep` tells which tracks do not contradict the pose: others slid off their point, or it moves.
@@ -121,7 +142,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   Random random(seed_, frame.id);
   const SE3 prior = T_odom_last_ * T_last_cur_;
   std::vector<bool> keep;
-  const Pose3d2dResult points = pose_from_points(prior, random, keep);
+  const Pose3d2dResult points = follow_points(frame, prior, random, keep);
   update.inliers = static_cast<int>(points.inliers.size());
   std::optional<SE3> T_odom_cam;
   if (points.outcome) T_odom_cam = points.T_ref_cam;

@@ -152,6 +152,8 @@ class Odometry {
   OdometryUpdate replace_reference(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate try_initialize(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate track(const Frame& frame);
+  Pose3d2dResult follow_points(const Frame& frame, const SE3& prior, Random& random,
+                               std::vector<bool>& keep);
   Pose3d2dResult pose_from_points(const SE3& prior, Random& random, std::vector<bool>& keep) const;
   std::optional<SE3> pose_with_lines(const Frame& frame, const SE3& prior,
                                      const Pose3d2dResult& points, Random& random, int& inliers);

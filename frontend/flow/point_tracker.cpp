@@ -3,7 +3,6 @@
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
-#include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
@@ -44,7 +43,8 @@ void PointTracker::keep(const std::vector<bool>& flags) {
   tracks_.resize(kept);
 }
 
-void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>& predicted_px) {
+void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>& predicted_px,
+                         Search search) {
   require(image.type() == CV_8UC1 && !image.empty(), "PointTracker::track: grey image needed");
   require(image_.empty() || image.size() == image_.size(),
           "PointTracker::track: image size changed");
@@ -54,23 +54,7 @@ void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>&
   cv::buildOpticalFlowPyramid(image, pyramid, cv::Size(options_.window_px, options_.window_px),
                               options_.pyramid_levels - 1);
   if (!tracks_.empty()) {
-    std::vector<int> all(tracks_.size());
-    std::iota(all.begin(), all.end(), 0);
-    std::vector<std::optional<Eigen::Vector2f>> found(tracks_.size());
-    const int coarsest = options_.pyramid_levels - 1;
-    if (predicted_px.empty()) {
-      follow(pyramid, all, predicted_px, coarsest, coarsest, found);
-    } else {
-      // Most predictions are good to some pixels: there the fine levels are enough, and the finest
-      // for the way back, which starts as far off its goal as the prediction was. What slid off
-      // elsewhere does not come home by itself; it is sought again from the coarsest level.
-      follow(pyramid, all, predicted_px, std::min(coarsest, 1), 0, found);
-      std::vector<int> lost;
-      for (const int i : all)
-        if (!found[i]) lost.push_back(i);
-      if (2 * lost.size() > all.size())
-        follow(pyramid, lost, predicted_px, coarsest, std::min(coarsest, 1), found);
-    }
+    const auto found = follow(pyramid, predicted_px, search);
     const float border = 3;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
@@ -89,23 +73,19 @@ void PointTracker::track(const Image& image, const std::vector<Eigen::Vector2f>&
   pyramid_ = std::move(pyramid);
 }
 
-/// Where the tracks `which` are in the new image; those that come back to their start are written
-/// to `found`. `coarsest` and `coarsest_back` are the first levels of the two ways.
-void PointTracker::follow(const std::vector<Image>& pyramid, const std::vector<int>& which,
-                          const std::vector<Eigen::Vector2f>& predicted_px, int coarsest,
-                          int coarsest_back,
-                          std::vector<std::optional<Eigen::Vector2f>>& found) const {
-  if (which.empty()) return;
+/// Where the tracks are in the new image, if they come back to their start from there.
+std::vector<std::optional<Eigen::Vector2f>> PointTracker::follow(
+    const std::vector<Image>& pyramid, const std::vector<Eigen::Vector2f>& predicted_px,
+    Search search) const {
   std::vector<cv::Point2f> from, guess;
-  for (const int i : which) {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
     from.emplace_back(tracks_[i].px.x(), tracks_[i].px.y());
     const Eigen::Vector2f& g = predicted_px.empty() ? tracks_[i].px : predicted_px[i];
     guess.emplace_back(g.x(), g.y());
   }
+  const bool near = search == Search::kNear;
   const cv::Size window(options_.window_px, options_.window_px);
-  // What converges does so in a few steps, from a prediction in fewer.
-  const int iterations = predicted_px.empty() ? 30 : 12;
-  const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, iterations, 0.01);
+  const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.01);
   const auto lucas_kanade = [&](const std::vector<Image>& a, const std::vector<Image>& b,
                                 const std::vector<cv::Point2f>& start, int level,
                                 std::vector<cv::Point2f>& end) {
@@ -115,18 +95,23 @@ void PointTracker::follow(const std::vector<Image>& pyramid, const std::vector<i
                              cv::OPTFLOW_USE_INITIAL_FLOW, options_.min_eigenvalue);
     return status;
   };
+  const int coarsest = options_.pyramid_levels - 1, finer = std::min(coarsest, 1);
   std::vector<cv::Point2f> to = guess;
-  const auto there = lucas_kanade(pyramid_, pyramid, from, coarsest, to);
+  const auto there = lucas_kanade(pyramid_, pyramid, from, near ? finer : coarsest, to);
+  // The way back starts as far off its goal as the prediction was: there fine levels are enough,
+  // and what slid off elsewhere does not come home by itself.
   std::vector<cv::Point2f> back = from;
   if (!predicted_px.empty())
-    for (std::size_t k = 0; k < which.size(); ++k) back[k] += to[k] - guess[k];
+    for (std::size_t i = 0; i < back.size(); ++i) back[i] += to[i] - guess[i];
+  const int coarsest_back = near ? 0 : predicted_px.empty() ? coarsest : finer;
   const auto home = lucas_kanade(pyramid, pyramid_, to, coarsest_back, back);
   const double limit = options_.max_forward_backward_px * options_.max_forward_backward_px;
-  for (std::size_t k = 0; k < which.size(); ++k) {
-    const cv::Point2f d = back[k] - from[k];
-    if (there[k] && home[k] && d.dot(d) <= limit)
-      found[which[k]] = Eigen::Vector2f(to[k].x, to[k].y);
+  std::vector<std::optional<Eigen::Vector2f>> found(from.size());
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const cv::Point2f d = back[i] - from[i];
+    if (there[i] && home[i] && d.dot(d) <= limit) found[i] = Eigen::Vector2f(to[i].x, to[i].y);
   }
+  return found;
 }
 
 void PointTracker::detect(const Image& mask) {

@@ -37,8 +37,12 @@ class PointTracker {
   explicit PointTracker(const PointTrackerOptions& options);
 
   /// Follows all tracks into `image` (CV_8UC1, the size of the last); lost ones are dropped.
-  /// `predicted_px` holds a starting point for each present track, or is empty.
-  void track(const Image& image, const std::vector<Eigen::Vector2f>& predicted_px = {});
+  /// `predicted_px` holds a starting point for each present track, or is empty. How far from there
+  /// a point is sought: over all levels of the pyramid, or over the finest two at less than half
+  /// the cost, some ten pixels wide; farther off, such a search may end at something alike.
+  enum class Search { kWide, kNear };
+  void track(const Image& image, const std::vector<Eigen::Vector2f>& predicted_px = {},
+             Search search = Search::kWide);
   /// Detects new corners in the last image wherever tracks are missing; `mask` 0 = not here (may be
   /// empty).
   void detect(const Image& mask = {});
@@ -51,9 +55,9 @@ class PointTracker {
   const Image& image() const { return image_; }
 
  private:
-  void follow(const std::vector<Image>& pyramid, const std::vector<int>& which,
-              const std::vector<Eigen::Vector2f>& predicted_px, int coarsest, int coarsest_back,
-              std::vector<std::optional<Eigen::Vector2f>>& found) const;
+  std::vector<std::optional<Eigen::Vector2f>> follow(
+      const std::vector<Image>& pyramid, const std::vector<Eigen::Vector2f>& predicted_px,
+      Search search) const;
 
   PointTrackerOptions options_;
   std::vector<PointTrack> tracks_;

@@ -16,6 +16,7 @@
 #include <placegraph/frontend/odometry/pose_gravity.h>
 #include <placegraph/frontend/places/loop_verifier.h>
 #include <placegraph/frontend/places/place_database.h>
+#include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/frontend/planes/ground_plane.h>
 #include <placegraph/frontend/planes/motion_from_planes.h>
 #include <placegraph/graph/core/error.h>
@@ -33,7 +34,8 @@ using All =
                    PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
                    PlanarRegionsOptions, MotionFromPlanesOptions, SegmentDetectorOptions,
                    SegmentMatcherOptions, SceneDirectionOptions, PlaneTrackerOptions,
-                   GravityPoseOptions, CircularMotionOptions, Pose3d3dOptions, LineTrackerOptions,
+                   GravityPoseOptions, CircularMotionOptions, Pose3d3dOptions,
+                   InverseDepthPlaneOptions, DominantSurfaceOptions, LineTrackerOptions,
                    LineStereoOptions, LineTriangulationOptions, PoseFromLinesOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 

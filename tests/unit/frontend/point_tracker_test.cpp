@@ -3,6 +3,7 @@
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 
+#include <map>
 #include <set>
 
 #include "tests/support/texture.h"
@@ -53,6 +54,23 @@ TEST(PointTracker, StartsFromThePredictionWhereTheMotionIsLarge) {
   for (const PointTrack& track : tracker.tracks())
     right += (track.px - track.px_previous - Eigen::Vector2f(60, 0)).norm() < 0.2;
   EXPECT_GT(right, 0.5 * detected);  // the last quarter of the image has left
+}
+
+TEST(PointTracker, FindsNearAPredictionWhatAWideSearchFinds) {
+  PointTracker wide = started(), near = started();
+  std::vector<Eigen::Vector2f> predicted;
+  for (const PointTrack& track : wide.tracks())
+    predicted.push_back(track.px + Eigen::Vector2f(28.5f, 1.5f));
+  const Image next = texture_image(kWidth, kHeight, kTexture, -30);
+  wide.track(next, predicted, PointTracker::Search::kWide);
+  near.track(next, predicted, PointTracker::Search::kNear);
+  ASSERT_GT(near.tracks().size(), 0.9 * static_cast<double>(wide.tracks().size()));
+  std::map<std::int64_t, Eigen::Vector2f> found;
+  for (const PointTrack& track : wide.tracks()) found[track.id] = track.px;
+  std::size_t same = 0;
+  for (const PointTrack& track : near.tracks())
+    same += found.count(track.id) && (found.at(track.id) - track.px).norm() < 0.02;
+  EXPECT_GT(same, 0.9 * static_cast<double>(near.tracks().size()));
 }
 
 TEST(PointTracker, DropsTracksThatLeaveTheImage) {
