@@ -208,6 +208,7 @@ class Odometry {
 
   SE3 T_odom_start_, T_odom_last_, T_last_cur_;  // the last one: velocity over one frame
   bool velocity_known_ = false;
+  double prediction_error_px_ = 0;  // of the last frame's tracks, median
   std::int64_t next_keyframe_ = 0, first_keyframe_ = 0, last_keyframe_ = -1;
   int landmarks_at_keyframe_ = 0, frames_since_keyframe_ = 0;
   std::map<std::int64_t, Frame> keyframe_frames_;  // of the window, where the ground is looked at
