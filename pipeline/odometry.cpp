@@ -88,38 +88,6 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
   return update;
 }
 
-/// Follows the points and poses the frame by them. Where the last frame's were near to where the
-/// velocity had them, these are sought nearby; where half of the landmarks are not found again so,
-/// the camera has jerked: all around.
-Pose3d2dResult Odometry::follow_points(const Frame& frame, const SE3& prior, Random& random,
-                                       std::vector<bool>& keep) {
-  constexpr double kEnough = 0.5, kNear_px = 4;
-  if (!cues_.points) return pose_from_points(prior, random, keep);
-  const auto predicted = predict(prior);
-  const auto follow = [&](PointTracker::Search search) {
-    const auto span = times_.measure("point tracking");
-    std::map<std::int64_t, Eigen::Vector2f> expected;
-    for (std::size_t i = 0; i < predicted.size(); ++i)
-      expected[tracker_.tracks()[i].id] = predicted[i];
-    tracker_.track(frame.image, predicted, search);
-    std::vector<double> errors_px;
-    for (const PointTrack& track : tracker_.tracks())
-      errors_px.push_back((track.px - expected.at(track.id)).norm());
-    prediction_error_px_ = errors_px.empty() ? kNear_px : median_of(errors_px);
-    return pose_from_points(prior, random, keep);
-  };
-  if (velocity_known_ && prediction_error_px_ < kNear_px) {
-    const PointTracker before = tracker_;
-    double landmarks = 0;
-    for (const PointTrack& track : before.tracks())
-      landmarks += window_.landmark(track.id).has_value();
-    const Pose3d2dResult pose = follow(PointTracker::Search::kNear);
-    if (pose.outcome && static_cast<double>(pose.inliers.size()) > kEnough * landmarks) return pose;
-    tracker_ = before;
-  }
-  return follow(PointTracker::Search::kWide);
-}
-
 /// `keep` tells which tracks do not contradict the pose: others slid off their point, or it moves.
 Pose3d2dResult Odometry::pose_from_points(const SE3& prior, Random& random,
                                           std::vector<bool>& keep) const {
