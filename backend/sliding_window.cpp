@@ -1,9 +1,7 @@
 #include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/reprojection.h>
-#include <placegraph/backend/sliding_window.h>
+#include <placegraph/backend/sliding_window_impl.h>
 #include <placegraph/backend/whitening.h>
-#include <placegraph/backend/window_information.h>
-#include <placegraph/backend/window_state.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -26,50 +24,7 @@ void visit(OptionVisitor& field, SlidingWindowOptions& o) {
         "stop when the cost falls by less than this share", {0, 1});
 }
 
-struct SlidingWindow::Impl {
-  /// Nothing but the prior leads back to the keyframe that set the map's frame; once another has to
-  /// be held instead, what is known is known from there only.
-  bool tied_to_map = true;
-
-  const WindowState& state() const { return state_; }
-  /// What follows from the state is forgotten.
-  WindowState& change() {
-    information_.reset();
-    return state_;
-  }
-  const WindowInformation& information() const {
-    if (!information_) information_ = window_information(state_);
-    return *information_;
-  }
-
-  const SE3& keyframe(std::int64_t id) const { return find(state_.keyframes, id, "keyframe"); }
-  const WindowLandmark& landmark(std::int64_t id) const {
-    return find(state_.landmarks, id, "landmark");
-  }
-  const WindowLine& line(std::int64_t id) const { return find(state_.lines, id, "line"); }
-  void require_plane(std::int64_t id) const { find(state_.planes, id, "plane"); }
-
- private:
-  template <class T>
-  static const T& find(const std::map<std::int64_t, T>& all, std::int64_t id, const char* what) {
-    const auto it = all.find(id);
-    require(it != all.end(), std::string("sliding window: ") + what + " " + std::to_string(id) +
-                                 " is not in the window");
-    return it->second;
-  }
-
-  WindowState state_;
-  mutable std::optional<WindowInformation> information_;
-};
-
 namespace {
-
-template <class T>
-std::vector<std::int64_t> ids_of(const std::map<std::int64_t, T>& all) {
-  std::vector<std::int64_t> ids;
-  for (const auto& [id, value] : all) ids.push_back(id);
-  return ids;
-}
 
 /// Inserts an observation in the order of the keyframes; throws if its keyframe has one already.
 template <class Observation>
@@ -81,8 +36,6 @@ void insert_observation(std::vector<Observation>& list, const Observation& o,
   require(at == list.end() || at->keyframe != o.keyframe, name + " is there already");
   list.insert(at, o);
 }
-
-bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 std::optional<Matrix6d> inverse_if_full(const Matrix6d& information) {
   bool deficient = false;

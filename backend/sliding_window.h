@@ -83,6 +83,15 @@ struct PlanePoint {
   double sigma_m = 1;  ///< how uneven the plane is
 };
 
+/// A rectangular world, a rotation of the window, as a keyframe sees it: error
+/// log(R_map_world^-1 R_map_cam R_cam_world), see AbsoluteRotationFactor.
+struct WorldObservation {
+  std::int64_t keyframe = 0;
+  std::int64_t world = 0;
+  SO3 R_cam_world;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< right tangent, of any rank
+};
+
 /// What is known of a keyframe's pose from elsewhere: error log(T_map_cam_measured^-1 T_map_cam).
 struct PosePrior {
   std::int64_t keyframe = 0;
@@ -99,7 +108,8 @@ struct WindowSummary {
 /// Bundle adjustment over the last keyframes; what leaves is marginalized into a linear prior by
 /// Schur complement, with first-estimate Jacobians for the states that stay in it. Undistorted
 /// pinhole camera. Residuals: reprojection (px / sigma, Huber), inverse depth, the ends of segments
-/// from projected lines, distances, heights above planes, points on planes, pose priors, the prior.
+/// from projected lines, distances, heights above planes, points on planes, pose priors, rotations
+/// against rectangular worlds, the prior.
 /// Deterministic; single-threaded.
 class SlidingWindow {
  public:
@@ -137,6 +147,14 @@ class SlidingWindow {
   void add_plane(std::int64_t id, const Plane3& plane_map);
   void add_height(const HeightObservation& observation);
   void add_plane_point(const PlanePoint& point);
+  /// A world leaves the window with the last keyframe that saw it, unless it is kept: then the
+  /// prior goes on to hold it to the keyframes, as far as their motion is known.
+  void add_world(std::int64_t id, const SO3& R_map_world);
+  void add_world_observation(const WorldObservation& observation);
+  void keep_world(std::int64_t id, bool kept = true);
+  /// Where the window lies as a whole is chosen anew after each optimization: turned about its
+  /// oldest keyframe so that this world stays at its R_map_world. Nothing: as it comes out.
+  void hold_world(std::optional<std::int64_t> id);
   /// Of full rank on the keyframe that is held, it takes the place of holding it.
   void add_pose_prior(const PosePrior& prior);
   /// Forgets a landmark with its observations (an outlier).
@@ -163,8 +181,10 @@ class SlidingWindow {
   const std::vector<WindowObservation>& observations(std::int64_t landmark) const;
   std::vector<std::int64_t> lines() const;   ///< ascending
   std::vector<std::int64_t> planes() const;  ///< ascending
+  std::vector<std::int64_t> worlds() const;  ///< ascending
   std::optional<Line3> line(std::int64_t id) const;
   std::optional<Plane3> plane(std::int64_t id) const;
+  std::optional<SO3> world(std::int64_t id) const;  ///< R_map_world
   /// Reprojection error [px] of an observation at the current estimate; nothing behind the camera.
   std::optional<Eigen::Vector2d> residual_px(const WindowObservation& observation) const;
 
@@ -179,6 +199,9 @@ class SlidingWindow {
   /// direction is unobservable, and nothing once the way back to that frame is lost: where all that
   /// a leaving keyframe saw was still in view, the next one has to be held in its place.
   std::optional<Matrix6d> covariance(std::int64_t keyframe) const;
+  /// Covariance (right tangent) of R_cam_world, a world as a keyframe has it before it. Nothing
+  /// where a direction is unobservable.
+  std::optional<Eigen::Matrix3d> world_covariance(std::int64_t world, std::int64_t keyframe) const;
   /// What the points of the window, at its estimate and without its prior, say of the lens.
   LensEvidence lens_evidence() const;
   /// Standard deviation of log(|t_middle_last| / |t_first_middle|) between three keyframes of the

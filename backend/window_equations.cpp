@@ -1,3 +1,4 @@
+#include <placegraph/backend/factors/absolute_rotation.h>
 #include <placegraph/backend/factors/distance.h>
 #include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/inverse_depth.h>
@@ -35,14 +36,26 @@ WindowEquations::WindowEquations(const WindowState& state, const WindowVariables
     keyframes_[id] = linearize(T_map_cam, id, state.prior.keyframes, state.prior.T_map_cam_lin);
   for (const auto& [id, plane_map] : state.planes)
     planes_[id] = linearize(plane_map, id, state.prior.planes, state.prior.plane_lin);
+  for (const auto& [id, R_map_world] : state.worlds)
+    worlds_[id] = linearize(R_map_world, id, state.prior.worlds, state.prior.R_map_world_lin);
   Eigen::Index column = 0;
   for (const WindowVariables::Variable& variable : variables.order) {
-    (variable.is_plane ? planes_.at(variable.id).column : keyframes_.at(variable.id).column) =
-        column;
+    column_of(variable) = column;
     column += WindowVariables::size(variable);
   }
   form.H = Eigen::MatrixXd::Zero(column, column);
   form.b = Eigen::VectorXd::Zero(column);
+}
+
+Eigen::Index& WindowEquations::column_of(const WindowVariables::Variable& variable) {
+  switch (variable.kind) {
+    case WindowVariables::Kind::kPlane:
+      return planes_.at(variable.id).column;
+    case WindowVariables::Kind::kWorld:
+      return worlds_.at(variable.id).column;
+    default:
+      return keyframes_.at(variable.id).column;
+  }
 }
 
 template <class Measurement>
@@ -141,6 +154,11 @@ void WindowEquations::add_pose_prior(const PosePrior& prior) {
              keyframes_.at(prior.keyframe));
 }
 
+void WindowEquations::add_world_observation(const WorldObservation& o) {
+  add_factor(AbsoluteRotationFactor(o.R_cam_world, whitening_of(o)), true,
+             keyframes_.at(o.keyframe), worlds_.at(o.world));
+}
+
 void WindowEquations::add_prior() {
   const MarginalPrior& prior = state_.prior;
   if (prior.empty()) return;
@@ -164,6 +182,11 @@ void WindowEquations::add_prior() {
   for (std::size_t k = 0; k < prior.planes.size(); ++k) {
     const Linearized<Plane3>& at = planes_.at(prior.planes[k]);
     add(prior.plane_columns(k), at, at.now.minus(prior.plane_lin[k]), SO3::right_jacobian_inverse);
+  }
+  for (std::size_t k = 0; k < prior.worlds.size(); ++k) {
+    const Linearized<SO3>& at = worlds_.at(prior.worlds[k]);
+    add(prior.world_columns(k), at, VariableBlock<SO3>::minus(at.now, prior.R_map_world_lin[k]),
+        SO3::right_jacobian_inverse);
   }
   form.H.noalias() += J.transpose() * J;
   form.b.noalias() += J.transpose() * e;

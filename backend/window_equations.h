@@ -5,8 +5,9 @@
 
 namespace placegraph {
 
-/// Where the factors of a keyframe or plane are linearized: residuals at the estimate, Jacobians at
-/// the first estimate if it is in the prior already (else at the estimate, and delta is zero).
+/// Where the factors of a keyframe, plane or world are linearized: residuals at the estimate,
+/// Jacobians at the first estimate if it is in the prior already (else at the estimate, and delta
+/// is zero).
 template <class T>
 struct Linearized {
   using Tangent = typename VariableBlock<T>::Tangent;
@@ -17,13 +18,15 @@ struct Linearized {
 
 /// The variables of a system of window equations, in the order of their columns.
 struct WindowVariables {
+  enum class Kind { kKeyframe, kPlane, kWorld };
   struct Variable {
-    bool is_plane;
+    Kind kind;
     std::int64_t id;
+    bool operator==(const Variable&) const = default;
   };
   std::vector<Variable> order;
 
-  static int size(const Variable& variable) { return variable.is_plane ? 3 : 6; }
+  static int size(const Variable& variable) { return variable.kind == Kind::kKeyframe ? 6 : 3; }
   Eigen::Index columns() const {
     Eigen::Index n = 0;
     for (const Variable& variable : order) n += size(variable);
@@ -31,9 +34,9 @@ struct WindowVariables {
   }
 };
 
-/// Gauss-Newton form of a window in the deviations delta of its keyframes and planes from their
-/// linearization points; points and lines are eliminated as they come. Robust kernels enter by
-/// their weights.
+/// Gauss-Newton form of a window in the deviations delta of its keyframes, planes and worlds from
+/// their linearization points; points and lines are eliminated as they come. Robust kernels enter
+/// by their weights.
 class WindowEquations {
  public:
   /// Any keyframe that is not among `variables` (the fixed one) is constant. With
@@ -45,11 +48,13 @@ class WindowEquations {
   void add_distance(const DistanceObservation& distance);
   void add_height(const HeightObservation& height);
   void add_pose_prior(const PosePrior& prior);
+  void add_world_observation(const WorldObservation& observation);
   /// With first estimates the prior is linear in delta as it stands; else it is relinearized.
   void add_prior();
 
   const SE3& keyframe_lin(std::int64_t id) const { return keyframes_.at(id).lin; }
   const Plane3& plane_lin(std::int64_t id) const { return planes_.at(id).lin; }
+  const SO3& world_lin(std::int64_t id) const { return worlds_.at(id).lin; }
 
   QuadraticForm form;
 
@@ -60,7 +65,8 @@ class WindowEquations {
   template <class Measurement>
   void add_measurement(const Linearized<SE3>& at, const Eigen::Vector3d& p_map,
                        const Measurement& measurement);
-  /// A factor between keyframes and planes only.
+  Eigen::Index& column_of(const WindowVariables::Variable& variable);
+  /// A factor between keyframes, planes and worlds only.
   template <class F, class... T>
   void add_factor(const F& factor, bool robust, const Linearized<T>&... at);
 
@@ -69,6 +75,7 @@ class WindowEquations {
   RobustKernel kernel_;
   std::map<std::int64_t, Linearized<SE3>> keyframes_;
   std::map<std::int64_t, Linearized<Plane3>> planes_;
+  std::map<std::int64_t, Linearized<SO3>> worlds_;
   LandmarkEquations<3> point_;
   LandmarkEquations<4> line_;
 };

@@ -1,45 +1,55 @@
 #include <placegraph/backend/marginalization.h>
 #include <placegraph/backend/window_information.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <map>
 
 namespace placegraph {
+namespace {
+
+using Kind = WindowVariables::Kind;
+using WindowVariable = WindowVariables::Variable;
+
+}  // namespace
 
 WindowInformation window_information(const WindowState& state) {
   WindowInformation result;
-  for (const auto& [id, plane_map] : state.planes) result.variables.order.push_back({true, id});
-  for (const auto& [id, T_map_cam] : state.keyframes) result.variables.order.push_back({false, id});
+  for (const auto& [id, plane_map] : state.planes)
+    result.variables.order.push_back({Kind::kPlane, id});
+  for (const auto& [id, R_map_world] : state.worlds)
+    result.variables.order.push_back({Kind::kWorld, id});
+  for (const auto& [id, T_map_cam] : state.keyframes)
+    result.variables.order.push_back({Kind::kKeyframe, id});
   WindowEquations equations(state, result.variables, false);
   for (const auto& [id, landmark] : state.landmarks) equations.add_landmark(landmark);
   for (const auto& [id, line] : state.lines) equations.add_line(line);
   for (const DistanceObservation& distance : state.distances) equations.add_distance(distance);
   for (const HeightObservation& height : state.heights) equations.add_height(height);
   for (const PosePrior& prior : state.pose_priors) equations.add_pose_prior(prior);
+  for (const WorldObservation& observation : state.world_observations)
+    equations.add_world_observation(observation);
   equations.add_prior();
   result.H = std::move(equations.form.H);
   return result;
 }
 
 Eigen::MatrixXd joint_information(const WindowState& state, const WindowInformation& information,
-                                  const std::vector<std::int64_t>& keyframes) {
+                                  const std::vector<WindowVariable>& variables) {
   // All else first, so that it can be marginalized.
   std::vector<Eigen::Index> columns;
-  std::map<std::int64_t, Eigen::Index> asked;
+  std::vector<Eigen::Index> asked(variables.size(), -1);
   Eigen::Index column = 0;
-  for (const WindowVariables::Variable& variable : information.variables.order) {
-    const int size = WindowVariables::size(variable);
-    const bool is_asked = !variable.is_plane && std::find(keyframes.begin(), keyframes.end(),
-                                                          variable.id) != keyframes.end();
-    if (is_asked)
-      asked[variable.id] = column;
-    else if (variable.is_plane || variable.id != state.fixed)
-      for (int k = 0; k < size; ++k) columns.push_back(column + k);
-    column += size;
+  for (const WindowVariable& variable : information.variables.order) {
+    const auto k = std::find(variables.begin(), variables.end(), variable);
+    if (k != variables.end())
+      asked[static_cast<std::size_t>(k - variables.begin())] = column;
+    else if (variable.kind != Kind::kKeyframe || variable.id != state.fixed)
+      for (int i = 0; i < WindowVariables::size(variable); ++i) columns.push_back(column + i);
+    column += WindowVariables::size(variable);
   }
   const auto others = static_cast<Eigen::Index>(columns.size());
-  for (const std::int64_t id : keyframes)
-    for (int k = 0; k < 6; ++k) columns.push_back(asked.at(id) + k);
+  for (std::size_t k = 0; k < variables.size(); ++k)
+    for (int i = 0; i < WindowVariables::size(variables[k]); ++i) columns.push_back(asked[k] + i);
   const QuadraticForm form{information.H(columns, columns),
                            Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns.size()))};
   return marginalize_first(form, others).H;
@@ -47,7 +57,8 @@ Eigen::MatrixXd joint_information(const WindowState& state, const WindowInformat
 
 Matrix6d absolute_information(const WindowState& state, const WindowInformation& information,
                               std::int64_t keyframe) {
-  return clamp_to_semidefinite(joint_information(state, information, {keyframe}), 1e-9);
+  return clamp_to_semidefinite(joint_information(state, information, {{Kind::kKeyframe, keyframe}}),
+                               1e-9);
 }
 
 Matrix6d relative_information(const WindowState& state, const WindowInformation& information,
@@ -60,7 +71,9 @@ Matrix6d relative_information(const WindowState& state, const WindowInformation&
     const Matrix6d M = T_from_to.adjoint();
     return M.transpose() * absolute_information(state, information, from) * M;
   }
-  QuadraticForm joint{joint_information(state, information, {from, to}), Eigen::VectorXd::Zero(12)};
+  QuadraticForm joint{
+      joint_information(state, information, {{Kind::kKeyframe, from}, {Kind::kKeyframe, to}}),
+      Eigen::VectorXd::Zero(12)};
   // From (xi_from, xi_to) to (xi_from, xi of T_from_to): xi_to = xi + Ad(T_from_to^-1) xi_from. A
   // window without a prior does not constrain xi_from then, all that is left of it is rounding.
   Eigen::Matrix<double, 12, 12> M = Eigen::Matrix<double, 12, 12>::Identity();
@@ -70,6 +83,30 @@ Matrix6d relative_information(const WindowState& state, const WindowInformation&
   joint.H = M.transpose() * joint.H * M;
   const QuadraticForm relative = marginalize_first(joint, 6, &size_before);
   return clamp_to_semidefinite(relative.H, 1e-9);
+}
+
+std::optional<Eigen::Matrix3d> world_covariance(const WindowState& state,
+                                                const WindowInformation& information,
+                                                std::int64_t world, std::int64_t keyframe) {
+  const SO3 R_world_cam =
+      state.worlds.at(world).inverse() * state.keyframes.at(keyframe).rotation();
+  std::vector<WindowVariable> variables{{Kind::kWorld, world}};
+  const bool held = state.fixed == keyframe;
+  if (!held) variables.push_back({Kind::kKeyframe, keyframe});
+  const Eigen::MatrixXd H = joint_information(state, information, variables);
+  // Scaled by its diagonal, for metres and radians are none of each other's business.
+  const Eigen::VectorXd scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H *
+                                                             scale.asDiagonal());
+  constexpr double kFloor = 1e-12;
+  if (!(eigen.eigenvalues()[0] > kFloor)) return std::nullopt;
+  // R_cam_world turns on its right by that of the world, less that of the camera seen from it.
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, H.cols());
+  J.leftCols<3>().setIdentity();
+  if (!held) J.rightCols<3>() = -R_world_cam.matrix();
+  const Eigen::MatrixXd root = J * scale.asDiagonal() * eigen.eigenvectors() *
+                               eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  return Eigen::Matrix3d(root * root.transpose());
 }
 
 }  // namespace placegraph

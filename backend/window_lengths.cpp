@@ -24,7 +24,10 @@ double sigma_log_length_ratio(const WindowState& state, const WindowInformation&
 
   // The ratio does not feel the gauge, whose directions the information leaves open: they are left
   // out of the inverse. Scaled to a unit diagonal, as metres and radians have no common size.
-  const Eigen::MatrixXd H = joint_information(state, information, {first, middle, last});
+  using Kind = WindowVariables::Kind;
+  const Eigen::MatrixXd H = joint_information(
+      state, information,
+      {{Kind::kKeyframe, first}, {Kind::kKeyframe, middle}, {Kind::kKeyframe, last}});
   const Eigen::VectorXd scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H *
                                                              scale.asDiagonal());

@@ -8,6 +8,8 @@
 namespace placegraph {
 namespace {
 
+using Kind = WindowVariables::Kind;
+
 template <class Landmark>
 bool sees(const Landmark& landmark, std::int64_t keyframe) {
   return std::any_of(landmark.observations.begin(), landmark.observations.end(),
@@ -18,24 +20,28 @@ bool sees(const Landmark& landmark, std::int64_t keyframe) {
 MarginalPrior make_prior(const QuadraticForm& form, const WindowVariables& variables,
                          const WindowEquations& equations) {
   MarginalPrior prior;
-  std::vector<Eigen::Index> columns, plane_columns;
+  std::map<Kind, std::vector<Eigen::Index>> columns_of;
   Eigen::Index column = 0;
   for (const auto& variable : variables.order) {
     const int size = WindowVariables::size(variable);
     if (!form.H.middleCols(column, size).isZero(0)) {
-      if (variable.is_plane) {
+      if (variable.kind == Kind::kPlane) {
         prior.planes.push_back(variable.id);
         prior.plane_lin.push_back(equations.plane_lin(variable.id));
+      } else if (variable.kind == Kind::kWorld) {
+        prior.worlds.push_back(variable.id);
+        prior.R_map_world_lin.push_back(equations.world_lin(variable.id));
       } else {
         prior.keyframes.push_back(variable.id);
         prior.T_map_cam_lin.push_back(equations.keyframe_lin(variable.id));
       }
-      for (int i = 0; i < size; ++i)
-        (variable.is_plane ? plane_columns : columns).push_back(column + i);
+      for (int i = 0; i < size; ++i) columns_of[variable.kind].push_back(column + i);
     }
     column += size;
   }
-  columns.insert(columns.end(), plane_columns.begin(), plane_columns.end());
+  std::vector<Eigen::Index> columns;
+  for (const Kind kind : {Kind::kKeyframe, Kind::kPlane, Kind::kWorld})
+    columns.insert(columns.end(), columns_of[kind].begin(), columns_of[kind].end());
   if (columns.empty()) return prior;
   const SquareRootForm root = square_root({form.H(columns, columns), form.b(columns)});
   prior.J = root.J;
@@ -47,8 +53,8 @@ MarginalPrior make_prior(const QuadraticForm& form, const WindowVariables& varia
 /// window below which it does not hold them.
 constexpr double kGaugeFloor = 1e-8;
 
-/// What a motion of all keyframes and planes together, by a right tangent of the prior's first
-/// keyframe, does to the residuals: the others' tangents are Ad(T_k^-1 T_first) times it.
+/// What a motion of all keyframes, planes and worlds together, by a right tangent of the prior's
+/// first keyframe, does to the residuals: the others' tangents are Ad(T_k^-1 T_first) times it.
 Eigen::MatrixXd common_motion_of(const MarginalPrior& prior) {
   const SE3 T_map_first = prior.T_map_cam_lin.front();
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(prior.J.rows(), 6);
@@ -61,6 +67,10 @@ Eigen::MatrixXd common_motion_of(const MarginalPrior& prior) {
     transform_to(SE3(), prior.plane_lin[k], &J_plane);
     J.noalias() -= prior.plane_columns(k) * J_plane * T_map_first.adjoint();
   }
+  for (std::size_t k = 0; k < prior.worlds.size(); ++k)
+    J.rightCols<3>().noalias() +=
+        prior.world_columns(k) *
+        (prior.R_map_world_lin[k].inverse() * T_map_first.rotation()).matrix();
   return J;
 }
 
@@ -157,9 +167,23 @@ std::vector<std::int64_t> leaving_planes(const WindowState& state, std::int64_t 
   return planes;
 }
 
+/// Worlds that nothing in the window but what leaves with a keyframe speaks of, and that nobody
+/// wants kept.
+std::vector<std::int64_t> leaving_worlds(const WindowState& state, std::int64_t leaving) {
+  std::set<std::int64_t> touched(state.prior.worlds.begin(), state.prior.worlds.end()),
+      staying(state.kept_worlds);
+  for (const WorldObservation& o : state.world_observations)
+    (o.keyframe == leaving ? touched : staying).insert(o.world);
+  std::vector<std::int64_t> worlds;
+  std::set_difference(touched.begin(), touched.end(), staying.begin(), staying.end(),
+                      std::back_inserter(worlds));
+  return worlds;
+}
+
 /// Takes out of the window what has gone into the prior with a keyframe.
 void erase_keyframe(WindowState& state, std::int64_t leaving, std::int64_t newest,
-                    const std::vector<std::int64_t>& planes) {
+                    const std::vector<std::int64_t>& planes,
+                    const std::vector<std::int64_t>& worlds) {
   const auto erase_from = [&](auto& landmarks) {
     for (auto it = landmarks.begin(); it != landmarks.end();) {
       auto& landmark = it->second;
@@ -175,6 +199,11 @@ void erase_keyframe(WindowState& state, std::int64_t leaving, std::int64_t newes
   const auto of_leaving = [&](const auto& o) { return o.keyframe == leaving; };
   std::erase_if(state.heights, of_leaving);
   std::erase_if(state.pose_priors, of_leaving);
+  std::erase_if(state.world_observations, of_leaving);
+  for (const std::int64_t world : worlds) {
+    state.worlds.erase(world);
+    if (state.held_world == world) state.held_world.reset();
+  }
   for (const std::int64_t plane : planes) state.planes.erase(plane);
   state.kept.erase(leaving);
   state.keyframes.erase(leaving);
@@ -185,16 +214,21 @@ void erase_keyframe(WindowState& state, std::int64_t leaving, std::int64_t newes
 void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
   const std::int64_t newest = state.keyframes.rbegin()->first;
   const std::vector<std::int64_t> planes = leaving_planes(state, leaving, newest);
+  const std::vector<std::int64_t> worlds = leaving_worlds(state, leaving);
   // What leaves comes first; while the keyframe fixes the gauge it has no variables.
   const bool was_fixed = state.fixed == leaving;
   WindowVariables gone, variables;
-  if (!was_fixed) gone.order.push_back({false, leaving});
-  for (const std::int64_t plane : planes) gone.order.push_back({true, plane});
+  if (!was_fixed) gone.order.push_back({Kind::kKeyframe, leaving});
+  for (const std::int64_t plane : planes) gone.order.push_back({Kind::kPlane, plane});
+  for (const std::int64_t world : worlds) gone.order.push_back({Kind::kWorld, world});
   for (const auto& [id, T_map_cam] : state.keyframes)
-    if (id != leaving && state.fixed != id) variables.order.push_back({false, id});
+    if (id != leaving && state.fixed != id) variables.order.push_back({Kind::kKeyframe, id});
   for (const auto& [id, plane_map] : state.planes)
     if (!std::binary_search(planes.begin(), planes.end(), id))
-      variables.order.push_back({true, id});
+      variables.order.push_back({Kind::kPlane, id});
+  for (const auto& [id, R_map_world] : state.worlds)
+    if (!std::binary_search(worlds.begin(), worlds.end(), id))
+      variables.order.push_back({Kind::kWorld, id});
   WindowVariables all = gone;
   all.order.insert(all.order.end(), variables.order.begin(), variables.order.end());
   WindowEquations equations(state, all, true);
@@ -226,11 +260,13 @@ void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
       equations.add_pose_prior(prior);
       metric = true;
     }
+  for (const WorldObservation& observation : state.world_observations)
+    if (observation.keyframe == leaving) equations.add_world_observation(observation);
   equations.add_prior();
   state.prior = make_prior(marginalize_first(equations.form, gone.columns()), variables, equations);
   state.prior_is_metric |= metric;
 
-  erase_keyframe(state, leaving, newest, planes);
+  erase_keyframe(state, leaving, newest, planes, worlds);
   if (was_fixed) state.fixed.reset();
   // Where everything the leaving keyframe saw is still in view, nothing went into the prior.
   const auto& [oldest, T_map_oldest] = *state.keyframes.begin();

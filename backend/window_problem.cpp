@@ -1,5 +1,6 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
+#include <placegraph/backend/factors/absolute_rotation.h>
 #include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/distance.h>
 #include <placegraph/backend/factors/height_above_plane.h>
@@ -31,7 +32,7 @@ class WindowProblem {
   explicit WindowProblem(const WindowState& state)
       : state_(state),
         loss_({RobustKernel::Kind::kHuber, state.options.huber_px}),
-        poses_(7 * state.keyframes.size()),
+        poses_(7 * state.keyframes.size() + VariableBlock<SO3>::kSize * state.worlds.size()),
         points_(3 * state.landmarks.size()),
         lines_(VariableBlock<Line3>::kSize * state.lines.size()),
         planes_(VariableBlock<Plane3>::kSize * state.planes.size()),
@@ -47,12 +48,18 @@ class WindowProblem {
       VariableBlock<Plane3>::store(plane_map, plane_block(plane_ids_.size()));
       plane_ids_.push_back(id);
     }
+    for (const auto& [id, R_map_world] : state.worlds) {
+      VariableBlock<SO3>::store(R_map_world, world_block(world_ids_.size()));
+      world_ids_.push_back(id);
+    }
     add_points();
     add_lines();
     for (const HeightObservation& height : state.heights) add_height(height);
     for (const PosePrior& prior : state.pose_priors) add_pose_prior(prior);
     for (const DistanceObservation& distance : state.distances) add_distance(distance);
     if (const auto reference = scale_reference(state)) add_distance(*reference);
+    for (const WorldObservation& observation : state.world_observations)
+      add_world_observation(observation);
     if (!state.prior.empty()) add_prior();
     for (std::size_t k = 0; k < ids_.size(); ++k) {
       double* const pose = &poses_[7 * k];
@@ -65,6 +72,11 @@ class WindowProblem {
       if (!problem_.HasParameterBlock(plane_block(k))) continue;
       problem_.SetManifold(plane_block(k), &plane_manifold_);
       ordering_->AddElementToGroup(plane_block(k), 1);
+    }
+    for (std::size_t k = 0; k < world_ids_.size(); ++k) {
+      if (!problem_.HasParameterBlock(world_block(k))) continue;
+      problem_.SetManifold(world_block(k), &world_manifold_);
+      ordering_->AddElementToGroup(world_block(k), 1);
     }
   }
 
@@ -146,6 +158,10 @@ class WindowProblem {
     i = 0;
     for (auto& [id, plane_map] : state.planes)
       plane_map = VariableBlock<Plane3>::load(&planes_[VariableBlock<Plane3>::kSize * i++]);
+    i = 0;
+    for (auto& [id, R_map_world] : state.worlds)
+      R_map_world =
+          VariableBlock<SO3>::load(&poses_[first_world() + VariableBlock<SO3>::kSize * i++]);
   }
 
  private:
@@ -165,6 +181,14 @@ class WindowProblem {
                                     ids_.begin());
   }
 
+  std::size_t first_world() const { return 7 * state_.keyframes.size(); }
+  double* world_block(std::size_t k) {
+    return &poses_[first_world() + VariableBlock<SO3>::kSize * k];
+  }
+  double* world_of_id(std::int64_t world) {
+    return world_block(static_cast<std::size_t>(
+        std::lower_bound(world_ids_.begin(), world_ids_.end(), world) - world_ids_.begin()));
+  }
   double* plane_block(std::size_t k) { return &planes_[VariableBlock<Plane3>::kSize * k]; }
   double* plane_of_id(std::int64_t plane) {
     return plane_block(static_cast<std::size_t>(
@@ -235,11 +259,17 @@ class WindowProblem {
     problem_.AddResidualBlock(&distances_.emplace_back(DistanceFactor(d.distance_m, d.sigma_m)),
                               &loss_, &poses_[7 * position(d.from)], &poses_[7 * position(d.to)]);
   }
+  void add_world_observation(const WorldObservation& o) {
+    problem_.AddResidualBlock(
+        &rotations_.emplace_back(AbsoluteRotationFactor(o.R_cam_world, whitening_of(o))), &loss_,
+        &poses_[7 * position(o.keyframe)], world_of_id(o.world));
+  }
   void add_prior() {
     std::vector<double*> blocks;
     for (const std::int64_t id : state_.prior.keyframes)
       blocks.push_back(&poses_[7 * position(id)]);
     for (const std::int64_t id : state_.prior.planes) blocks.push_back(plane_of_id(id));
+    for (const std::int64_t id : state_.prior.worlds) blocks.push_back(world_of_id(id));
     problem_.AddResidualBlock(&prior_.emplace(state_.prior), nullptr, blocks);
   }
 
@@ -248,9 +278,12 @@ class WindowProblem {
   VariableManifold<SE3> manifold_;
   VariableManifold<Line3> line_manifold_;
   VariableManifold<Plane3> plane_manifold_;
+  VariableManifold<SO3> world_manifold_;
   std::vector<std::int64_t> ids_;        ///< of keyframes, ascending
   std::vector<std::int64_t> plane_ids_;  ///< ascending
-  std::vector<double> poses_, points_, lines_, planes_;
+  std::vector<std::int64_t> world_ids_;  ///< ascending
+  std::vector<double> poses_;            ///< and, after those of all keyframes, the worlds
+  std::vector<double> points_, lines_, planes_;
   std::vector<int> points_by_keyframe_;
   std::vector<char> has_pose_prior_;
   std::deque<PointFactor<Reprojection>> reprojections_;
@@ -260,6 +293,7 @@ class WindowProblem {
   std::deque<CeresFactor<HeightAbovePlaneFactor>> heights_;
   std::deque<CeresFactor<PosePriorFactor<SE3>>> pose_priors_;
   std::deque<CeresFactor<DistanceFactor>> distances_;
+  std::deque<CeresFactor<AbsoluteRotationFactor>> rotations_;
   std::optional<MarginalPriorFactor> prior_;
   ceres::Problem problem_;  // after all it points to
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
@@ -343,7 +377,10 @@ WindowSummary optimize_window(WindowState& state) {
     summary.outcome = Outcome::failure(Outcome::Code::kNotConverged, solved.message);
     return summary;
   }
+  const auto held =
+      state.held_world ? std::optional(state.worlds.at(*state.held_world)) : std::nullopt;
   problem.read_back(state);
+  if (held) turn_window(state, *state.held_world, *held);
   return summary;
 }
 

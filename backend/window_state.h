@@ -28,10 +28,15 @@ struct WindowState {
   std::map<std::int64_t, WindowLandmark> landmarks;
   std::map<std::int64_t, WindowLine> lines;
   std::map<std::int64_t, Plane3> planes;  ///< planes of the map
+  std::map<std::int64_t, SO3> worlds;     ///< R_map_world
   std::set<std::int64_t> kept;            ///< keyframes that are not to be marginalized
+  std::set<std::int64_t> kept_worlds;     ///< worlds that are not to be marginalized
+  /// Where the window lies as a whole is chosen so that this one stays as it is.
+  std::optional<std::int64_t> held_world;
   std::vector<DistanceObservation> distances;
   std::vector<HeightObservation> heights;
   std::vector<PosePrior> pose_priors;
+  std::vector<WorldObservation> world_observations;
   MarginalPrior prior;
   bool prior_is_metric = false;  ///< what measures the scale went into the prior
   bool prior_holds_scale = false;
@@ -55,6 +60,15 @@ void for_factors(const Camera& camera, const LineObservation& o, Use&& use) {
     use(LineReprojectionFactor(camera, o.second->start_px, o.second->end_px, o.second->sigma_px,
                                o.second->eye_cam));
 }
+
+/// Square root of the information of a world's sighting.
+Eigen::Matrix3d whitening_of(const WorldObservation& observation);
+
+/// Moves all that a window knows, the linearization points of its prior too, by T_new_old on the
+/// left: the same window in another frame (window_worlds.cpp).
+void move_window(WindowState& state, const SE3& T_new_old);
+/// Turns the window about its oldest keyframe so that `world` comes to lie at R_map_world.
+void turn_window(WindowState& state, std::int64_t world, const SO3& R_map_world);
 
 /// A full-rank pose prior in the window holds it in the map.
 bool has_full_pose_prior(const WindowState& state);
