@@ -17,11 +17,26 @@ cv::Point sixteenths(const Eigen::Vector2d& px) {
   return {cvRound(px.x() * (1 << kShift)), cvRound(px.y() * (1 << kShift))};
 }
 
+std::string directions(const FrameView& view) {
+  if (view.directed.empty()) return "";
+  std::int64_t world = -1;
+  for (const FrameView::DirectedLine& line : view.directed) world = std::max(world, line.world);
+  std::string text = world < 0 ? ", no rectangular world" : ", rectangular world ";
+  if (world >= 0) text += std::to_string(world);
+  return text;
+}
+
 cv::Scalar colour_of(std::optional<double> off_px) {
   if (!off_px) return {255, 255, 255};
   constexpr double kRedAtPx = 3;
   const double off = std::min(1.0, *off_px / kRedAtPx);
   return {0, 255 * std::min(1.0, 2 - 2 * off), 255 * std::min(1.0, 2 * off)};
+}
+
+/// Red, green and blue along the axes of a rectangular world, grey along none.
+cv::Scalar colour_of(const FrameView::DirectedLine& line) {
+  static const cv::Scalar kColours[] = {{64, 64, 255}, {64, 224, 64}, {255, 96, 64}};
+  return line.axis < 0 ? cv::Scalar(128, 128, 128) : kColours[line.axis];
 }
 
 std::string caption(const FrameResult& result, const FrameView& view) {
@@ -33,7 +48,7 @@ std::string caption(const FrameResult& result, const FrameView& view) {
   return std::to_string(result.frame) + " " + state + (result.keyframe ? ", keyframe" : "") + ", " +
          std::to_string(view.tracks.size()) + " tracks, " + std::to_string(mapped) + " landmarks" +
          (view.lines.empty() ? "" : ", " + std::to_string(view.lines.size()) + " lines") +
-         (result.loops_accepted > 0 ? ", loop" : "");
+         directions(view) + (result.loops_accepted > 0 ? ", loop" : "");
 }
 
 }  // namespace
@@ -46,6 +61,9 @@ Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView&
     for (const Eigen::Vector2d& px : view.ground_px) outline.push_back(sixteenths(px));
     cv::polylines(canvas, outline, true, {255, 128, 0}, 1, cv::LINE_AA, kShift);
   }
+  for (const FrameView::DirectedLine& line : view.directed)
+    cv::line(canvas, sixteenths(line.segment.start), sixteenths(line.segment.end), colour_of(line),
+             line.axis < 0 ? 1 : 2, cv::LINE_AA, kShift);
   for (const FrameView::Line& line : view.lines)
     cv::line(canvas, sixteenths(line.segment.start), sixteenths(line.segment.end),
              colour_of(line.off_px), 2, cv::LINE_AA, kShift);

@@ -17,7 +17,7 @@ struct Named {
 constexpr Named kCues[] = {{"points", &Cues::points, true},
                            {"lines", &Cues::lines, true},
                            {"plane", &Cues::plane, true},
-                           {"manhattan", &Cues::manhattan, false},
+                           {"manhattan", &Cues::manhattan, true},
                            {"direct", &Cues::direct, false}};
 
 std::string usable_names() {

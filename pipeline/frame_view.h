@@ -27,6 +27,14 @@ struct FrameView {
     std::optional<double> off_px;
   };
   std::vector<Line> lines;
+  /// An edge that was looked at for the directions of rectangular worlds.
+  struct DirectedLine {
+    LineSegment segment;
+    std::int64_t world = -1;
+    int axis = -1;  ///< of that world; -1: along none
+  };
+  /// Of keyframes only, where those directions are among the cues.
+  std::vector<DirectedLine> directed;
   /// Outline of the ground that is aligned for the scale; empty if it is not looked at.
   std::vector<Eigen::Vector2d> ground_px;
 };

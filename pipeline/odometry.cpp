@@ -26,6 +26,7 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
           "cues: lines without points need a right eye or depth; two views of lines never tell how "
           "a single eye moved");
   if (cues_.lines) lines_.emplace(options_.lines, calibration_, options_.stereo);
+  if (cues_.manhattan) manhattan_.emplace(options_.manhattan, calibration_.camera, seed_, log_);
   if (!scale_known_ && calibration_.camera_height_m && options_.ground.enabled && cues_.plane)
     ground_.emplace(options_.ground, calibration_.camera, *calibration_.camera_height_m);
   if (calibration_.baseline_m > 0 && options_.rectification.enabled)
@@ -49,6 +50,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
   past_landmarks_ = landmarks();
   tracker_.reset();
   if (lines_) lines_->reset();
+  if (manhattan_) manhattan_->reset();
   window_ = empty_window();
   state_ = TrackingState::kWaiting;
   started_ = lost_ = false;
@@ -180,6 +182,7 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
   const std::int64_t previous = last_keyframe_;
   last_keyframe_ = id;
   if (ground_ || motion_) measure_scale(frame, update);
+  if (manhattan_) look_at_directions(frame);
   refine_window();
   pose_between(previous, update);
   frames_since_keyframe_ = 0;
@@ -278,6 +281,7 @@ void Odometry::refine_window() {
     lines_->accept(window_, window_.pose(last_keyframe_));
   }
   if (!depths.empty()) median_depth_m_ = std::max(1e-3, median_of(depths));
+  if (manhattan_) widen_last_link(window_.pose(window_.keyframes().front()));
   for (const std::int64_t id : window_.keyframes()) keyframe_poses_[id] = window_.pose(id);
   if (rectification_ && !alone) calibrate_eyes();
   const auto keyframes = window_.keyframes();
@@ -301,6 +305,7 @@ void Odometry::refine_window() {
   for (const std::int64_t left : window_.marginalize()) keyframe_frames_.erase(left);
   for (const PointLandmark& landmark : before)
     if (!window_.landmark(landmark.id)) past_landmarks_.push_back(landmark);
+  if (manhattan_) manhattan_->settle(window_);
 }
 
 Odometry::Link Odometry::link(std::int64_t id) const {
@@ -365,6 +370,7 @@ FrameView Odometry::view() const {
       seen.px_projected = calibration_.camera.project(T_cam_odom * *point);
   }
   if (lines_) view.lines = lines_->view(window_, T_odom_last_);
+  if (manhattan_ && frames_since_keyframe_ == 0) view.directed = manhattan_->view();
   if (ground_ && scale_known_) view.ground_px = ground_->outline_px();
   return view;
 }

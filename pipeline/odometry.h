@@ -15,6 +15,7 @@
 #include <placegraph/pipeline/ground_scale.h>
 #include <placegraph/pipeline/lens_estimator.h>
 #include <placegraph/pipeline/line_cue.h>
+#include <placegraph/pipeline/manhattan_cue.h>
 
 #include <map>
 #include <memory>
@@ -40,6 +41,7 @@ struct OdometryOptions {
   RectificationOptions rectification;
   GroundScaleOptions ground;
   LineCueOptions lines;
+  ManhattanCueOptions manhattan;
   KeyframeOptions keyframe;
   SlidingWindowOptions window{.max_keyframes = 10, .relative_decrease = 1e-3};
   double sigma_px = 0.7;          ///< noise of a track
@@ -172,6 +174,8 @@ class Odometry {
   std::optional<DistanceObservation> measured_way(std::int64_t from, std::int64_t to) const;
   void set_scale(double factor, OdometryUpdate& update);
   void refine_window();
+  void look_at_directions(const Frame& frame);
+  void widen_last_link(const SE3& T_odom_oldest);
   double unit_drift() const;
   PointLandmark describe_landmark(std::int64_t id) const;
   std::vector<std::optional<DepthMeasurement>> measure_depth(const Frame& frame,
@@ -193,6 +197,7 @@ class Odometry {
   SlidingWindow window_;
   Cues cues_;
   std::optional<LineCue> lines_;
+  std::optional<ManhattanCue> manhattan_;
   std::optional<GroundScale> ground_;
   std::optional<RectificationEstimator> rectification_;  // of two eyes
   std::set<std::int64_t> calibrated_;                    // landmarks of the window it has heard of

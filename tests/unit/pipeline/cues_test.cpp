@@ -11,11 +11,12 @@ TEST(Cues, AreThoseNamed) {
   EXPECT_FALSE(lines.points || lines.plane);
   const Cues all = parse_cues("plane,lines,points");
   EXPECT_TRUE(all.lines && all.points && all.plane);
+  EXPECT_TRUE(parse_cues("lines,manhattan").manhattan);
 }
 
 TEST(Cues, UnknownRepeatedOrUselessOnesAreRefusedByName) {
   for (const char* names : {"", "plane", "points,wheels", "points,points", "points,,lines",
-                            "points,manhattan", "points,direct"})
+                            "manhattan", "points,direct"})
     EXPECT_THROW((void)parse_cues(names), ArgumentError) << names;
   try {
     (void)parse_cues("points,wheels");

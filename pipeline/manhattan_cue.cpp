@@ -1,0 +1,112 @@
+#include <placegraph/pipeline/manhattan_cue.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+
+namespace placegraph {
+namespace {
+
+constexpr double kDeg = M_PI / 180;
+
+double largest_sigma_rad(const Eigen::Matrix3d& covariance) {
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()[2]);
+}
+
+}  // namespace
+
+void ManhattanCueOptions::check() const {
+  check_ranges(*this);
+  segments.check();
+  directions.check();
+  worlds.check();
+}
+
+void visit(OptionVisitor& field, ManhattanCueOptions& o) {
+  field.group("segments", o.segments, "straight edges");
+  field.group("directions", o.directions, "vanishing points and rectangular worlds");
+  field.group("worlds", o.worlds, "the worlds of the window");
+  field("max_width_px", o.max_width_px, "wider images are halved first", {16, 1e5});
+  field("max_sigma_deg", o.max_sigma_deg, "directions known less well are not believed",
+        {0.01, 30});
+}
+
+ManhattanCue::ManhattanCue(const ManhattanCueOptions& options, const Camera& camera,
+                           std::uint64_t seed, LogSink log)
+    : options_(options),
+      camera_(camera),
+      seed_(seed),
+      log_(std::move(log)),
+      worlds_(options.worlds) {
+  options_.check();
+}
+
+void ManhattanCue::reset() {
+  worlds_.reset();
+  view_.clear();
+}
+
+/// Pixels of the whole image; a pixel of the halved one lies in the middle of four.
+std::vector<LineSegment> ManhattanCue::detect(const Image& image) const {
+  if (image.cols <= options_.max_width_px)
+    return segments_of(detect_segments(image, options_.segments));
+  Image half;
+  cv::resize(image, half, {image.cols / 2, image.rows / 2}, 0, 0, cv::INTER_AREA);
+  std::vector<LineSegment> segments = segments_of(detect_segments(half, options_.segments));
+  for (LineSegment& segment : segments)
+    for (Eigen::Vector2d* end : {&segment.start, &segment.end}) *end = (2 * *end).array() + 0.5;
+  return segments;
+}
+
+bool ManhattanCue::trusted(const ManhattanFrame& frame) const {
+  if (!frame.outcome || frame.rank < 3) return false;
+  const ManhattanOptions& o = options_.directions.manhattan;
+  int seen = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+    seen += frame.segments[a] >= o.min_segments && frame.evidence[a] >= o.min_evidence;
+  return seen >= 2 && largest_sigma_rad(frame.covariance) < options_.max_sigma_deg * kDeg;
+}
+
+bool ManhattanCue::take(std::int64_t keyframe, const ManhattanFrame& frame, SlidingWindow& window) {
+  if (!trusted(frame)) return false;
+  const auto world = worlds_.add(keyframe, frame.R_cam_manhattan, frame.covariance, window);
+  if (log_) {
+    const Eigen::Vector3d w = frame.R_cam_manhattan.log();
+    std::ostringstream text;
+    text << "directions " << keyframe << " world " << world.value_or(-1) << " turn "
+         << w.transpose() << " sigma_deg "
+         << frame.covariance.diagonal().cwiseSqrt().transpose() / kDeg;
+    log(log_, LogLevel::kDebug, text.str());
+  }
+  for (std::size_t i = 0; i < view_.size(); ++i)
+    if (world && frame.axis[i] >= 0 && view_[i].axis < 0)
+      view_[i].world = *world, view_[i].axis = frame.axis[i];
+  return world.has_value();
+}
+
+void ManhattanCue::observe(std::int64_t keyframe, const Image& image,
+                           const std::optional<std::vector<LineSegment>>& known,
+                           SlidingWindow& window) {
+  const std::vector<LineSegment> segments = known ? *known : detect(image);
+  view_.clear();
+  for (const LineSegment& segment : segments) view_.push_back({segment});
+  bool seen = false;
+  for (const ManhattanWorlds::Expected& world : worlds_.expected(window, keyframe)) {
+    // Farther off than this it is no sighting of that world.
+    const double reach_rad = std::min(5 * kDeg, 1 * kDeg + 3 * largest_sigma_rad(world.covariance));
+    const ManhattanFrame frame =
+        track_manhattan_frame(segments, camera_, world.R_cam_world, reach_rad,
+                              options_.directions.points.noise, options_.directions.manhattan);
+    if (take(keyframe, frame, window)) seen = true;
+    if (seen) break;
+  }
+  if (seen) return;
+  Random random(seed_, keyframe);
+  const SceneDirections scene =
+      find_scene_directions(segments, camera_, options_.directions, random);
+  for (const ManhattanFrame& frame : scene.frames) take(keyframe, frame, window);
+}
+
+}  // namespace placegraph
