@@ -90,20 +90,22 @@ std::optional<Eigen::Matrix3d> world_covariance(const WindowState& state,
                                                 std::int64_t world, std::int64_t keyframe) {
   const SO3 R_world_cam =
       state.worlds.at(world).inverse() * state.keyframes.at(keyframe).rotation();
-  std::vector<WindowVariable> variables{{Kind::kWorld, world}};
+  std::vector<WindowVariable> variables;
   const bool held = state.fixed == keyframe;
   if (!held) variables.push_back({Kind::kKeyframe, keyframe});
-  const Eigen::MatrixXd H = joint_information(state, information, variables);
-  // Scaled by its diagonal, for metres and radians are none of each other's business.
-  const Eigen::VectorXd scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H *
+  variables.push_back({Kind::kWorld, world});
+  QuadraticForm form{joint_information(state, information, variables), {}};
+  form.b = Eigen::VectorXd::Zero(form.H.rows());
+  if (!held) form = marginalize_first(form, 3);  // where the keyframe is
+  const Eigen::VectorXd scale = form.H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * form.H *
                                                              scale.asDiagonal());
   constexpr double kFloor = 1e-12;
   if (!(eigen.eigenvalues()[0] > kFloor)) return std::nullopt;
   // R_cam_world turns on its right by that of the world, less that of the camera seen from it.
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, H.cols());
-  J.leftCols<3>().setIdentity();
-  if (!held) J.rightCols<3>() = -R_world_cam.matrix();
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, form.H.cols());
+  J.rightCols<3>().setIdentity();
+  if (!held) J.leftCols<3>() = -R_world_cam.matrix();
   const Eigen::MatrixXd root = J * scale.asDiagonal() * eigen.eigenvectors() *
                                eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
   return Eigen::Matrix3d(root * root.transpose());

@@ -28,8 +28,8 @@ void visit(OptionVisitor& field, ManhattanWorldOptions& o) {
   field("sigma_floor_deg", o.sigma_floor_deg,
         "of the directions of one view beyond the noise of its lines", {1e-3, 10});
   field("correlation", o.correlation, "so many neighbouring views count as one", {1, 1000});
-  field("sigma_motion_deg", o.sigma_motion_deg,
-        "of a new keyframe's rotation before the window has seen it", {1e-3, 10});
+  field("sigma_drift_deg", o.sigma_drift_deg,
+        "of a world seen from a new keyframe, beyond what the window claims", {1e-3, 10});
   field("persistence", o.persistence, "keyframes of the window that must show a new world",
         {1, 1000});
   field("max_worlds", o.max_worlds, "remembered; the one unseen for longest is forgotten",
@@ -48,12 +48,11 @@ std::vector<ManhattanWorlds::Expected> ManhattanWorlds::expected(const SlidingWi
     if (covariance_.contains(world)) order.emplace_back(seen, world);
   std::sort(order.rbegin(), order.rend());
   const SO3 R_cam_map = window.pose(keyframe).rotation().inverse();
-  const double motion_rad = options_.sigma_motion_deg * kDeg;
+  const double drift_rad = options_.sigma_drift_deg * kDeg;
   std::vector<Expected> result;
   for (const auto& [seen, world] : order)
-    result.push_back(
-        {world, R_cam_map * *window.world(world),
-         covariance_.at(world) + motion_rad * motion_rad * Eigen::Matrix3d::Identity()});
+    result.push_back({world, R_cam_map * *window.world(world),
+                      covariance_.at(world) + drift_rad * drift_rad * Eigen::Matrix3d::Identity()});
   return result;
 }
 
@@ -89,7 +88,7 @@ std::optional<std::int64_t> ManhattanWorlds::begin_world(const Candidate& newest
   const auto R_map = [&](const Candidate& c) {
     return window.pose(c.keyframe).rotation() * c.R_cam_manhattan;
   };
-  const double motion_rad = options_.sigma_motion_deg * kDeg;
+  constexpr double kMotionRad = 0.1 * kDeg;  // between keyframes of one window
   std::vector<Candidate> agreeing{newest}, others;
   for (Candidate other : candidates_) {
     const SO3 R_map_cam = window.pose(other.keyframe).rotation();
@@ -99,7 +98,7 @@ std::optional<std::int64_t> ManhattanWorlds::begin_world(const Candidate& newest
         other.keyframe != newest.keyframe &&
         chi2(R_map(other), R_map(newest),
              honest(other.covariance) + honest(newest.covariance) +
-                 2 * motion_rad * motion_rad * Eigen::Matrix3d::Identity()) < gate();
+                 2 * kMotionRad * kMotionRad * Eigen::Matrix3d::Identity()) < gate();
     (agrees ? agreeing : others).push_back(other);
   }
   if (static_cast<int>(agreeing.size()) < options_.persistence) {

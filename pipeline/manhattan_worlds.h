@@ -11,12 +11,15 @@ namespace placegraph {
 struct ManhattanWorldOptions {
   /// Of the directions of one view beyond what its lines' noise explains: the scene is not quite
   /// rectangular, lines are taken for what they are not, the lens.
-  double sigma_floor_deg = 0.15;
+  double sigma_floor_deg = 0.1;
   /// Neighbouring views see the same lines and err alike: so many of them count as one.
   double correlation = 4;
-  double sigma_motion_deg = 0.1;  ///< of a new keyframe's rotation before the window has seen it
-  int persistence = 3;            ///< keyframes of the window that must show a new world
-  int max_worlds = 4;             ///< remembered; the one unseen for longest is forgotten
+  /// Of a world seen from a new keyframe, beyond what the window claims to know: its rotations
+  /// drift by more than the noise of its points explains, in turns above all. Worlds that differ by
+  /// less than about three of these are one.
+  double sigma_drift_deg = 1;
+  int persistence = 3;  ///< keyframes of the window that must show a new world
+  int max_worlds = 4;   ///< remembered; the one unseen for longest is forgotten
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, ManhattanWorldOptions& options);
