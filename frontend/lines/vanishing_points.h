@@ -7,7 +7,7 @@ namespace placegraph {
 
 struct VanishingPointOptions {
   VanishingNoise noise;
-  int samples = 1000; ///< of two segments, to begin with; half as many for each later search
+  int samples = 1000;  ///< of two segments, to begin with; half as many for each later search
   int max_points = 10;
   int min_segments = 4;   ///< a vanishing point with fewer is none
   double point_cost = 8;  ///< of each point beside its precision [nats]: how sure it must be

@@ -58,7 +58,9 @@ struct Drive {
       seen = worlds.add(
           id, T_map_cam.rotation().inverse() * kR_map_world * *turn * axes(static_cast<int>(id)),
           Eigen::Matrix3d::Identity() * std::pow(0.1 * kDeg, 2), window);
-    if (id > 0) EXPECT_TRUE(window.optimize().outcome);
+    if (id > 0) {
+      EXPECT_TRUE(window.optimize().outcome);
+    }
     window.marginalize();
     worlds.settle(window);
     return seen;
