@@ -379,8 +379,14 @@ WindowSummary optimize_window(WindowState& state) {
   }
   const auto held =
       state.held_world ? std::optional(state.worlds.at(*state.held_world)) : std::nullopt;
+  const Eigen::Vector3d p_map_oldest = state.keyframes.begin()->second.translation();
   problem.read_back(state);
-  if (held) turn_window(state, *state.held_world, *held);
+  if (held) {
+    // A prior that holds the window in the map swings it at the end of the way behind it.
+    turn_window(state, *state.held_world, *held);
+    const Eigen::Vector3d moved = state.keyframes.begin()->second.translation();
+    move_window(state, SE3(SO3(), p_map_oldest - moved));
+  }
   return summary;
 }
 
