@@ -44,6 +44,16 @@ std::optional<Matrix6d> inverse_if_full(const Matrix6d& information) {
   return Matrix6d(information.llt().solve(Matrix6d::Identity()));
 }
 
+void require_sound(const SE3& pose, const Matrix6d& information, const std::string& name) {
+  require(pose.matrix().allFinite() && information.allFinite() &&
+              information.isApprox(information.transpose(), 1e-9),
+          name + ": the pose must be finite, the information symmetric and finite");
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
+  const double least = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[5];
+  require(largest > 0 && least >= -1e-9 * largest,
+          name + ": the information must be positive semi-definite and not zero");
+}
+
 void require_sound(const LineObservation::SecondEye& eye, const std::string& name) {
   require(eye.eye_cam.allFinite() && eye.eye_cam.norm() > 0 && eye.start_px.allFinite() &&
               eye.end_px.allFinite() && positive(eye.sigma_px),
@@ -177,18 +187,21 @@ void SlidingWindow::add_plane_point(const PlanePoint& point) {
 
 void SlidingWindow::add_pose_prior(const PosePrior& prior) {
   impl_->keyframe(prior.keyframe);
-  const std::string name = "sliding window: prior of keyframe " + std::to_string(prior.keyframe);
-  require(prior.T_map_cam.matrix().allFinite() && prior.information.allFinite() &&
-              prior.information.isApprox(prior.information.transpose(), 1e-9),
-          name + ": the pose must be finite, the information symmetric and finite");
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(prior.information);
-  const double least = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[5];
-  require(largest > 0 && least >= -1e-9 * largest,
-          name + ": the information must be positive semi-definite and not zero");
+  require_sound(prior.T_map_cam, prior.information,
+                "sliding window: prior of keyframe " + std::to_string(prior.keyframe));
   impl_->change().pose_priors.push_back(prior);
   bool deficient = false;
   whitening(prior.information, &deficient);
   if (!deficient && impl_->change().fixed == prior.keyframe) impl_->change().fixed.reset();
+}
+
+void SlidingWindow::add_motion(const MotionObservation& motion) {
+  impl_->keyframe(motion.from);
+  impl_->keyframe(motion.to);
+  require(motion.from != motion.to, "sliding window: a motion needs two keyframes");
+  require_sound(motion.T_from_to, motion.information,
+                "sliding window: motion from keyframe " + std::to_string(motion.from));
+  impl_->change().motions.push_back(motion);
 }
 
 void SlidingWindow::remove_landmark(std::int64_t id) {
@@ -255,7 +268,8 @@ std::vector<std::int64_t> SlidingWindow::marginalize() {
 void SlidingWindow::rescale(double scale) {
   WindowState& state = impl_->change();
   require(std::isfinite(scale) && scale > 0, "sliding window: scale must be positive");
-  require(!has_metric_observation(state) && !state.prior_is_metric && state.prior.planes.empty(),
+  require(!has_metric_observation(state) && !state.prior_is_metric && state.prior.planes.empty() &&
+              state.motions.empty(),
           "sliding window: the scale is measured already, it cannot be set");
   if (state.keyframes.empty()) return;
   const Eigen::Vector3d center_map = state.keyframes.begin()->second.translation();

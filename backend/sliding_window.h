@@ -99,6 +99,15 @@ struct PosePrior {
   Matrix6d information = Matrix6d::Identity();  ///< of any rank
 };
 
+/// A motion between two keyframes that was measured apart from the landmarks of the window, as by
+/// aligning grey values: error log(T_from_to_measured^-1 T_map_from^-1 T_map_to). Not robust: its
+/// owner judges it.
+struct MotionObservation {
+  std::int64_t from = 0, to = 0;
+  SE3 T_from_to;
+  Matrix6d information = Matrix6d::Identity();  ///< right tangent of T_from_to; of any rank
+};
+
 struct WindowSummary {
   Outcome outcome;
   double cost_initial = 0, cost_final = 0;  ///< half the robust sum of squares
@@ -108,8 +117,8 @@ struct WindowSummary {
 /// Bundle adjustment over the last keyframes; what leaves is marginalized into a linear prior by
 /// Schur complement, with first-estimate Jacobians for the states that stay in it. Undistorted
 /// pinhole camera. Residuals: reprojection (px / sigma, Huber), inverse depth, the ends of segments
-/// from projected lines, distances, heights above planes, points on planes, pose priors, rotations
-/// against rectangular worlds, the prior.
+/// from projected lines, distances, heights above planes, points on planes, pose priors, motions,
+/// rotations against rectangular worlds, the prior.
 /// Deterministic; single-threaded.
 class SlidingWindow {
  public:
@@ -157,6 +166,8 @@ class SlidingWindow {
   void hold_world(std::optional<std::int64_t> id);
   /// Of full rank on the keyframe that is held, it takes the place of holding it.
   void add_pose_prior(const PosePrior& prior);
+  /// A motion of full rank measures the scale, and is enough to hold a keyframe without landmarks.
+  void add_motion(const MotionObservation& motion);
   /// Forgets a landmark with its observations (an outlier).
   void remove_landmark(std::int64_t id);
   void remove_observation(std::int64_t keyframe, std::int64_t landmark);
@@ -171,7 +182,7 @@ class SlidingWindow {
   std::vector<std::int64_t> marginalize();
   /// Multiplies all positions, landmarks and the prior's linearization by `scale` (> 0) about the
   /// oldest keyframe: for a mono map whose metric scale becomes known. Throws if something in the
-  /// window measures it already: a distance, an inverse depth, a height, pose priors.
+  /// window measures it already: a distance, an inverse depth, a height, pose priors, a motion.
   void rescale(double scale);
 
   std::vector<std::int64_t> keyframes() const;  ///< ascending

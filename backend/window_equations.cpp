@@ -5,6 +5,7 @@
 #include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/point_on_plane.h>
 #include <placegraph/backend/factors/pose_prior.h>
+#include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/factors/reprojection.h>
 #include <placegraph/backend/whitening.h>
 #include <placegraph/backend/window_equations.h>
@@ -157,6 +158,11 @@ void WindowEquations::add_pose_prior(const PosePrior& prior) {
 void WindowEquations::add_world_observation(const WorldObservation& o) {
   add_factor(AbsoluteRotationFactor(o.R_cam_world, whitening_of(o)), true,
              keyframes_.at(o.keyframe), worlds_.at(o.world));
+}
+
+void WindowEquations::add_motion(const MotionObservation& m) {
+  add_factor(RelativePoseFactor<SE3>(m.T_from_to, whitening(m.information)), false,
+             keyframes_.at(m.from), keyframes_.at(m.to));
 }
 
 void WindowEquations::add_prior() {

@@ -49,6 +49,7 @@ class WindowEquations {
   void add_height(const HeightObservation& height);
   void add_pose_prior(const PosePrior& prior);
   void add_world_observation(const WorldObservation& observation);
+  void add_motion(const MotionObservation& motion);
   /// With first estimates the prior is linear in delta as it stands; else it is relinearized.
   void add_prior();
 

@@ -28,6 +28,7 @@ WindowInformation window_information(const WindowState& state) {
   for (const PosePrior& prior : state.pose_priors) equations.add_pose_prior(prior);
   for (const WorldObservation& observation : state.world_observations)
     equations.add_world_observation(observation);
+  for (const MotionObservation& motion : state.motions) equations.add_motion(motion);
   equations.add_prior();
   result.H = std::move(equations.form.H);
   return result;

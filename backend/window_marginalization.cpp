@@ -196,6 +196,8 @@ void erase_keyframe(WindowState& state, std::int64_t leaving, std::int64_t newes
   erase_from(state.lines);
   std::erase_if(state.distances,
                 [&](const DistanceObservation& d) { return d.from == leaving || d.to == leaving; });
+  std::erase_if(state.motions,
+                [&](const MotionObservation& m) { return m.from == leaving || m.to == leaving; });
   const auto of_leaving = [&](const auto& o) { return o.keyframe == leaving; };
   std::erase_if(state.heights, of_leaving);
   std::erase_if(state.pose_priors, of_leaving);
@@ -262,6 +264,11 @@ void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
     }
   for (const WorldObservation& observation : state.world_observations)
     if (observation.keyframe == leaving) equations.add_world_observation(observation);
+  for (const MotionObservation& motion : state.motions)
+    if (motion.from == leaving || motion.to == leaving) {
+      equations.add_motion(motion);
+      metric |= is_full(motion);
+    }
   equations.add_prior();
   state.prior = make_prior(marginalize_first(equations.form, gone.columns()), variables, equations);
   state.prior_is_metric |= metric;

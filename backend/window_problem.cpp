@@ -10,6 +10,7 @@
 #include <placegraph/backend/factors/point_factor.h>
 #include <placegraph/backend/factors/point_on_plane.h>
 #include <placegraph/backend/factors/pose_prior.h>
+#include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/factors/reprojection.h>
 #include <placegraph/backend/whitening.h>
 #include <placegraph/backend/window_state.h>
@@ -37,7 +38,7 @@ class WindowProblem {
         lines_(VariableBlock<Line3>::kSize * state.lines.size()),
         planes_(VariableBlock<Plane3>::kSize * state.planes.size()),
         points_by_keyframe_(state.keyframes.size()),
-        has_pose_prior_(state.keyframes.size()),
+        is_held_(state.keyframes.size()),
         problem_(ownership()),
         ordering_(std::make_shared<ceres::ParameterBlockOrdering>()) {
     for (const auto& [id, T_map_cam] : state.keyframes) {
@@ -56,6 +57,7 @@ class WindowProblem {
     add_lines();
     for (const HeightObservation& height : state.heights) add_height(height);
     for (const PosePrior& prior : state.pose_priors) add_pose_prior(prior);
+    for (const MotionObservation& motion : state.motions) add_motion(motion);
     for (const DistanceObservation& distance : state.distances) add_distance(distance);
     if (const auto reference = scale_reference(state)) add_distance(*reference);
     for (const WorldObservation& observation : state.world_observations)
@@ -89,7 +91,7 @@ class WindowProblem {
       const bool by_prior =
           !state_.fixed && std::binary_search(in_prior.begin(), in_prior.end(), ids_[k]);
       if (state_.fixed == ids_[k] || by_prior || points_by_keyframe_[k] >= kMinPointsPerKeyframe ||
-          has_pose_prior_[k])
+          is_held_[k])
         continue;
       return too_few("keyframe " + std::to_string(ids_[k]) + " sees " +
                      std::to_string(points_by_keyframe_[k]) +
@@ -253,7 +255,15 @@ class WindowProblem {
     problem_.AddResidualBlock(&pose_priors_.emplace_back(PosePriorFactor<SE3>(
                                   prior.T_map_cam, whitening(prior.information, &deficient))),
                               nullptr, &poses_[7 * k]);
-    if (!deficient) has_pose_prior_[k] = true;
+    if (!deficient) is_held_[k] = true;
+  }
+  void add_motion(const MotionObservation& m) {
+    const std::size_t from = position(m.from), to = position(m.to);
+    bool deficient = false;
+    problem_.AddResidualBlock(&motions_.emplace_back(RelativePoseFactor<SE3>(
+                                  m.T_from_to, whitening(m.information, &deficient))),
+                              nullptr, &poses_[7 * from], &poses_[7 * to]);
+    if (!deficient) is_held_[from] = is_held_[to] = true;
   }
   void add_distance(const DistanceObservation& d) {
     problem_.AddResidualBlock(&distances_.emplace_back(DistanceFactor(d.distance_m, d.sigma_m)),
@@ -285,13 +295,14 @@ class WindowProblem {
   std::vector<double> poses_;            ///< and, after those of all keyframes, the worlds
   std::vector<double> points_, lines_, planes_;
   std::vector<int> points_by_keyframe_;
-  std::vector<char> has_pose_prior_;
+  std::vector<char> is_held_;  ///< by a pose prior or a motion of full rank
   std::deque<PointFactor<Reprojection>> reprojections_;
   std::deque<PointFactor<InverseDepth>> inverse_depths_;
   std::deque<CeresFactor<LineReprojectionFactor>> segments_;
   std::deque<CeresFactor<PointOnPlaneFactor>> plane_points_;
   std::deque<CeresFactor<HeightAbovePlaneFactor>> heights_;
   std::deque<CeresFactor<PosePriorFactor<SE3>>> pose_priors_;
+  std::deque<CeresFactor<RelativePoseFactor<SE3>>> motions_;
   std::deque<CeresFactor<DistanceFactor>> distances_;
   std::deque<CeresFactor<AbsoluteRotationFactor>> rotations_;
   std::optional<MarginalPriorFactor> prior_;
@@ -330,8 +341,15 @@ bool has_full_pose_prior(const WindowState& state) {
   });
 }
 
+bool is_full(const MotionObservation& motion) {
+  bool deficient = false;
+  whitening(motion.information, &deficient);
+  return !deficient;
+}
+
 bool has_metric_observation(const WindowState& state) {
   if (!state.distances.empty()) return true;
+  if (std::any_of(state.motions.begin(), state.motions.end(), is_full)) return true;
   if (state.pose_priors.size() + state.fixed.has_value() >= 2) return true;
   for (const HeightObservation& height : state.heights) {
     int points = 0;

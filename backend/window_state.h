@@ -37,6 +37,7 @@ struct WindowState {
   std::vector<HeightObservation> heights;
   std::vector<PosePrior> pose_priors;
   std::vector<WorldObservation> world_observations;
+  std::vector<MotionObservation> motions;
   MarginalPrior prior;
   bool prior_is_metric = false;  ///< what measures the scale went into the prior
   bool prior_holds_scale = false;
@@ -74,8 +75,11 @@ void turn_window(WindowState& state, std::int64_t world, const SO3& R_map_world)
 bool has_full_pose_prior(const WindowState& state);
 
 /// Whether something in the window gives the scale: a depth, a distance, a height above a plane
-/// with at least three points, two known positions.
+/// with at least three points, two known positions, a motion of full rank.
 bool has_metric_observation(const WindowState& state);
+
+/// A motion that leaves no direction open.
+bool is_full(const MotionObservation& motion);
 
 /// While nothing gives the scale (nothing measures it, no prior), it is held by a soft distance
 /// (1 %) between the oldest keyframe and the one farthest from it, at its present length: this
