@@ -259,7 +259,7 @@ void add_run_command(CLI::App& app) {
   command->add_option("--sensor", arguments->sensor, "what to run it as; default: the best it has")
       ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}));
   command->add_option("--cues", arguments->cues,
-                      "what motion is seen by, joined by commas: points, lines, plane, manhattan; default: points,plane");
+                      "what motion is seen by, joined by commas: points, lines, plane, manhattan, direct; default: points,plane");
   command->add_option("--camera-height", arguments->camera_height_m,
                       "height above the ground [m]: gives a single eye its scale");
   command->add_option("--odometry", arguments->odometry,

@@ -1,6 +1,7 @@
 #include "apps/draw_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
@@ -64,6 +65,9 @@ Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView&
   for (const FrameView::DirectedLine& line : view.directed)
     cv::line(canvas, sixteenths(line.segment.start), sixteenths(line.segment.end), colour_of(line),
              line.axis < 0 ? 1 : 2, cv::LINE_AA, kShift);
+  for (const FrameView::SurfacePixel& pixel : view.surfaces)
+    cv::circle(canvas, sixteenths(pixel.px), 1 << kShift,
+               colour_of(std::abs(pixel.residual_sigmas)), cv::FILLED, cv::LINE_AA, kShift);
   for (const FrameView::Line& line : view.lines)
     cv::line(canvas, sixteenths(line.segment.start), sixteenths(line.segment.end),
              colour_of(line.off_px), 2, cv::LINE_AA, kShift);

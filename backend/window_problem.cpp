@@ -101,6 +101,14 @@ class WindowProblem {
     return Outcome::ok();
   }
 
+  /// Motions one after the other agree as they are: there is no step that makes less of nothing.
+  bool settled() {
+    constexpr double kNothing = 1e-12;
+    double cost = 1;
+    return state_.landmarks.empty() && state_.lines.empty() &&
+           problem_.Evaluate({}, &cost, nullptr, nullptr, nullptr) && cost < kNothing;
+  }
+
   ceres::Solver::Summary solve() {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
@@ -385,7 +393,7 @@ WindowSummary optimize_window(WindowState& state) {
   WindowSummary summary;
   WindowProblem problem(state);
   summary.outcome = problem.check();
-  if (!summary.outcome) return summary;
+  if (!summary.outcome || problem.settled()) return summary;
   const ceres::Solver::Summary solved = problem.solve();
   summary.cost_initial = solved.initial_cost;
   summary.cost_final = solved.final_cost;

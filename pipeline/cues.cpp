@@ -12,18 +12,16 @@ namespace {
 struct Named {
   const char* name;
   bool Cues::*cue;
-  bool usable;
 };
-constexpr Named kCues[] = {{"points", &Cues::points, true},
-                           {"lines", &Cues::lines, true},
-                           {"plane", &Cues::plane, true},
-                           {"manhattan", &Cues::manhattan, true},
-                           {"direct", &Cues::direct, false}};
+constexpr Named kCues[] = {{"points", &Cues::points},
+                           {"lines", &Cues::lines},
+                           {"plane", &Cues::plane},
+                           {"manhattan", &Cues::manhattan},
+                           {"direct", &Cues::direct}};
 
-std::string usable_names() {
+std::string all_names() {
   std::string names;
-  for (const Named& named : kCues)
-    if (named.usable) names += (names.empty() ? "" : ", ") + std::string(named.name);
+  for (const Named& named : kCues) names += (names.empty() ? "" : ", ") + std::string(named.name);
   return names;
 }
 
@@ -36,13 +34,12 @@ Cues parse_cues(const std::string& names) {
   for (std::string name; std::getline(list, name, ',');) {
     const auto known = std::find_if(std::begin(kCues), std::end(kCues),
                                     [&](const Named& named) { return name == named.name; });
-    require(known != std::end(kCues), "cues: '" + name + "' is none of " + usable_names());
-    require(known->usable,
-            "cues: '" + name + "' cannot be used in a run yet; there are " + usable_names());
+    require(known != std::end(kCues), "cues: '" + name + "' is none of " + all_names());
     require(seen.insert(name).second, "cues: '" + name + "' is named twice");
     cues.*known->cue = true;
   }
-  require(cues.points || cues.lines, "cues: points or lines are needed, got '" + names + "'");
+  require(cues.points || cues.lines || cues.surfaces_alone(),
+          "cues: one of points, lines, plane, direct is needed, got '" + names + "'");
   return cues;
 }
 

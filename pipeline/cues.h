@@ -7,13 +7,18 @@ namespace placegraph {
 struct Cues {
   bool points = true;
   bool lines = false;
-  bool plane = true;       ///< the ground, aligned directly, where the camera's height is known
+  /// The dominant surface: beside others the ground, for the unit of a single eye of known height;
+  /// alone all that there is.
+  bool plane = true;
   bool manhattan = false;  ///< directions of a rectangular world
-  bool direct = false;     ///< grey values of planes, aligned as a whole
+  bool direct = false;     ///< grey values of several planes, aligned as a whole
+
+  /// Nothing but grey values of surfaces.
+  bool surfaces_alone() const { return !points && !lines && (plane || direct); }
 };
 
 /// From names joined by commas, as in "points,plane". Throws ArgumentError for an unknown name, one
-/// that this version cannot use, one named twice, or if neither points nor lines are left.
+/// named twice, or if none of points, lines, plane and direct is there.
 Cues parse_cues(const std::string& names);
 
 }  // namespace placegraph

@@ -35,6 +35,11 @@ struct FrameView {
   };
   /// Of keyframes only, where those directions are among the cues.
   std::vector<DirectedLine> directed;
+  struct SurfacePixel {
+    Eigen::Vector2d px;
+    double residual_sigmas = 0;  ///< of its grey value
+  };
+  std::vector<SurfacePixel> surfaces;  ///< pixels of planes that were aligned
   /// Outline of the ground that is aligned for the scale; empty if it is not looked at.
   std::vector<Eigen::Vector2d> ground_px;
 };

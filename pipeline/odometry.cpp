@@ -21,12 +21,18 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
   calibration_.check();
   require(calibration.camera.distortion == Distortion::kNone,
           "calibration.camera: undistorted images needed (rectify them first)");
-  scale_known_ = calibration_.baseline_m > 0 || calibration_.depth;
+  scale_known_ = metric_from_start();
+  require(!cues_.surfaces_alone() || scale_known_,
+          "cues: surfaces without points need a right eye, depth or the camera's height");
+  require(!cues_.direct || scale_known_ || calibration_.camera_height_m,
+          "cues: direct needs a right eye, depth or the camera's height");
   require(cues_.points || scale_known_,
           "cues: lines without points need a right eye or depth; two views of lines never tell how "
           "a single eye moved");
   if (cues_.lines) lines_.emplace(options_.lines, calibration_, options_.stereo);
   if (cues_.manhattan) manhattan_.emplace(options_.manhattan, calibration_.camera, seed_, log_);
+  if (cues_.surfaces_alone() || cues_.direct)
+    surfaces_.emplace(options_.surfaces, calibration_, options_.stereo, cues_.direct);
   if (!scale_known_ && calibration_.camera_height_m && options_.ground.enabled && cues_.plane)
     ground_.emplace(options_.ground, calibration_.camera, *calibration_.camera_height_m);
   if (calibration_.baseline_m > 0 && options_.rectification.enabled)
@@ -34,11 +40,17 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
   window_ = empty_window();
 }
 
+/// Two eyes and depth measure lengths at once, as does a surface at a known distance.
+bool Odometry::metric_from_start() const {
+  return calibration_.baseline_m > 0 || calibration_.depth ||
+         (cues_.surfaces_alone() && calibration_.camera_height_m);
+}
+
 SlidingWindow Odometry::empty_window() const {
   SlidingWindowOptions options = options_.window;
   if (ground_ || motion_) options.scale_drift = options_.scale_drift;
   // A single eye's unit is handed on by where the window lies: it needs the prior's hold.
-  if (calibration_.baseline_m > 0 || calibration_.depth) options.hold_oldest = true;
+  if (metric_from_start()) options.hold_oldest = true;
   return SlidingWindow(options, calibration_.camera);
 }
 
@@ -51,10 +63,12 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
   tracker_.reset();
   if (lines_) lines_->reset();
   if (manhattan_) manhattan_->reset();
+  if (surfaces_) surfaces_->reset();
+  newest_motion_ = DirectMotion();
   window_ = empty_window();
   state_ = TrackingState::kWaiting;
   started_ = lost_ = false;
-  scale_known_ = calibration_.baseline_m > 0 || calibration_.depth;
+  scale_known_ = metric_from_start();
   T_odom_start_ = T_odom_last_ = T_odom_cam;
   T_last_cur_ = SE3();
   velocity_known_ = false;
@@ -78,7 +92,9 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
     const auto span = times_.measure("point tracking");
     tracker_.track(frame.image);
   }
-  OdometryUpdate update = waiting ? try_initialize(frame, T_odom_cam_known) : track(frame);
+  OdometryUpdate update = cues_.surfaces_alone() ? track_surfaces(frame)
+                          : waiting              ? try_initialize(frame, T_odom_cam_known)
+                                                 : track(frame);
   lost_ = update.state == TrackingState::kLost;
   if (lost_) {
     // The next frame may still be found from the last good one.
@@ -181,6 +197,7 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
                     window_);
   const std::int64_t previous = last_keyframe_;
   last_keyframe_ = id;
+  if (surfaces_) align_keyframes(frame, previous);
   if (ground_ || motion_) measure_scale(frame, update);
   if (manhattan_) look_at_directions(frame);
   refine_window();
@@ -280,13 +297,15 @@ void Odometry::refine_window() {
     if (!cues_.points) depths = lines_->depths(window_);
     lines_->accept(window_, window_.pose(last_keyframe_));
   }
+  if (cues_.surfaces_alone()) depths = {surfaces_->median_depth_m()};
   if (!depths.empty()) median_depth_m_ = std::max(1e-3, median_of(depths));
   if (manhattan_) widen_last_link(window_.pose(window_.keyframes().front()));
   for (const std::int64_t id : window_.keyframes()) keyframe_poses_[id] = window_.pose(id);
   if (rectification_ && !alone) calibrate_eyes();
   const auto keyframes = window_.keyframes();
   // Windows of the lens share no keyframe.
-  if (calibration_.baseline_m == 0 && !alone && keyframes.front() > newest_of_lens_ &&
+  if (calibration_.baseline_m == 0 && cues_.points && !alone &&
+      keyframes.front() > newest_of_lens_ &&
       keyframes.size() > static_cast<std::size_t>(options_.window.max_keyframes)) {
     newest_of_lens_ = keyframes.back();
     lens_.add(window_.lens_evidence());
@@ -371,6 +390,7 @@ FrameView Odometry::view() const {
   }
   if (lines_) view.lines = lines_->view(window_, T_odom_last_);
   if (manhattan_ && frames_since_keyframe_ == 0) view.directed = manhattan_->view();
+  if (surfaces_) view.surfaces = surfaces_->view(newest_motion_);
   if (ground_ && scale_known_) view.ground_px = ground_->outline_px();
   return view;
 }

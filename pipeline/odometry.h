@@ -16,6 +16,7 @@
 #include <placegraph/pipeline/lens_estimator.h>
 #include <placegraph/pipeline/line_cue.h>
 #include <placegraph/pipeline/manhattan_cue.h>
+#include <placegraph/pipeline/surface_cue.h>
 
 #include <map>
 #include <memory>
@@ -42,6 +43,7 @@ struct OdometryOptions {
   GroundScaleOptions ground;
   LineCueOptions lines;
   ManhattanCueOptions manhattan;
+  SurfaceCueOptions surfaces;
   KeyframeOptions keyframe;
   SlidingWindowOptions window{.max_keyframes = 10, .relative_decrease = 1e-3};
   double sigma_px = 0.7;          ///< noise of a track
@@ -150,6 +152,7 @@ class Odometry {
   };
 
   SlidingWindow empty_window() const;
+  bool metric_from_start() const;
   OdometryUpdate begin(const Frame& frame);
   OdometryUpdate replace_reference(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate try_initialize(const Frame& frame, const std::optional<SE3>& T_known);
@@ -160,6 +163,14 @@ class Odometry {
   std::optional<SE3> pose_with_lines(const Frame& frame, const SE3& prior,
                                      const Pose3d2dResult& points, Random& random, int& inliers);
   int landmarks_in_window() const;
+  OdometryUpdate begin_on_surfaces(const Frame& frame);
+  OdometryUpdate track_surfaces(const Frame& frame);
+  DirectMotion align_surfaces() const;
+  MotionGuess expected_motion() const;
+  bool surface_keyframe_due(const DirectMotion& motion) const;
+  bool add_surface_keyframe(const Frame& frame, const DirectMotion& motion, OdometryUpdate& update);
+  void align_keyframes(const Frame& frame, std::int64_t previous);
+  std::vector<KnownPixel> landmarks_seen(const SE3& T_odom_cam) const;
   void fill_between(std::int64_t ref, std::int64_t cur, Random& random,
                     OdometryUpdate& update) const;
   std::vector<Eigen::Vector2f> predict(const SE3& T_odom_cam) const;
@@ -199,6 +210,9 @@ class Odometry {
   std::optional<LineCue> lines_;
   std::optional<ManhattanCue> manhattan_;
   std::optional<GroundScale> ground_;
+  std::optional<SurfaceCue> surfaces_;
+  DirectMotion newest_motion_;                           // of surfaces, from the last keyframe
+  Frame last_frame_;                                     // where surfaces alone are followed
   std::optional<RectificationEstimator> rectification_;  // of two eyes
   std::set<std::int64_t> calibrated_;                    // landmarks of the window it has heard of
   LensEstimator lens_;

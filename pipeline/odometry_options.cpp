@@ -22,12 +22,13 @@ void OdometryOptions::check() const {
   ground.check();
   lines.check();
   manhattan.check();
+  surfaces.check();
   window.check();
 }
 
 void visit(OptionVisitor& field, OdometryOptions& o) {
   field("cues", o.cues,
-        "what motion is seen by: points, lines, plane, manhattan, joined by commas");
+        "what motion is seen by: points, lines, plane, manhattan, direct, joined by commas");
   field.group("tracker", o.tracker, "points followed over time");
   field.group("pose", o.pose, "pose of a frame from landmarks");
   field.group("initializer", o.initializer, "first two views of a single eye");
@@ -36,6 +37,8 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
   field.group("ground", o.ground, "metric scale from the road");
   field.group("lines", o.lines, "lines followed over time, where they are among the cues");
   field.group("manhattan", o.manhattan, "rectangular worlds, where they are among the cues");
+  field.group("surfaces", o.surfaces,
+              "grey values of surfaces, where plane is the only cue or direct is among them");
   field.group("keyframe", o.keyframe, "when a frame becomes a keyframe");
   field.group("window", o.window, "bundle adjustment over the last keyframes");
   field("sigma_px", o.sigma_px, "noise of a track", {0.05, 10});

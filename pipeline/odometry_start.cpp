@@ -4,6 +4,7 @@
 namespace placegraph {
 
 OdometryUpdate Odometry::begin(const Frame& frame) {
+  if (cues_.surfaces_alone()) return begin_on_surfaces(frame);
   started_ = true;
   if (cues_.points) tracker_.track(frame.image);
   OdometryUpdate update;
