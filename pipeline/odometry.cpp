@@ -40,12 +40,6 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
   window_ = empty_window();
 }
 
-/// Two eyes and depth measure lengths at once, as does a surface at a known distance.
-bool Odometry::metric_from_start() const {
-  return calibration_.baseline_m > 0 || calibration_.depth ||
-         (cues_.surfaces_alone() && calibration_.camera_height_m);
-}
-
 SlidingWindow Odometry::empty_window() const {
   SlidingWindowOptions options = options_.window;
   if (ground_ || motion_) options.scale_drift = options_.scale_drift;

@@ -1,10 +1,14 @@
-#include <placegraph/pipeline/median.h>
 #include <placegraph/pipeline/odometry.h>
 
 #include <cmath>
 
 namespace placegraph {
-namespace {}  // namespace
+
+/// Two eyes and depth measure lengths at once, as does a surface at a known distance.
+bool Odometry::metric_from_start() const {
+  return calibration_.baseline_m > 0 || calibration_.depth ||
+         (cues_.surfaces_alone() && calibration_.camera_height_m);
+}
 
 /// Surfaces are all that is followed: the first frame that shows one is the first keyframe.
 OdometryUpdate Odometry::begin_on_surfaces(const Frame& frame) {
