@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <opencv2/core.hpp>
 
 namespace placegraph {
 namespace {
