@@ -7,6 +7,8 @@
 #include <placegraph/pipeline/run.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -86,6 +88,12 @@ void track(const Arguments& arguments) {
     lengths.push_back(static_cast<double>(sightings.size()));
   const double median = median_of(lengths);
   nlohmann::json figures{{"tracks", tracks.size()}, {"median_length_frames", median}};
+  // Fewer than three views of a line say nothing of motion or place.
+  std::vector<double> of_use;
+  std::copy_if(lengths.begin(), lengths.end(), std::back_inserter(of_use),
+               [](double n) { return n >= 3; });
+  figures["tracks_of_use"] = of_use.size();
+  figures["median_length_of_use_frames"] = of_use.empty() ? 0 : median_of(of_use);
   std::string line = fmt::format("{}: {} lines followed, median over {:g} frames", dataset->name(),
                                  tracks.size(), median);
   if (const auto& truth = dataset->ground_truth()) {

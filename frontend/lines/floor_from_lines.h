@@ -1,0 +1,48 @@
+#pragma once
+#include <placegraph/frontend/lines/line_triangulation.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace placegraph {
+
+struct FloorFromLinesOptions {
+  double max_tilt_deg = 25;  ///< of the floor from the camera's xz plane
+  double upright_deg = 3;    ///< deviation of uprights from the floor's normal: built so
+  double end_px = 3;         ///< how far an edge's end may lie from where it meets the floor
+  double unevenness = 0.01;  ///< of the floor, in heights of the camera
+  double max_sigma = 0.1;    ///< of a height, in heights of the camera, to have a vote
+  int min_lines = 4;         ///< on the floor
+  double min_share = 0.35;   ///< of the votes for the level that has most
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, FloorFromLinesOptions& options);
+
+/// A line of known place as the camera sees it now.
+struct PlacedLine {
+  std::int64_t id = 0;
+  Line3 line_ref;
+  Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< in the line's tangent
+  LineSegment seen;                                      ///< its visible part
+};
+
+struct FloorFromLines {
+  Outcome outcome;
+  Eigen::Vector3d down_ref = Eigen::Vector3d::UnitY();  ///< unit normal, away from the camera
+  double height = 0;                                    ///< of the camera's centre above it
+  double sigma_height = 0;
+  std::vector<std::int64_t> on_floor;  ///< lines on it or ending there, ascending
+};
+
+/// The floor under a camera from lines of a scene of any unit. Uprights (lines near to the
+/// camera's y axis that are parallel to each other) and level lines at right angles to them give
+/// the vertical; every level line has a height, and so has the lower end of every upright. Of the
+/// levels below the camera that enough of them agree on, the lowest is the floor: ceilings lie
+/// above, tables and the edge of a skirting higher. Then plane and vertical are fitted together to
+/// those that lie on it and to the uprights, robustly, each at its own deviation. Outcomes: too few
+/// data (nothing upright nor two level directions), no consensus (no level has `min_lines`).
+[[nodiscard]] FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
+                                              const std::vector<PlacedLine>& lines,
+                                              const FloorFromLinesOptions& options);
+
+}  // namespace placegraph
