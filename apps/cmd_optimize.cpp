@@ -1,8 +1,8 @@
 #include "apps/cmd_optimize.h"
 
 #include <fmt/format.h>
-#include <placegraph/backend/chi_squared.h>
 #include <placegraph/eval/pose_graph_plot.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/g2o.h>
 #include <placegraph/io/pose_graph_file.h>

@@ -13,6 +13,7 @@
 #include "apps/cmd_config.h"
 #include "apps/cmd_convert.h"
 #include "apps/cmd_eval.h"
+#include "apps/cmd_flow.h"
 #include "apps/cmd_georeference.h"
 #include "apps/cmd_lines.h"
 #include "apps/cmd_optimize.h"
@@ -65,6 +66,7 @@ int main(int argc, char** argv) {
     add_config_command(app);
     add_convert_command(app);
     add_eval_command(app);
+    add_flow_command(app);
     add_georeference_command(app);
     add_lines_command(app);
     add_optimize_command(app);

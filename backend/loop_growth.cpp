@@ -1,7 +1,7 @@
-#include <placegraph/backend/chi_squared.h>
 #include <placegraph/backend/loop_growth.h>
 #include <placegraph/backend/loop_leverage.h>
 #include <placegraph/backend/subset_solver.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>

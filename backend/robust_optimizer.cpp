@@ -1,8 +1,8 @@
-#include <placegraph/backend/chi_squared.h>
 #include <placegraph/backend/parallel_odometry.h>
 #include <placegraph/backend/pcm.h>
 #include <placegraph/backend/robust_optimizer.h>
 #include <placegraph/backend/start_selection.h>
+#include <placegraph/graph/core/chi_squared.h>
 
 #include <algorithm>
 #include <numeric>

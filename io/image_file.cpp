@@ -60,8 +60,10 @@ GreyAndColour read_image(const std::string& path) {
   return result;
 }
 
+Image read_image_as_stored(const std::string& path) { return decode(path, cv::IMREAD_UNCHANGED); }
+
 Image read_depth(const std::string& path, double unit_m) {
-  const cv::Mat raw = decode(path, cv::IMREAD_UNCHANGED);
+  const cv::Mat raw = read_image_as_stored(path);
   if (raw.type() != CV_16UC1) {
     throw FileError(path, "depth image must have one channel of 16 bits");
   }

@@ -14,6 +14,9 @@ struct GreyAndColour {
 /// Throws FileError if the file is missing, truncated or no image.
 GreyAndColour read_image(const std::string& path);
 
+/// Channels and depth as in the file. Throws like `read_image`.
+Image read_image_as_stored(const std::string& path);
+
 /// Reads a 16-bit depth image into CV_32FC1 metres: value * unit_m; 0 and 65535 (nothing measured)
 /// become 0. Throws FileError, also if the file has another pixel type.
 Image read_depth(const std::string& path, double unit_m);

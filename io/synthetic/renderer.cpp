@@ -2,6 +2,8 @@
 #include <placegraph/io/synthetic/parallel.h>
 #include <placegraph/io/synthetic/renderer.h>
 
+#include <limits>
+
 namespace placegraph::synthetic {
 namespace {
 
@@ -164,7 +166,8 @@ Image flow_image(const Scene& scene, const Rendering& rendering, const View& vie
                        ? point_map(T_next_scene * *then * now->inverse() * view.T_scene_cam)
                        : AffineMap{});
   }
-  Image flow(camera.height, camera.width, CV_32FC3, cv::Scalar::all(0));
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  Image flow(camera.height, camera.width, CV_32FC2, cv::Scalar::all(kUnknown));
   for (int v = 0; v < camera.height; ++v) {
     for (int u = 0; u < camera.width; ++u) {
       const int object = rendering.mover.at<short>(v, u) + 1;
@@ -174,9 +177,9 @@ Image flow_image(const Scene& scene, const Rendering& rendering, const View& vie
       // Scaled by 1/z, which also holds for what is infinitely far.
       const Eigen::Vector3d p = maps[object].linear * ray + maps[object].offset * iz;
       if (p[2] < 1e-3) continue;
-      flow.at<cv::Vec3f>(v, u) =
-          cv::Vec3f(static_cast<float>(camera.fx * p[0] / p[2] + camera.cx - u),
-                    static_cast<float>(camera.fy * p[1] / p[2] + camera.cy - v), 1);
+      flow.at<cv::Vec2f>(v, u) =
+          cv::Vec2f(static_cast<float>(camera.fx * p[0] / p[2] + camera.cx - u),
+                    static_cast<float>(camera.fy * p[1] / p[2] + camera.cy - v));
     }
   }
   return flow;

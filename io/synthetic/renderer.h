@@ -29,9 +29,9 @@ Rendering render(const Scene& scene, const View& view, float contrast, bool maps
 /// Depth [m] of the pixel centre in double precision where `rendering` saw a face.
 Image depth_image(const Rendering& rendering);
 
-/// Optical flow from `view` to `next` for what `rendering` saw in `view`: CV_32FC3 (du, dv [px],
-/// 1 = valid). Moving objects are followed; the sky turns with the camera. A point that `next`
-/// has behind it is not valid; one that is hidden there is.
+/// Optical flow from `view` to `next` for what `rendering` saw in `view`: CV_32FC2 (du, dv) [px],
+/// NaN for a point that `next` has behind it, not for one that is hidden there. Moving objects are
+/// followed; the sky turns with the camera.
 Image flow_image(const Scene& scene, const Rendering& rendering, const View& view,
                  const View& next);
 

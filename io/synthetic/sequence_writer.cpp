@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/flow_file.h>
 #include <placegraph/io/synthetic/parallel.h>
 #include <placegraph/io/synthetic/sequence_writer.h>
 #include <placegraph/io/trajectory_file.h>
@@ -38,21 +39,6 @@ Image encode_depth(const Image& depth_m, double unit_m) {
       const double steps = std::floor(depth_m.at<float>(v, u) / unit_m + 0.5);
       // 65535 means "nothing measured" elsewhere: not used, nor is anything beyond.
       out.at<unsigned short>(v, u) = static_cast<unsigned short>(steps < 65535 ? steps : 0);
-    }
-  }
-  return out;
-}
-
-/// KITTI's flow form: red u * 64 + 2^15, green v, blue 1 where valid. OpenCV's order is BGR.
-Image encode_flow(const Image& flow) {
-  Image out(flow.size(), CV_16UC3, cv::Scalar::all(0));
-  for (int v = 0; v < out.rows; ++v) {
-    for (int u = 0; u < out.cols; ++u) {
-      const cv::Vec3f& f = flow.at<cv::Vec3f>(v, u);
-      const double du = std::floor(f[0] * 64.0 + 32768.5), dv = std::floor(f[1] * 64.0 + 32768.5);
-      if (f[2] < 0.5F || du < 0 || dv < 0 || du > 65535 || dv > 65535) continue;
-      out.at<cv::Vec3w>(v, u) = {1, static_cast<unsigned short>(dv),
-                                 static_cast<unsigned short>(du)};
     }
   }
   return out;
@@ -120,7 +106,7 @@ void write_frame(const SyntheticWorld& world, const fs::path& folder, std::size_
   if (contents.labels) write_image(folder / "labels_0" / file, frame.labels);
   if (contents.planes) write_image(folder / "planes_0" / file, frame.planes);
   if (contents.flow && !frame.flow.empty())
-    write_image(folder / "flow_0" / file, encode_flow(frame.flow));
+    write_image(folder / "flow_0" / file, encode_kitti_flow(frame.flow));
 }
 
 void write_texts(const SyntheticWorld& world, const fs::path& folder,

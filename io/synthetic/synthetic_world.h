@@ -37,7 +37,7 @@ struct SyntheticFrame {
   Frame frame;   ///< image, right, depth as asked for
   Image labels;  ///< CV_8UC1, see class_names()
   Image planes;  ///< CV_16UC1, row of planes(), 0 = no plane
-  Image flow;    ///< CV_32FC3: displacement [px] to the next frame, 1 = valid; none for the last
+  Image flow;    ///< CV_32FC2: displacement [px] to the next frame, NaN: none; empty for the last
 };
 
 /// A rendered sequence, made on demand and without a disk. Moving objects are followed in `flow`.

@@ -75,8 +75,8 @@ TEST(SequenceWriter, FlowIsWrittenInKittisForm) {
   const Image flow = world.render(0, options.contents).flow;
   const cv::Vec3w bgr = file.at<cv::Vec3w>(44, 20);
   EXPECT_EQ(bgr[0], 1);
-  EXPECT_NEAR((bgr[2] - 32768) / 64.0, flow.at<cv::Vec3f>(44, 20)[0], 0.5 / 64);
-  EXPECT_NEAR((bgr[1] - 32768) / 64.0, flow.at<cv::Vec3f>(44, 20)[1], 0.5 / 64);
+  EXPECT_NEAR((bgr[2] - 32768) / 64.0, flow.at<cv::Vec2f>(44, 20)[0], 0.5 / 64);
+  EXPECT_NEAR((bgr[1] - 32768) / 64.0, flow.at<cv::Vec2f>(44, 20)[1], 0.5 / 64);
 }
 
 TEST(SequenceWriter, NeverReplacesAFolderUnlessForcedAndLeavesNothingHalfDone) {

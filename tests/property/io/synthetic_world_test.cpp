@@ -139,8 +139,8 @@ TEST_P(World, FlowOfStaticPixelsFollowsFromDepthAndPoses) {
   for (int v = 0; v < kHeight; ++v) {
     for (int u = 0; u < kWidth; ++u) {
       const float z = frame.frame.depth.at<float>(v, u);
-      const cv::Vec3f flow = frame.flow.at<cv::Vec3f>(v, u);
-      if (z <= 0 || flow[2] == 0) continue;
+      const cv::Vec2f flow = frame.flow.at<cv::Vec2f>(v, u);
+      if (z <= 0 || std::isnan(flow[0])) continue;
       const auto px = camera.project(T_next_cur * (z * *camera.unproject({u, v})));
       ASSERT_TRUE(px);
       if ((*px - Eigen::Vector2d(u, v)).norm() > 100) continue;  // float's digits end

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/chi_squared.h>
 #include <placegraph/backend/loop_leverage.h>
 #include <placegraph/backend/loop_support.h>
 #include <placegraph/backend/pcm.h>
+#include <placegraph/graph/core/chi_squared.h>
 
 #include "tests/support/looped_walk.h"
 

@@ -1,4 +1,4 @@
-#include <placegraph/backend/chi_squared.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

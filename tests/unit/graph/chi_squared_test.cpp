@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/chi_squared.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -1,0 +1,109 @@
+#include "apps/cmd_flow.h"
+
+#include <fmt/format.h>
+#include <placegraph/eval/flow_error.h>
+#include <placegraph/frontend/flow/optical_flow.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/flow_file.h>
+#include <placegraph/io/image_file.h>
+#include <placegraph/io/yaml_config.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "apps/draw_flow.h"
+#include "apps/output.h"
+#include "apps/usage.h"
+
+namespace placegraph::apps {
+namespace {
+
+struct Arguments {
+  std::string from, to, method = "dis", out, drawing, truth;
+  std::vector<std::string> settings;
+  bool as_json = false, force = false;
+};
+
+std::int64_t known_pixels(const Image& flow) {
+  std::int64_t count = 0;
+  for (int v = 0; v < flow.rows; ++v)
+    for (int u = 0; u < flow.cols; ++u) {
+      const auto& d = flow.at<cv::Vec2f>(v, u);
+      count += std::isfinite(d[0]) && std::isfinite(d[1]);
+    }
+  return count;
+}
+
+void flow(const Arguments& arguments) {
+  for (const std::string& file : {arguments.out, arguments.drawing})
+    if (!file.empty()) require_free(file, arguments.force);
+  if (!arguments.out.empty()) require_flow_extension(arguments.out);
+  FlowOptions options;
+  for (const std::string& setting : arguments.settings) set_option(options, setting);
+  set_option(options, "method=" + arguments.method);
+  options.check();
+  const Image from = read_image(arguments.from).grey, to = read_image(arguments.to).grey;
+  require_size(arguments.to, to, from.cols, from.rows);
+  std::optional<Image> truth;
+  if (!arguments.truth.empty()) {
+    truth = read_flow(arguments.truth);
+    require_size(arguments.truth, *truth, from.cols, from.rows);
+  }
+  const Stopwatch watch;
+  const Image found = optical_flow(from, to, options);
+  const double cpu_ms = watch.cpu_ms();
+  const std::int64_t known = known_pixels(found);
+  if (known == 0) throw NoAnswer("no displacement was found");
+  if (!arguments.out.empty()) write_flow(arguments.out, found);
+  if (!arguments.drawing.empty()) {
+    std::vector<unsigned char> png;
+    cv::imencode(".png", draw_flow(from, found), png);
+    write_file(arguments.drawing, std::string(png.begin(), png.end()));
+  }
+  nlohmann::ordered_json figures{
+      {"method", arguments.method}, {"known", known}, {"cpu_ms", cpu_ms}};
+  std::string line =
+      fmt::format("{}: {} displacements in {:.0f} ms", arguments.method, known, cpu_ms);
+  if (truth) {
+    const FlowError error = flow_error(found, *truth);
+    figures["truth_pixels"] = error.pixels;
+    figures["compared"] = error.compared;
+    figures["coverage"] = error.coverage;
+    figures["epe_mean_px"] = error.mean_px;
+    figures["epe_median_px"] = error.median_px;
+    figures["share_beyond_3px"] = error.share_beyond_3px;
+    line += fmt::format(
+        "; end-point error {:.3f} px (median {:.3f}), {:.1f} % beyond 3 px, {:.1f} % "
+        "of the truth covered",
+        error.mean_px, error.median_px, 100 * error.share_beyond_3px, 100 * error.coverage);
+  }
+  fmt::print("{}\n", arguments.as_json ? figures.dump(2) : line);
+}
+
+}  // namespace
+
+void add_flow_command(CLI::App& app) {
+  auto arguments = std::make_shared<Arguments>();
+  Arguments& a = *arguments;
+  CLI::App* command = app.add_subcommand("flow", "Optical flow between two images");
+  command->footer("placegraph flow a.png b.png --method horn-schunck --out f.flo --draw f.png");
+  command->add_option("FROM", a.from, "first image")->required();
+  command->add_option("TO", a.to, "second image")->required();
+  command->add_option("--method", a.method, "how displacements are found")
+      ->check(CLI::IsMember(flow_method_names()))
+      ->capture_default_str();
+  command->add_option("-o,--out", a.out, "file to write: .flo (Middlebury) or .png (KITTI)");
+  command->add_option("--draw", a.drawing, "picture of it (PNG)");
+  command->add_option("--truth", a.truth, "true flow to compare with: .flo or .png");
+  command->add_option("--set", a.settings, "an option of the method, key=value; may be repeated")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command->add_flag("--json", a.as_json, "print JSON");
+  command->add_flag("--force", a.force, "overwrite OUT and the drawing");
+  command->callback([arguments] { flow(*arguments); });
+}
+
+}  // namespace placegraph::apps

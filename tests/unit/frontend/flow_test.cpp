@@ -1,0 +1,193 @@
+#include <gtest/gtest.h>
+#include <placegraph/frontend/flow/optical_flow.h>
+#include <placegraph/graph/core/error.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/support/texture.h"
+
+namespace placegraph {
+namespace {
+
+using Eigen::Vector2d;
+using test::Texture;
+using Kind = FlowVector::Kind;
+
+constexpr int kSide = 96;
+const Texture kFine{.seed = 3, .wavelength = 24, .octaves = 3, .contrast = 45};
+
+/// What is at (u, v) of the first is at (u, v) + flow of the second.
+struct Pair {
+  Image from, to;
+};
+
+Pair shifted(const Vector2d& flow, const Texture& texture = kFine) {
+  return {test::texture_image(kSide, kSide, texture),
+          test::texture_image(kSide, kSide, texture, -flow.x(), -flow.y())};
+}
+
+/// The second is the first turned about the centre, u towards v.
+Pair turned(double angle) {
+  Pair pair{test::texture_image(kSide, kSide, kFine), Image(kSide, kSide, CV_8UC1)};
+  const double c = std::cos(angle), s = std::sin(angle), middle = kSide / 2;
+  for (int v = 0; v < kSide; ++v)
+    for (int u = 0; u < kSide; ++u) {
+      const double x = u - middle, y = v - middle;
+      pair.to.at<std::uint8_t>(v, u) =
+          test::to_grey(kFine.grey(middle + c * x + s * y, middle - s * x + c * y));
+    }
+  return pair;
+}
+
+Pair stripes(double shift) {  // vertical ones: only u can be seen
+  Pair pair{Image(kSide, kSide, CV_8UC1), Image(kSide, kSide, CV_8UC1)};
+  for (int v = 0; v < kSide; ++v)
+    for (int u = 0; u < kSide; ++u) {
+      pair.from.at<std::uint8_t>(v, u) = test::to_grey(128 + 80 * std::sin(0.3 * u));
+      pair.to.at<std::uint8_t>(v, u) = test::to_grey(128 + 80 * std::sin(0.3 * (u - shift)));
+    }
+  return pair;
+}
+
+const Vector2d kMiddle(kSide / 2, kSide / 2);
+
+TEST(LucasKanade, FindsShiftsToHundredthsOfAPixel) {
+  for (const Vector2d& flow : {Vector2d(0.3, -0.4), Vector2d(2.5, 1.25), Vector2d(-7.2, 5.6)}) {
+    const Pair pair = shifted(flow);
+    const auto found = lucas_kanade(pair.from, pair.to, {kMiddle}, {});
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].kind, Kind::kFull);
+    EXPECT_LT((found[0].flow - flow).norm(), 0.03) << found[0].flow.transpose();
+    EXPECT_GT(found[0].covariance(0, 0), 0);
+    EXPECT_LT(found[0].covariance(0, 0), 0.05 * 0.05);
+  }
+}
+
+TEST(LucasKanade, GivesNormalFlowWhereOneDirectionIsSeenAndNothingWhereNone) {
+  const Pair pair = stripes(1.5);
+  const auto found = lucas_kanade(pair.from, pair.to, {kMiddle}, {});
+  EXPECT_EQ(found[0].kind, Kind::kNormal);
+  EXPECT_NEAR(found[0].flow.x(), 1.5, 0.03);
+  EXPECT_NEAR(found[0].flow.y(), 0, 1e-6);
+  EXPECT_LT(found[0].covariance(1, 1), 1e-9);
+  const Image blank(kSide, kSide, CV_8UC1, cv::Scalar(90));
+  EXPECT_EQ(lucas_kanade(blank, blank, {kMiddle}, {})[0].kind, Kind::kNone);
+}
+
+TEST(LucasKanade, SaysNothingOfPointsThatLeaveTheImageOrDoNotComeBack) {
+  const Pair pair = shifted({-6, 0});
+  EXPECT_EQ(lucas_kanade(pair.from, pair.to, {Vector2d(2, 40)}, {})[0].kind, Kind::kNone);
+  const Texture other{.seed = 99, .wavelength = 24, .octaves = 3, .contrast = 45};
+  const Image unlike = test::texture_image(kSide, kSide, other);
+  int full = 0;
+  const auto grid = flow_grid(kSide, kSide, 16);
+  for (const FlowVector& v : lucas_kanade(pair.from, unlike, grid, {}))
+    full += v.kind == Kind::kFull;
+  EXPECT_LE(full, static_cast<int>(grid.size()) / 4);
+}
+
+TEST(InterpolationFlow, FindsShiftsUpToFourPixelsToATwentiethOfAPixel) {
+  const InterpolationFlow method({});
+  for (const Vector2d& flow : {Vector2d(0.2, -0.7), Vector2d(1.6, 1.1), Vector2d(-2.9, 2.7)}) {
+    const Pair pair = shifted(flow);
+    const auto motion = method.measure(method.pyramid(pair.from), method.pyramid(pair.to), kMiddle);
+    ASSERT_TRUE(motion);
+    EXPECT_LT((motion->shift - flow).norm(), 0.05) << motion->shift.transpose();
+    EXPECT_NEAR(motion->rotation, 0, 0.005);
+    EXPECT_NEAR(motion->gain, 1, 0.02);
+  }
+}
+
+TEST(InterpolationFlow, FindsTheTurnOfAPatchAndItsShiftAtOnce) {
+  const InterpolationFlow method({});
+  for (const double angle : {-0.12, 0.04, 0.15}) {
+    const Pair pair = turned(angle);
+    const auto motion = method.measure(method.pyramid(pair.from), method.pyramid(pair.to), kMiddle);
+    ASSERT_TRUE(motion);
+    EXPECT_NEAR(motion->rotation, angle, 0.005);
+    EXPECT_LT(motion->shift.norm(), 0.05);
+    EXPECT_LT(std::sqrt(motion->covariance(2, 2)), 0.01);
+  }
+}
+
+TEST(InterpolationFlow, LeavesGainAndOffsetOfTheGreyValuesFree) {
+  Pair pair = shifted({1.2, -0.8});
+  Image dim;
+  pair.to.convertTo(dim, CV_8U, 0.7, 30);
+  const InterpolationFlow method({});
+  const auto motion = method.measure(method.pyramid(pair.from), method.pyramid(dim), kMiddle);
+  ASSERT_TRUE(motion);
+  EXPECT_LT((motion->shift - Vector2d(1.2, -0.8)).norm(), 0.05);
+  EXPECT_NEAR(motion->gain, 0.7, 0.03);
+}
+
+TEST(InterpolationFlow, SaysNothingOfStripesAndOfWhatIsUnlike) {
+  const InterpolationFlow method({});
+  const Pair pair = stripes(1);
+  EXPECT_FALSE(method.measure(method.pyramid(pair.from), method.pyramid(pair.to), kMiddle));
+  const Texture other{.seed = 99, .wavelength = 24, .octaves = 3, .contrast = 45};
+  const Image a = shifted({0, 0}).from, b = test::texture_image(kSide, kSide, other);
+  EXPECT_FALSE(method.measure(method.pyramid(a), method.pyramid(b), kMiddle));
+  EXPECT_FALSE(method.measure(method.pyramid(a), method.pyramid(a), Vector2d(-5, 20)));
+}
+
+TEST(HornSchunck, FollowsASmoothFieldOverTheWholeImage) {
+  const Vector2d flow(3.3, -2.1);
+  const Texture smooth{.seed = 5, .wavelength = 20, .octaves = 2, .contrast = 60};
+  const Pair pair = shifted(flow, smooth);
+  const Image found = horn_schunck(pair.from, pair.to, {});
+  double sum = 0;
+  int count = 0;
+  for (int v = 8; v < kSide - 8; ++v)
+    for (int u = 8; u < kSide - 8; ++u, ++count) {
+      const auto& d = found.at<cv::Vec2f>(v, u);
+      sum += std::hypot(d[0] - flow.x(), d[1] - flow.y());
+    }
+  EXPECT_LT(sum / count, 0.05);
+  EXPECT_TRUE(std::isnan(found.at<cv::Vec2f>(0, kSide - 1)[0])) << "leads out of the image";
+}
+
+TEST(KeyPixelFlow, MatchesBlobsAcrossLargeMotion) {
+  const Vector2d flow(21, -13);
+  const Pair pair = shifted(flow, {.seed = 8, .wavelength = 14, .octaves = 2, .contrast = 60});
+  const auto found = key_pixel_flow(pair.from, pair.to, {});
+  ASSERT_GE(found.size(), 8u);
+  std::size_t right = 0;
+  for (const FlowVector& vector : found) right += (vector.flow - flow).norm() < 1;
+  EXPECT_GE(right, found.size() * 9 / 10);
+}
+
+TEST(OpticalFlow, EveryMethodAnswersInOneForm) {
+  const Vector2d flow(1.4, 0.6);
+  const Pair pair = shifted(flow);
+  FlowOptions options;
+  for (std::size_t i = 0; i < flow_method_names().size(); ++i) {
+    options.method = static_cast<FlowMethod>(i);
+    const Image found = optical_flow(pair.from, pair.to, options);
+    ASSERT_EQ(found.type(), CV_32FC2) << flow_method_names()[i];
+    ASSERT_EQ(found.size(), pair.from.size());
+    int known = 0, right = 0;
+    for (int v = 0; v < kSide; ++v)
+      for (int u = 0; u < kSide; ++u) {
+        const auto& d = found.at<cv::Vec2f>(v, u);
+        if (std::isnan(d[0])) continue;
+        ++known;
+        right += std::hypot(d[0] - flow.x(), d[1] - flow.y()) < 0.5;
+      }
+    EXPECT_GT(known, 10) << flow_method_names()[i];
+    EXPECT_GT(right, known * 8 / 10) << flow_method_names()[i];
+  }
+}
+
+TEST(OpticalFlow, RefusesImagesThatDoNotFit) {
+  const Image grey(40, 40, CV_8UC1, cv::Scalar(0)), other(40, 41, CV_8UC1, cv::Scalar(0));
+  EXPECT_THROW((void)optical_flow(grey, other, {}), ArgumentError);
+  EXPECT_THROW((void)optical_flow({}, {}, {}), ArgumentError);
+  FlowOptions options;
+  options.lucas_kanade.window_px = 8;
+  EXPECT_THROW((void)optical_flow(grey, grey, options), ArgumentError);
+}
+
+}  // namespace
+}  // namespace placegraph
