@@ -155,6 +155,7 @@ std::optional<PatchMotion> InterpolationFlow::measure(const PaddedPyramid& from,
     patch = Patch(weights_.size());
     seen.resize(weights_.size());
   }
+  constexpr double kCoarseEnough_px = 0.1;
   PatchMotion motion;
   for (int level = static_cast<int>(from.levels.size()) - 1; level >= 0; --level) {
     const double scale = std::ldexp(1.0, -level);
@@ -189,7 +190,8 @@ std::optional<PatchMotion> InterpolationFlow::measure(const PaddedPyramid& from,
       const double c = std::cos(turn), s = std::sin(turn);
       motion.shift += Vector2d(c * step[0] - s * step[1], s * step[0] + c * step[1]);
       if (rotates) motion.rotation = turn + step[2];
-      if (step.head<2>().norm() < options_.epsilon_px) break;
+      // On coarse levels a tenth of a pixel is enough for the next.
+      if (step.head<2>().norm() < (level > 0 ? kCoarseEnough_px : options_.epsilon_px)) break;
     }
     if (level > 0) motion.shift *= 2;
   }

@@ -10,15 +10,15 @@
 namespace placegraph {
 
 struct InterpolationFlowOptions {
-  int radius_px = 8;             ///< the patch is a square of 2 radius + 1
-  double fwhm_px = 11;           ///< full width of its Gaussian weight at half of the maximum
+  int radius_px = 7;             ///< the patch is a square of 2 radius + 1
+  double fwhm_px = 10;           ///< full width of its Gaussian weight at half of the maximum
   int levels = 3;                ///< references are shifted by as much on each
   int shift_px = 1;              ///< of the references, on each level
   double rotation_rad = 0.1;     ///< of the references, about the patch's centre
   bool rotates = true;           ///< rotation is looked for; on the finest level only
   int iterations = 4;            ///< on each level at most
   double epsilon_px = 0.01;      ///< a step shorter than this ends them
-  double min_eigenvalue = 2e-4;  ///< of the gradient matrix per pixel, grey levels / 255
+  double min_eigenvalue = 3e-5;  ///< of the gradient matrix per pixel, grey levels / 255
   double max_residual = 0.08;    ///< RMS of what the answer leaves, grey levels / 255
   void check() const;
 };

@@ -9,7 +9,7 @@ struct LucasKanadeOptions {
   int levels = 4;
   int iterations = 30;
   double epsilon_px = 0.01;        ///< a step shorter than this ends the iteration of a level
-  double min_eigenvalue = 2e-4;    ///< of the gradient matrix per pixel, grey levels / 255
+  double min_eigenvalue = 3e-5;    ///< of the gradient matrix per pixel, grey levels / 255
   double max_return_error_px = 1;  ///< of the way back to the start; 0: it is not walked
   void check() const;
 };

@@ -216,7 +216,7 @@ void study_approach(Report& report) {
   const test::TexturedPlane wall{SE3(SO3(), Vector3d(0, 0, 0)),
                                  1e3,
                                  1e3,
-                                 {.seed = 4, .wavelength = 4, .octaves = 7, .contrast = 40}};
+                                 {.seed = 4, .wavelength = 4, .octaves = 10, .contrast = 40}};
   const auto pose = [&](double contact_s) {
     return SE3(SO3::exp({0.01 * std::sin(3 * contact_s), 0.01 * std::cos(2 * contact_s), 0}),
                Vector3d(0, 0, -kSpeed * contact_s));
@@ -241,7 +241,7 @@ void study_approach(Report& report) {
 /// Over a floor at 0.5 to 3 m with known turns: speed over height.
 void study_ventral(Report& report) {
   const test::TexturedPlane floor{
-      SE3(), 1e3, 1e3, {.seed = 6, .wavelength = 1, .octaves = 6, .contrast = 40}};
+      SE3(), 1e3, 1e3, {.seed = 6, .wavelength = 1, .octaves = 9, .contrast = 40}};
   std::vector<double> errors;
   for (const double height : {0.5, 1.0, 2.0, 3.0})
     for (const double speed_over_height : {0.1, 0.4, 1.0}) {
