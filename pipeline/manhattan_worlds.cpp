@@ -1,5 +1,5 @@
-#include <placegraph/backend/chi_squared.h>
 #include <placegraph/frontend/lines/manhattan_frame.h>
+#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/pipeline/manhattan_worlds.h>
 
 #include <algorithm>
