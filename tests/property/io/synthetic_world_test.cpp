@@ -343,7 +343,7 @@ TEST(TownLoop, MovingCarsAreFollowedByFlowAndKeepTheirDistance) {
             (view.T_scene_cam * (depth.at<float>(v, u) * *view.camera.unproject({u, v})));
         const auto px = next.camera.project(next.T_scene_cam.inverse() * (*then * on_car));
         ASSERT_TRUE(px);
-        const cv::Vec3f f = flow.at<cv::Vec3f>(v, u);
+        const cv::Vec2f f = flow.at<cv::Vec2f>(v, u);
         ASSERT_LT((*px - Eigen::Vector2d(u + f[0], v + f[1])).norm(), 1e-3);
       }
     }
