@@ -268,8 +268,7 @@ std::vector<std::int64_t> SlidingWindow::marginalize() {
 void SlidingWindow::rescale(double scale) {
   WindowState& state = impl_->change();
   require(std::isfinite(scale) && scale > 0, "sliding window: scale must be positive");
-  require(!has_metric_observation(state) && !state.prior_is_metric && state.prior.planes.empty() &&
-              state.motions.empty(),
+  require(!has_metric_observation(state) && !state.prior_is_metric && state.prior.planes.empty(),
           "sliding window: the scale is measured already, it cannot be set");
   if (state.keyframes.empty()) return;
   const Eigen::Vector3d center_map = state.keyframes.begin()->second.translation();
@@ -285,6 +284,12 @@ void SlidingWindow::rescale(double scale) {
   for (auto& [id, plane_map] : state.planes)
     plane_map = Plane3(plane_map.normal(),
                        plane_map.normal().dot(move(plane_map.distance() * plane_map.normal())));
+  // What holds a direction of the way only does so in any unit.
+  for (MotionObservation& motion : state.motions) {
+    motion.T_from_to = SE3(motion.T_from_to.rotation(), scale * motion.T_from_to.translation());
+    motion.information.topRows<3>() /= scale;
+    motion.information.leftCols<3>() /= scale;
+  }
   // Deviations of position grow by `scale`, so their columns shrink: the residual stays the same.
   for (std::size_t k = 0; k < state.prior.keyframes.size(); ++k) {
     SE3& T_lin = state.prior.T_map_cam_lin[k];

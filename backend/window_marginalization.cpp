@@ -260,7 +260,7 @@ void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
   for (const PosePrior& prior : state.pose_priors)
     if (prior.keyframe == leaving) {
       equations.add_pose_prior(prior);
-      metric = true;
+      metric |= !prior.information.topRows<3>().isZero(0);
     }
   for (const WorldObservation& observation : state.world_observations)
     if (observation.keyframe == leaving) equations.add_world_observation(observation);

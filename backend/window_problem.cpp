@@ -358,7 +358,11 @@ bool is_full(const MotionObservation& motion) {
 bool has_metric_observation(const WindowState& state) {
   if (!state.distances.empty()) return true;
   if (std::any_of(state.motions.begin(), state.motions.end(), is_full)) return true;
-  if (state.pose_priors.size() + state.fixed.has_value() >= 2) return true;
+  // What is known of a rotation alone has no unit.
+  const auto places =
+      std::count_if(state.pose_priors.begin(), state.pose_priors.end(),
+                    [](const PosePrior& p) { return !p.information.topRows<3>().isZero(0); });
+  if (places + state.fixed.has_value() >= 2 && places > 0) return true;
   for (const HeightObservation& height : state.heights) {
     int points = 0;
     for (const auto& [id, landmark] : state.landmarks)

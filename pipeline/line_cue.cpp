@@ -1,5 +1,7 @@
 #include <placegraph/pipeline/line_cue.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +19,8 @@ void LineCueOptions::check() const {
   tracker.check();
   stereo.check();
   pose.check();
+  start.check();
+  floor.check();
 }
 
 void visit(OptionVisitor& field, LineCueOptions& o) {
@@ -24,7 +28,11 @@ void visit(OptionVisitor& field, LineCueOptions& o) {
   field.group("stereo", o.stereo, "lines in the right eye");
   field.group("triangulation", o.triangulation, "when a line's place is known");
   field.group("pose", o.pose, "pose of a frame from lines");
+  field.group("start", o.start, "first views of a single eye without points");
+  field.group("floor", o.floor, "metric scale from lines on the floor, without points");
   field("sigma_floor_px", o.sigma_floor_px, "no line is placed better across", {0.01, 10});
+  field("min_turn_steered_deg", o.min_turn_steered_deg,
+        "triangulation.min_turn_deg where directions show the rotation", {0.01, 45});
   field("outlier_px", o.outlier_px, "a line that is missed by more is dropped", {0.5, 100});
 }
 
@@ -36,11 +44,41 @@ LineCue::LineCue(const LineCueOptions& options, const Calibration& calibration,
 
 void LineCue::reset() {
   tracker_.reset();
+  drift_px_.clear();
   sightings_.clear();
   at_keyframe_.clear();
   covariances_.clear();
-  drift_px_.clear();
   calibrated_.clear();
+  if (compass_) use_compass();
+}
+
+/// With what is not known of its place, a line that hardly turned is of use where few are better.
+LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) const {
+  constexpr int kFew = 15;
+  constexpr std::size_t kFewestSteered = 7;  // keyframes: not to begin with
+  LineTriangulationOptions options = options_.triangulation;
+  if (compass_ && window.keyframes().size() > kFewestSteered && followed(window) < kFew)
+    options.min_turn_deg = std::min(options.min_turn_deg, options_.min_turn_steered_deg);
+  return options;
+}
+
+void LineCue::use_compass() { compass_.emplace(options_.start.directions); }
+
+/// What directions say of a keyframe's rotation goes into the window.
+void LineCue::steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& window) {
+  if (!compass_) return;
+  constexpr double kSigmaRad = 0.02;
+  const SE3 T_odom_cam = window.pose(keyframe);
+  SO3 R_odom_cam = T_odom_cam.rotation();
+  const auto heading = compass_->read(calibration_.camera, seen, R_odom_cam, kSigmaRad);
+  if (heading.outcome) {
+    R_odom_cam = heading.R_ref_cam;
+    PosePrior prior{keyframe, SE3(R_odom_cam, T_odom_cam.translation()), Matrix6d::Zero()};
+    prior.information.bottomRightCorner<3, 3>() = heading.information;
+    window.add_pose_prior(prior);
+  }
+  Random random(0, static_cast<std::uint64_t>(keyframe));
+  compass_->learn(calibration_.camera, seen, R_odom_cam, random);
 }
 
 /// Where the tracks should be seen from `T_odom_cam`: the points at their ends, on the line of the
@@ -107,6 +145,27 @@ void LineCue::follow_mergers() {
   }
 }
 
+/// The guess and what directions say of the rotation, weighted; nothing where they leave it open.
+std::optional<PoseGuess> LineCue::with_heading(const PoseGuess& guess) const {
+  const Eigen::Matrix3d known = guess.information.bottomRightCorner<3, 3>();
+  const double weakest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(known).eigenvalues()[0];
+  const double sigma_rad = weakest > 0 ? std::min(0.1, 1 / std::sqrt(weakest)) : 0.1;
+  const auto heading =
+      compass_->read(calibration_.camera, seen(), guess.T_ref_cam.rotation(), sigma_rad);
+  constexpr double kKnownRad = 0.01;
+  if (!heading.outcome ||
+      !(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(heading.information).eigenvalues()[0] >
+        1 / (kKnownRad * kKnownRad)))
+    return std::nullopt;
+  const Eigen::Matrix3d both = known + heading.information;
+  const Eigen::Vector3d turn = both.ldlt().solve(
+      heading.information * (guess.T_ref_cam.rotation().inverse() * heading.R_ref_cam).log());
+  PoseGuess result{SE3(guess.T_ref_cam.rotation().plus(turn), guess.T_ref_cam.translation()),
+                   guess.information};
+  result.information.bottomRightCorner<3, 3>() = both;
+  return result;
+}
+
 PoseFromLines LineCue::pose(const SlidingWindow& window, const PoseGuess& guess,
                             Random& random) const {
   std::vector<SeenLine> lines;
@@ -125,7 +184,12 @@ PoseFromLines LineCue::pose(const SlidingWindow& window, const PoseGuess& guess,
           std::sqrt(std::max(0.0, 0.5 * (J * covariance->second * J.transpose()).trace())));
     lines.push_back(seen);
   }
-  return estimate_pose_from_lines(calibration_.camera, lines, options_.pose, random, &guess);
+  const auto steered = compass_ ? with_heading(guess) : std::nullopt;
+  PoseFromLinesOptions pose = options_.pose;
+  // With the rotation known, three lines are as much as six without.
+  if (steered) pose.ransac.min_inliers = std::min(pose.ransac.min_inliers, 3);
+  return estimate_pose_from_lines(calibration_.camera, lines, pose, random,
+                                  steered ? &*steered : &guess);
 }
 
 void LineCue::accept(const SlidingWindow& window, const SE3& T_odom_cam) {
@@ -158,16 +222,27 @@ void LineCue::observe(std::int64_t keyframe, const Frame& frame,
   tracker_.detect(frame.mask);
   follow_mergers();
   const auto seconds = second_eyes(frame, rectification);
-  const std::int64_t oldest = window.keyframes().front();
-  std::map<std::int64_t, std::vector<Sighting>> all;
-  std::map<std::int64_t, Eigen::Matrix4d> covariances;
-  at_keyframe_.clear();
+  std::map<std::int64_t, Sighting> now;
   for (std::size_t i = 0; i < tracker_.tracks().size(); ++i) {
     const LineTrack& track = tracker_.tracks()[i];
-    at_keyframe_[track.id] = track.edge.segment;
-    const Sighting now{keyframe, track.edge.line.carriers(options_.sigma_floor_px), seconds[i]};
+    now[track.id] = {keyframe, track.edge.line.carriers(options_.sigma_floor_px), seconds[i]};
+  }
+  steer(keyframe, this->seen(), window);
+  add_sightings(keyframe, now, window);
+  at_keyframe_.clear();
+  for (const LineTrack& track : tracker_.tracks()) at_keyframe_[track.id] = track.edge.segment;
+}
+
+/// The newest sighting of each track, and of those that are known well enough a place.
+void LineCue::add_sightings(std::int64_t keyframe, const std::map<std::int64_t, Sighting>& all_now,
+                            SlidingWindow& window) {
+  const std::int64_t oldest = window.keyframes().front();
+  const LineTriangulationOptions options = triangulation(window);
+  std::map<std::int64_t, std::vector<Sighting>> all;
+  std::map<std::int64_t, Eigen::Matrix4d> covariances;
+  for (const auto& [id, now] : all_now) {
     std::vector<Sighting> sightings;
-    for (const Sighting& s : sightings_[track.id])
+    for (const Sighting& s : sightings_[id])
       if (s.keyframe >= oldest && s.keyframe < keyframe) sightings.push_back(s);
     sightings.push_back(now);
     std::vector<LineSighting> views;
@@ -177,22 +252,54 @@ void LineCue::observe(std::int64_t keyframe, const Frame& frame,
         views.push_back({beside(window.pose(s.keyframe), s.second->eye_cam),
                          {s.second->start_px, s.second->end_px, s.second->sigma_px}});
     }
-    const auto place = triangulate_line(calibration_.camera, views, options_.triangulation);
-    if (window.line(track.id)) {
-      add_to_window(track.id, now, window);
+    const auto place = triangulate_line(calibration_.camera, views, options);
+    if (window.line(id)) {
+      add_to_window(id, now, window);
       if (place.outcome)
-        covariances[track.id] = place.covariance;
-      else if (covariances_.contains(track.id))
-        covariances[track.id] = covariances_[track.id];
+        covariances[id] = place.covariance;
+      else if (covariances_.contains(id))
+        covariances[id] = covariances_[id];
     } else if (place.outcome) {
-      window.add_line(track.id, place.line_ref);
-      for (const Sighting& s : sightings) add_to_window(track.id, s, window);
-      covariances[track.id] = place.covariance;
+      window.add_line(id, place.line_ref);
+      for (const Sighting& s : sightings) add_to_window(id, s, window);
+      covariances[id] = place.covariance;
     }
-    all[track.id] = std::move(sightings);
+    all[id] = std::move(sightings);
   }
   sightings_ = std::move(all);
   covariances_ = std::move(covariances);
+}
+
+void LineCue::observe_earlier(std::int64_t keyframe, const LineView& seen, SlidingWindow& window) {
+  std::map<std::int64_t, Sighting> now;
+  for (const auto& [id, line] : seen) now[id] = {keyframe, line.seen, std::nullopt};
+  steer(keyframe, seen, window);
+  add_sightings(keyframe, now, window);
+}
+
+void LineCue::wait(const Frame& frame, const SE3& T_odom_start) {
+  T_odom_last_ = T_odom_start;
+  constexpr double kAnyDepth = 1;
+  track(frame.image, SlidingWindow({}, calibration_.camera), T_odom_start, kAnyDepth);
+  tracker_.detect(frame.mask);
+}
+
+LineView LineCue::seen() const {
+  LineView seen;
+  for (const LineTrack& track : tracker_.tracks())
+    seen[track.id] = {track.edge.segment, track.edge.line.carriers(options_.sigma_floor_px)};
+  return seen;
+}
+
+std::vector<PlacedLine> LineCue::placed(const SlidingWindow& window) const {
+  std::vector<PlacedLine> placed;
+  for (const LineTrack& track : tracker_.tracks()) {
+    const auto line = window.line(track.id);
+    const auto covariance = covariances_.find(track.id);
+    if (line && covariance != covariances_.end())
+      placed.push_back({track.id, *line, covariance->second, track.edge.segment});
+  }
+  return placed;
 }
 
 void LineCue::prune(SlidingWindow& window) {

@@ -2,10 +2,12 @@
 #include <placegraph/backend/sliding_window.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
+#include <placegraph/frontend/lines/direction_compass.h>
 #include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/graph/frame.h>
+#include <placegraph/pipeline/floor_scale.h>
 #include <placegraph/pipeline/frame_view.h>
 
 #include <map>
@@ -19,8 +21,13 @@ struct LineCueOptions {
   LineStereoOptions stereo;
   LineTriangulationOptions triangulation;
   PoseFromLinesOptions pose;
+  LineInitializerOptions start;
+  FloorScaleOptions floor;
   double sigma_floor_px = 0.15;  ///< no line is placed better across: lens, rolling shutter, blur
-  double outlier_px = 4;         ///< a line of the window that is missed by more is dropped
+  /// In place of triangulation.min_turn_deg where directions show the rotation, and turns of planes
+  /// are those of the way alone: with what is not known of its place, a line is of use much sooner.
+  double min_turn_steered_deg = 0.4;
+  double outlier_px = 4;  ///< a line of the window that is missed by more is dropped
   void check() const;
 };
 void visit(OptionVisitor& field, LineCueOptions& options);
@@ -45,6 +52,24 @@ class LineCue {
   /// two eyes, where there are two, are thought to be off by.
   void observe(std::int64_t keyframe, const Frame& frame, const RectificationError& rectification,
                SlidingWindow& window);
+  /// Rotation is seen by the directions that lines share, too: for a single eye without points,
+  /// which knows the place of few lines in a turn.
+  void use_compass();
+  /// Begins with an image, or follows into it what was begun, while there is no window yet: nothing
+  /// is known of the motion. Edges that are new are followed from here on.
+  void wait(const Frame& frame, const SE3& T_odom_start);
+  /// Where the tracks are seen in the newest image.
+  LineView seen() const;
+  /// Adds what an earlier keyframe saw to the window: to begin with, in order of time.
+  void observe_earlier(std::int64_t keyframe, const LineView& seen, SlidingWindow& window);
+  /// Lines of the window as the newest image sees them.
+  std::vector<PlacedLine> placed(const SlidingWindow& window) const;
+  /// Directions that several of the lines in the newest keyframe share, in the window's frame.
+  std::vector<SharedDirection> shared_directions() const;
+  /// Lines along the way, at about `depth`, are never placed: their planes hold the way instead. A
+  /// camera that leaves the direction of such a line sees its plane turn, so what did not turn says
+  /// where the newest keyframe does not lie.
+  void hold_course(std::int64_t keyframe, double depth, SlidingWindow& window) const;
   /// Disparities of lines of the window beside what the left eye's motion says of them, each line's
   /// once.
   std::vector<DisparitySample> disparity_samples(const SlidingWindow& window,
@@ -75,13 +100,19 @@ class LineCue {
       const Frame& frame, const RectificationError& rectification) const;
   std::optional<DisparitySample> disparity_sample(const SlidingWindow& window, std::int64_t line,
                                                   const RectificationError& rectification) const;
+  void add_sightings(std::int64_t keyframe, const std::map<std::int64_t, Sighting>& now,
+                     SlidingWindow& window);
+  LineTriangulationOptions triangulation(const SlidingWindow& window) const;
+  std::optional<PoseGuess> with_heading(const PoseGuess& guess) const;
   void add_to_window(std::int64_t id, const Sighting& sighting, SlidingWindow& window) const;
   void follow_mergers();
+  void steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& window);
 
   LineCueOptions options_;
   StereoMatcherOptions stereo_;
   Calibration calibration_;
   LineTracker tracker_;
+  std::optional<DirectionCompass> compass_;
   SE3 T_odom_last_;                                          // of the newest image, once accepted
   std::map<std::int64_t, std::vector<Sighting>> sightings_;  // of live tracks
   std::map<std::int64_t, LineSegment> at_keyframe_;

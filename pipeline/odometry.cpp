@@ -26,15 +26,15 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
           "cues: surfaces without points need a right eye, depth or the camera's height");
   require(!cues_.direct || scale_known_ || calibration_.camera_height_m,
           "cues: direct needs a right eye, depth or the camera's height");
-  require(cues_.points || scale_known_,
-          "cues: lines without points need a right eye or depth; two views of lines never tell how "
-          "a single eye moved");
   if (cues_.lines) lines_.emplace(options_.lines, calibration_, options_.stereo);
   if (cues_.manhattan) manhattan_.emplace(options_.manhattan, calibration_.camera, seed_, log_);
   if (cues_.surfaces_alone() || cues_.direct)
     surfaces_.emplace(options_.surfaces, calibration_, options_.stereo, cues_.direct);
   if (!scale_known_ && calibration_.camera_height_m && options_.ground.enabled && cues_.plane)
     ground_.emplace(options_.ground, calibration_.camera, *calibration_.camera_height_m);
+  if (!scale_known_ && lines_ && !cues_.points) lines_->use_compass();
+  if (!scale_known_ && calibration_.camera_height_m && lines_ && !cues_.points && !ground_)
+    floor_.emplace(options_.lines.floor, calibration_.camera, *calibration_.camera_height_m);
   if (calibration_.baseline_m > 0 && options_.rectification.enabled)
     rectification_.emplace(options_.rectification);
   window_ = empty_window();
@@ -42,7 +42,7 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
 
 SlidingWindow Odometry::empty_window() const {
   SlidingWindowOptions options = options_.window;
-  if (ground_ || motion_) options.scale_drift = options_.scale_drift;
+  if (ground_ || floor_ || motion_) options.scale_drift = options_.scale_drift;
   // A single eye's unit is handed on by where the window lies: it needs the prior's hold.
   if (metric_from_start()) options.hold_oldest = true;
   return SlidingWindow(options, calibration_.camera);
@@ -74,6 +74,8 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
   keyframe_poses_.clear();
   links_.clear();
   views_.clear();
+  line_views_.clear();
+  if (floor_) floor_->reset();
   between_.clear();
 }
 
@@ -186,13 +188,11 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
     tracker_.detect(frame.mask);
   }
   observe_tracks(id, frame);
-  if (lines_)
-    lines_->observe(id, frame, rectification_ ? rectification_->error() : RectificationError(),
-                    window_);
+  if (lines_) observe_lines(id, frame);
   const std::int64_t previous = last_keyframe_;
   last_keyframe_ = id;
   if (surfaces_) align_keyframes(frame, previous);
-  if (ground_ || motion_) measure_scale(frame, update);
+  if (ground_ || floor_ || motion_) measure_scale(frame, update);
   if (manhattan_) look_at_directions(frame);
   refine_window();
   pose_between(previous, update);

@@ -11,6 +11,7 @@
 #include <placegraph/graph/landmark.h>
 #include <placegraph/graph/measured_motion.h>
 #include <placegraph/pipeline/cues.h>
+#include <placegraph/pipeline/floor_scale.h>
 #include <placegraph/pipeline/frame_view.h>
 #include <placegraph/pipeline/ground_scale.h>
 #include <placegraph/pipeline/lens_estimator.h>
@@ -107,6 +108,11 @@ class Odometry {
   void set_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
   /// Whether a first frame has been taken since the last restart.
   bool started() const { return started_; }
+  /// Tracking goes on in a unit of its own that lines on the floor are to give: where a frame is,
+  /// is not known yet in metres.
+  bool awaits_unit() const {
+    return floor_ && !scale_known_ && !in_known_map_ && state_ == TrackingState::kTracking;
+  }
   bool scale_known() const { return scale_known_; }
   /// Newest estimate of a keyframe of the present run of tracking, T_odom_cam.
   SE3 keyframe_pose(std::int64_t id) const { return keyframe_poses_.at(id); }
@@ -138,6 +144,10 @@ class Odometry {
     std::int64_t frame;
     std::map<std::int64_t, Eigen::Vector2d> px;
   };
+  struct LinesWaiting {  // the same of lines without points
+    Frame frame;
+    LineView lines;
+  };
   struct FrameBetween {  // tracked since the last keyframe
     std::int64_t frame;
     SE3 T_keyframe_cam;
@@ -156,6 +166,10 @@ class Odometry {
   OdometryUpdate begin(const Frame& frame);
   OdometryUpdate replace_reference(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate try_initialize(const Frame& frame, const std::optional<SE3>& T_known);
+  OdometryUpdate begin_with_lines(const Frame& frame);
+  OdometryUpdate try_lines(const Frame& frame, const std::optional<SE3>& T_known);
+  bool place_line_views(const std::vector<std::size_t>& chosen, const LineInitialization& start,
+                        double scale, double depth);
   OdometryUpdate track(const Frame& frame);
   Pose3d2dResult follow_points(const Frame& frame, const SE3& prior, Random& random,
                                std::vector<bool>& keep);
@@ -179,8 +193,10 @@ class Odometry {
   void pose_between(std::int64_t keyframe, OdometryUpdate& update);
   void add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);
   void observe_tracks(std::int64_t keyframe, const Frame& frame);
+  void observe_lines(std::int64_t keyframe, const Frame& frame);
   void measure_scale(const Frame& frame, OdometryUpdate& update);
   void measure_ground(const Frame& frame, OdometryUpdate& update);
+  void measure_floor(OdometryUpdate& update);
   void measure_way(OdometryUpdate& update);
   std::optional<DistanceObservation> measured_way(std::int64_t from, std::int64_t to) const;
   void set_scale(double factor, OdometryUpdate& update);
@@ -213,6 +229,7 @@ class Odometry {
   std::optional<SurfaceCue> surfaces_;
   DirectMotion newest_motion_;                           // of surfaces, from the last keyframe
   Frame last_frame_;                                     // where surfaces alone are followed
+  std::optional<FloorScale> floor_;                      // of lines without points or ground
   std::optional<RectificationEstimator> rectification_;  // of two eyes
   std::set<std::int64_t> calibrated_;                    // landmarks of the window it has heard of
   LensEstimator lens_;
@@ -237,6 +254,7 @@ class Odometry {
   std::map<std::int64_t, Link> links_;         // of keyframes that left the window
   std::vector<PointLandmark> past_landmarks_;  // that left the window
   std::vector<View> views_;
+  std::vector<LinesWaiting> line_views_;
   std::vector<FrameBetween> between_;
   Frame reference_frame_;
   static constexpr double kUnknownDepth = 10;  // of a map whose unit is arbitrary

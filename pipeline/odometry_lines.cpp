@@ -2,6 +2,12 @@
 
 namespace placegraph {
 
+void Odometry::observe_lines(std::int64_t keyframe, const Frame& frame) {
+  lines_->observe(keyframe, frame, rectification_ ? rectification_->error() : RectificationError(),
+                  window_);
+  if (!cues_.points) lines_->hold_course(keyframe, median_depth_m_, window_);
+}
+
 /// Lines are looked for from where the points say, or else from where the camera was going, which
 /// is a weak measurement of its own; where it was going is not known at first, so several ways are
 /// tried.

@@ -15,6 +15,7 @@ void Odometry::measure_scale(const Frame& frame, OdometryUpdate& update) {
   const auto span = times_.measure("scale");
   stamps_[last_keyframe_] = frame.stamp_ns;
   if (ground_) measure_ground(frame, update);
+  if (floor_) measure_floor(update);
   if (motion_) measure_way(update);
 }
 

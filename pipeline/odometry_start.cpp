@@ -24,6 +24,7 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
     update.keyframe = last_keyframe_;
     return update;
   }
+  if (!cues_.points) return begin_with_lines(frame);
   tracker_.detect(frame.mask);
   if (static_cast<int>(tracker_.tracks().size()) < 2 * options_.initializer.min_points) {
     started_ = false;  // a dark or empty frame is nothing to begin with
@@ -73,6 +74,7 @@ void Odometry::fill_between(std::int64_t ref, std::int64_t cur, Random& random,
 }
 
 OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<SE3>& T_known) {
+  if (!cues_.points) return try_lines(frame, T_known);
   OdometryUpdate update;
   const View& reference = views_.front();
   View view{frame.id, {}};

@@ -172,6 +172,11 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   result.state = result.T_map_cam ? TrackingState::kTracking
                  : posed_once     ? TrackingState::kLost
                                   : TrackingState::kWaiting;
+  if (result.T_map_cam && odometry.awaits_unit()) {
+    // The map will tell it once it has its unit: a pose in another is worse than none.
+    result.T_map_cam.reset();
+    result.state = TrackingState::kWaiting;
+  }
   StampedPose pose{frame.stamp_ns, std::nullopt};
   if (result.T_map_cam && result.component == 0) pose.T_world_body = result.T_map_cam->isometry();
   online.poses.push_back(pose);

@@ -84,6 +84,22 @@ DirectionCompass::Heading DirectionCompass::read(const Camera& camera, const Lin
   return result;
 }
 
+std::vector<DirectionCompass::Family> DirectionCompass::families() const {
+  constexpr std::size_t kLeast = 3;
+  std::vector<Family> families;
+  for (const Known& known : directions_) {
+    // Planes that hardly turn about a direction leave it open along themselves.
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(known.across,
+                                                               Eigen::EigenvaluesOnly);
+    const double own = 1 / std::sqrt(std::max(1e-12, eigen.eigenvalues()[1]));
+    families.push_back({known.d_ref, std::hypot(own, kFloorRad), {}});
+  }
+  for (const auto& [id, direction] : direction_of_)
+    if (direction >= 0) families[static_cast<std::size_t>(direction)].tracks.push_back(id);
+  std::erase_if(families, [](const Family& family) { return family.tracks.size() < kLeast; });
+  return families;
+}
+
 void DirectionCompass::learn(const Camera& camera, const LineView& view, const SO3& R_ref_cam,
                              Random& random) {
   constexpr double kJoinSigmas = 2.5, kLeaveSigmas = 5, kForget = 0.97;

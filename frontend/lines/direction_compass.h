@@ -31,6 +31,13 @@ class DirectionCompass {
   /// any more leave it, and what is left over may show new directions. Tracks that the view does
   /// not hold are forgotten.
   void learn(const Camera& camera, const LineView& view, const SO3& R_ref_cam, Random& random);
+  /// A direction and the tracks of the view learned last that point to it.
+  struct Family {
+    Eigen::Vector3d d_ref;
+    double sigma_rad;
+    std::vector<std::int64_t> tracks;  ///< ascending, three or more
+  };
+  std::vector<Family> families() const;
   int directions() const { return static_cast<int>(directions_.size()); }
 
  private:

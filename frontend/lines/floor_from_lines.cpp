@@ -16,9 +16,33 @@ double direction_sigma(const PlacedLine& line) {
   return std::sqrt(std::max(0.0, line.covariance(0, 0) + line.covariance(2, 2)));
 }
 
+/// How parallel what is built is: of an edge, and of a direction that several share.
+constexpr double kEdgeShare = 0.3, kSharedShare = 0.1;  // of upright_deg
+
+/// Lines that have a direction in common with others are spoken for: they lean together, by what is
+/// wrong with the way that they were placed from, and would outvote it by their number.
+std::vector<SharedDirection> directions_of(const std::vector<PlacedLine>& lines,
+                                           const std::vector<SharedDirection>& shared,
+                                           const FloorFromLinesOptions& options) {
+  const double tolerance = options.upright_deg * kDeg;
+  std::vector<SharedDirection> directions;
+  for (const PlacedLine& line : lines) {
+    const Eigen::Vector3d d = line.line_ref.direction();
+    const double gate = std::max(tolerance, 2 * direction_sigma(line));
+    if (std::any_of(shared.begin(), shared.end(),
+                    [&](const SharedDirection& of) { return d.cross(of.d_ref).norm() < gate; }))
+      continue;
+    directions.push_back({d, std::hypot(direction_sigma(line), kEdgeShare * tolerance)});
+  }
+  for (const SharedDirection& direction : shared)
+    directions.push_back(
+        {direction.d_ref, std::hypot(direction.sigma_rad, kSharedShare * tolerance)});
+  return directions;
+}
+
 /// The vertical of most agreement: at right angles to level lines, along uprights, with a gate that
 /// closes around it. Nothing where it stays open.
-std::optional<Eigen::Vector3d> vertical(const std::vector<PlacedLine>& lines,
+std::optional<Eigen::Vector3d> vertical(const std::vector<SharedDirection>& directions,
                                         const Eigen::Vector3d& down_guess,
                                         const FloorFromLinesOptions& options) {
   Eigen::Vector3d down = down_guess;
@@ -27,9 +51,7 @@ std::optional<Eigen::Vector3d> vertical(const std::vector<PlacedLine>& lines,
     const double gate = std::sin(gate_deg * kDeg);
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     int used = 0;
-    for (const PlacedLine& line : lines) {
-      const double sigma = std::hypot(direction_sigma(line), 0.3 * options.upright_deg * kDeg);
-      const Eigen::Vector3d d = line.line_ref.direction();
+    for (const auto& [d, sigma] : directions) {
       const double along = std::abs(d.dot(down)), across = d.cross(down).norm();
       const double off = std::min(along, across) / std::max(gate, sigma);
       if (!(off < 1)) continue;
@@ -180,11 +202,13 @@ void visit(OptionVisitor& field, FloorFromLinesOptions& o) {
 
 FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
                                 const std::vector<PlacedLine>& lines,
-                                const FloorFromLinesOptions& options) {
+                                const FloorFromLinesOptions& options,
+                                const std::vector<SharedDirection>& shared) {
   options.check();
   FloorFromLines result;
-  const auto down =
-      vertical(lines, T_ref_cam.rotation() * Eigen::Vector3d(Eigen::Vector3d::UnitY()), options);
+  const auto directions = directions_of(lines, shared, options);
+  const auto down = vertical(
+      directions, T_ref_cam.rotation() * Eigen::Vector3d(Eigen::Vector3d::UnitY()), options);
   if (!down) {
     result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no vertical is seen");
     return result;
@@ -214,9 +238,7 @@ FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
       add({e1.dot(m.point), e2.dot(m.point), -1}, -down->dot(m.point),
           std::hypot(m.sigma, options.unevenness * down->dot(m.point)));
     const double gate = std::sin(options.upright_deg * kDeg);
-    for (const PlacedLine& line : lines) {
-      const Eigen::Vector3d d = line.line_ref.direction();
-      const double sigma = std::hypot(direction_sigma(line), 0.3 * options.upright_deg * kDeg);
+    for (const auto& [d, sigma] : directions) {
       if (d.cross(*down).norm() < gate) {
         const double sign = d.dot(*down) < 0 ? -1 : 1;
         add({1, 0, 0}, sign * e1.dot(d), sigma);

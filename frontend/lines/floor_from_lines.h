@@ -26,6 +26,12 @@ struct PlacedLine {
   LineSegment seen;                                      ///< its visible part
 };
 
+/// A direction of the scene that is known from elsewhere, as from a vanishing point.
+struct SharedDirection {
+  Eigen::Vector3d d_ref;  ///< unit
+  double sigma_rad = 0;
+};
+
 struct FloorFromLines {
   Outcome outcome;
   Eigen::Vector3d down_ref = Eigen::Vector3d::UnitY();  ///< unit normal, away from the camera
@@ -39,10 +45,13 @@ struct FloorFromLines {
 /// the vertical; every level line has a height, and so has the lower end of every upright. Of the
 /// levels below the camera that enough of them agree on, the lowest is the floor: ceilings lie
 /// above, tables and the edge of a skirting higher. Then plane and vertical are fitted together to
-/// those that lie on it and to the uprights, robustly, each at its own deviation. Outcomes: too few
+/// those that lie on it and to the uprights, robustly, each at its own deviation. Directions that
+/// many lines share stand for those lines, which lean together by what is wrong with the way that
+/// they were placed from. Outcomes: too few
 /// data (nothing upright nor two level directions), no consensus (no level has `min_lines`).
 [[nodiscard]] FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
                                               const std::vector<PlacedLine>& lines,
-                                              const FloorFromLinesOptions& options);
+                                              const FloorFromLinesOptions& options,
+                                              const std::vector<SharedDirection>& shared = {});
 
 }  // namespace placegraph

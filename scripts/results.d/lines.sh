@@ -22,14 +22,15 @@ for cues in lines points points,lines; do
   limit=; [ "$cues" != lines ] || limit=2
   line_row "corridor-stereo-$cues" "$out/corridor-world" stereo $cues origin 5,10,20,40 5 $limit
 done
+line_row corridor-mono-lines "$out/corridor-world" mono lines origin 5,10,20,40 5 2
 line_row corridor-rgbd-lines "$out/corridor-world" rgbd lines origin 5,10,20,40 5 2
 for cues in lines points points,lines; do
   [ ! -d "$s/kitti06_stereo51" ] || line_row "kitti06-$cues" "$s/kitti06_stereo51" stereo $cues origin 10,20,30,40,50 1
 done
 printf '\nAssociations by the true poses: a sighting is wrong if it misses the line that most of its track sees by more than 3 px.\n\n' >> "$rows"
 command_line "placegraph lines track SEQUENCE --sensor stereo"
-columns sequence "tracks" "median length [frames]" "sightings" "wrong [%]" "target met"
+columns sequence "tracks" "median length [frames]" "of those seen in 3 frames or more" "sightings" "wrong [%]" "target met"
 $placegraph lines track "$out/corridor-world" --sensor stereo --json > "$out/corridor-tracks.json"
 f=$out/corridor-tracks.json
-cells corridor-loop "$(number "$f" tracks)" "$(number "$f" median_length_frames)" "$(number "$f" sightings)" "$(digits "$(number "$f" wrong_percent)")" \
+cells corridor-loop "$(number "$f" tracks)" "$(number "$f" median_length_frames)" "$(number "$f" median_length_of_use_frames)" "$(number "$f" sightings)" "$(digits "$(number "$f" wrong_percent)")" \
   "length >= 20: $(verdict "$(number "$f" median_length_frames)" ">=" 20); wrong <= 1 %: $(verdict "$(number "$f" wrong_percent)" "<=" 1)"

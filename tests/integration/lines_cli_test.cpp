@@ -1,4 +1,5 @@
 // `placegraph lines`.
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <vector>
@@ -91,6 +92,27 @@ TEST_F(LinesCli, BlankImagesAllowNoAnswer) {
   cv::imwrite(dir / "blank.png", Image(100, 100, CV_8UC1, cv::Scalar(90)));
   expect_failure("lines detect blank.png -o d.txt", 1, "no straight edges");
   expect_failure("lines match blank.png a.png -o m.txt", 1, "point matches agree");
+}
+
+class LinesAloneCli : public test::CliTest {};
+
+TEST_F(LinesAloneCli, AreEnoughForOneEyeOfKnownHeightInACorridor) {
+  ASSERT_EQ(run("synth corridor-loop --frames 50 --out w").code, 0);
+  ASSERT_EQ(run("run w --sensor mono --cues lines --no-loops --out o").code, 0);
+  const CommandResult judged = run("eval w o/trajectory_optimized.kitti --align sim3 --json");
+  ASSERT_EQ(judged.code, 0) << judged.err;
+  const auto figures = nlohmann::json::parse(judged.out);
+  EXPECT_GE(figures.at("posed").get<int>(), 48);
+  // Five metres: the course to a tenth of a degree; the unit by a floor known to 1.5 % at first.
+  EXPECT_LT(figures.at("ate_rmse_m").get<double>(), 0.02);
+  EXPECT_NEAR(figures.at("scale").get<double>(), 1, 0.04);
+}
+
+TEST_F(LinesAloneCli, SayThatNothingCouldBePosedWhereTheyAreTooFew) {
+  ASSERT_EQ(run("synth corridor-loop --frames 3 --out w").code, 0);
+  const CommandResult result = run("run w --sensor mono --cues lines --no-loops --out o");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("no frame could be posed"));
 }
 
 }  // namespace

@@ -83,6 +83,21 @@ TEST(WindowMotion, OfFullRankMeasuresTheScale) {
   EXPECT_THROW(window.rescale(2), ArgumentError);
 }
 
+TEST(WindowMotion, ThatHoldsADirectionOnlyFollowsANewUnit) {
+  // The way runs along z; how long it is, a distance says once the unit is known.
+  Matrix6d across = Matrix6d::Zero();
+  across(0, 0) = across(1, 1) = 1 / (0.01 * 0.01);
+  SlidingWindow window({}, test::window_camera());
+  window.add_keyframe(0, SE3());
+  window.add_keyframe(1, SE3(SO3(), Eigen::Vector3d(0.2, 0, 1)));
+  window.add_motion({0, 1, SE3(SO3(), Eigen::Vector3d(0, 0, 1)), across});
+  window.rescale(3);
+  EXPECT_LT((window.pose(1).translation() - Eigen::Vector3d(0.6, 0, 3)).norm(), 1e-12);
+  const Matrix6d now = window.relative_information(0, 1);
+  EXPECT_NEAR(now(0, 0), 1 / (0.03 * 0.03), 1e-6 / (0.03 * 0.03)) << "in the new unit";
+  EXPECT_LT(std::abs(now(2, 2)), 1e-6 * now(0, 0)) << "the length stays open";
+}
+
 TEST(WindowMotion, MustBeSoundAndBetweenTwoKeyframes) {
   SlidingWindow window = chain(2, {}, 0);
   EXPECT_THROW(window.add_motion({0, 0, step(), information_of_step()}), ArgumentError);

@@ -25,6 +25,25 @@ TEST(DirectionCompass, ReadsTheRotationByTracksWhoseDirectionItLearned) {
   EXPECT_LT(error.dot(heading.information * error), 16.3) << "chi2 of three, one in a thousand";
 }
 
+TEST(DirectionCompass, NamesTheDirectionsInViewAndTheirTracks) {
+  Random random = seeded_random(64);
+  const LineScene scene = corridor_lines();
+  DirectionCompass compass{VanishingPointOptions{}};
+  EXPECT_TRUE(compass.families().empty());
+  compass.learn(scene.camera, view_of(scene, SE3(), 0.05, random), SO3(), random);
+  const auto families = compass.families();
+  ASSERT_EQ(families.size(), 3u);
+  for (const auto& family : families) {
+    EXPECT_GE(family.tracks.size(), 3u);
+    EXPECT_GT(family.d_ref.cwiseAbs().maxCoeff(), std::cos(5 * family.sigma_rad));
+    EXPECT_LT(family.sigma_rad, 0.02);
+    for (const std::int64_t id : family.tracks) {
+      const auto i = static_cast<std::size_t>(id);
+      EXPECT_GT(std::abs((scene.to[i] - scene.from[i]).normalized().dot(family.d_ref)), 0.99) << id;
+    }
+  }
+}
+
 TEST(DirectionCompass, SaysNothingWithoutTracksThatItKnows) {
   Random random = seeded_random(62);
   const LineScene scene = corridor_lines();

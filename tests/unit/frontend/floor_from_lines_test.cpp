@@ -70,6 +70,32 @@ TEST(FloorFromLines, SaysNothingOfACeiling) {
       Code::kNoConsensus);
 }
 
+TEST(FloorFromLines, SharedDirectionsStraightenLinesThatLean) {
+  // Placed from near views with the way between them off, all uprights lean the same way; where the
+  // floor is seen metres ahead that is a height.
+  Random random = seeded_random(74);
+  const LineScene scene = corridor_lines();
+  std::vector<PlacedLine> lines = placed(scene, SE3(), 1e-3, random);
+  std::erase_if(lines, [&](const PlacedLine& line) {  // nothing along the way is ever placed
+    return std::abs(line.line_ref.direction().z()) > 0.9;
+  });
+  for (PlacedLine& line : lines)
+    if (std::abs(line.line_ref.direction().y()) > 0.9) {
+      const auto i = static_cast<std::size_t>(line.id);
+      const Eigen::Vector3d foot =
+          scene.from[i].y() > scene.to[i].y() ? scene.from[i] : scene.to[i];
+      line.line_ref = Line3::from_direction(foot, Eigen::Vector3d(0, 1, 0.05).normalized());
+    }
+  const auto alone = floor_from_lines(scene.camera, SE3(), lines, {});
+  const auto held =
+      floor_from_lines(scene.camera, SE3(), lines, {},
+                       {{Eigen::Vector3d::UnitY(), 2e-3}, {Eigen::Vector3d::UnitZ(), 2e-3}});
+  ASSERT_TRUE(held.outcome) << held.outcome.reason;
+  EXPECT_NEAR(held.height, 1.4, 0.03);
+  EXPECT_GT(held.down_ref.y(), std::cos(0.01));
+  EXPECT_TRUE(!alone.outcome || alone.down_ref.y() < held.down_ref.y());
+}
+
 TEST(FloorFromLines, NeedsAVertical) {
   EXPECT_EQ(floor_from_lines(corridor_lines().camera, SE3(), {}, {}).outcome.code,
             Code::kTooFewData);
