@@ -1,4 +1,5 @@
 #include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/features/depth_lookup.h>
 #include <placegraph/pipeline/median.h>
 #include <placegraph/pipeline/surface_cue.h>
 
@@ -39,6 +40,32 @@ DirectMotion no_reference() {
 }
 
 }  // namespace
+
+std::vector<std::optional<InverseDepth>> DepthSense::operator()(
+    const Frame& frame, const RectificationError& rectification,
+    const std::vector<Eigen::Vector2f>& px, const std::vector<double>& expected) const {
+  const Camera& camera = calibration_.camera;
+  std::vector<std::optional<InverseDepth>> result(px.size());
+  std::vector<Eigen::Vector3d> rays;
+  for (const Eigen::Vector2f& p : px)
+    rays.push_back(camera.unproject(p.cast<double>()).value_or(Eigen::Vector3d::UnitZ()));
+  if (calibration_.baseline_m > 0 && !frame.right.empty()) {
+    const double px_per_inverse = camera.fx * calibration_.baseline_m;
+    std::vector<std::optional<double>> disparities(expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      disparities[i] = expected[i] * px_per_inverse + rectification.at(rays[i].head<2>());
+    const auto found = match_stereo(frame.image, frame.right, px, stereo_, disparities);
+    for (std::size_t i = 0; i < px.size(); ++i)
+      if (found[i])
+        result[i] = {rays[i], (*found[i] - rectification.at(rays[i].head<2>())) / px_per_inverse,
+                     stereo_.sigma_disparity_px / px_per_inverse};
+  } else if (calibration_.depth && !frame.depth.empty()) {
+    const auto depths = lookup_depth(frame.depth, camera, *calibration_.depth, px);
+    for (std::size_t i = 0; i < px.size(); ++i)
+      if (depths[i]) result[i] = {rays[i], 1 / *depths[i], calibration_.depth->sigma_at_1m};
+  }
+  return result;
+}
 
 SurfaceCue::SurfaceCue(const SurfaceCueOptions& options, const Calibration& calibration,
                        const StereoMatcherOptions& stereo, bool several)
