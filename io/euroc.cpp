@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/euroc.h>
+#include <placegraph/io/euroc_sensor.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/recorded_sequence.h>
 #include <placegraph/io/text_file.h>
@@ -52,20 +53,6 @@ struct BodyCamera {
   SE3 T_body_cam;
 };
 
-SE3 read_extrinsics(const YamlDocument& yaml) {
-  const YAML::Node T_BS = yaml.member(yaml.root(), "T_BS");
-  const std::vector<double> data = yaml.numbers(T_BS, "data", 16);
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> T(data.data());
-  if ((T.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > 1e-9) {
-    yaml.fail(T_BS, "T_BS: the last row is not 0 0 0 1");
-  }
-  try {
-    return SE3(Eigen::Matrix3d(T.topLeftCorner<3, 3>()), Eigen::Vector3d(T.topRightCorner<3, 1>()));
-  } catch (const ArgumentError& error) {
-    yaml.fail(T_BS, fmt::format("T_BS: {}", error.what()));
-  }
-}
-
 BodyCamera read_sensor(const fs::path& camera_folder) {
   const YamlDocument yaml((camera_folder / "sensor.yaml").string());
   const YAML::Node& root = yaml.root();
@@ -105,7 +92,7 @@ BodyCamera read_sensor(const fs::path& camera_folder) {
   } catch (const ArgumentError& error) {
     yaml.fail(root["intrinsics"], error.what());
   }
-  result.T_body_cam = read_extrinsics(yaml);
+  result.T_body_cam = read_T_body_sensor(yaml);
   return result;
 }
 
@@ -159,6 +146,10 @@ bool is_euroc(const std::string& folder) {
 }
 
 std::unique_ptr<Dataset> open_euroc(const std::string& folder) {
+  return open_euroc_body(folder).images;
+}
+
+EurocBody open_euroc_body(const std::string& folder) {
   const fs::path mav = mav_folder(folder);
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
@@ -176,7 +167,7 @@ std::unique_ptr<Dataset> open_euroc(const std::string& folder) {
       if (pose.T_world_body) *pose.T_world_body = *pose.T_world_body * T_body_cam.isometry();
     }
   }
-  return make_dataset(std::move(sequence));
+  return {make_dataset(std::move(sequence)), T_body_cam, mav.string()};
 }
 
 }  // namespace placegraph

@@ -13,4 +13,12 @@ bool is_euroc(const std::string& folder);
 /// out. Ground truth is converted to T_world_cam of the rectified left camera. Throws FileError.
 std::unique_ptr<Dataset> open_euroc(const std::string& folder);
 
+/// The same with what others who read such a folder need to know.
+struct EurocBody {
+  std::unique_ptr<Dataset> images;
+  SE3 T_body_cam;          ///< mounting of the camera whose images `images` hands out
+  std::string mav_folder;  ///< where cam0 lies; imu0 beside it, if there is one
+};
+EurocBody open_euroc_body(const std::string& folder);
+
 }  // namespace placegraph

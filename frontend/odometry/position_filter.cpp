@@ -17,7 +17,6 @@ using Eigen::VectorXd;
 using Code = Outcome::Code;
 
 constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9, kAccelBias = 12;
-const Vector3d kGravity(0, 0, -9.80665);
 
 double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
@@ -65,7 +64,7 @@ void PositionFilter::start(const BodyState& state) {
   first.imu.stamp_ns = state.stamp_ns;
   first.imu.gyro_rad_s = state.gyro_bias;
   first.imu.accel_m_s2 =
-      state.T_world_body.rotation().inverse() * Vector3d(-kGravity) + state.accel_bias;
+      state.T_world_body.rotation().inverse() * Vector3d(-gravity()) + state.accel_bias;
   events_.push_back(first);
 }
 
@@ -81,7 +80,7 @@ BodyState PositionFilter::predict(const Event& from, std::int64_t to_ns,
   const SO3 R_begin = state.T_world_body.rotation();
   // Force is constant in the body: what it adds turns with it, in the middle of the step.
   const Matrix3d R = (R_begin * SO3::exp(0.5 * turn)).matrix();
-  const Vector3d accel = R * force + kGravity;
+  const Vector3d accel = R * force + gravity();
   state.T_world_body =
       SE3(R_begin * SO3::exp(turn), Vector3d(state.T_world_body.translation() +
                                              dt * state.velocity_world + 0.5 * dt * dt * accel));

@@ -1,7 +1,10 @@
 #pragma once
+#include <placegraph/graph/body_state.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/se3.h>
+#include <placegraph/graph/imu.h>
+#include <placegraph/graph/sighting.h>
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -10,28 +13,6 @@
 #include <variant>
 
 namespace placegraph {
-
-/// What gyro and accelerometer say at one time, in the body's axes.
-struct ImuSample {
-  std::int64_t stamp_ns = 0;
-  Eigen::Vector3d gyro_rad_s = Eigen::Vector3d::Zero();
-  Eigen::Vector3d accel_m_s2 = Eigen::Vector3d::Zero();  ///< specific force: -gravity at rest
-};
-
-/// The body's pose as a marker tells it.
-struct PoseSighting {
-  std::int64_t stamp_ns = 0;
-  SE3 T_world_body;
-  Matrix6d covariance = Matrix6d::Identity();  ///< right tangent
-};
-
-/// Derotated flow over the floor between two images (VentralMotion of a camera): the camera's way
-/// over its distance from the floor at the first, in the camera's axes there.
-struct FlowSighting {
-  std::int64_t from_ns = 0, to_ns = 0;
-  Eigen::Vector3d over_distance = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
-};
 
 struct PositionFilterOptions {
   double gyro_noise = 2e-3;         ///< [rad / s / sqrt(Hz)]
@@ -45,17 +26,6 @@ struct PositionFilterOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, PositionFilterOptions& options);
-
-/// Where and how the body moves. World: z up, gravity along -z; body: the inertial sensor's axes.
-struct BodyState {
-  std::int64_t stamp_ns = 0;
-  SE3 T_world_body;
-  Eigen::Vector3d velocity_world = Eigen::Vector3d::Zero();  ///< [m/s]
-  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero(), accel_bias = Eigen::Vector3d::Zero();
-  /// Errors of position and velocity (world axes), attitude (right tangent), gyro's and
-  /// accelerometer's bias, three each.
-  Eigen::Matrix<double, 15, 15> covariance = Eigen::Matrix<double, 15, 15>::Zero();
-};
 
 /// Error-state Kalman filter over position, velocity, attitude and biases (Solà 2017, "Quaternion
 /// kinematics for the error-state Kalman filter"), driven by an inertial sensor, corrected by flow

@@ -1,0 +1,24 @@
+#pragma once
+#include <placegraph/graph/core/se3.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace placegraph {
+
+/// The body's pose as a marker tells it.
+struct PoseSighting {
+  std::int64_t stamp_ns = 0;
+  SE3 T_world_body;
+  Matrix6d covariance = Matrix6d::Identity();  ///< right tangent
+};
+
+/// Derotated flow over the floor between two images (VentralMotion of a camera): the camera's way
+/// over its distance from the floor at the first, in the camera's axes there.
+struct FlowSighting {
+  std::int64_t from_ns = 0, to_ns = 0;
+  Eigen::Vector3d over_distance = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+};
+
+}  // namespace placegraph
