@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/synthetic/sequence_writer.h>
+#include <placegraph/io/synthetic/flight_writer.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -48,12 +48,16 @@ void run(Arguments arguments) {
                        ? arguments.threads
                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const SyntheticWorld world(options);
+  const bool flies = world.hover() != nullptr;
+  require(!flies || !(arguments.stereo || writer.contents.depth || writer.contents.labels),
+          "hover: has one eye, --stereo, --depth and --labels are for other worlds");
   writer.contents.right = arguments.stereo || (!arguments.mono && !world.is_indoor());
   writer.contents.depth = writer.contents.depth || world.is_indoor();
   {
     Progress progress("rendering " + world.name(), static_cast<std::int64_t>(world.size()));
-    write_sequence(world, arguments.out, writer,
-                   [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
+    const auto write = flies ? write_flight : write_sequence;
+    write(world, arguments.out, writer,
+          [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
   }
   const Trajectory truth = world.ground_truth();
   double length_m = 0;
@@ -75,19 +79,23 @@ void add_synth_command(CLI::App& app) {
   command->footer("placegraph synth town-loop --out out/town-loop --difficulty standard");
   command
       ->add_option("WORLD", a.world.world,
-                   "town-loop, corridor-loop, warehouse, or a KITTI pose file")
+                   "town-loop, corridor-loop, warehouse, hover, or a KITTI pose file")
       ->required();
-  command->add_option("--out", a.out, "folder to write, in KITTI's layout")->required();
+  command->add_option("--out", a.out, "folder to write, in KITTI's layout; hover in EuRoC's")
+      ->required();
   command->add_option("--difficulty", a.difficulty, "clean, standard or hard")
       ->capture_default_str();
   command->add_option("--frames", a.world.frames, "at most this many; 0 = all")
+      ->capture_default_str();
+  command->add_option("--duration", a.world.duration_s, "hover: seconds of flight; 0 = 120")
       ->capture_default_str();
   auto* stereo = command->add_flag("--stereo", a.stereo, "both eyes (default outdoors)");
   command->add_flag("--mono", a.mono, "the left eye only")->excludes(stereo);
   command->add_flag("--depth", a.writer.contents.depth, "depth_0 (always written indoors)");
   command->add_flag("--labels", a.writer.contents.labels, "class and plane of every pixel");
   command->add_flag("--flow", a.writer.contents.flow, "exact optical flow to the next frame");
-  command->add_option("--seed", a.world.seed, "another seed, another town")->capture_default_str();
+  command->add_option("--seed", a.world.seed, "another seed, another town, another flight")
+      ->capture_default_str();
   command->add_option("--threads", a.threads, "frames at a time; 0 = all processors")
       ->capture_default_str();
   command->add_option("--size", a.size, "image size, as in 1241x376");

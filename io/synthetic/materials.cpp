@@ -100,6 +100,10 @@ float shade(const Scene& scene, const Face& face, const Spot& spot, float contra
     case Material::kShelf:
     case Material::kCarton:
       return face.light * shade_indoor(face, spot, contrast);
+    case Material::kGlyph:
+      return face.light * shade_glyph(scene.glyphs[face.seed], face, spot, contrast);
+    case Material::kBeacon:
+      return shade_beacon(face, spot);
   }
   return 0;
 }

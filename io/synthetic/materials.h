@@ -31,7 +31,8 @@ float shade(const Scene& scene, const Face& face, const Spot& spot, float contra
 /// (scene frame, any length).
 float shade_sky(const Eigen::Vector3d& direction, double pixel_angle, std::uint32_t seed);
 
-// One file each: ground_materials, building_materials, object_materials, indoor_materials.
+// One file each: ground_materials, building_materials, object_materials, indoor_materials,
+// marker_materials.
 float shade_road(const Scene& scene, const Face& face, const Spot& spot, float contrast);
 float shade_roadside(const Scene& scene, const Face& face, const Spot& spot, float contrast);
 float shade_terrain(const Face& face, const Spot& spot, float contrast);
@@ -44,5 +45,7 @@ float shade_foliage(const Face& face, const Spot& spot, float contrast);
 float shade_sign(const Face& face, const Spot& spot, float contrast);
 float shade_car(const Face& face, const Spot& spot, float contrast);
 float shade_indoor(const Face& face, const Spot& spot, float contrast);
+float shade_glyph(const Glyph& glyph, const Face& face, const Spot& spot, float contrast);
+float shade_beacon(const Face& face, const Spot& spot);
 
 }  // namespace placegraph::synthetic

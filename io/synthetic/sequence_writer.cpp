@@ -2,35 +2,21 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/flow_file.h>
 #include <placegraph/io/synthetic/parallel.h>
+#include <placegraph/io/synthetic/sequence_folder.h>
 #include <placegraph/io/synthetic/sequence_writer.h>
 #include <placegraph/io/trajectory_file.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <mutex>
 
 namespace placegraph {
-namespace fs = std::filesystem;
+
+using synthetic::SequenceFolder;
+
 namespace {
 
 constexpr double kOutdoorDepthUnit_m = 1.0 / 256;  // as KITTI: 256 m
 constexpr double kIndoorDepthUnit_m = 0.001;
-
-void write_image(const fs::path& path, const Image& image) {
-  // Level 1 with run lengths only: noise does not compress, and speed matters more.
-  static const std::vector<int> kFast = {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
-                                         cv::IMWRITE_PNG_STRATEGY_RLE};
-  bool written = false;
-  try {
-    written = cv::imwrite(path.string(), image, kFast);
-  } catch (const cv::Exception& error) {
-    throw FileError(path.string(), "cannot be written: " + error.err);
-  }
-  if (!written) throw FileError(path.string(), "cannot be written");
-}
 
 Image encode_depth(const Image& depth_m, double unit_m) {
   Image out(depth_m.size(), CV_16UC1);
@@ -42,13 +28,6 @@ Image encode_depth(const Image& depth_m, double unit_m) {
     }
   }
   return out;
-}
-
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw FileError(path.string(), "cannot be written");
 }
 
 std::string projection(const char* key, const Camera& c, double baseline_m) {
@@ -95,113 +74,72 @@ std::string readme(const SyntheticWorld& world, const SyntheticContents& content
   return text;
 }
 
-void write_frame(const SyntheticWorld& world, const fs::path& folder, std::size_t index,
+void write_frame(const SyntheticWorld& world, const SequenceFolder& folder, std::size_t index,
                  const SyntheticContents& contents) {
   const SyntheticFrame frame = world.render(index, contents);
   const std::string file = fmt::format("{:06d}.png", index);
-  write_image(folder / "image_0" / file, frame.frame.image);
-  if (contents.right) write_image(folder / "image_1" / file, frame.frame.right);
+  folder.write("image_0/" + file, frame.frame.image);
+  if (contents.right) folder.write("image_1/" + file, frame.frame.right);
   if (contents.depth)
-    write_image(folder / "depth_0" / file, encode_depth(frame.frame.depth, depth_unit_m(world)));
-  if (contents.labels) write_image(folder / "labels_0" / file, frame.labels);
-  if (contents.planes) write_image(folder / "planes_0" / file, frame.planes);
+    folder.write("depth_0/" + file, encode_depth(frame.frame.depth, depth_unit_m(world)));
+  if (contents.labels) folder.write("labels_0/" + file, frame.labels);
+  if (contents.planes) folder.write("planes_0/" + file, frame.planes);
   if (contents.flow && !frame.flow.empty())
-    write_image(folder / "flow_0" / file, encode_kitti_flow(frame.flow));
+    folder.write("flow_0/" + file, encode_kitti_flow(frame.flow));
 }
 
-void write_texts(const SyntheticWorld& world, const fs::path& folder,
+void write_texts(const SyntheticWorld& world, const SequenceFolder& folder,
                  const SyntheticContents& contents) {
   const Calibration calibration = world.calibration();
-  write_text(folder / "calib.txt",
-             projection("P0", calibration.camera, 0) +
-                 projection("P1", calibration.camera, calibration.baseline_m));
+  folder.write("calib.txt", projection("P0", calibration.camera, 0) +
+                                projection("P1", calibration.camera, calibration.baseline_m));
   if (contents.depth)
-    write_text(folder / "calib_depth.txt", projection("P0", calibration.camera, 0) +
-                                               fmt::format("unit_m: {}\n", depth_unit_m(world)));
+    folder.write("calib_depth.txt", projection("P0", calibration.camera, 0) +
+                                        fmt::format("unit_m: {}\n", depth_unit_m(world)));
   std::string times;
   for (std::size_t i = 0; i < world.size(); ++i)
     times +=
         fmt::format("{}.{:09d}\n", world.stamp_ns(i) / 1000000000, world.stamp_ns(i) % 1000000000);
-  write_text(folder / "times.txt", times);
-  write_trajectory((folder / "poses.txt").string(), world.ground_truth(), TrajectoryFormat::kKitti);
-  write_text(folder / "world.yaml", world_yaml(world));
-  write_text(folder / "README.txt", readme(world, contents));
-  if (!world.floor_plan().empty()) write_text(folder / "floorplan.json", world.floor_plan());
+  folder.write("times.txt", times);
+  write_trajectory((folder.path() / "poses.txt").string(), world.ground_truth(),
+                   TrajectoryFormat::kKitti);
+  folder.write("world.yaml", world_yaml(world));
+  folder.write("README.txt", readme(world, contents));
+  if (!world.floor_plan().empty()) folder.write("floorplan.json", world.floor_plan());
   if (contents.planes) {
     std::string text;
     for (const Eigen::Vector4d& p : world.planes())
       text += fmt::format("{:.9f} {:.9f} {:.9f} {:.9f}\n", p[0], p[1], p[2], p[3]);
-    write_text(folder / "planes.txt", text);
+    folder.write("planes.txt", text);
   }
 }
-
-/// Moves a finished sequence to its place. In a folder that holds something already, only what a
-/// sequence consists of is replaced or removed.
-void put_in_place(const fs::path& from, const fs::path& target) {
-  static constexpr const char* kParts[] = {
-      "image_0",    "image_1",    "depth_0",    "labels_0",      "planes_0",
-      "flow_0",     "calib.txt",  "times.txt",  "poses.txt",     "calib_depth.txt",
-      "planes.txt", "world.yaml", "README.txt", "floorplan.json"};
-  try {
-    if (!fs::exists(target) || fs::is_empty(target)) {
-      fs::remove(target);
-      fs::rename(from, target);
-      return;
-    }
-    for (const char* part : kParts) {
-      fs::remove_all(target / part);
-      if (fs::exists(from / part)) fs::rename(from / part, target / part);
-    }
-  } catch (const fs::filesystem_error& error) {
-    throw FileError(target.string(), "cannot be put in place: " + error.code().message());
-  }
-}
-
-/// Removes what was written and not put in place.
-struct TemporaryFolder {
-  fs::path path;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-};
 
 }  // namespace
 
 void write_sequence(const SyntheticWorld& world, const std::string& path,
                     const SequenceWriterOptions& options,
                     const std::function<void(std::size_t)>& progress) {
-  fs::path target = fs::absolute(path).lexically_normal();
-  if (target.filename().empty()) target = target.parent_path();
-  if (fs::exists(target)) {
-    require(fs::is_directory(target), path + ": is a file, a folder is to be written there");
-    require(options.force || fs::is_empty(target), path + ": is not empty; --force writes into it");
-  }
+  SequenceFolder folder(path, options.force);
   const SyntheticContents& contents = options.contents;
-  TemporaryFolder temporary{target.parent_path() / ("." + target.filename().string() + ".partial")};
-  std::error_code failure;
-  fs::remove_all(temporary.path, failure);
-  const auto make = [&](const fs::path& folder) {
-    fs::create_directories(folder, failure);
-    if (failure) throw FileError(folder.string(), "cannot be created: " + failure.message());
-  };
-  make(temporary.path / "image_0");
-  if (contents.right) make(temporary.path / "image_1");
-  if (contents.depth) make(temporary.path / "depth_0");
-  if (contents.labels) make(temporary.path / "labels_0");
-  if (contents.planes) make(temporary.path / "planes_0");
-  if (contents.flow) make(temporary.path / "flow_0");
-  write_texts(world, temporary.path, contents);
+  folder.make("image_0");
+  if (contents.right) folder.make("image_1");
+  if (contents.depth) folder.make("depth_0");
+  if (contents.labels) folder.make("labels_0");
+  if (contents.planes) folder.make("planes_0");
+  if (contents.flow) folder.make("flow_0");
+  write_texts(world, folder, contents);
 
   std::mutex mutex;
   std::size_t done = 0;
   synthetic::parallel_for(static_cast<int>(world.size()), options.threads, [&](int index) {
-    write_frame(world, temporary.path, static_cast<std::size_t>(index), contents);
+    write_frame(world, folder, static_cast<std::size_t>(index), contents);
     const std::lock_guard<std::mutex> lock(mutex);
     ++done;
     if (progress) progress(done);
   });
-  put_in_place(temporary.path, target);
+  folder.put_in_place({"image_0", "image_1", "depth_0", "labels_0", "planes_0", "flow_0",
+                       "calib.txt", "times.txt", "poses.txt", "calib_depth.txt", "planes.txt",
+                       "world.yaml", "README.txt", "floorplan.json"});
 }
 
 }  // namespace placegraph

@@ -1,5 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/synthetic/hash_noise.h>
+#include <placegraph/io/synthetic/hover.h>
 #include <placegraph/io/synthetic/synthetic_world.h>
 #include <placegraph/io/synthetic/tours.h>
 
@@ -21,10 +22,12 @@ struct BuiltIn {
 };
 constexpr BuiltIn kWorlds[] = {{"town-loop", synthetic::make_town_loop},
                                {"corridor-loop", synthetic::make_corridor_loop},
-                               {"warehouse", synthetic::make_warehouse}};
+                               {"warehouse", synthetic::make_warehouse},
+                               {"hover", synthetic::make_hover}};
 
 Tour make_tour(const SyntheticOptions& options) {
-  const TourRequest request{options.seed, synthetic::sensor_model(options.difficulty)};
+  const TourRequest request{options.seed, synthetic::sensor_model(options.difficulty),
+                            options.duration_s};
   for (const BuiltIn& world : kWorlds) {
     if (options.world == world.name) return world.make(request);
   }
@@ -52,15 +55,17 @@ void resize(Camera& camera, int width, int height) {
 void SyntheticOptions::check() const {
   check_ranges(*this);
   require(!world.empty(), "world: is empty");
+  require(duration_s == 0 || world == "hover", "duration_s: is for the hover world only");
   require((width == 0) == (height == 0), "size: width and height go together");
   require(width == 0 || (width >= 32 && height >= 32), "size: at least 32 x 32");
 }
 
 void visit(OptionVisitor& field, SyntheticOptions& o) {
-  field("world", o.world, "town-loop, corridor-loop, warehouse or a KITTI pose file");
+  field("world", o.world, "town-loop, corridor-loop, warehouse, hover or a KITTI pose file");
   field.choice("difficulty", o.difficulty, {"clean", "standard", "hard"}, "noise, blur, traffic");
   field("seed", o.seed, "of textures, scenery, traffic and noise");
   field("frames", o.frames, "at most this many; 0 = all", {0, 1e9});
+  field("duration_s", o.duration_s, "of the flight in the hover world; 0 = 120", {0, 3600});
   field("width", o.width, "image width [px]; 0 = the world's own", {0, 16384});
   field("height", o.height, "image height [px]; 0 = the world's own", {0, 16384});
   field("threads", o.threads, "threads of one rendering", {1, 256});
@@ -99,7 +104,7 @@ Calibration SyntheticWorld::calibration() const {
   calibration.camera = tour_->camera;
   calibration.baseline_m = tour_->baseline_m;
   calibration.depth = DepthCamera{tour_->camera, SE3(), 0.001};
-  calibration.camera_height_m = tour_->camera_height_m;
+  if (tour_->camera_height_m > 0) calibration.camera_height_m = tour_->camera_height_m;
   return calibration;
 }
 
@@ -130,7 +135,10 @@ Image SyntheticWorld::expose(std::size_t index, bool right,
   const std::size_t last = tour_->T_scene_cam.size() - 1;
   const std::size_t a = index > 0 ? index - 1 : 0, b = std::min(index + 1, last);
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), turn = velocity;
-  if (b > a) {
+  if (!tour_->velocity_cam.empty()) {
+    velocity = tour_->velocity_cam[index].head<3>();
+    turn = tour_->velocity_cam[index].tail<3>();
+  } else if (b > a) {
     // Central differences; rotations between frames are small enough for R^T R' = I + [w dt].
     const View before = view(a, right), after = view(b, right);
     const double dt = tour_->time_s[b] - tour_->time_s[a];
@@ -193,6 +201,7 @@ std::vector<Eigen::Vector4d> SyntheticWorld::planes() const {
 }
 
 const std::string& SyntheticWorld::floor_plan() const { return tour_->floor_plan; }
+const synthetic::HoverSetting* SyntheticWorld::hover() const { return tour_->hover.get(); }
 bool SyntheticWorld::is_indoor() const { return !tour_->scene.outdoor; }
 
 }  // namespace placegraph

@@ -11,8 +11,9 @@
 namespace placegraph {
 
 namespace synthetic {
+struct HoverSetting;
 struct Tour;
-}
+}  // namespace synthetic
 
 /// What to render. The same options give the same bits.
 struct SyntheticOptions {
@@ -20,6 +21,7 @@ struct SyntheticOptions {
   synthetic::Difficulty difficulty = synthetic::Difficulty::kStandard;
   std::uint64_t seed = 1;
   int frames = 0;             ///< at most this many from the start; 0 = all
+  double duration_s = 0;      ///< of the flight, hover world only; 0 = 120 s
   int width = 0, height = 0;  ///< [px], intrinsics scaled along; 0 = the world's own
   int threads = 1;            ///< of one rendering
 
@@ -69,6 +71,8 @@ class SyntheticWorld {
   /// A JSON text with rooms, walls and doors; empty outdoors.
   const std::string& floor_plan() const;
   bool is_indoor() const;
+  /// Flight, markers and camera mounting of the hover world; null of others.
+  const synthetic::HoverSetting* hover() const;
   const SyntheticOptions& options() const { return options_; }
   /// The scene and the camera's way through it, in the scene's own frame (y down, level).
   const synthetic::Tour& tour() const { return *tour_; }

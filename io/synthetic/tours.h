@@ -4,10 +4,13 @@
 #include <placegraph/io/synthetic/sensor_model.h>
 #include <placegraph/io/synthetic/world.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace placegraph::synthetic {
+
+struct HoverSetting;
 
 /// A scene together with a camera's way through it: what a world file makes.
 struct Tour {
@@ -20,11 +23,16 @@ struct Tour {
   double camera_height_m = 0;  ///< above the ground the camera drives on, exact at every pose
   bool has_depth = false;      ///< written without being asked for (indoor worlds)
   std::string floor_plan;      ///< JSON; empty outdoors
+  /// Of the camera in its own axes, [translation, rotation], where it is known better than from the
+  /// poses; else empty.
+  std::vector<Vector6d> velocity_cam;
+  std::shared_ptr<const HoverSetting> hover;  ///< of the hover world only
 };
 
 struct TourRequest {
   std::uint64_t seed = 1;
   SensorModel sensor;
+  double duration_s = 0;  ///< of worlds that last as long as one likes; 0 = their own
 };
 
 /// A drive of 10 Hz through a small grid of streets, about 650 m, parts of it twice.

@@ -60,7 +60,9 @@ enum class Material : std::uint8_t {
   kDoor,
   kShelf,
   kCarton,
-  kConcrete
+  kConcrete,
+  kGlyph,  ///< `seed` is the index in Scene::glyphs
+  kBeacon
 };
 
 /// A convex planar polygon with 3 or 4 corners. Its surface coordinates [m] are
@@ -105,6 +107,12 @@ struct Footprint {
   double distance(const Eigen::Vector2d& p) const;
 };
 
+/// A square pattern of cells as a marker has it, in rows from the top left as somebody reads it.
+struct Glyph {
+  int cells = 0;  ///< a side, the black border included
+  std::vector<bool> white;
+};
+
 /// A scene: y points down (KITTI's camera axes), metres. A world file fills it.
 struct Scene {
   std::vector<Part> parts;
@@ -112,6 +120,7 @@ struct Scene {
   std::vector<Footprint> solids;          ///< of every static thing that stands on the ground
   std::shared_ptr<const RoadField> road;  ///< what kRoad and kRoadside look up; may be empty
   std::vector<Eigen::Vector4d> planes{Eigen::Vector4d::Zero()};  ///< n, d with n . p = d; 0 unused
+  std::vector<Glyph> glyphs;
   bool outdoor = true;  ///< sky and skyline where nothing is hit
   std::uint32_t seed = 0;
 

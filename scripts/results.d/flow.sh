@@ -13,7 +13,7 @@ ratio() { LC_ALL=C awk -v a="$1" -v b="$2" 'BEGIN { printf "%.3f", a / b }'; }
 heading "Optical flow"
 command_line "build/release/tests/bench/bench_flow_study out/flow $frames"
 columns figure target measured met
-for world in town-loop corridor-loop; do
+for world in town-loop corridor-loop hover; do
   value=$(told "lucas-kanade over OpenCV's, $world")
   cells "error of Lucas-Kanade over OpenCV's where both answer, $world" "<= 1.05" "$value" "$(verdict "$value" "<=" 1.05)"
 done
