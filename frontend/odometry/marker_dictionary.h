@@ -1,0 +1,30 @@
+#pragma once
+#include <placegraph/graph/core/image.h>
+
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// The families of square markers that are known by name: "aruco_4x4_50" to "aruco_7x7_1000",
+/// "aruco_original", "apriltag_16h5" to "apriltag_36h11".
+std::vector<std::string> marker_dictionaries();
+
+/// The markers of a family.
+struct MarkerFamily {
+  Image codes;               ///< one row a marker, as OpenCV's aruco packs them
+  int bits_per_side = 0;     ///< without the black border of one cell on either side
+  int correctable_bits = 0;  ///< wrong ones with which a marker is still told from all others
+
+  int count() const { return codes.rows; }
+  int cells_per_side() const { return bits_per_side + 2; }
+};
+
+/// Throws ArgumentError listing the known names.
+MarkerFamily marker_family(const std::string& dictionary);
+
+/// The picture of a marker as somebody reads it, without white around it: `cells_per_side` squares
+/// of `cell_px` pixels a side, 0 or 255. Throws ArgumentError if there is no such marker.
+Image marker_picture(const std::string& dictionary, int id, int cell_px);
+
+}  // namespace placegraph
