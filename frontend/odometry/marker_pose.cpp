@@ -87,15 +87,14 @@ MarkerPoses estimate_marker_poses(const MarkerSighting& sighting, double side_m,
   seen.information = covariance.solve(Eigen::Matrix<double, 8, 8>::Identity());
 
   result.outcome = Outcome::failure(Code::kNoConsensus, "no pose has the marker before the camera");
-  for (const SE3& start : ippe_square(seen.corners_px, side_m, camera)) {
-    const SquarePose refined = refine_square_pose(camera, {seen}, {}, start.inverse());
+  const auto take = [&](const SquarePose& refined) {
     if (!refined.outcome) {
       if (result.poses.empty()) result.outcome = refined.outcome;
-      continue;
+      return;
     }
     MarkerPose pose;
     pose.T_cam_marker = refined.T_ref_cam.inverse();
-    if (!face_seen(pose.T_cam_marker)) continue;
+    if (!face_seen(pose.T_cam_marker)) return;
     const Matrix6d turned = refined.T_ref_cam.adjoint();
     pose.covariance = turned * refined.covariance * turned.transpose();
     pose.chi2 = refined.chi2;
@@ -108,6 +107,14 @@ MarkerPoses estimate_marker_poses(const MarkerSighting& sighting, double side_m,
         result.poses.begin(), result.poses.end(),
         [&](const MarkerPose& p) { return same(p.T_cam_marker, pose.T_cam_marker, side_m); });
     if (!known) result.poses.push_back(pose);
+  };
+  for (const SE3& start : ippe_square(seen.corners_px, side_m, camera))
+    take(refine_square_pose(camera, {seen}, {}, start.inverse()));
+  if (result.poses.size() == 1) {
+    const SquarePose rival =
+        find_planar_rival(camera, {seen}, {}, result.poses[0].T_cam_marker.inverse(),
+                          Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ());
+    if (rival.outcome) take(rival);
   }
   if (result.poses.empty()) return result;
   std::sort(result.poses.begin(), result.poses.end(),

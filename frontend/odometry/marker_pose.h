@@ -25,7 +25,8 @@ struct MarkerPoses {
 /// Both poses of a square marker: a planar square seen from afar looks nearly the same when its
 /// tilt towards the camera is mirrored, and the squared error has a minimum at either (Collins &
 /// Bartoli 2014, "Infinitesimal plane-based pose estimation", by OpenCV). Each is refined on the
-/// corners in the covariance of the sighting; its own is (J^T C^-1 J)^-1. Outcomes: degenerate (the
+/// corners in the covariance of the sighting; its own is (J^T C^-1 J)^-1. Where noise leaves one
+/// minimum only, the other is the mirrored pose (find_planar_rival). Outcomes: degenerate (the
 /// corners are no convex quadrangle, or leave a direction open), no consensus (no pose has the
 /// marker in front of the camera, its face towards it).
 [[nodiscard]] MarkerPoses estimate_marker_poses(const MarkerSighting& sighting, double side_m,

@@ -307,6 +307,7 @@ void visit(OptionVisitor& field, SquareFitOptions& o) {
   field("reach_px", o.reach_px, "pixels so far from a side shape it, at most", {1.5, 20});
   field("min_contrast", o.min_contrast, "grey levels between a square and its surroundings",
         {1, 255});
+  field("max_sigma_px", o.max_sigma_px, "a corner known worse than that is none", {0.01, 100});
   field("min_sigma_px", o.min_sigma_px, "of a corner, whatever the fit says", {1e-4, 5});
 }
 
@@ -342,6 +343,8 @@ std::optional<SquareFit> fit_square(const Image& grey, const SquareCorners& expe
     J.block<2, 2>(2 * i, 2 * i) = J_corner;
   }
   fit.covariance = J * fit.covariance * J.transpose();
+  if (!(fit.covariance.diagonal().maxCoeff() < options.max_sigma_px * options.max_sigma_px))
+    return std::nullopt;
   fit.covariance.diagonal().array() += options.min_sigma_px * options.min_sigma_px;
   return fit;
 }

@@ -12,6 +12,7 @@ namespace placegraph {
 struct SquareFitOptions {
   double reach_px = 4;      ///< pixels so far from a side shape it, at most
   double min_contrast = 8;  ///< grey levels between the square and what is around it
+  double max_sigma_px = 1;  ///< a corner known worse than that is none
   double min_sigma_px =
       0.02;  ///< of a corner: no lens and no print is better, whatever the fit says
   void check() const { check_ranges(*this); }

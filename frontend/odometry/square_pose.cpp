@@ -85,8 +85,22 @@ double point_chi2(const Camera& camera, const SeenPoint& point, const SE3& T_ref
   return r.dot(point.information * r);
 }
 
-SquarePose refine_square_pose(const Camera& camera, const std::vector<SeenSquare>& squares,
-                              const std::vector<SeenPoint>& points, const SE3& T_ref_cam) {
+namespace {
+
+/// Directions in which a pose may move: all six, or all but tilts against a plane's normal.
+Eigen::Matrix<double, 6, Eigen::Dynamic> free_directions(const SE3& T_ref_cam,
+                                                         const Eigen::Vector3d* normal_ref) {
+  if (!normal_ref) return Matrix6d::Identity();
+  Eigen::Matrix<double, 6, Eigen::Dynamic> directions(6, 4);
+  directions.setZero();
+  directions.topLeftCorner<3, 3>().setIdentity();
+  directions.block<3, 1>(3, 3) = T_ref_cam.rotation().inverse() * *normal_ref;
+  return directions;
+}
+
+SquarePose refine(const Camera& camera, const std::vector<SeenSquare>& squares,
+                  const std::vector<SeenPoint>& points, const SE3& T_ref_cam,
+                  const Eigen::Vector3d* normal_ref) {
   SquarePose result;
   result.T_ref_cam = T_ref_cam;
   result.rows = static_cast<int>(8 * squares.size() + 2 * points.size());
@@ -103,12 +117,13 @@ SquarePose refine_square_pose(const Camera& camera, const std::vector<SeenSquare
     return result;
   }
   constexpr int kIterations = 60;
-  double damping = 1e-4;
+  double damping = 1e-2;  // steps are short at first, so that they stay in their valley
   bool converged = false;
   for (int i = 0; i < kIterations && !converged; ++i) {
-    Matrix6d damped = H;
+    const auto directions = free_directions(result.T_ref_cam, normal_ref);
+    Eigen::MatrixXd damped = directions.transpose() * H * directions;
     damped.diagonal() *= 1 + damping;
-    const Vector6d step = -damped.ldlt().solve(g);
+    const Vector6d step = -directions * damped.ldlt().solve(directions.transpose() * g);
     const SE3 next = result.T_ref_cam.plus(step);
     const double chi2 =
         step.allFinite() ? equations(camera, squares, points, next, H_next, g_next) : kInfinity;
@@ -135,6 +150,37 @@ SquarePose refine_square_pose(const Camera& camera, const std::vector<SeenSquare
   result.outcome =
       converged ? Outcome::ok() : Outcome::failure(Code::kNotConverged, "no minimum reached");
   return result;
+}
+
+}  // namespace
+
+SquarePose refine_square_pose(const Camera& camera, const std::vector<SeenSquare>& squares,
+                              const std::vector<SeenPoint>& points, const SE3& T_ref_cam) {
+  return refine(camera, squares, points, T_ref_cam, nullptr);
+}
+
+SquarePose find_planar_rival(const Camera& camera, const std::vector<SeenSquare>& squares,
+                             const std::vector<SeenPoint>& points, const SE3& T_ref_cam,
+                             const Eigen::Vector3d& centre_ref, const Eigen::Vector3d& normal_ref,
+                             double apart_rad) {
+  SquarePose result;
+  // The camera goes round the centre to the other side of the normal.
+  const Eigen::Vector3d sight = (centre_ref - T_ref_cam.translation()).normalized();
+  const Eigen::Vector3d axis = sight.cross(normal_ref);
+  const double tilt = std::atan2(axis.norm(), -sight.dot(normal_ref));
+  if (!(2 * tilt > apart_rad)) {
+    result.outcome = Outcome::failure(Code::kInconsistent, "seen from right above");
+    return result;
+  }
+  const SO3 turn = SO3::exp(-2 * tilt * axis.normalized());
+  const SE3 start(turn * T_ref_cam.rotation(),
+                  Eigen::Vector3d(centre_ref + turn * (T_ref_cam.translation() - centre_ref)));
+  result = refine(camera, squares, points, start, nullptr);
+  const auto angle = [&](const SquarePose& pose) {
+    return (pose.T_ref_cam.rotation().inverse() * T_ref_cam.rotation()).log().norm();
+  };
+  if (result.outcome && angle(result) > apart_rad) return result;
+  return refine(camera, squares, points, start, &normal_ref);
 }
 
 }  // namespace placegraph

@@ -38,6 +38,18 @@ struct SquarePose {
                                             const std::vector<SeenPoint>& points,
                                             const SE3& T_ref_cam);
 
+/// The pose that what lies in a plane is taken for beside the one at `T_ref_cam`, a minimum: its
+/// tilt against the line of sight to `centre_ref` mirrored, then refined; where that falls back to
+/// the same minimum, as it does where noise has filled the other one up, refined with its tilt as
+/// it is: no minimum, but no less possible for that. Outcomes as above; inconsistent where tilt and
+/// mirrored tilt are the same within `apart_rad`.
+[[nodiscard]] SquarePose find_planar_rival(const Camera& camera,
+                                           const std::vector<SeenSquare>& squares,
+                                           const std::vector<SeenPoint>& points,
+                                           const SE3& T_ref_cam, const Eigen::Vector3d& centre_ref,
+                                           const Eigen::Vector3d& normal_ref,
+                                           double apart_rad = 0.01);
+
 /// Squared error of one square, in its information; infinite behind the camera.
 double square_chi2(const Camera& camera, const SeenSquare& square, const SE3& T_ref_cam);
 double point_chi2(const Camera& camera, const SeenPoint& point, const SE3& T_ref_cam);

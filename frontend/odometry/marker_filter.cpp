@@ -1,0 +1,412 @@
+#include <placegraph/frontend/odometry/marker_filter.h>
+#include <placegraph/frontend/odometry/marker_pose.h>
+#include <placegraph/graph/core/chi_squared.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/imu.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+namespace placegraph {
+namespace {
+
+using Code = Outcome::Code;
+using Eigen::Vector3d;
+constexpr double kRad = std::numbers::pi / 180;
+
+/// Logarithm of Student's distribution with four degrees of freedom over `dimensions`, less that of
+/// its top: what is far away refutes, but no single number refutes for ever.
+double log_likelihood(double chi2, int dimensions) {
+  constexpr double kFreedom = 4;
+  return -0.5 * (kFreedom + dimensions) * std::log1p(chi2 / kFreedom);
+}
+
+/// One explanation of a view, in the camera's frame.
+struct Explanation {
+  SquarePose pose;
+  std::vector<int> squares;  ///< inside the gate
+  BeaconPairs beacons;
+  double chi2 = 0;  ///< squares outside the gate count as at its edge
+};
+
+std::vector<SeenSquare> pick(const std::vector<SeenSquare>& squares,
+                             const std::vector<int>& which) {
+  std::vector<SeenSquare> picked;
+  for (const int i : which) picked.push_back(squares[i]);
+  return picked;
+}
+
+std::vector<SeenPoint> points_of(const std::vector<BeaconSighting>& spots,
+                                 const std::vector<Vector3d>& beacons_world,
+                                 const BeaconPairs& pairs) {
+  std::vector<SeenPoint> points;
+  for (const auto& [spot, beacon] : pairs)
+    points.push_back({spots[spot].px, beacons_world[beacon], spots[spot].covariance.inverse()});
+  return points;
+}
+
+/// The plane that all squares lie in, if they do.
+struct Plane {
+  Vector3d centre = Vector3d::Zero(), normal = Vector3d::UnitZ();
+};
+std::optional<Plane> common_plane(const std::vector<SeenSquare>& squares) {
+  Plane plane;
+  if (squares.empty()) return std::nullopt;
+  for (const SeenSquare& square : squares)
+    plane.centre += 0.5 * (square.corners_ref[0] + square.corners_ref[2]);
+  plane.centre /= static_cast<double>(squares.size());
+  const auto& first = squares.front().corners_ref;
+  plane.normal = (first[1] - first[0]).cross(first[0] - first[3]).normalized();
+  constexpr double kFlat = 0.02;  // of a square's side
+  for (const SeenSquare& square : squares)
+    for (const Vector3d& corner : square.corners_ref)
+      if (std::abs(plane.normal.dot(corner - first[0])) > kFlat * (first[1] - first[0]).norm())
+        return std::nullopt;
+  return plane;
+}
+
+/// Solves all squares together from a start; those that do not fit are left out, worst first.
+Explanation solve(const Camera& camera, const std::vector<SeenSquare>& squares, const SE3& start,
+                  double gate) {
+  Explanation result;
+  std::vector<int> kept(squares.size());
+  for (std::size_t i = 0; i < squares.size(); ++i) kept[i] = static_cast<int>(i);
+  while (!kept.empty()) {
+    const std::vector<SeenSquare> used = pick(squares, kept);
+    result.pose = refine_square_pose(camera, used, {}, start);
+    if (!result.pose.outcome) return result;
+    double worst = gate;
+    std::size_t at = kept.size();
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      const double chi2 = square_chi2(camera, used[k], result.pose.T_ref_cam);
+      if (chi2 <= worst) continue;
+      worst = chi2;
+      at = k;
+    }
+    if (at == kept.size()) break;
+    if (kept.size() == 1) {
+      // A single marker's pose is what it is: its error speaks for itself.
+      break;
+    }
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(at));
+  }
+  result.squares = kept;
+  result.chi2 = result.pose.chi2 + gate * static_cast<double>(squares.size() - kept.size());
+  return result;
+}
+
+/// Takes in the beacons that the pose makes plain.
+void add_beacons(const Camera& camera, const std::vector<SeenSquare>& squares,
+                 const std::vector<BeaconSighting>& spots,
+                 const std::vector<Vector3d>& beacons_world, const BeaconPoseOptions& options,
+                 Explanation& explanation) {
+  const BeaconPairs pairs = assign_beacons(spots, beacons_world, camera, explanation.pose.T_ref_cam,
+                                           explanation.pose.covariance, options);
+  if (pairs.empty()) return;
+  const std::vector<SeenPoint> points = points_of(spots, beacons_world, pairs);
+  const SquarePose joint = refine_square_pose(camera, pick(squares, explanation.squares), points,
+                                              explanation.pose.T_ref_cam);
+  if (!joint.outcome) return;
+  // Spots that bend the pose are not the beacons that they were taken for.
+  const int rows = 2 * static_cast<int>(points.size());
+  if (joint.chi2 - explanation.pose.chi2 > chi_squared_quantile(options.gate, rows)) return;
+  explanation.chi2 += joint.chi2 - explanation.pose.chi2;
+  explanation.pose = joint;
+  explanation.beacons = pairs;
+}
+
+Vector6d difference(const SE3& from, const SE3& to) { return (from.inverse() * to).log(); }
+
+/// Whether two poses are one within what is known of either. A filter that will weigh the answer
+/// may have one that covers both; without it the two must be as good as the same.
+bool indistinct(const MarkerHypothesis& a, const MarkerHypothesis& b, bool filtered) {
+  const Vector6d d = difference(a.T_world_body, b.T_world_body);
+  const Matrix6d S = a.covariance + b.covariance;
+  constexpr double kSame_rad = kRad;
+  return d.dot(S.ldlt().solve(d)) < chi_squared_quantile(0.99, 6) &&
+         (filtered || d.tail<3>().norm() < kSame_rad);
+}
+
+bool same_minimum(const SE3& a, const SE3& b) {
+  const Vector6d d = difference(a, b);
+  constexpr double kSame_m = 1e-4, kSame_rad = 1e-3;
+  return d.head<3>().norm() < kSame_m && d.tail<3>().norm() < kSame_rad;
+}
+
+/// Two minima that are nearer to each other than either is known become one: mean and covariance of
+/// the mixture.
+MarkerHypothesis mixture(const MarkerHypothesis& a, const MarkerHypothesis& b) {
+  const double share = 1 / (1 + std::exp(a.nats - b.nats));  // of b
+  const Vector6d d = difference(a.T_world_body, b.T_world_body);
+  MarkerHypothesis both = a.nats >= b.nats ? a : b;
+  both.T_world_body = a.T_world_body.plus(share * d);
+  both.covariance =
+      (1 - share) * a.covariance + share * b.covariance + share * (1 - share) * d * d.transpose();
+  return both;
+}
+
+}  // namespace
+
+void MarkerFilterOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, MarkerFilterOptions& o) {
+  field("decided_nats", o.decided_nats, "a pose so much less likely than the best one is refuted",
+        {1, 1000});
+  field("extra_sigma_px", o.extra_sigma_px, "of a corner beside its own: print, lens, layout",
+        {0, 10});
+  field("gate", o.gate, "of a marker's corners under a pose of the camera", {0.5, 0.999999});
+  field("gravity_sigma_deg", o.gravity_sigma_deg, "of the accelerometer's direction in flight",
+        {0.1, 90});
+  field("turn_sigma_deg", o.turn_sigma_deg, "of the gyro's turn from view to view", {1e-3, 90});
+  field("max_turn_rad_s", o.max_turn_rad_s, "of the body, where there is no gyro", {0.01, 100});
+  field("max_speed_m_s", o.max_speed_m_s, "of the body", {0.01, 100});
+  field("memory_s", o.memory_s, "what was not seen for so long is forgotten", {0, 60});
+  field.group("beacons", o.beacons, "bright spots of known places");
+}
+
+MarkerFilter::MarkerFilter(const MarkerFilterOptions& options, MarkerLayout layout,
+                           const Camera& camera, const SE3& T_body_cam)
+    : options_(options), layout_(std::move(layout)), camera_(camera), T_body_cam_(T_body_cam) {
+  options_.check();
+  camera_.check();
+  require(!layout_.markers.empty() || !layout_.beacons_world.empty(),
+          "MarkerFilter: the layout has neither markers nor beacons");
+  for (const PlacedMarker& marker : layout_.markers)
+    require(marker.side_m > 0,
+            "MarkerFilter: marker " + std::to_string(marker.id) + " has no positive side");
+}
+
+/// Markers of the layout that are seen once: of two with one number nobody knows which is which.
+std::vector<SeenSquare> MarkerFilter::known_squares(const MarkerView& view) const {
+  std::vector<SeenSquare> squares;
+  for (const MarkerSighting& sighting : view.markers) {
+    const auto same_id = [&](const auto& other) { return other.id == sighting.id; };
+    const auto placed = std::find_if(layout_.markers.begin(), layout_.markers.end(), same_id);
+    if (placed == layout_.markers.end()) continue;
+    if (std::count_if(view.markers.begin(), view.markers.end(), same_id) != 1) continue;
+    SeenSquare square;
+    square.corners_px = sighting.corners_px;
+    const auto corners = placed->corners_marker();
+    for (int k = 0; k < 4; ++k) square.corners_ref[k] = placed->T_world_marker * corners[k];
+    Eigen::Matrix<double, 8, 8> covariance = sighting.covariance;
+    covariance.diagonal().array() += options_.extra_sigma_px * options_.extra_sigma_px;
+    const Eigen::LLT<Eigen::Matrix<double, 8, 8>> inverse(covariance);
+    if (!covariance.allFinite() || inverse.info() != Eigen::Success) continue;
+    square.information = inverse.solve(Eigen::Matrix<double, 8, 8>::Identity());
+    squares.push_back(square);
+  }
+  return squares;
+}
+
+/// All poses at which what is seen has a minimum of its error.
+std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view, MarkerAnswer& answer,
+                                                    const PositionFilter* expected) const {
+  const std::vector<SeenSquare> squares = known_squares(view);
+  const double gate = chi_squared_quantile(options_.gate, 8);
+  std::vector<SE3> starts;
+  for (const SeenSquare& square : squares) {
+    MarkerSighting alone;
+    alone.corners_px = square.corners_px;
+    alone.covariance = square.information.inverse();
+    const double side_m = (square.corners_ref[1] - square.corners_ref[0]).norm();
+    // The marker's frame from its corners in the world.
+    const Vector3d x = (square.corners_ref[1] - square.corners_ref[0]).normalized();
+    const Vector3d y = (square.corners_ref[0] - square.corners_ref[3]).normalized();
+    Eigen::Matrix3d R;
+    R << x, y, x.cross(y);
+    const SE3 T_world_marker(R, Vector3d(0.5 * (square.corners_ref[0] + square.corners_ref[2])));
+    for (const MarkerPose& pose : estimate_marker_poses(alone, side_m, camera_).poses)
+      starts.push_back(T_world_marker * pose.T_cam_marker.inverse());
+  }
+  const SE3 T_cam_body = T_body_cam_.inverse();
+  std::optional<BodyState> state;
+  if (expected)
+    if (const auto at = expected->at(view.stamp_ns); at.outcome) state = at.state;
+
+  std::vector<Explanation> found;
+  const auto keep = [&](Explanation explanation) {
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Explanation& other) {
+      return same_minimum(other.pose.T_ref_cam, explanation.pose.T_ref_cam);
+    });
+    if (explanation.pose.outcome && !known) found.push_back(std::move(explanation));
+  };
+  for (const SE3& start : starts) {
+    Explanation explanation = solve(camera_, squares, start, gate);
+    if (!explanation.pose.outcome) continue;
+    add_beacons(camera_, squares, view.beacons, layout_.beacons_world, options_.beacons,
+                explanation);
+    keep(std::move(explanation));
+  }
+  if (found.size() == 1) {
+    // A plane may have been taken for its mirror image.
+    const auto plane = common_plane(squares);
+    Explanation other = found.front();
+    if (plane) {
+      other.pose = find_planar_rival(camera_, pick(squares, other.squares),
+                                     points_of(view.beacons, layout_.beacons_world, other.beacons),
+                                     other.pose.T_ref_cam, plane->centre, plane->normal);
+      other.chi2 += other.pose.chi2 - found.front().pose.chi2;
+      keep(std::move(other));
+    }
+  }
+  if (squares.empty()) {
+    Explanation explanation;
+    if (state) {
+      // Where the filter expects the camera, three spots are enough.
+      Matrix6d covariance = Matrix6d::Zero();
+      const Eigen::Matrix3d R = state->T_world_body.rotation().matrix();
+      Eigen::Matrix<double, 6, 15> J = Eigen::Matrix<double, 6, 15>::Zero();
+      J.block<3, 3>(0, 0) = R.transpose();
+      J.block<3, 3>(3, 6).setIdentity();
+      covariance = T_cam_body.adjoint() * J * state->covariance * J.transpose() *
+                   T_cam_body.adjoint().transpose();
+      const SE3 T_world_cam = state->T_world_body * T_body_cam_;
+      explanation.beacons = assign_beacons(view.beacons, layout_.beacons_world, camera_,
+                                           T_world_cam, covariance, options_.beacons);
+      explanation.pose = refine_square_pose(
+          camera_, {}, points_of(view.beacons, layout_.beacons_world, explanation.beacons),
+          T_world_cam);
+    } else {
+      const BeaconPose pose =
+          find_beacon_pose(view.beacons, layout_.beacons_world, camera_, options_.beacons);
+      explanation.pose.outcome = pose.outcome;
+      explanation.pose.T_ref_cam = pose.T_world_cam;
+      explanation.pose.covariance = pose.covariance;
+      explanation.pose.chi2 = pose.chi2;
+      explanation.beacons = pose.pairs;
+      if (!pose.outcome) answer.outcome = pose.outcome;
+    }
+    explanation.chi2 = explanation.pose.chi2;
+    keep(std::move(explanation));
+  }
+
+  std::vector<MarkerHypothesis> hypotheses;
+  for (const Explanation& explanation : found) {
+    MarkerHypothesis hypothesis;
+    hypothesis.T_world_body = explanation.pose.T_ref_cam * T_cam_body;
+    hypothesis.covariance =
+        T_body_cam_.adjoint() * explanation.pose.covariance * T_body_cam_.adjoint().transpose();
+    hypothesis.chi2 = explanation.chi2;
+    hypotheses.push_back(hypothesis);
+    answer.markers = std::max(answer.markers, static_cast<int>(explanation.squares.size()));
+    answer.beacons = std::max(answer.beacons, static_cast<int>(explanation.beacons.size()));
+  }
+  return hypotheses;
+}
+
+/// What the views so far, the turn between them, the direction of up and the filter say to each.
+void MarkerFilter::weigh(const MarkerView& view, const PositionFilter* expected,
+                         std::vector<MarkerHypothesis>& hypotheses) const {
+  // Errors of corners outlive a view: what was said before counts less with every one.
+  constexpr double kKept = 0.8;
+  const double dt = 1e-9 * static_cast<double>(view.stamp_ns - last_ns_);
+  for (MarkerHypothesis& hypothesis : hypotheses) {
+    double before = hypotheses_.empty() ? 0 : -std::numeric_limits<double>::infinity();
+    for (const MarkerHypothesis& parent : hypotheses_) {
+      const SO3 R_parent = parent.T_world_body.rotation();
+      const SO3 R_expected = view.turn_body ? R_parent * *view.turn_body : R_parent;
+      const Vector3d turn = (R_expected.inverse() * hypothesis.T_world_body.rotation()).log();
+      const Vector3d way =
+          hypothesis.T_world_body.translation() - parent.T_world_body.translation();
+      const double turn_sigma =
+          view.turn_body ? options_.turn_sigma_deg * kRad : options_.max_turn_rad_s * dt;
+      const double way_sigma = options_.max_speed_m_s * dt;
+      const Eigen::Matrix3d R = hypothesis.T_world_body.rotation().matrix();
+      const Eigen::Matrix3d S_turn = turn_sigma * turn_sigma * Eigen::Matrix3d::Identity() +
+                                     parent.covariance.bottomRightCorner<3, 3>() +
+                                     hypothesis.covariance.bottomRightCorner<3, 3>();
+      const Eigen::Matrix3d S_way =
+          way_sigma * way_sigma * Eigen::Matrix3d::Identity() +
+          R *
+              Eigen::Matrix3d(hypothesis.covariance.topLeftCorner<3, 3>() +
+                              parent.covariance.topLeftCorner<3, 3>()) *
+              R.transpose();
+      const double step = log_likelihood(turn.dot(S_turn.ldlt().solve(turn)), 3) +
+                          log_likelihood(way.dot(S_way.ldlt().solve(way)), 3);
+      before = std::max(before, kKept * parent.followed + step);
+    }
+    hypothesis.followed = before + log_likelihood(hypothesis.chi2, 8);
+    hypothesis.nats = hypothesis.followed;
+    if (view.force_body && view.force_body->norm() > 0) {
+      const Vector3d up = hypothesis.T_world_body.rotation() * *view.force_body;
+      const double angle = std::atan2(up.head<2>().norm(), up.z());
+      hypothesis.nats +=
+          log_likelihood(std::pow(angle / (options_.gravity_sigma_deg * kRad), 2), 2);
+    }
+  }
+  if (!expected) return;
+  // A filter that expects none of them is lost itself, and says nothing.
+  std::vector<double> deviation2(hypotheses.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    const auto d2 =
+        expected->deviation2({view.stamp_ns, hypotheses[i].T_world_body, hypotheses[i].covariance});
+    if (!d2) return;
+    deviation2[i] = *d2;
+    least = std::min(least, *d2);
+  }
+  if (least > chi_squared_quantile(options_.gate, 6)) return;
+  for (std::size_t i = 0; i < hypotheses.size(); ++i)
+    hypotheses[i].nats += log_likelihood(deviation2[i], 6);
+}
+
+MarkerAnswer MarkerFilter::observe(const MarkerView& view, const PositionFilter* expected) {
+  MarkerAnswer answer;
+  answer.outcome = Outcome::failure(Code::kTooFewData, "nothing known in view");
+  if (view.stamp_ns <= last_ns_ ||
+      1e-9 * static_cast<double>(view.stamp_ns - last_ns_) > options_.memory_s)
+    hypotheses_.clear();
+  std::vector<MarkerHypothesis> hypotheses = explain(view, answer, expected);
+  if (hypotheses.empty()) return answer;
+  weigh(view, expected, hypotheses);
+  const auto by_nats = [](const MarkerHypothesis& a, const MarkerHypothesis& b) {
+    return a.nats > b.nats;
+  };
+  std::sort(hypotheses.begin(), hypotheses.end(), by_nats);
+  const double best = hypotheses.front().nats, best_followed = hypotheses.front().followed;
+  std::erase_if(hypotheses, [&](const MarkerHypothesis& hypothesis) {
+    return hypothesis.nats < best - options_.decided_nats;
+  });
+  for (MarkerHypothesis& hypothesis : hypotheses) {
+    hypothesis.nats -= best;
+    hypothesis.followed -= best_followed;
+  }
+  hypotheses_ = answer.hypotheses = hypotheses;
+  last_ns_ = view.stamp_ns;
+
+  MarkerHypothesis joined = hypotheses.front();
+  for (std::size_t i = 1; i < hypotheses.size(); ++i) {
+    if (!indistinct(hypotheses.front(), hypotheses[i], expected != nullptr)) {
+      answer.outcome = Outcome::failure(
+          Code::kInconsistent, std::to_string(hypotheses.size()) + " poses explain what is seen");
+      return answer;
+    }
+    joined = mixture(joined, hypotheses[i]);
+  }
+  answer.outcome = Outcome::ok();
+  answer.sighting = {view.stamp_ns, joined.T_world_body, joined.covariance};
+  return answer;
+}
+
+std::vector<SquareCorners> MarkerFilter::expected_squares(const SE3& T_world_body) const {
+  const SE3 T_cam_world = (T_world_body * T_body_cam_).inverse();
+  std::vector<SquareCorners> squares;
+  for (const PlacedMarker& marker : layout_.markers) {
+    SquareCorners corners;
+    int seen = 0, inside = 0;
+    for (const Vector3d& corner : marker.corners_marker()) {
+      const auto px = camera_.project(T_cam_world * marker.T_world_marker * corner);
+      if (!px) break;
+      inside += camera_.contains(*px) ? 1 : 0;
+      corners[seen++] = *px;
+    }
+    if (seen == 4 && inside > 0) squares.push_back(corners);
+  }
+  return squares;
+}
+
+}  // namespace placegraph
