@@ -1,8 +1,7 @@
+#include <placegraph/frontend/odometry/marker_explanation.h>
 #include <placegraph/frontend/odometry/marker_filter.h>
-#include <placegraph/frontend/odometry/marker_pose.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/imu.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -18,107 +17,6 @@ using Code = Outcome::Code;
 using Eigen::Vector3d;
 constexpr double kRad = std::numbers::pi / 180;
 
-/// Logarithm of Student's distribution with four degrees of freedom over `dimensions`, less that of
-/// its top: what is far away refutes, but no single number refutes for ever.
-double log_likelihood(double chi2, int dimensions) {
-  constexpr double kFreedom = 4;
-  return -0.5 * (kFreedom + dimensions) * std::log1p(chi2 / kFreedom);
-}
-
-/// One explanation of a view, in the camera's frame.
-struct Explanation {
-  SquarePose pose;
-  std::vector<int> squares;  ///< inside the gate
-  BeaconPairs beacons;
-  double chi2 = 0;  ///< squares outside the gate count as at its edge
-};
-
-std::vector<SeenSquare> pick(const std::vector<SeenSquare>& squares,
-                             const std::vector<int>& which) {
-  std::vector<SeenSquare> picked;
-  for (const int i : which) picked.push_back(squares[i]);
-  return picked;
-}
-
-std::vector<SeenPoint> points_of(const std::vector<BeaconSighting>& spots,
-                                 const std::vector<Vector3d>& beacons_world,
-                                 const BeaconPairs& pairs) {
-  std::vector<SeenPoint> points;
-  for (const auto& [spot, beacon] : pairs)
-    points.push_back({spots[spot].px, beacons_world[beacon], spots[spot].covariance.inverse()});
-  return points;
-}
-
-/// The plane that all squares lie in, if they do.
-struct Plane {
-  Vector3d centre = Vector3d::Zero(), normal = Vector3d::UnitZ();
-};
-std::optional<Plane> common_plane(const std::vector<SeenSquare>& squares) {
-  Plane plane;
-  if (squares.empty()) return std::nullopt;
-  for (const SeenSquare& square : squares)
-    plane.centre += 0.5 * (square.corners_ref[0] + square.corners_ref[2]);
-  plane.centre /= static_cast<double>(squares.size());
-  const auto& first = squares.front().corners_ref;
-  plane.normal = (first[1] - first[0]).cross(first[0] - first[3]).normalized();
-  constexpr double kFlat = 0.02;  // of a square's side
-  for (const SeenSquare& square : squares)
-    for (const Vector3d& corner : square.corners_ref)
-      if (std::abs(plane.normal.dot(corner - first[0])) > kFlat * (first[1] - first[0]).norm())
-        return std::nullopt;
-  return plane;
-}
-
-/// Solves all squares together from a start; those that do not fit are left out, worst first.
-Explanation solve(const Camera& camera, const std::vector<SeenSquare>& squares, const SE3& start,
-                  double gate) {
-  Explanation result;
-  std::vector<int> kept(squares.size());
-  for (std::size_t i = 0; i < squares.size(); ++i) kept[i] = static_cast<int>(i);
-  while (!kept.empty()) {
-    const std::vector<SeenSquare> used = pick(squares, kept);
-    result.pose = refine_square_pose(camera, used, {}, start);
-    if (!result.pose.outcome) return result;
-    double worst = gate;
-    std::size_t at = kept.size();
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-      const double chi2 = square_chi2(camera, used[k], result.pose.T_ref_cam);
-      if (chi2 <= worst) continue;
-      worst = chi2;
-      at = k;
-    }
-    if (at == kept.size()) break;
-    if (kept.size() == 1) {
-      // A single marker's pose is what it is: its error speaks for itself.
-      break;
-    }
-    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(at));
-  }
-  result.squares = kept;
-  result.chi2 = result.pose.chi2 + gate * static_cast<double>(squares.size() - kept.size());
-  return result;
-}
-
-/// Takes in the beacons that the pose makes plain.
-void add_beacons(const Camera& camera, const std::vector<SeenSquare>& squares,
-                 const std::vector<BeaconSighting>& spots,
-                 const std::vector<Vector3d>& beacons_world, const BeaconPoseOptions& options,
-                 Explanation& explanation) {
-  const BeaconPairs pairs = assign_beacons(spots, beacons_world, camera, explanation.pose.T_ref_cam,
-                                           explanation.pose.covariance, options);
-  if (pairs.empty()) return;
-  const std::vector<SeenPoint> points = points_of(spots, beacons_world, pairs);
-  const SquarePose joint = refine_square_pose(camera, pick(squares, explanation.squares), points,
-                                              explanation.pose.T_ref_cam);
-  if (!joint.outcome) return;
-  // Spots that bend the pose are not the beacons that they were taken for.
-  const int rows = 2 * static_cast<int>(points.size());
-  if (joint.chi2 - explanation.pose.chi2 > chi_squared_quantile(options.gate, rows)) return;
-  explanation.chi2 += joint.chi2 - explanation.pose.chi2;
-  explanation.pose = joint;
-  explanation.beacons = pairs;
-}
-
 Vector6d difference(const SE3& from, const SE3& to) { return (from.inverse() * to).log(); }
 
 /// Whether two poses are one within what is known of either. A filter that will weigh the answer
@@ -129,12 +27,6 @@ bool indistinct(const MarkerHypothesis& a, const MarkerHypothesis& b, bool filte
   constexpr double kSame_rad = kRad;
   return d.dot(S.ldlt().solve(d)) < chi_squared_quantile(0.99, 6) &&
          (filtered || d.tail<3>().norm() < kSame_rad);
-}
-
-bool same_minimum(const SE3& a, const SE3& b) {
-  const Vector6d d = difference(a, b);
-  constexpr double kSame_m = 1e-4, kSame_rad = 1e-3;
-  return d.head<3>().norm() < kSame_m && d.tail<3>().norm() < kSame_rad;
 }
 
 /// Two minima that are nearer to each other than either is known become one: mean and covariance of
@@ -202,95 +94,32 @@ std::vector<SeenSquare> MarkerFilter::known_squares(const MarkerView& view) cons
   return squares;
 }
 
-/// All poses at which what is seen has a minimum of its error.
 std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view, MarkerAnswer& answer,
                                                     const PositionFilter* expected) const {
-  const std::vector<SeenSquare> squares = known_squares(view);
-  const double gate = chi_squared_quantile(options_.gate, 8);
-  std::vector<SE3> starts;
-  for (const SeenSquare& square : squares) {
-    MarkerSighting alone;
-    alone.corners_px = square.corners_px;
-    alone.covariance = square.information.inverse();
-    const double side_m = (square.corners_ref[1] - square.corners_ref[0]).norm();
-    // The marker's frame from its corners in the world.
-    const Vector3d x = (square.corners_ref[1] - square.corners_ref[0]).normalized();
-    const Vector3d y = (square.corners_ref[0] - square.corners_ref[3]).normalized();
-    Eigen::Matrix3d R;
-    R << x, y, x.cross(y);
-    const SE3 T_world_marker(R, Vector3d(0.5 * (square.corners_ref[0] + square.corners_ref[2])));
-    for (const MarkerPose& pose : estimate_marker_poses(alone, side_m, camera_).poses)
-      starts.push_back(T_world_marker * pose.T_cam_marker.inverse());
-  }
   const SE3 T_cam_body = T_body_cam_.inverse();
-  std::optional<BodyState> state;
+  std::optional<KnownCamera> known;
   if (expected)
-    if (const auto at = expected->at(view.stamp_ns); at.outcome) state = at.state;
-
-  std::vector<Explanation> found;
-  const auto keep = [&](Explanation explanation) {
-    const bool known = std::any_of(found.begin(), found.end(), [&](const Explanation& other) {
-      return same_minimum(other.pose.T_ref_cam, explanation.pose.T_ref_cam);
-    });
-    if (explanation.pose.outcome && !known) found.push_back(std::move(explanation));
-  };
-  for (const SE3& start : starts) {
-    Explanation explanation = solve(camera_, squares, start, gate);
-    if (!explanation.pose.outcome) continue;
-    add_beacons(camera_, squares, view.beacons, layout_.beacons_world, options_.beacons,
-                explanation);
-    keep(std::move(explanation));
-  }
-  if (found.size() == 1) {
-    // A plane may have been taken for its mirror image.
-    const auto plane = common_plane(squares);
-    Explanation other = found.front();
-    if (plane) {
-      other.pose = find_planar_rival(camera_, pick(squares, other.squares),
-                                     points_of(view.beacons, layout_.beacons_world, other.beacons),
-                                     other.pose.T_ref_cam, plane->centre, plane->normal);
-      other.chi2 += other.pose.chi2 - found.front().pose.chi2;
-      keep(std::move(other));
-    }
-  }
-  if (squares.empty()) {
-    Explanation explanation;
-    if (state) {
-      // Where the filter expects the camera, three spots are enough.
-      Matrix6d covariance = Matrix6d::Zero();
-      const Eigen::Matrix3d R = state->T_world_body.rotation().matrix();
+    if (const auto at = expected->at(view.stamp_ns); at.outcome) {
+      // Errors of the state's position and attitude as a right tangent of the camera's pose.
       Eigen::Matrix<double, 6, 15> J = Eigen::Matrix<double, 6, 15>::Zero();
-      J.block<3, 3>(0, 0) = R.transpose();
+      J.block<3, 3>(0, 0) = at.state.T_world_body.rotation().matrix().transpose();
       J.block<3, 3>(3, 6).setIdentity();
-      covariance = T_cam_body.adjoint() * J * state->covariance * J.transpose() *
-                   T_cam_body.adjoint().transpose();
-      const SE3 T_world_cam = state->T_world_body * T_body_cam_;
-      explanation.beacons = assign_beacons(view.beacons, layout_.beacons_world, camera_,
-                                           T_world_cam, covariance, options_.beacons);
-      explanation.pose = refine_square_pose(
-          camera_, {}, points_of(view.beacons, layout_.beacons_world, explanation.beacons),
-          T_world_cam);
-    } else {
-      const BeaconPose pose =
-          find_beacon_pose(view.beacons, layout_.beacons_world, camera_, options_.beacons);
-      explanation.pose.outcome = pose.outcome;
-      explanation.pose.T_ref_cam = pose.T_world_cam;
-      explanation.pose.covariance = pose.covariance;
-      explanation.pose.chi2 = pose.chi2;
-      explanation.beacons = pose.pairs;
-      if (!pose.outcome) answer.outcome = pose.outcome;
+      J = T_cam_body.adjoint() * J;
+      known =
+          KnownCamera{at.state.T_world_body * T_body_cam_, J * at.state.covariance * J.transpose()};
     }
-    explanation.chi2 = explanation.pose.chi2;
-    keep(std::move(explanation));
-  }
-
+  const MarkerExplanations explanations =
+      explain_markers(camera_, known_squares(view), view.beacons, layout_.beacons_world,
+                      chi_squared_quantile(options_.gate, 8), options_.beacons, known);
+  answer.outcome = explanations.outcome;
   std::vector<MarkerHypothesis> hypotheses;
-  for (const Explanation& explanation : found) {
+  for (const MarkerExplanation& explanation : explanations.found) {
     MarkerHypothesis hypothesis;
     hypothesis.T_world_body = explanation.pose.T_ref_cam * T_cam_body;
     hypothesis.covariance =
         T_body_cam_.adjoint() * explanation.pose.covariance * T_body_cam_.adjoint().transpose();
-    hypothesis.chi2 = explanation.chi2;
+    hypothesis.chi2 = explanation.pose.chi2;
+    hypothesis.followed = explanation.nats;
     hypotheses.push_back(hypothesis);
     answer.markers = std::max(answer.markers, static_cast<int>(explanation.squares.size()));
     answer.beacons = std::max(answer.beacons, static_cast<int>(explanation.beacons.size()));
@@ -329,7 +158,7 @@ void MarkerFilter::weigh(const MarkerView& view, const PositionFilter* expected,
                           log_likelihood(way.dot(S_way.ldlt().solve(way)), 3);
       before = std::max(before, kKept * parent.followed + step);
     }
-    hypothesis.followed = before + log_likelihood(hypothesis.chi2, 8);
+    hypothesis.followed += before;
     hypothesis.nats = hypothesis.followed;
     if (view.force_body && view.force_body->norm() > 0) {
       const Vector3d up = hypothesis.T_world_body.rotation() * *view.force_body;
@@ -356,7 +185,6 @@ void MarkerFilter::weigh(const MarkerView& view, const PositionFilter* expected,
 
 MarkerAnswer MarkerFilter::observe(const MarkerView& view, const PositionFilter* expected) {
   MarkerAnswer answer;
-  answer.outcome = Outcome::failure(Code::kTooFewData, "nothing known in view");
   if (view.stamp_ns <= last_ns_ ||
       1e-9 * static_cast<double>(view.stamp_ns - last_ns_) > options_.memory_s)
     hypotheses_.clear();

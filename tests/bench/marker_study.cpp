@@ -37,7 +37,9 @@ void study_apriltag_sim(const std::string& folder, Report& report) {
   const SimulatedTags truth = read_apriltag_sim(folder);
   const auto found = MarkerDetector({}, "apriltag_36h11").detect(truth.image);
   double corner_px = 0, way_percent = 0, turn_deg = 0;
-  report.markdown += "| tag | corners, worst [px] | position [% of range] | attitude [deg] | its rival's chi2 |\n|---|---|---|---|---|\n";
+  report.markdown +=
+      "| tag | corners, worst [px] | position [% of range] | attitude [deg] | its rival's chi2 "
+      "|\n|---|---|---|---|---|\n";
   for (const MarkerSighting& sighting : found) {
     const SimulatedTag& tag = truth.tags.at(sighting.id);
     const double px = worst_corner_px(sighting.corners_px, tag.corners_px);
@@ -45,8 +47,7 @@ void study_apriltag_sim(const std::string& folder, Report& report) {
     if (!poses.outcome) continue;
     const SE3& T = poses.poses[0].T_cam_marker;
     const double range = tag.T_cam_marker.translation().norm();
-    const double way =
-        100 * (T.translation() - tag.T_cam_marker.translation()).norm() / range;
+    const double way = 100 * (T.translation() - tag.T_cam_marker.translation()).norm() / range;
     const double turn = angle_deg(T, tag.T_cam_marker);
     corner_px = std::max(corner_px, px);
     way_percent = std::max(way_percent, way);
@@ -106,9 +107,9 @@ void judge(const MarkerScene& scene, const SE3& T_world_cam, const Image& image,
   const auto& sighting = view.markers[0];
   Eigen::Matrix<double, 8, 1> error;
   for (int k = 0; k < 4; ++k)
-    error.segment<2>(2 * k) =
-        sighting.corners_px[k] - *scene.camera.project(T_world_cam.inverse() * placed.T_world_marker *
-                                                       placed.corners_marker()[k]);
+    error.segment<2>(2 * k) = sighting.corners_px[k] -
+                              *scene.camera.project(T_world_cam.inverse() * placed.T_world_marker *
+                                                    placed.corners_marker()[k]);
   for (int k = 0; k < 4; ++k) {
     const double px = error.segment<2>(2 * k).norm();
     tally.worst_px = std::max(tally.worst_px, px);
@@ -137,13 +138,14 @@ std::string row(const std::string& name, Tally& tally) {
     return tally.corner_px[static_cast<std::size_t>(
         share * static_cast<double>(tally.corner_px.size() - 1))];
   };
-  return fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n", name,
-                     tally.views, tally.seen, tally.undecided, tally.wrong, at(0.5), at(0.99), tally.worst_px,
-                     tally.corner_nees / std::max(1, tally.seen),
+  return fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n",
+                     name, tally.views, tally.seen, tally.undecided, tally.wrong, at(0.5), at(0.99),
+                     tally.worst_px, tally.corner_nees / std::max(1, tally.seen),
                      tally.pose_nees / std::max(1, tally.answers));
 }
 const char* const kHead =
-    "| {} | views | seen | undecided | wrong pose | corners, median [px] | 99 % [px] | worst [px] | corners, NEES/8 | "
+    "| {} | views | seen | undecided | wrong pose | corners, median [px] | 99 % [px] | worst [px] "
+    "| corners, NEES/8 | "
     "pose, NEES/6 |\n|---|---|---|---|---|---|---|---|---|---|\n";
 
 /// Single views, nothing known before; and views of a camera that sways, its turns known by a gyro.
@@ -210,7 +212,9 @@ void study_tilts(int seeds, Report& report) {
   report.target("swaying, wrong poses", all_swaying.wrong);
   report.target("swaying, views seen", all_swaying.seen);
   report.target("swaying, undecided", all_swaying.undecided);
-  report.target("sweep, corners, 99 % [px]", all.corner_px[static_cast<std::size_t>(0.99 * static_cast<double>(all.corner_px.size()))]);
+  report.target(
+      "sweep, corners, 99 % [px]",
+      all.corner_px[static_cast<std::size_t>(0.99 * static_cast<double>(all.corner_px.size()))]);
 }
 
 }  // namespace

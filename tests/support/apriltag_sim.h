@@ -47,11 +47,10 @@ inline SimulatedTags read_apriltag_sim(const std::string& folder) {
     require(corners && pose, "apriltag_sim: truncated");
     SimulatedTag tag;
     tag.side_m = id < 3 ? 0.2 : 0.1;
-    tag.T_cam_marker = SE3(Eigen::Matrix3d(T.topLeftCorner<3, 3>()),
-                           Eigen::Vector3d(T.topRightCorner<3, 1>())) *
-                       half_turn;
-    for (int k = 0; k < 4; ++k)
-      tag.corners_px[k] = theirs[kTheirs[k]] - Eigen::Vector2d(0.5, 0.5);
+    tag.T_cam_marker =
+        SE3(Eigen::Matrix3d(T.topLeftCorner<3, 3>()), Eigen::Vector3d(T.topRightCorner<3, 1>())) *
+        half_turn;
+    for (int k = 0; k < 4; ++k) tag.corners_px[k] = theirs[kTheirs[k]] - Eigen::Vector2d(0.5, 0.5);
     result.tags[id] = tag;
   }
   return result;
