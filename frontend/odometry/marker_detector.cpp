@@ -38,6 +38,9 @@ void MarkerDetector::detect_in(const Image& grey, int left, int top, int right, 
   const auto parameters = cv::aruco::DetectorParameters::create();
   parameters->minMarkerPerimeterRate = 4 * options_.min_side_px / longest;
   parameters->errorCorrectionRate = options_.correction;
+  // Of outlines nearer to each other than that only the outermost is looked at: that of the sheet
+  // must not hide the marker printed on it.
+  parameters->minMarkerDistanceRate = 0.02;
   std::vector<std::vector<cv::Point2f>> squares;
   std::vector<int> ids;
   cv::aruco::detectMarkers(grey(window), family_->dictionary, squares, ids, parameters);

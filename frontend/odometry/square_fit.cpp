@@ -291,7 +291,7 @@ bool fit_once(const StraightPixels& pixels, double border_share, const SquareFit
         std::min(kMostMargin, (kCorner_px + band.inside_px * cotangent(before, way)) / length);
     band.end_margin =
         std::min(kMostMargin, (kCorner_px + band.inside_px * cotangent(after, way)) / length);
-    const std::vector<SidePixel> beside = pixels_of(pixels, side, band, first ? 120 : 400);
+    const std::vector<SidePixel> beside = pixels_of(pixels, side, band, first ? 80 : 240);
     Parameters& x = parameters[i];
     if (x[kBlur] == 0) x = start_of(beside, band);
     x[kOffsetStart] = x[kOffsetEnd] = 0;
