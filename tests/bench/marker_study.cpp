@@ -200,7 +200,8 @@ void study_tilts(int seeds, Report& report) {
   }
   report.markdown += fmt::format(fmt::runtime(kHead), "tilt [deg]");
   for (auto& [tilt, tally] : by_tilt) report.markdown += row(std::to_string(tilt), tally);
-  report.markdown += "\n" + fmt::format(fmt::runtime(kHead), "range [m]");
+  report.markdown += "\n";
+  report.markdown += fmt::format(fmt::runtime(kHead), "range [m]");
   for (auto& [range, tally] : by_range)
     report.markdown += row(fmt::format("{:.1f}", range / 10.0), tally);
   report.markdown += row("all", all);
