@@ -142,7 +142,24 @@ struct Step {
   double value = 0, slope = 0;
 };
 Step step_at(double z) {
-  return {std::erf(z * M_SQRT1_2), std::sqrt(2 / M_PI) * std::exp(-0.5 * z * z)};
+  // Looked up: it is asked for at every pixel in every round. Between entries linear, to 2e-5.
+  constexpr double kReach = 5, kPerUnit = 64;
+  constexpr int kEntries = static_cast<int>(2 * kReach * kPerUnit) + 2;
+  static const std::array<Step, kEntries> table = [] {
+    std::array<Step, kEntries> steps;
+    for (int i = 0; i < kEntries; ++i) {
+      const double at = i / kPerUnit - kReach;
+      steps[i] = {std::erf(at * M_SQRT1_2), std::sqrt(2 / M_PI) * std::exp(-0.5 * at * at)};
+    }
+    return steps;
+  }();
+  if (!(std::abs(z) < kReach)) return {z < 0 ? -1.0 : 1.0, 0};
+  const double at = (z + kReach) * kPerUnit;
+  const int index = static_cast<int>(at);
+  const double share = at - index;
+  const Step &low = table[index], &high = table[index + 1];
+  return {low.value + share * (high.value - low.value),
+          low.slope + share * (high.slope - low.slope)};
 }
 
 double error_and_jacobian(const Parameters& x, const SidePixel& pixel, Parameters& J) {
@@ -291,7 +308,7 @@ bool fit_once(const StraightPixels& pixels, double border_share, const SquareFit
         std::min(kMostMargin, (kCorner_px + band.inside_px * cotangent(before, way)) / length);
     band.end_margin =
         std::min(kMostMargin, (kCorner_px + band.inside_px * cotangent(after, way)) / length);
-    const std::vector<SidePixel> beside = pixels_of(pixels, side, band, first ? 80 : 240);
+    const std::vector<SidePixel> beside = pixels_of(pixels, side, band, first ? 80 : 400);
     Parameters& x = parameters[i];
     if (x[kBlur] == 0) x = start_of(beside, band);
     x[kOffsetStart] = x[kOffsetEnd] = 0;
@@ -332,7 +349,7 @@ std::optional<SquareFit> fit_square(const Image& grey, const SquareCorners& expe
     double moved = 0;
     for (int i = 0; i < 4; ++i) moved = std::max(moved, (fit.corners_px[i] - before[i]).norm());
     if (moved > 2 * options.reach_px) return std::nullopt;
-    if (round > 0 && moved < 0.02) break;
+    if (round > 0 && moved < 0.1) break;
   }
   Eigen::Matrix<double, 8, 8> J = Eigen::Matrix<double, 8, 8>::Zero();
   for (int i = 0; i < 4; ++i) {

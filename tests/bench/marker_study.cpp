@@ -7,6 +7,7 @@
 #include <placegraph/frontend/odometry/marker_pose.h>
 #include <placegraph/graph/core/error.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -78,6 +79,13 @@ struct Tally {
   int views = 0, seen = 0, undecided = 0, wrong = 0, corners = 0, answers = 0;
   double squared_px = 0, worst_px = 0, corner_nees = 0, pose_nees = 0;
   std::vector<double> corner_px;
+
+  /// The distance that this share of the corners stays below.
+  double corner_at(double share) {
+    if (corner_px.empty()) return 0;
+    std::sort(corner_px.begin(), corner_px.end());
+    return corner_px[static_cast<std::size_t>(share * static_cast<double>(corner_px.size() - 1))];
+  }
 };
 
 /// The pose that exact corners could be taken for beside the true one, if there is one.
@@ -132,15 +140,10 @@ void judge(const MarkerScene& scene, const SE3& T_world_cam, const Image& image,
 }
 
 std::string row(const std::string& name, Tally& tally) {
-  const auto at = [&](double share) {
-    if (tally.corner_px.empty()) return 0.0;
-    std::sort(tally.corner_px.begin(), tally.corner_px.end());
-    return tally.corner_px[static_cast<std::size_t>(
-        share * static_cast<double>(tally.corner_px.size() - 1))];
-  };
   return fmt::format("| {} | {} | {} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {:.2f} |\n",
-                     name, tally.views, tally.seen, tally.undecided, tally.wrong, at(0.5), at(0.99),
-                     tally.worst_px, tally.corner_nees / std::max(1, tally.seen),
+                     name, tally.views, tally.seen, tally.undecided, tally.wrong,
+                     tally.corner_at(0.5), tally.corner_at(0.99), tally.worst_px,
+                     tally.corner_nees / std::max(1, tally.seen),
                      tally.pose_nees / std::max(1, tally.answers));
 }
 const char* const kHead =
@@ -213,9 +216,9 @@ void study_tilts(int seeds, Report& report) {
   report.target("swaying, wrong poses", all_swaying.wrong);
   report.target("swaying, views seen", all_swaying.seen);
   report.target("swaying, undecided", all_swaying.undecided);
-  report.target(
-      "sweep, corners, 99 % [px]",
-      all.corner_px[static_cast<std::size_t>(0.99 * static_cast<double>(all.corner_px.size()))]);
+  for (const double percent : {50.0, 95.0, 99.0})
+    report.target(fmt::format("sweep, corners, {:.0f} % [px]", percent),
+                  all.corner_at(percent / 100));
 }
 
 }  // namespace
