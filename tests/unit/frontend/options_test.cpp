@@ -10,6 +10,7 @@
 #include <placegraph/frontend/lines/segment_detector.h>
 #include <placegraph/frontend/lines/segment_matcher.h>
 #include <placegraph/frontend/odometry/circular_motion.h>
+#include <placegraph/frontend/odometry/marker_filter.h>
 #include <placegraph/frontend/odometry/mono_initializer.h>
 #include <placegraph/frontend/odometry/pose_3d2d.h>
 #include <placegraph/frontend/odometry/pose_3d3d.h>
@@ -28,15 +29,15 @@ namespace {
 
 template <class Options>
 class FrontendOptions : public testing::Test {};
-using All =
-    testing::Types<DetectorOptions, MatcherOptions, StereoMatcherOptions, PointTrackerOptions,
-                   MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
-                   PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
-                   PlanarRegionsOptions, MotionFromPlanesOptions, SegmentDetectorOptions,
-                   SegmentMatcherOptions, SceneDirectionOptions, PlaneTrackerOptions,
-                   GravityPoseOptions, CircularMotionOptions, Pose3d3dOptions,
-                   InverseDepthPlaneOptions, DominantSurfaceOptions, LineTrackerOptions,
-                   LineStereoOptions, LineTriangulationOptions, PoseFromLinesOptions>;
+using All = testing::Types<
+    DetectorOptions, MatcherOptions, StereoMatcherOptions, PointTrackerOptions,
+    MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
+    PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions, PlanarRegionsOptions,
+    MotionFromPlanesOptions, SegmentDetectorOptions, SegmentMatcherOptions, SceneDirectionOptions,
+    PlaneTrackerOptions, GravityPoseOptions, CircularMotionOptions, Pose3d3dOptions,
+    InverseDepthPlaneOptions, DominantSurfaceOptions, LineTrackerOptions, LineStereoOptions,
+    LineTriangulationOptions, PoseFromLinesOptions, PositionFilterOptions, SquareFitOptions,
+    MarkerDetectorOptions, MarkerFilterOptions, BeaconDetectorOptions, BeaconPoseOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.
