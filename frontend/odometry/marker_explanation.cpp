@@ -128,15 +128,9 @@ std::vector<SE3> starts_of(const Camera& camera, const std::vector<SeenSquare>& 
   return starts;
 }
 
-bool same_minimum(const SE3& a, const SE3& b) {
-  const Vector6d d = (a.inverse() * b).log();
-  constexpr double kSame_m = 1e-4, kSame_rad = 1e-3;
-  return d.head<3>().norm() < kSame_m && d.tail<3>().norm() < kSame_rad;
-}
-
 void keep(MarkerExplanation explanation, std::vector<MarkerExplanation>& found) {
   const bool known = std::any_of(found.begin(), found.end(), [&](const MarkerExplanation& other) {
-    return same_minimum(other.pose.T_ref_cam, explanation.pose.T_ref_cam);
+    return same_minimum(other.pose, explanation.pose);
   });
   if (explanation.pose.outcome && !known) found.push_back(std::move(explanation));
 }

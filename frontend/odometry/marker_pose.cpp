@@ -54,13 +54,6 @@ bool face_seen(const SE3& T_cam_marker) {
   return T_cam_marker.translation().z() > 0 && normal.dot(T_cam_marker.translation()) < 0;
 }
 
-/// Minima this near are one.
-bool same(const SE3& a, const SE3& b, double side_m) {
-  const SE3 between = a.inverse() * b;
-  constexpr double kSame = 1e-4;
-  return between.translation().norm() < kSame * side_m && between.rotation().log().norm() < kSame;
-}
-
 }  // namespace
 
 double MarkerPoses::margin() const {
@@ -87,11 +80,14 @@ MarkerPoses estimate_marker_poses(const MarkerSighting& sighting, double side_m,
   seen.information = covariance.solve(Eigen::Matrix<double, 8, 8>::Identity());
 
   result.outcome = Outcome::failure(Code::kNoConsensus, "no pose has the marker before the camera");
+  std::vector<SquarePose> minima;
   const auto take = [&](const SquarePose& refined) {
     if (!refined.outcome) {
       if (result.poses.empty()) result.outcome = refined.outcome;
       return;
     }
+    for (const SquarePose& known : minima)
+      if (same_minimum(known, refined)) return;
     MarkerPose pose;
     pose.T_cam_marker = refined.T_ref_cam.inverse();
     if (!face_seen(pose.T_cam_marker)) return;
@@ -103,10 +99,8 @@ MarkerPoses estimate_marker_poses(const MarkerSighting& sighting, double side_m,
       squared += (*camera.project(pose.T_cam_marker * seen.corners_ref[k]) - seen.corners_px[k])
                      .squaredNorm();
     pose.rms_px = std::sqrt(squared / 4);
-    const bool known = std::any_of(
-        result.poses.begin(), result.poses.end(),
-        [&](const MarkerPose& p) { return same(p.T_cam_marker, pose.T_cam_marker, side_m); });
-    if (!known) result.poses.push_back(pose);
+    minima.push_back(refined);
+    result.poses.push_back(pose);
   };
   for (const SE3& start : ippe_square(seen.corners_px, side_m, camera))
     take(refine_square_pose(camera, {seen}, {}, start.inverse()));

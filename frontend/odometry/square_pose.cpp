@@ -183,4 +183,10 @@ SquarePose find_planar_rival(const Camera& camera, const std::vector<SeenSquare>
   return refine(camera, squares, points, start, &normal_ref);
 }
 
+bool same_minimum(const SquarePose& a, const SquarePose& b) {
+  const Vector6d d = (a.T_ref_cam.inverse() * b.T_ref_cam).log();
+  constexpr double kSame = 0.1;
+  return d.dot(a.covariance.ldlt().solve(d)) < kSame * kSame;
+}
+
 }  // namespace placegraph

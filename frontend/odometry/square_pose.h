@@ -50,6 +50,10 @@ struct SquarePose {
                                            const Eigen::Vector3d& normal_ref,
                                            double apart_rad = 0.01);
 
+/// Whether two poses are one minimum: nearer to each other than a tenth of what is known of the
+/// first. Valleys are flat, and descents end where they no longer matter.
+bool same_minimum(const SquarePose& a, const SquarePose& b);
+
 /// Squared error of one square, in its information; infinite behind the camera.
 double square_chi2(const Camera& camera, const SeenSquare& square, const SE3& T_ref_cam);
 double point_chi2(const Camera& camera, const SeenPoint& point, const SE3& T_ref_cam);
