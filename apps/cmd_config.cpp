@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/io/yaml_config.h>
+#include <placegraph/pipeline/hover.h>
 #include <placegraph/pipeline/run.h>
 
 #include <CLI/CLI.hpp>
@@ -15,13 +16,12 @@ namespace placegraph::apps {
 namespace {
 
 struct Arguments {
-  std::string config, out;
+  std::string config, out, of = "run";
   std::vector<std::string> settings;
   bool dump = false, markdown = false, force = false;
 };
 
-std::string plain_list(const RunOptions& options) {
-  const std::vector<OptionEntry> entries = list_options(options);
+std::string plain_list(const std::vector<OptionEntry>& entries) {
   std::size_t key_width = 0, value_width = 0;
   for (const OptionEntry& entry : entries) {
     if (entry.type == "group") continue;
@@ -36,19 +36,26 @@ std::string plain_list(const RunOptions& options) {
   return text;
 }
 
-void run(const Arguments& arguments) {
-  if (!arguments.out.empty()) require_free(arguments.out, arguments.force);
-  RunOptions options;
+/// The options as they stand after the file and the settings, in the form asked for.
+template <class Options>
+std::string text_of(const Arguments& arguments) {
+  Options options;
   if (!arguments.config.empty()) read_options(arguments.config, options);
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   options.check();
-  std::string text = plain_list(options);
-  if (arguments.dump) text = dump_options(options);
+  if (arguments.dump) return dump_options(options);
   if (arguments.markdown)
-    text =
-        "# Options of `placegraph run`\n\nWritten by `placegraph config --markdown`; set them "
-        "in a file (`--config`) or by `--set key=value`.\n\n" +
-        options_markdown(options);
+    return "# Options of `placegraph " + arguments.of +
+           "`\n\nWritten by `placegraph config --markdown`; set them in a file (`--config`) or by "
+           "`--set key=value`.\n\n" +
+           options_markdown(options);
+  return plain_list(list_options(options));
+}
+
+void run(const Arguments& arguments) {
+  if (!arguments.out.empty()) require_free(arguments.out, arguments.force);
+  const std::string text =
+      arguments.of == "hover" ? text_of<HoverOptions>(arguments) : text_of<RunOptions>(arguments);
   if (arguments.out.empty())
     std::fputs(text.c_str(), stdout);
   else
@@ -68,6 +75,9 @@ void add_config_command(CLI::App& app) {
       ->allow_extra_args(false);
   auto* dump = command->add_flag("--dump", a.dump, "as YAML that --config takes back");
   command->add_flag("--markdown", a.markdown, "as docs/options.md")->excludes(dump);
+  command->add_option("--of", arguments->of, "whose options: run or hover")
+      ->check(CLI::IsMember({"run", "hover"}))
+      ->capture_default_str();
   command->add_option("--out", a.out, "write to a file instead of stdout");
   command->add_flag("--force", a.force, "overwrite it");
   command->callback([arguments] { run(*arguments); });

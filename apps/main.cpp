@@ -15,6 +15,7 @@
 #include "apps/cmd_eval.h"
 #include "apps/cmd_flow.h"
 #include "apps/cmd_georeference.h"
+#include "apps/cmd_hover.h"
 #include "apps/cmd_lines.h"
 #include "apps/cmd_markers.h"
 #include "apps/cmd_optimize.h"
@@ -69,6 +70,7 @@ int main(int argc, char** argv) {
     add_eval_command(app);
     add_flow_command(app);
     add_georeference_command(app);
+    add_hover_command(app);
     add_lines_command(app);
     add_markers_command(app);
     add_optimize_command(app);

@@ -168,9 +168,9 @@ VentralMotion ventral_motion(const std::vector<DerotatedFlow>& flow, const Vecto
     result.inliers += weight > 0;
     J += weight * rows[i].A.transpose() * rows[i].information * used[i]->J_end_rotation;
   }
-  const Matrix3d by_rotation = fitted.information.ldlt().solve(J);
-  result.covariance =
-      covariance_of(fitted) + by_rotation * rotation_covariance * by_rotation.transpose();
+  result.J_rotation = fitted.information.ldlt().solve(J);
+  result.covariance = covariance_of(fitted) +
+                      result.J_rotation * rotation_covariance * result.J_rotation.transpose();
   constexpr double kLeastSupport = 0.4;
   result.outcome = result.inliers < kLeastSupport * static_cast<double>(rows.size())
                        ? Outcome::failure(Code::kNoConsensus, "most vectors contradict a plane")

@@ -36,6 +36,8 @@ struct VentralMotion {
   /// there; divided by the time between the images it is speed over height [1/s].
   Eigen::Vector3d over_distance = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< from the flow's and the turn's
+  /// Of `over_distance` by the right tangent of the turn that was taken out.
+  Eigen::Matrix3d J_rotation = Eigen::Matrix3d::Zero();
   int inliers = 0;
   double chi2_per_dof = 0;
 };

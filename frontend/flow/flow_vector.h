@@ -26,4 +26,15 @@ Image flow_image(const std::vector<FlowVector>& vectors, int width, int height);
 /// The points (u, v) of a grid that begins half a step inside the image.
 std::vector<Eigen::Vector2d> flow_grid(int width, int height, int step_px);
 
+/// Sigma of the pixels' noise in grey levels, at least 0.5: from the response to a mask that no
+/// plane of grey values answers (Immerkaer 1996, "Fast noise variance estimation"), by the lower
+/// quartile over a grid, so that edges do not count. Fine texture counts as noise. CV_8UC1.
+double image_noise(const Image& image);
+
+/// Covariance [px^2] of the displacement that least squares over a window find where both images
+/// have noise of `noise_grey`: 2 noise^2 G^-1, G the sum of the gradients' outer products without
+/// the noise's own share. A window that shows nothing in some direction is sure to one window side.
+Eigen::Matrix2d track_covariance(const Image& image, const Eigen::Vector2d& px, int window_px,
+                                 double noise_grey);
+
 }  // namespace placegraph

@@ -155,13 +155,29 @@ std::optional<PositionFilter::Innovation> PositionFilter::innovation(
   result.H.block<3, 3>(0, kAttitude) += by_height * up_by_attitude.transpose();
   result.H.col(kVelocity + 2) -= by_height * 0.5 * dt;
   result.R = flow->covariance;
+  if (flow->J_turn) {
+    // What the gyro's noise and bias did to the turn they did to the attitude, with the other sign.
+    const Matrix3d J = *flow->J_turn * R_cam_body;
+    const double variance = options_.gyro_noise * options_.gyro_noise * dt;
+    result.H.block<3, 3>(0, kGyroBias) += dt * J;
+    result.R += variance * J * J.transpose();
+    result.C = MatrixXd::Zero(15, 3);
+    result.C.block<3, 3>(kAttitude, 0) = -variance * J.transpose();
+  }
   return result;
 }
 
 /// False if the measurement is outside the gate; then the state stays.
 bool PositionFilter::correct(const Innovation& innovation, BodyState& state) const {
-  const MatrixXd PHt = state.covariance * innovation.H.transpose();
-  const MatrixXd S = innovation.H * PHt + innovation.R;
+  const MatrixXd& H = innovation.H;
+  MatrixXd PHt = state.covariance * H.transpose();
+  MatrixXd S = H * PHt + innovation.R;
+  const bool correlated = innovation.C.size() > 0;
+  if (correlated) {
+    const MatrixXd HC = H * innovation.C;
+    S += HC + HC.transpose();
+    PHt += innovation.C;
+  }
   const Eigen::LDLT<MatrixXd> solver(S);
   const double chi2 = innovation.residual.dot(solver.solve(innovation.residual));
   const double limit =
@@ -175,8 +191,12 @@ bool PositionFilter::correct(const Innovation& innovation, BodyState& state) con
   state.gyro_bias += step.segment<3>(kGyroBias);
   state.accel_bias += step.segment<3>(kAccelBias);
   // Joseph's form stays positive; then the attitude's error is about the new attitude.
-  const Covariance I_KH = Covariance::Identity() - K * innovation.H;
+  const Covariance I_KH = Covariance::Identity() - K * H;
   state.covariance = I_KH * state.covariance * I_KH.transpose() + K * innovation.R * K.transpose();
+  if (correlated) {
+    const MatrixXd cross = I_KH * innovation.C * K.transpose();
+    state.covariance -= cross + cross.transpose();
+  }
   Covariance G = Covariance::Identity();
   G.block<3, 3>(kAttitude, kAttitude) =
       Matrix3d::Identity() - hat(Vector3d(0.5 * step.segment<3>(kAttitude)));

@@ -75,6 +75,7 @@ class PositionFilter {
   struct Innovation {
     Eigen::VectorXd residual;
     Eigen::MatrixXd H, R;
+    Eigen::MatrixXd C;  // of the state's error with the measurement's; empty: none
   };
 
   Outcome insert(std::int64_t stamp_ns, const Measurement& measurement);

@@ -30,7 +30,7 @@ absent() { heading "$1"; echo "Absent: the data are not on this machine." >> "$r
 # render NAME ARGUMENTS...: renders $out/NAME-world quietly
 render() {
   name=$1; shift
-  if [ -n "${REUSE_WORLDS:-}" ] && [ -f "$out/$name-world/poses.txt" ]; then return 0; fi
+  if [ -n "${REUSE_WORLDS:-}" ] && { [ -f "$out/$name-world/poses.txt" ] || [ -f "$out/$name-world/markers.yaml" ]; }; then return 0; fi
   say "rendering $name"
   $placegraph synth "$@" --out "$out/$name-world" --force > "$out/$name-world.log" 2>&1 || {
     cat "$out/$name-world.log" >&2; return 1; }

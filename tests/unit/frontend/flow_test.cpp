@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
+#include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/random.h>
+#include <algorithm>
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -187,6 +190,47 @@ TEST(OpticalFlow, RefusesImagesThatDoNotFit) {
   FlowOptions options;
   options.lucas_kanade.window_px = 8;
   EXPECT_THROW((void)optical_flow(grey, grey, options), ArgumentError);
+}
+
+/// Grey values of `shape(u, v)` with noise.
+template <class Shape>
+Image picture(const Shape& shape, double sigma) {
+  Random random(3);
+  Image image(360, 480, CV_8UC1);
+  for (int v = 0; v < image.rows; ++v)
+    for (int u = 0; u < image.cols; ++u)
+      image.at<unsigned char>(v, u) = static_cast<unsigned char>(
+          std::clamp(shape(u, v) + random.normal(0, sigma) + 0.5, 0.0, 255.0));
+  return image;
+}
+
+TEST(FlowVector, TellsTheNoiseOfPixelsBesideSlopesAndEdges) {
+  for (const double sigma : {2.0, 5.0}) {
+    const Image image =
+        picture([](int u, int v) { return 40 + 0.2 * u + 0.1 * v + (u > 80 ? 50 : 0); }, sigma);
+    EXPECT_NEAR(image_noise(image), sigma, 0.2 * sigma);
+  }
+  EXPECT_EQ(image_noise(picture([](int, int) { return 100; }, 0)), 0.5);
+  EXPECT_EQ(image_noise(Image(1, 1, CV_8UC1, cv::Scalar(0))), 0.5);
+}
+
+TEST(FlowVector, IsSureAcrossAnEdgeAndNotAlongIt) {
+  const Image image = picture([](int u, int) { return u > 80 ? 160 : 80; }, 2);
+  const Eigen::Matrix2d covariance = track_covariance(image, {80, 60}, 15, 2);
+  EXPECT_LT(std::sqrt(covariance(0, 0)), 0.05);
+  EXPECT_GT(std::sqrt(covariance(1, 1)), 0.2);  // the noise looks like something
+}
+
+TEST(FlowVector, FollowsTheGradientsOfASlope) {
+  // Slope 0.3 in u and 0.2 in v all over: only the direction (3, 2) is seen.
+  const Image image = picture([](int u, int v) { return (3 * u + 2 * v) / 10.0; }, 0);
+  const Eigen::Matrix2d covariance = track_covariance(image, {80, 60}, 15, 0.1);
+  const Eigen::Vector2d across = Eigen::Vector2d(3, 2).normalized();
+  const double information = 225 * (9 + 4) / 100.0 / (0.1 * 0.1);
+  EXPECT_NEAR(across.dot(covariance * across), 2 / information, 0.2 * 2 / information);
+  const Eigen::Vector2d along(-across.y(), across.x());
+  EXPECT_GT(along.dot(covariance * along), 10 * across.dot(covariance * across));
+  EXPECT_TRUE(track_covariance(image, {0, 0}, 15, 1).allFinite());
 }
 
 }  // namespace

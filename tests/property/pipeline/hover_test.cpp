@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+#include <placegraph/eval/body_state_error.h>
+
+#include "tests/support/hover_sights.h"
+
+namespace placegraph {
+namespace {
+
+using test::fly_without_images;
+
+synthetic::Tour tour_of(std::uint64_t seed, double duration_s) {
+  synthetic::TourRequest request;
+  request.seed = seed;
+  request.duration_s = duration_s;
+  return synthetic::make_hover(request);
+}
+
+std::vector<BodyState> answers(const std::vector<HoverFrame>& frames) {
+  std::vector<BodyState> states;
+  for (const HoverFrame& frame : frames)
+    if (frame.outcome) states.push_back(frame.state);
+  return states;
+}
+
+/// Errors divided by what the filter says of them, over flights with the markers lost on the way.
+TEST(HoverConsistency, ErrsAsItsCovarianceSaysThroughOutages) {
+  constexpr int kFlights = 8;
+  double anees = 0, position = 0, velocity = 0, attitude = 0;
+  for (std::uint64_t seed = 1; seed <= kFlights; ++seed) {
+    const synthetic::Tour tour = tour_of(200 + seed, 15);
+    const auto frames = fly_without_images(tour, {}, {}, seed, [](double) { return true; });
+    const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
+    ASSERT_TRUE(error.outcome) << error.outcome.reason;
+    EXPECT_LT(error.position_rmse_m, 0.02) << "seed " << seed;
+    EXPECT_LT(error.velocity_rmse_mps, 0.03) << "seed " << seed;
+    anees += error.anees / kFlights;
+    position += error.anees_position / kFlights;
+    velocity += error.anees_velocity / kFlights;
+    attitude += error.anees_attitude / kFlights;
+  }
+  for (const double mean : {anees, position, velocity, attitude}) {
+    EXPECT_GT(mean, 0.5);
+    EXPECT_LT(mean, 2);
+  }
+}
+
+TEST(HoverConsistency, GoesOnByFlowAloneAfterItsLastMarker) {
+  const synthetic::Tour tour = tour_of(31, 20);
+  const auto frames = fly_without_images(tour, {}, {}, 5, [](double t) { return t < 2; });
+  const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
+  ASSERT_TRUE(error.outcome);
+  EXPECT_EQ(error.compared, 401);
+  EXPECT_LT(error.end_error_m, 0.02 * error.way_m);
+}
+
+TEST(HoverConsistency, MarkersThatComeLateAreWorthAlmostAsMuch) {
+  const synthetic::Tour tour = tour_of(32, 12);
+  HoverOptions late;
+  late.marker_delay_s = 0.2;
+  const auto frames = fly_without_images(tour, late, {}, 6, [](double) { return true; });
+  const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
+  ASSERT_TRUE(error.outcome);
+  EXPECT_LT(error.position_rmse_m, 0.03);
+  EXPECT_LT(error.velocity_rmse_mps, 0.1);
+}
+
+}  // namespace
+}  // namespace placegraph
