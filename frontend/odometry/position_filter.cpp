@@ -41,6 +41,10 @@ void visit(OptionVisitor& field, PositionFilterOptions& o) {
         {0.5, 0.999999});
   field("history_s", o.history_s, "measurements that come later than that are refused", {0, 60});
   field("max_prediction_s", o.max_prediction_s, "beyond the last inertial sample", {0, 10});
+  field("ahead_turn_rad_s2", o.ahead_turn_rad_s2, "angular acceleration beyond the last sample",
+        {0, 1000});
+  field("ahead_push_m_s3", o.ahead_push_m_s3, "change of the force beyond the last sample",
+        {0, 1000});
   field("max_position_sigma_m", o.max_position_sigma_m, "a position less sure is no answer",
         {1e-3, 1e6});
 }
@@ -310,6 +314,21 @@ PositionFilter::Answer PositionFilter::at(std::int64_t stamp_ns) const {
   }
   const Event& last = *(after - 1);
   answer.state = predict(last, stamp_ns, last.imu);
+  // The last sample is held: what changes after it is not known, the same way all the time.
+  const double ahead = std::max(0.0, seconds(last.imu.stamp_ns, stamp_ns));
+  Eigen::Matrix<double, 15, 3> unknown_turn = Eigen::Matrix<double, 15, 3>::Zero();
+  Eigen::Matrix<double, 15, 3> unknown_push = unknown_turn;
+  unknown_turn.block<3, 3>(kAttitude, 0)
+      .diagonal()
+      .setConstant(0.5 * ahead * ahead * options_.ahead_turn_rad_s2);
+  unknown_push.block<3, 3>(kVelocity, 0)
+      .diagonal()
+      .setConstant(0.5 * ahead * ahead * options_.ahead_push_m_s3);
+  unknown_push.block<3, 3>(kPosition, 0)
+      .diagonal()
+      .setConstant(ahead * ahead * ahead / 6 * options_.ahead_push_m_s3);
+  answer.state.covariance +=
+      unknown_turn * unknown_turn.transpose() + unknown_push * unknown_push.transpose();
   if (seconds(last.imu.stamp_ns, stamp_ns) > options_.max_prediction_s) {
     answer.outcome = Outcome::failure(
         Code::kTooFewData, "the last inertial sample is " +

@@ -15,7 +15,7 @@ command_line "placegraph hover WORLD --out OUT"
 command_line "placegraph hover WORLD --out SMOOTH --smooth"
 command_line "placegraph hover WORLD --out ALONE --markers-until 3"
 command_line "build/release/tests/bench/bench_hover_study $flights"
-printf '\nFlights of 120 s in gusts (docs/synthetic_world.md), out of sight of every marker for more than 5 s again and again. Errors are those of every\nimage, without alignment. The drift is the error at the end of a flight that looked for markers in its first 3 s only, over the way flown since. The smoother has the same measurements in a window\nof twenty images (\`--smooth\`); its position RMSE divides the filter's over the same images.\n' >> "$rows"
+printf '\nFlights of 120 s in gusts (docs/synthetic_world.md), out of sight of every marker for more than 5 s again and again. Errors are those of every\nimage, without alignment. The drift is the error at the end of a flight that looked for markers in its first 3 s only, over the way flown since. The smoother has the same measurements in a window\nof twenty images (`--smooth`); its position RMSE divides that of the filter over the same images.\n' >> "$rows"
 columns flight "outages over 5 s (longest)" "position RMSE [m]" "velocity RMSE [m/s]" "drift [% of m]" "filter over smoother" "CPU a frame [ms] (+ reading)" "position <= 0.05, velocity <= 0.05, drift <= 2, ratio <= 1.5, CPU <= 6"
 for flight in 1-standard 2-standard 3-standard 4-hard; do
   seed=${flight%-*}; difficulty=${flight#*-}
