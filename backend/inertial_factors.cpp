@@ -134,6 +134,18 @@ std::optional<StateError> flow_error(const FlowSighting& sighting, const SE3& T_
   const Vector3d by_height = -flow / height;
   error.J_first.col(kPosition + 2) += by_height;
   error.J_first.block<3, 3>(0, kAttitude) += by_height * (-R_first * hat(arm)).row(2);
+  if (sighting.J_turn) {
+    const SO3 R_body_cam = T_body_cam.rotation();
+    const SO3 R_states = R_body_cam.inverse() * first.T_world_body.rotation().inverse() *
+                         second.T_world_body.rotation() * R_body_cam;
+    const Vector3d wrong = (R_states.inverse() * sighting.R_from_to).log();
+    error.r += *sighting.J_turn * wrong;
+    error.J_first.block<3, 3>(0, kAttitude) += *sighting.J_turn *
+                                               SO3::right_jacobian_inverse(wrong) *
+                                               sighting.R_from_to.matrix().transpose() * R_cam_body;
+    error.J_second.block<3, 3>(0, kAttitude) -=
+        *sighting.J_turn * SO3::right_jacobian_inverse(Vector3d(-wrong)) * R_cam_body;
+  }
   error.information = inverse(sighting.covariance);
   return error;
 }

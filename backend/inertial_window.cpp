@@ -255,7 +255,6 @@ Outcome InertialWindow::add(const PoseSighting& sighting) {
 
 Outcome InertialWindow::add(const FlowSighting& sighting) {
   if (states_.empty()) return not_started();
-  const FlowSighting told = sighting.with_turn_noise(options_.noise.gyro);
   if (!sighting.over_distance.allFinite() || !positive_definite(sighting.covariance) ||
       sighting.to_ns <= sighting.from_ns)
     return Outcome::failure(Code::kInconsistent, "the flow or its covariance is unusable");
@@ -267,10 +266,10 @@ Outcome InertialWindow::add(const FlowSighting& sighting) {
   if (to != from + 1)
     return Outcome::failure(Code::kTooFewData, "there are states between the flow's two images");
   const auto error =
-      flow_error(told, T_body_cam_, floor_z_m_, states_[from].value, states_[to].value);
+      flow_error(sighting, T_body_cam_, floor_z_m_, states_[from].value, states_[to].value);
   const bool accepted = error && believed(*error, from);
   if (accepted) {
-    states_[to].flows.push_back(told);
+    states_[to].flows.push_back(sighting);
     improve(1);
   }
   forget();

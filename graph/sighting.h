@@ -24,17 +24,7 @@ struct FlowSighting {
   /// the camera's axes), where the body's gyro told that turn: what is wrong with it is wrong with
   /// the body's attitude, too. `covariance` is without the turn's share then.
   std::optional<Eigen::Matrix3d> J_turn = std::nullopt;
-
-  /// The same for who does not heed that: its covariance with the share of a turn by a gyro of this
-  /// noise [rad / s / sqrt(Hz)].
-  FlowSighting with_turn_noise(double gyro_noise) const {
-    FlowSighting result = *this;
-    if (!J_turn) return result;
-    const double dt = 1e-9 * static_cast<double>(to_ns - from_ns);
-    result.covariance += gyro_noise * gyro_noise * dt * *J_turn * J_turn->transpose();
-    result.J_turn.reset();
-    return result;
-  }
+  SO3 R_from_to = {};  ///< the camera's turn that was taken out of the flow; with `J_turn`
 };
 
 }  // namespace placegraph

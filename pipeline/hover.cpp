@@ -185,9 +185,10 @@ void Hover::take_flow(const HoverSights& sights, HoverFrame& result) {
                                    std::to_string(motion.inliers) + " points of the floor");
   if (!result.flow || !options_.use_flow) return;
   const double common = options_.flow_common_px / camera_.fx;
-  const FlowSighting sighting{previous_->stamp_ns, sights.stamp_ns, motion.over_distance,
-                              motion.covariance + common * common * Matrix3d::Identity(),
-                              motion.J_rotation};
+  const FlowSighting sighting{
+      previous_->stamp_ns,  sights.stamp_ns,
+      motion.over_distance, motion.covariance + common * common * Matrix3d::Identity(),
+      motion.J_rotation,    turn.R_1_2};
   result.flow_sighting = sighting;
   result.flow = filter_.add(sighting);
 }
