@@ -36,11 +36,12 @@ class LensEquations {
       const SE3& T_map_cam = state_.keyframes.at(o.keyframe);
       const Eigen::Matrix3d R = T_map_cam.rotation().matrix();
       const Eigen::Vector3d p_cam = PointInCamera(R, T_map_cam.translation(), p_map).p_cam;
-      add_rows(4 * k, 6 * k, R, p_cam, Reprojection(state_.camera, o.px, o.sigma_px));
+      const Reprojection reprojection = reprojection_of(state_.camera, o);
+      add_rows(4 * k, 6 * k, R, p_cam, reprojection);
       const Eigen::Vector2d x = p_cam.head<2>() / p_cam.z();
       J_.block<2, 1>(4 * k, 6 * views) =
-          weight_ * x.squaredNorm() / o.sigma_px *
-          Eigen::Vector2d(state_.camera.fx, state_.camera.fy).cwiseProduct(x);
+          weight_ * x.squaredNorm() *
+          reprojection.whiten(Eigen::Vector2d(state_.camera.fx, state_.camera.fy).cwiseProduct(x));
       if (o.inverse_depth)
         add_rows(4 * k + 2, 6 * k, R, p_cam, InverseDepth(*o.inverse_depth, o.sigma_inverse_depth));
       for (int i = 0; i < 6; ++i) columns_.push_back(column_.at(o.keyframe) + i);

@@ -26,6 +26,11 @@ void visit(OptionVisitor& field, SlidingWindowOptions& o) {
 
 namespace {
 
+bool is_positive_definite(const Eigen::Matrix2d& m) {
+  return m.allFinite() && std::abs(m(0, 1) - m(1, 0)) <= 1e-6 * m.trace() && m(0, 0) > 0 &&
+         m.determinant() > 0;
+}
+
 /// Inserts an observation in the order of the keyframes; throws if its keyframe has one already.
 template <class Observation>
 void insert_observation(std::vector<Observation>& list, const Observation& o,
@@ -99,6 +104,8 @@ void SlidingWindow::add_observation(const WindowObservation& o) {
                            " in keyframe " + std::to_string(o.keyframe);
   require(o.px.allFinite() && std::isfinite(o.sigma_px) && o.sigma_px > 0,
           name + ": px must be finite and sigma_px positive");
+  require(!o.covariance_px || is_positive_definite(*o.covariance_px),
+          name + ": covariance_px must be finite and positive definite");
   require(!o.inverse_depth || (std::isfinite(*o.inverse_depth) && o.sigma_inverse_depth > 0 &&
                                std::isfinite(o.sigma_inverse_depth)),
           name + ": inverse_depth must be finite and its sigma positive");
@@ -334,16 +341,28 @@ const std::vector<WindowObservation>& SlidingWindow::observations(std::int64_t l
   return impl_->landmark(landmark).observations;
 }
 
-std::optional<Eigen::Vector2d> SlidingWindow::residual_px(const WindowObservation& o) const {
-  const auto keyframe = impl_->state().keyframes.find(o.keyframe);
-  const auto landmark = impl_->state().landmarks.find(o.landmark);
-  if (keyframe == impl_->state().keyframes.end() || landmark == impl_->state().landmarks.end())
-    return std::nullopt;
+namespace {
+
+std::optional<Eigen::Vector2d> residual_of(const WindowState& state, const WindowObservation& o,
+                                           const Reprojection& reprojection) {
+  const auto keyframe = state.keyframes.find(o.keyframe);
+  const auto landmark = state.landmarks.find(o.landmark);
+  if (keyframe == state.keyframes.end() || landmark == state.landmarks.end()) return std::nullopt;
   const SE3& T_map_cam = keyframe->second;
   const PointInCamera point(T_map_cam.rotation().matrix(), T_map_cam.translation(),
                             landmark->second.p_map);
   if (!point.projectable()) return std::nullopt;
-  return Reprojection(impl_->state().camera, o.px, 1.0).residual(point.p_cam);
+  return reprojection.residual(point.p_cam);
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> SlidingWindow::residual_px(const WindowObservation& o) const {
+  return residual_of(impl_->state(), o, Reprojection(impl_->state().camera, o.px, 1.0));
+}
+
+std::optional<Eigen::Vector2d> SlidingWindow::residual_sigmas(const WindowObservation& o) const {
+  return residual_of(impl_->state(), o, reprojection_of(impl_->state().camera, o));
 }
 
 Matrix6d SlidingWindow::relative_information(std::int64_t from, std::int64_t to) const {

@@ -40,6 +40,8 @@ struct WindowObservation {
   double sigma_px = 1;
   std::optional<double> inverse_depth;  ///< [1/m]
   double sigma_inverse_depth = 1;       ///< [1/m]
+  /// Of px, where it is not alike in all directions: takes the place of sigma_px.
+  std::optional<Eigen::Matrix2d> covariance_px = std::nullopt;
 };
 
 /// A metric length: |t| of T_from_to, as the ground plane under a camera of known height gives it.
@@ -197,7 +199,9 @@ class SlidingWindow {
   std::optional<Plane3> plane(std::int64_t id) const;
   std::optional<SO3> world(std::int64_t id) const;  ///< R_map_world
   /// Reprojection error [px] of an observation at the current estimate; nothing behind the camera.
+  /// `residual_sigmas`: the same in standard deviations of its noise.
   std::optional<Eigen::Vector2d> residual_px(const WindowObservation& observation) const;
+  std::optional<Eigen::Vector2d> residual_sigmas(const WindowObservation& observation) const;
 
   /// Information (6x6, tangent of T_from_to on the right) of the relative pose between two
   /// keyframes of the window, from the normal equations of everything in the window with all else

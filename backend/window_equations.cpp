@@ -105,7 +105,7 @@ void WindowEquations::add_landmark(const WindowLandmark& landmark) {
   const auto usable = usable_observations(state_, landmark);
   for (const WindowObservation* o : usable) {
     const Linearized<SE3>& at = keyframes_.at(o->keyframe);
-    add_measurement(at, landmark.p_map, Reprojection(state_.camera, o->px, o->sigma_px));
+    add_measurement(at, landmark.p_map, reprojection_of(state_.camera, *o));
     if (o->inverse_depth)
       add_measurement(at, landmark.p_map, InverseDepth(*o->inverse_depth, o->sigma_inverse_depth));
   }

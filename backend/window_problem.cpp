@@ -214,9 +214,8 @@ class WindowProblem {
         const std::size_t k = position(o->keyframe);
         double* const pose = &poses_[7 * k];
         ++points_by_keyframe_[k];
-        problem_.AddResidualBlock(
-            &reprojections_.emplace_back(Reprojection(state_.camera, o->px, o->sigma_px)), &loss_,
-            pose, point);
+        problem_.AddResidualBlock(&reprojections_.emplace_back(reprojection_of(state_.camera, *o)),
+                                  &loss_, pose, point);
         if (!o->inverse_depth) continue;
         problem_.AddResidualBlock(
             &inverse_depths_.emplace_back(InverseDepth(*o->inverse_depth, o->sigma_inverse_depth)),

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/marginal_prior.h>
+#include <placegraph/backend/factors/reprojection.h>
 #include <placegraph/backend/sliding_window.h>
 
 #include <map>
@@ -49,6 +50,11 @@ struct WindowState {
 /// camera, and only if there are at least two. (One view moves its own point only.)
 std::vector<const WindowObservation*> usable_observations(const WindowState& state,
                                                           const WindowLandmark& landmark);
+
+inline Reprojection reprojection_of(const Camera& camera, const WindowObservation& o) {
+  if (o.covariance_px) return Reprojection(camera, o.px, *o.covariance_px);
+  return Reprojection(camera, o.px, o.sigma_px);
+}
 
 /// A line that an estimate can use: at least three images of it, in two keyframes or more.
 bool is_usable(const WindowLine& line);

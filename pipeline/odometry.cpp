@@ -1,4 +1,3 @@
-#include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/median.h>
 #include <placegraph/pipeline/odometry.h>
@@ -87,6 +86,7 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
   if (cues_.points && waiting) {
     const auto span = times_.measure("point tracking");
     tracker_.track(frame.image);
+    tracker_.anchor();
   }
   OdometryUpdate update = cues_.surfaces_alone() ? track_surfaces(frame)
                           : waiting              ? try_initialize(frame, T_odom_cam_known)
@@ -100,31 +100,6 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
     velocity_known_ = false;
   }
   return update;
-}
-
-/// `keep` tells which tracks do not contradict the pose: others slid off their point, or it moves.
-Pose3d2dResult Odometry::pose_from_points(const SE3& prior, Random& random,
-                                          std::vector<bool>& keep) const {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector2d> px;
-  std::vector<int> track_of;
-  const auto& tracks = tracker_.tracks();
-  for (int i = 0; i < static_cast<int>(tracks.size()); ++i)
-    if (const auto point = window_.landmark(tracks[i].id)) {
-      points.push_back(*point);
-      px.push_back(tracks[i].px.cast<double>());
-      track_of.push_back(i);
-    }
-  Pose3d2dResult pose =
-      estimate_pose_3d2d(calibration_.camera, points, px, options_.pose, random, &prior);
-  keep.assign(tracks.size(), true);
-  if (!pose.outcome) return pose;
-  const SE3 T_cam_odom = pose.T_ref_cam.inverse();
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto projected = calibration_.camera.project(T_cam_odom * points[k]);
-    keep[track_of[k]] = projected && (*projected - px[k]).norm() < 2 * options_.pose.threshold_px;
-  }
-  return pose;
 }
 
 OdometryUpdate Odometry::track(const Frame& frame) {
@@ -185,6 +160,7 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
   window_.add_keyframe(id, T_odom_cam);
   if (cues_.points) {
     const auto span = times_.measure("point detection");
+    tracker_.anchor();
     tracker_.detect(frame.mask);
   }
   observe_tracks(id, frame);
@@ -207,85 +183,13 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
   update.new_keyframes.push_back({id, frame});
 }
 
-void Odometry::add_observation(std::int64_t keyframe, std::int64_t landmark,
-                               const Eigen::Vector2d& px,
-                               const std::optional<DepthMeasurement>& depth) {
-  WindowObservation observation;
-  observation.keyframe = keyframe;
-  observation.landmark = landmark;
-  observation.px = px;
-  observation.sigma_px = options_.sigma_px;
-  if (depth) {
-    observation.inverse_depth = depth->inverse_depth;
-    observation.sigma_inverse_depth = depth->sigma;
-  }
-  window_.add_observation(observation);
-}
-
-void Odometry::observe_tracks(std::int64_t keyframe, const Frame& frame) {
-  const auto span = times_.measure("triangulation");
-  const Camera& camera = calibration_.camera;
-  const SE3 T_odom_cam = window_.pose(keyframe);
-  const auto depths = measure_depth(frame, T_odom_cam);
-  const auto in_window = window_.keyframes();
-  const std::int64_t oldest = in_window.front();
-  const double min_parallax_rad = options_.min_parallax_deg * M_PI / 180;
-
-  std::map<std::int64_t, std::vector<Sighting2d>> seen;
-  const auto& tracks = tracker_.tracks();
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
-    const std::int64_t id = tracks[i].id;
-    const Eigen::Vector2d px = tracks[i].px.cast<double>();
-    std::vector<Sighting2d> sightings;
-    if (const auto old = sightings_.find(id); old != sightings_.end())
-      for (const Sighting2d& s : old->second)
-        if (s.keyframe >= oldest) sightings.push_back(s);
-    const auto& depth = depths[i];
-    if (!window_.landmark(id)) {
-      std::optional<Eigen::Vector3d> point_odom;
-      // A depth is believed at once where it is known to a fifth.
-      if (depth && depth->sigma < 0.2 * depth->inverse_depth) {
-        if (const auto ray = camera.unproject(px))
-          point_odom = T_odom_cam * Eigen::Vector3d(*ray / depth->inverse_depth);
-      } else if (!sightings.empty()) {
-        std::vector<Sighting> rays{{T_odom_cam, px}};
-        for (const Sighting2d& s : sightings) rays.push_back({window_.pose(s.keyframe), s.px});
-        const auto point = triangulate(camera, rays, min_parallax_rad, options_.outlier_px);
-        if (point.outcome) point_odom = point.point_ref;
-      }
-      if (point_odom) {
-        window_.add_landmark(id, *point_odom);
-        for (const Sighting2d& s : sightings) add_observation(s.keyframe, id, s.px, std::nullopt);
-      }
-    }
-    if (window_.landmark(id)) add_observation(keyframe, id, px, depth);
-    sightings.push_back({keyframe, px});
-    seen[id] = std::move(sightings);
-  }
-  sightings_ = std::move(seen);
-}
-
 void Odometry::refine_window() {
   const auto span = times_.measure("window");
   const bool alone = window_.keyframes().size() < 2;  // a first stereo or RGB-D keyframe
   const WindowSummary summary = alone ? WindowSummary{} : window_.optimize();
   if (!alone && !summary.outcome)
     log(log_, LogLevel::kWarning, "window not optimized: " + summary.outcome.reason);
-  std::set<std::int64_t> live;
-  for (const PointTrack& track : tracker_.tracks()) live.insert(track.id);
-  std::vector<double> depths;
-  const SE3 T_cam_odom = window_.pose(last_keyframe_).inverse();
-  for (const std::int64_t id : window_.landmarks()) {
-    const auto& observations = window_.observations(id);
-    const auto residual =
-        observations.empty() ? std::nullopt : window_.residual_px(observations.back());
-    if (!residual || residual->norm() > options_.outlier_px) {
-      window_.remove_landmark(id);
-      sightings_.erase(id);
-      continue;
-    }
-    if (live.count(id)) depths.push_back((T_cam_odom * *window_.landmark(id)).z());
-  }
+  std::vector<double> depths = keep_fitting_landmarks();
   if (lines_) {
     lines_->prune(window_);
     if (!cues_.points) depths = lines_->depths(window_);

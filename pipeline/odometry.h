@@ -47,8 +47,9 @@ struct OdometryOptions {
   SurfaceCueOptions surfaces;
   KeyframeOptions keyframe;
   SlidingWindowOptions window{.max_keyframes = 10, .relative_decrease = 1e-3};
-  double sigma_px = 0.7;          ///< noise of a track
-  double outlier_px = 4;          ///< a landmark that misses its pixel by more is dropped
+  double outlier_px = 4;  ///< a landmark that misses its pixel by more is dropped
+  /// So is one that misses all its pixels by more than both, root mean square, with its track.
+  double misfit_px = 0.4, misfit_sigmas = 1.5;
   double min_parallax_deg = 0.5;  ///< to triangulate a landmark from keyframes
   /// SlidingWindowOptions::scale_drift of a single eye whose unit the ground or another sensor
   /// measures.
@@ -156,6 +157,7 @@ class Odometry {
   struct Sighting2d {
     std::int64_t keyframe;
     Eigen::Vector2d px;
+    Eigen::Matrix2d covariance;  // of px
   };
   struct DepthMeasurement {
     double inverse_depth, sigma;
@@ -212,8 +214,13 @@ class Odometry {
   void calibrate_eyes();
   std::optional<DisparitySample> disparity_sample(std::int64_t landmark) const;
   void revise_disparities(const RectificationError& before);
-  void add_observation(std::int64_t keyframe, std::int64_t landmark, const Eigen::Vector2d& px,
+  void add_observation(const Sighting2d& sighting, std::int64_t landmark,
                        const std::optional<DepthMeasurement>& depth);
+  std::optional<Eigen::Vector3d> place_point(const Sighting2d& now,
+                                             const std::vector<Sighting2d>& before,
+                                             const std::optional<DepthMeasurement>& depth) const;
+  bool contradicts_itself(std::int64_t landmark) const;
+  std::vector<double> keep_fitting_landmarks();
 
   OdometryOptions options_;
   Calibration calibration_;

@@ -77,7 +77,8 @@ std::optional<DisparitySample> Odometry::disparity_sample(std::int64_t landmark)
   }
   if (!(cc > 0)) return std::nullopt;
   const double px_per_inverse_depth = camera.fx * calibration_.baseline_m;
-  const double sigma_motion = options_.sigma_px / camera.fx / std::sqrt(cc) * px_per_inverse_depth;
+  const double sigma_motion =
+      options_.tracker.sigma_px / camera.fx / std::sqrt(cc) * px_per_inverse_depth;
   const double sigma = options_.stereo.sigma_disparity_px;
   if (!(sigma_motion < 2 * sigma) || !(cd > 0)) return std::nullopt;
   const Eigen::Vector2d x = ray->head<2>();

@@ -41,9 +41,13 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
               "grey values of surfaces, where plane is the only cue or direct is among them");
   field.group("keyframe", o.keyframe, "when a frame becomes a keyframe");
   field.group("window", o.window, "bundle adjustment over the last keyframes");
-  field("sigma_px", o.sigma_px, "noise of a track", {0.05, 10});
   field("outlier_px", o.outlier_px, "a landmark that misses its pixel by more is dropped",
         {0.5, 100});
+  field("misfit_px", o.misfit_px,
+        "a point that misses all its pixels by this, root mean square, and by misfit_sigmas, is "
+        "dropped with its track",
+        {0, 100});
+  field("misfit_sigmas", o.misfit_sigmas, "the same in standard deviations", {0.1, 100});
   field("min_parallax_deg", o.min_parallax_deg, "to triangulate a landmark from keyframes",
         {0.01, 45});
   field("scale_drift", o.scale_drift,

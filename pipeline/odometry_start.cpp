@@ -125,11 +125,11 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   window_.add_keyframe(ref, T_odom_start_);
   window_.add_keyframe(cur, T_odom_start_ * T_ref_cur);
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    sightings_[ids[i]] = {{ref, px_ref[i]}, {cur, px_cur[i]}};
+    const Eigen::Matrix2d covariance = tracker_.tracks()[i].covariance.cast<double>();
+    sightings_[ids[i]] = {{ref, px_ref[i], covariance}, {cur, px_cur[i], covariance}};
     if (!start.points_ref[i]) continue;
     window_.add_landmark(ids[i], T_odom_start_ * (scale * *start.points_ref[i]));
-    add_observation(ref, ids[i], px_ref[i], std::nullopt);
-    add_observation(cur, ids[i], px_cur[i], std::nullopt);
+    for (const Sighting2d& seen : sightings_[ids[i]]) add_observation(seen, ids[i], std::nullopt);
   }
   last_keyframe_ = cur;
   refine_window();
@@ -150,7 +150,8 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   for (const PointTrack& track : tracker_.tracks()) {
     px_at_keyframe_[track.id] = track.px.cast<double>();
     auto& seen = sightings_[track.id];
-    if (seen.empty()) seen.push_back({cur, track.px.cast<double>()});
+    if (seen.empty())
+      seen.push_back({cur, track.px.cast<double>(), track.covariance.cast<double>()});
   }
   landmarks_at_keyframe_ = static_cast<int>(window_.landmarks().size());
   frames_since_keyframe_ = 0;

@@ -23,10 +23,19 @@ void visit(OptionVisitor& field, PointTrackerOptions& o) {
         "least eigenvalue of the gradient matrix per pixel, grey levels / 255", {0, 1});
   field("cell_px", o.cell_px, "side of the cells over which tracks are balanced", {8, 512});
   field("min_distance_px", o.min_distance_px, "least distance between detected points", {1, 256});
+  field("max_anchor_shift_px", o.max_anchor_shift_px,
+        "at keyframes a track goes to where its first look is, at most this far; 0: never",
+        {0, 100});
+  field("min_anchor_correlation", o.min_anchor_correlation,
+        "with the first look; below, the look is taken anew", {0, 1});
+  field("sigma_px", o.sigma_px, "noise of a step where the first look was not found", {0.05, 10});
+  field("min_sigma_px", o.min_sigma_px, "noise, at least, of a look that is found", {0.01, 10});
+  field("max_sigma_px", o.max_sigma_px, "a track that has gathered more noise ends", {0.1, 100});
 }
 
 PointTracker::PointTracker(const PointTrackerOptions& options) : options_(options) {
   options_.check();
+  least_ *= static_cast<float>(options.min_sigma_px * options.min_sigma_px);
 }
 
 void PointTracker::reset() {
@@ -114,6 +123,42 @@ std::vector<std::optional<Eigen::Vector2f>> PointTracker::follow(
   return found;
 }
 
+void PointTracker::anchor() {
+  if (!(options_.max_anchor_shift_px > 0)) return;
+  const auto step = static_cast<float>(options_.sigma_px * options_.sigma_px);
+  const double most = 2 * options_.max_sigma_px * options_.max_sigma_px;
+  std::size_t kept = 0;
+  for (PointTrack& track : tracks_) {
+    std::optional<AnchoredPatch::Place> place;
+    if (track.anchor)
+      place = track.anchor->find(pyramid_, {track.px, track.A},
+                                 static_cast<float>(options_.max_anchor_shift_px),
+                                 static_cast<float>(options_.min_anchor_correlation));
+    if (place) {
+      track.px = place->px;
+      track.A = place->A;
+      track.covariance = track.anchor_covariance + place->covariance + least_;
+    } else {
+      track.covariance += step * Eigen::Matrix2f::Identity();
+      if (track.covariance.trace() > most) continue;
+    }
+    if (!place || !AnchoredPatch::is_comparable(track.A)) {
+      // The new look lies where the old one is thought to be.
+      track.anchor_covariance = track.covariance;
+      take_look(track);
+    }
+    tracks_[kept++] = track;
+  }
+  tracks_.resize(kept);
+}
+
+void PointTracker::take_look(PointTrack& track) const {
+  track.A.setIdentity();
+  track.anchor.reset();
+  if (const auto look = AnchoredPatch::take(image_, track.px))
+    track.anchor = std::make_shared<const AnchoredPatch>(*look);
+}
+
 void PointTracker::detect(const Image& mask) {
   require(!image_.empty(), "PointTracker::detect: no image yet");
   const int missing = options_.max_tracks - static_cast<int>(tracks_.size());
@@ -155,6 +200,11 @@ void PointTracker::detect(const Image& mask) {
         PointTrack track;
         track.id = next_id_++;
         track.px = track.px_previous = Eigen::Vector2f(corner.u, corner.v);
+        track.covariance *= static_cast<float>(options_.sigma_px * options_.sigma_px);
+        if (options_.max_anchor_shift_px > 0) {
+          take_look(track);
+          if (track.anchor) track.covariance = least_;
+        }
         tracks_.push_back(track);
         ++added;
         ++occupied[c];

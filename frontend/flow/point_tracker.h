@@ -1,9 +1,11 @@
 #pragma once
+#include <placegraph/frontend/flow/anchored_patch.h>
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,6 +19,12 @@ struct PointTrackerOptions {
   double min_eigenvalue = 2e-4;  ///< of the window's gradient matrix per pixel, grey levels / 255
   int cell_px = 48;              ///< detection balances tracks over cells of this side
   int min_distance_px = 10;
+  /// From where steps have led to where the first look is; 0: looks are not sought.
+  double max_anchor_shift_px = 3;
+  double min_anchor_correlation = 0.8;  ///< with the first look
+  double sigma_px = 0.7;                ///< of a step where the first look was not found
+  double min_sigma_px = 0.25;           ///< of a look that is found, at least
+  double max_sigma_px = 1.5;            ///< a track that has gathered more ends
   void check() const;
 };
 void visit(OptionVisitor& field, PointTrackerOptions& options);
@@ -27,11 +35,16 @@ struct PointTrack {
   Eigen::Vector2f px = Eigen::Vector2f::Zero();
   Eigen::Vector2f px_previous = Eigen::Vector2f::Zero();
   int age = 0;  ///< frames since detection
+  /// Of px [px^2], against where the track began; after `anchor` and `detect`.
+  Eigen::Matrix2f covariance = Eigen::Matrix2f::Identity();
+  Eigen::Matrix2f anchor_covariance = Eigen::Matrix2f::Zero();  ///< the same of its look
+  std::shared_ptr<const AnchoredPatch> anchor;      ///< its look where that was last taken
+  Eigen::Matrix2f A = Eigen::Matrix2f::Identity();  ///< how that lies in the image, see Place
 };
 
 /// Corners (Shi & Tomasi 1994) followed by pyramidal Lucas-Kanade (Bouguet 2000) with a
-/// forward-backward check (Kalal et al. 2010); new ones are detected so that they cover the image
-/// evenly. Ids are never used twice.
+/// forward-backward check (Kalal et al. 2010), at keyframes held by their first looks; new ones are
+/// detected so that they cover the image evenly. Ids are never used twice.
 class PointTracker {
  public:
   explicit PointTracker(const PointTrackerOptions& options);
@@ -46,6 +59,10 @@ class PointTracker {
   /// Detects new corners in the last image wherever tracks are missing; `mask` 0 = not here (may be
   /// empty).
   void detect(const Image& mask = {});
+  /// Puts every track to where its first look (AnchoredPatch) is in the last image, so that it does
+  /// not drift, and says how well it is known. A look that is not found there, or is too warped to
+  /// be compared, is taken anew: what the track erred by until then, it goes on to err by.
+  void anchor();
   /// Drops the tracks whose flag is false (one flag a track, in order).
   void keep(const std::vector<bool>& flags);
   /// Forgets tracks and images; ids go on counting.
@@ -58,8 +75,10 @@ class PointTracker {
   std::vector<std::optional<Eigen::Vector2f>> follow(
       const std::vector<Image>& pyramid, const std::vector<Eigen::Vector2f>& predicted_px,
       Search search) const;
+  void take_look(PointTrack& track) const;
 
   PointTrackerOptions options_;
+  Eigen::Matrix2f least_ = Eigen::Matrix2f::Identity();  // covariance of a look that is found
   std::vector<PointTrack> tracks_;
   Image image_;
   std::vector<Image> pyramid_;

@@ -53,6 +53,20 @@ TEST_F(PointFactors, ReprojectionHasTheJacobiansOfFiniteDifferences) {
     test::expect_jacobians_match(factor, blocks({0.4 * depth_m, -0.2 * depth_m, depth_m}), 1e-7);
 }
 
+TEST_F(PointFactors, ReprojectionWeighsEachDirectionByItsCovariance) {
+  const Camera camera = test::window_camera();
+  const Eigen::Vector3d p_cam(1.5, -0.4, 7);
+  const Eigen::Vector2d px(700, 100), error = *camera.project(p_cam) - px;
+  Eigen::Matrix2d covariance;
+  covariance << 0.5, -0.3, -0.3, 0.9;
+  const PointFactor<Reprojection> factor(Reprojection(camera, px, covariance));
+  const auto b = blocks(p_cam);
+  EXPECT_NEAR(test::evaluate(factor, {b[0].x, b[1].x}).squaredNorm(),
+              error.dot(covariance.inverse() * error), 1e-9 * error.squaredNorm());
+  for (const double depth_m : {2.0, 10.0, 80.0})
+    test::expect_jacobians_match(factor, blocks({0.4 * depth_m, -0.2 * depth_m, depth_m}), 1e-7);
+}
+
 TEST_F(PointFactors, InverseDepthHasTheJacobiansOfFiniteDifferences) {
   const PointFactor<InverseDepth> factor(InverseDepth(0.1, 0.01));
   const auto b = blocks({1, 2, 5});

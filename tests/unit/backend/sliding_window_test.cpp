@@ -401,6 +401,8 @@ TEST(SlidingWindow, RefusesWhatItsContractExcludes) {
   EXPECT_THROW(window.add_observation({6, 1, {600, nan}, 1, {}, 1}), ArgumentError);
   EXPECT_THROW(window.add_observation({6, 1, {600, 180}, 0, {}, 1}), ArgumentError);
   EXPECT_THROW(window.add_observation({6, 1, {600, 180}, 1, nan, 1}), ArgumentError);
+  EXPECT_THROW(window.add_observation({6, 1, {600, 180}, 1, {}, 1, Eigen::Matrix2d::Ones()}),
+               ArgumentError);
   EXPECT_THROW(window.add_distance({5, 5, 1, 1}), ArgumentError);
   EXPECT_THROW(window.add_distance({5, 6, -1, 1}), ArgumentError);
   EXPECT_THROW(window.add_distance({5, 7, 1, 1}), ArgumentError);

@@ -3,6 +3,7 @@
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -71,6 +72,68 @@ TEST(PointTracker, FindsNearAPredictionWhatAWideSearchFinds) {
   for (const PointTrack& track : near.tracks())
     same += found.count(track.id) && (found.at(track.id) - track.px).norm() < 0.02;
   EXPECT_GT(same, 0.9 * static_cast<double>(near.tracks().size()));
+}
+
+/// The texture `zoom` times as large about the middle of the image.
+Image zoomed(double zoom) {
+  Image image(kHeight, kWidth, CV_8UC1);
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u)
+      image.at<std::uint8_t>(v, u) =
+          test::to_grey(kTexture.grey((u - kWidth / 2) / zoom, (v - kHeight / 2) / zoom));
+  return image;
+}
+
+TEST(PointTracker, DoesNotDriftOnWhatGrowsAsItComesNearerWhereItsFirstLookHoldsIt) {
+  const auto error_px = [](bool anchored) {
+    PointTracker tracker{PointTrackerOptions()};
+    tracker.track(zoomed(1));
+    tracker.detect();
+    std::map<std::int64_t, Eigen::Vector2f> first;
+    for (const PointTrack& track : tracker.tracks()) first[track.id] = track.px;
+    const Eigen::Vector2f middle(kWidth / 2, kHeight / 2);
+    for (int k = 1; k <= 12; ++k) {
+      tracker.track(zoomed(1 + 0.03 * k));
+      if (anchored) tracker.anchor();
+    }
+    std::vector<float> errors;
+    for (const PointTrack& track : tracker.tracks())
+      errors.push_back((track.px - middle - 1.36f * (first.at(track.id) - middle)).norm());
+    EXPECT_GT(errors.size(), 50u);
+    std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+    return errors[errors.size() / 2];
+  };
+  const float drifting = error_px(false), held = error_px(true);
+  EXPECT_LT(held, 0.05f);
+  EXPECT_GT(drifting, 3 * held);
+}
+
+TEST(PointTracker, KnowsATrackTheWorseTheOftenerItsLookWasLost) {
+  PointTrackerOptions options;
+  options.min_anchor_correlation = 1;  // with noise nothing looks so alike
+  PointTracker tracker = started(options);
+  std::vector<bool> has_look;
+  for (const PointTrack& track : tracker.tracks()) has_look.push_back(track.anchor != nullptr);
+  tracker.keep(has_look);
+  const float begin = tracker.tracks().front().covariance(0, 0);
+  EXPECT_FLOAT_EQ(begin, 0.25f * 0.25f);
+  const float step = 0.7f * 0.7f, most = 1.5f * 1.5f;
+  Random random(3);
+  for (int lost = 1; begin + static_cast<float>(lost) * step < most; ++lost) {
+    Image image = texture_image(kWidth, kHeight, kTexture);
+    for (int v = 0; v < kHeight; ++v)
+      for (int u = 0; u < kWidth; ++u)
+        image.at<std::uint8_t>(v, u) =
+            test::to_grey(image.at<std::uint8_t>(v, u) + 3 * random.normal());
+    tracker.track(image);
+    tracker.anchor();
+    ASSERT_FALSE(tracker.tracks().empty());
+    for (const PointTrack& track : tracker.tracks())
+      EXPECT_NEAR(track.covariance(0, 0), begin + static_cast<float>(lost) * step, 1e-4f);
+  }
+  tracker.track(texture_image(kWidth, kHeight, kTexture));
+  tracker.anchor();
+  EXPECT_TRUE(tracker.tracks().empty());  // beyond max_sigma_px
 }
 
 TEST(PointTracker, DropsTracksThatLeaveTheImage) {
