@@ -8,9 +8,10 @@
 #include <placegraph/io/trajectory_file.h>
 
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+
+#include "apps/json_file.h"
 
 namespace placegraph::apps {
 namespace {
@@ -20,14 +21,6 @@ using nlohmann::json;
 
 /// How much the scale of a mono map may change from one place to the next.
 constexpr double kScaleSigma = 0.02;
-
-json read_json(const std::string& path) {
-  std::ifstream stream(path);
-  if (!stream) throw FileError(path, "cannot be opened for reading");
-  json document = json::parse(stream, nullptr, false);
-  if (document.is_discarded()) throw FileError(path, "is not valid JSON");
-  return document;
-}
 
 /// Members of the places, each once: a keyframe's time at its place.
 std::vector<NodeVisit> read_visits(const std::string& path) {

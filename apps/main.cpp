@@ -13,6 +13,7 @@
 #include "apps/cmd_config.h"
 #include "apps/cmd_convert.h"
 #include "apps/cmd_eval.h"
+#include "apps/cmd_eval_edges.h"
 #include "apps/cmd_flow.h"
 #include "apps/cmd_georeference.h"
 #include "apps/cmd_hover.h"
@@ -20,6 +21,7 @@
 #include "apps/cmd_markers.h"
 #include "apps/cmd_optimize.h"
 #include "apps/cmd_planes.h"
+#include "apps/cmd_route.h"
 #include "apps/cmd_run.h"
 #include "apps/cmd_synth.h"
 #include "apps/cmd_synth_graph.h"
@@ -68,6 +70,7 @@ int main(int argc, char** argv) {
     add_config_command(app);
     add_convert_command(app);
     add_eval_command(app);
+    add_eval_edges_command(app);
     add_flow_command(app);
     add_georeference_command(app);
     add_hover_command(app);
@@ -75,6 +78,7 @@ int main(int argc, char** argv) {
     add_markers_command(app);
     add_optimize_command(app);
     add_planes_command(app);
+    add_route_command(app);
     add_run_command(app);
     add_synth_command(app);
     add_synth_graph_command(app);

@@ -10,16 +10,12 @@
 #include <set>
 #include <sstream>
 
+#include "apps/json_file.h"
+
 namespace placegraph::apps {
 namespace {
 
 using nlohmann::json;
-
-json pose_json(const SE3& T) {
-  const Eigen::Vector3d& t = T.translation();
-  const Eigen::Quaterniond& q = T.rotation().quaternion();
-  return {{"position_m", {t.x(), t.y(), t.z()}}, {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
-}
 
 std::vector<std::int64_t> lost_frames(const Map& map, const Trajectory& trajectory) {
   std::vector<std::int64_t> lost;

@@ -86,7 +86,6 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
   if (cues_.points && waiting) {
     const auto span = times_.measure("point tracking");
     tracker_.track(frame.image);
-    tracker_.anchor();
   }
   OdometryUpdate update = cues_.surfaces_alone() ? track_surfaces(frame)
                           : waiting              ? try_initialize(frame, T_odom_cam_known)
@@ -160,7 +159,7 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
   window_.add_keyframe(id, T_odom_cam);
   if (cues_.points) {
     const auto span = times_.measure("point detection");
-    tracker_.anchor();
+    anchor_tracks();
     tracker_.detect(frame.mask);
   }
   observe_tracks(id, frame);

@@ -192,6 +192,7 @@ class Odometry {
   std::vector<Eigen::Vector2f> predict(const SE3& T_odom_cam) const;
   bool keyframe_due(const Frame& frame, int inliers) const;
   void remember(std::int64_t frame);
+  void anchor_tracks();
   void pose_between(std::int64_t keyframe, OdometryUpdate& update);
   void add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);
   void observe_tracks(std::int64_t keyframe, const Frame& frame);

@@ -11,6 +11,21 @@ void Odometry::remember(std::int64_t frame) {
     if (window_.landmark(track.id)) between.px.emplace_back(track.id, track.px.cast<double>());
 }
 
+/// First looks tell at keyframes how far tracks have drifted since the last one: a little with
+/// every frame, which the frames between learn of here.
+void Odometry::anchor_tracks() {
+  std::map<std::int64_t, Eigen::Vector2d> before, drift;
+  for (const PointTrack& track : tracker_.tracks()) before[track.id] = track.px.cast<double>();
+  tracker_.anchor();
+  for (const PointTrack& track : tracker_.tracks())
+    drift[track.id] = track.px.cast<double>() - before.at(track.id);
+  const double steps = static_cast<double>(between_.size()) + 1;
+  for (std::size_t k = 0; k < between_.size(); ++k)
+    for (auto& [id, px] : between_[k].px)
+      if (const auto d = drift.find(id); d != drift.end())
+        px += static_cast<double>(k + 1) / steps * d->second;
+}
+
 /// A frame was posed against landmarks as `keyframe` and its predecessors knew them, as if they
 /// were exact. One more keyframe has moved those whose depth was poorly known: the frame's pose
 /// follows, or the way between two keyframes would be a false pace and a jump.

@@ -1,0 +1,21 @@
+#pragma once
+#include <placegraph/graph/place_graph.h>
+
+#include <map>
+#include <string>
+
+namespace placegraph::apps {
+
+/// What a folder of `placegraph run` tells of its places: graph.g2o and places.json.
+struct RunMap {
+  PlaceGraph graph;  ///< without appearances
+  std::map<std::int64_t, std::int64_t> frame_of_keyframe;
+
+  /// The frame that a place's anchor was seen in. Throws ArgumentError for a place without.
+  std::int64_t anchor_frame(const Place& place) const;
+};
+
+/// Throws FileError where a file is missing or not what `placegraph run` writes.
+RunMap read_run_map(const std::string& folder);
+
+}  // namespace placegraph::apps

@@ -1,0 +1,28 @@
+# Whether edges of the place graph know what they claim: rendered sequences, each cue.
+title="Edges of the place graph against the truth"
+heading "$title"
+command_line "placegraph run WORLD --sensor SENSOR --cues CUES --no-loops --out OUT"
+command_line "placegraph eval-edges WORLD OUT --json"
+printf '\nNEES per degree of freedom of the odometry edges (1 where claims are right); of right claims 1 %% lie beyond the 99 %% bound.\n' >> "$rows"
+columns sequence sensor cues edges "mean NEES" "median NEES" "beyond 99 % [%]" "mean in [0.5, 2]" "beyond <= 3 %"
+# consistency_row NAME WORLD SENSOR CUES
+consistency_row() {
+  run "$1" "$out/$2-world" --sensor "$3" --cues "$4" --no-loops
+  f=$out/$1.edges.json
+  $placegraph eval-edges "$out/$2-world" "$out/$1" --json > "$f"
+  mean=$(number "$f" mean_nees)
+  beyond=$(LC_ALL=C awk -v b="$(number "$f" share_beyond_99)" 'BEGIN { printf "%.1f", 100 * b }')
+  in_range=$(verdict "$mean" ">=" 0.5); [ "$in_range" != yes ] || in_range=$(verdict "$mean" "<=" 2)
+  cells "$2" "$3" "$4" "$(number "$f" edges)" "$(digits "$mean" 2)" "$(digits "$(number "$f" median_nees)" 2)" "$beyond" \
+    "$in_range" "$(verdict "$beyond" "<=" 3)"
+}
+s=$data/kitti_gt/06/poses.txt
+if [ -f "$s" ]; then
+  render stereo06 "$s" --difficulty standard --stereo
+  for cues in points points,plane,direct; do consistency_row "consistency-06-$cues" stereo06 stereo $cues; done
+fi
+render direct-town town-loop --difficulty standard --frames 200
+for cues in points lines plane direct; do consistency_row "consistency-town-$cues" direct-town stereo $cues; done
+render corridor corridor-loop --difficulty standard --stereo --depth --frames 620
+for cues in points lines points,lines,plane,manhattan; do consistency_row "consistency-corridor-$cues" corridor stereo $cues; done
+for cues in points lines; do consistency_row "consistency-corridor-rgbd-$cues" corridor rgbd $cues; done

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/route.h>
+
+namespace placegraph {
+namespace {
+
+/// Places 0 to 5 along x, two metres apart, each turned a little; a loop joins 1 and 4, which lies
+/// beside it; place 9 stands alone.
+PlaceGraph places() {
+  PlaceGraph graph;
+  const Eigen::Vector3d positions[] = {{0, 0, 0}, {2, 0, 0}, {4, 0, 0},
+                                       {4, 2, 0}, {2, 1, 0}, {0, 1, 0}};
+  for (int i = 0; i < 6; ++i) {
+    Place place;
+    place.id = i;
+    place.T_map_place = SE3(SO3::exp({0, 0.3 * i, 0}), positions[i]);
+    graph.places.push_back(place);
+    if (i > 0) {
+      RelativePoseConstraint edge;
+      edge.from = i - 1;
+      edge.to = i;
+      graph.constraints.push_back(edge);
+    }
+  }
+  RelativePoseConstraint loop;
+  loop.from = 4;
+  loop.to = 1;
+  loop.source = ConstraintSource::kLoop;
+  graph.constraints.push_back(loop);
+  Place alone;
+  alone.id = 9;
+  graph.places.push_back(alone);
+  return graph;
+}
+
+std::vector<std::int64_t> ids(const Route& route) {
+  std::vector<std::int64_t> result;
+  for (const RouteStep& step : route.steps) result.push_back(step.place);
+  return result;
+}
+
+TEST(Route, TakesTheShortCutThatALoopOpens) {
+  const PlaceGraph graph = places();
+  const Route route = shortest_route(graph, 0, 5);
+  ASSERT_TRUE(route.outcome);
+  EXPECT_EQ(ids(route), (std::vector<std::int64_t>{0, 1, 4, 5}));
+  EXPECT_NEAR(route.length_m(), 2 + 1 + 2, 1e-12);
+  SE3 T = graph.places[0].T_map_place;
+  for (const RouteStep& step : route.steps) {
+    T = T * step.T_previous_place;
+    EXPECT_LT((T.inverse() * graph.find(step.place)->T_map_place).log().norm(), 1e-12);
+  }
+}
+
+TEST(Route, GoesTheWayRoundWhereNoLoopIsKnown) {
+  PlaceGraph graph = places();
+  graph.constraints.pop_back();
+  EXPECT_EQ(ids(shortest_route(graph, 5, 1)), (std::vector<std::int64_t>{5, 4, 3, 2, 1}));
+}
+
+TEST(Route, LeadsBackOverTheSamePlaces) {
+  const PlaceGraph graph = places();
+  const Route there = shortest_route(graph, 0, 5), back = backtracked(there);
+  ASSERT_TRUE(back.outcome);
+  EXPECT_EQ(ids(back), (std::vector<std::int64_t>{5, 4, 1, 0}));
+  EXPECT_NEAR(back.length_m(), there.length_m(), 1e-12);
+  EXPECT_EQ(back.steps.front().leg_m, 0);
+  const Route other = shortest_route(graph, 5, 0);
+  for (std::size_t i = 0; i < back.steps.size(); ++i) {
+    EXPECT_NEAR(back.steps[i].travelled_m, other.steps[i].travelled_m, 1e-12);
+    EXPECT_LT(
+        (back.steps[i].T_previous_place.inverse() * other.steps[i].T_previous_place).log().norm(),
+        1e-12);
+  }
+}
+
+TEST(Route, ToWhereItBeginsIsOnePlaceLong) {
+  const Route route = shortest_route(places(), 3, 3);
+  ASSERT_TRUE(route.outcome);
+  EXPECT_EQ(ids(route), (std::vector<std::int64_t>{3}));
+  EXPECT_EQ(route.length_m(), 0);
+}
+
+TEST(Route, SaysThatNothingJoinsTwoPlacesAndRefusesUnknownOnes) {
+  const Route route = shortest_route(places(), 0, 9);
+  EXPECT_EQ(route.outcome.code, Outcome::Code::kDegenerate);
+  EXPECT_TRUE(route.steps.empty());
+  EXPECT_TRUE(backtracked(route).steps.empty());
+  EXPECT_THROW((void)shortest_route(places(), 0, 7), ArgumentError);
+  EXPECT_THROW((void)shortest_route(places(), 7, 0), ArgumentError);
+}
+
+}  // namespace
+}  // namespace placegraph
