@@ -15,7 +15,7 @@ namespace placegraph {
 /// 2004), so that all but a small product is done once.
 class AnchoredPatch {
  public:
-  static constexpr int kHalf = 7;  ///< [px], of the side
+  static constexpr int kHalf = 7;  ///< the patch reaches so far from its middle [px]
 
   /// How the patch lies in an image: point `offset` of the first image, from the patch's middle,
   /// is at px + A offset.
