@@ -46,8 +46,8 @@ void Odometry::add_observation(const Sighting2d& sighting, std::int64_t landmark
   window_.add_observation(observation);
 }
 
-/// Where a point that the window does not hold yet lies [m], in the odometry frame: by its depth, or
-/// where the rays of its sightings meet. Nothing where neither is sure enough.
+/// Where a point that the window does not hold yet lies [m], in the odometry frame: by its depth,
+/// or where the rays of its sightings meet. Nothing where neither is sure enough.
 std::optional<Eigen::Vector3d> Odometry::place_point(
     const Sighting2d& now, const std::vector<Sighting2d>& before,
     const std::optional<DepthMeasurement>& depth) const {
