@@ -18,6 +18,7 @@
 #include "apps/cmd_georeference.h"
 #include "apps/cmd_hover.h"
 #include "apps/cmd_lines.h"
+#include "apps/cmd_loops.h"
 #include "apps/cmd_markers.h"
 #include "apps/cmd_optimize.h"
 #include "apps/cmd_planes.h"
@@ -75,6 +76,7 @@ int main(int argc, char** argv) {
     add_georeference_command(app);
     add_hover_command(app);
     add_lines_command(app);
+    add_loops_command(app);
     add_markers_command(app);
     add_optimize_command(app);
     add_planes_command(app);

@@ -1,0 +1,9 @@
+#pragma once
+#include <CLI/App.hpp>
+
+namespace placegraph::apps {
+
+/// `placegraph loops`: what place recognizers found, judged against ground truth.
+void add_loops_command(CLI::App& app);
+
+}  // namespace placegraph::apps

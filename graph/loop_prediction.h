@@ -1,0 +1,16 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace placegraph {
+
+/// What a place recognizer says of one image: that it shows what an older one showed.
+struct LoopPrediction {
+  std::int64_t query = 0;
+  std::int64_t candidate = 0;
+  double score = 0;   ///< larger is surer, comparable over all queries
+  std::string stage;  ///< that rejected it, or "accepted", where the recognizer says so
+  int line = 0;       ///< of the file it was read from
+};
+
+}  // namespace placegraph
