@@ -45,6 +45,15 @@ LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibratio
   options_.check();
 }
 
+LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibration,
+                       std::uint64_t seed, const Map& map)
+    : LoopCloser(options, calibration, seed) {
+  for (const Keyframe& keyframe : map.keyframes) {
+    database_.add(keyframe.id, keyframe.features);
+    views_.push_back({keyframe.id, keyframe.frame, keyframe.features});
+  }
+}
+
 const LoopCloser::View* LoopCloser::find_view(std::int64_t keyframe) const {
   const auto view =
       std::lower_bound(views_.begin(), views_.end(), keyframe,
@@ -242,13 +251,12 @@ std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double media
   return accepted;
 }
 
-std::optional<Loop> LoopCloser::relocalize(const Frame& frame) {
+std::optional<Loop> LoopCloser::relocalize(const Frame& frame, std::size_t last_views) const {
   if (views_.empty()) return std::nullopt;
   std::vector<Feature> features = detect_features(frame.image, options_.detector, frame.mask);
   lift_features(frame, features);
-  // The last views first: most losses are short.
   std::vector<std::int64_t> tries;
-  for (std::size_t back = 1; back <= 3 && back <= views_.size(); ++back)
+  for (std::size_t back = 1; back <= last_views && back <= views_.size(); ++back)
     tries.push_back(views_[views_.size() - back].keyframe);
   for (const PlaceCandidate& c :
        database_.query(features, options_.candidates, [](std::int64_t) { return true; }))

@@ -37,6 +37,10 @@ void visit(OptionVisitor& field, LoopOptions& options);
 class LoopCloser {
  public:
   LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed);
+  /// One that knows the keyframes of a map: `relocalize` tells where frames stand in it, as on the
+  /// way back.
+  LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed,
+             const Map& map);
 
   /// A keyframe as the closer knows it.
   struct View {
@@ -51,8 +55,8 @@ class LoopCloser {
   /// Revisits that the newest view completes.
   std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
   /// Where a frame stands relative to a known keyframe: T_match_query of the frame; `query` is -1,
-  /// as the frame is no keyframe.
-  std::optional<Loop> relocalize(const Frame& frame);
+  /// as the frame is no keyframe. The last views are tried first: most losses are short.
+  std::optional<Loop> relocalize(const Frame& frame, std::size_t last_views = 3) const;
 
   const std::vector<View>& views() const { return views_; }
   const std::vector<LoopRecord>& records() const { return records_; }

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/route.h>
+
+#include <algorithm>
 
 namespace placegraph {
 namespace {
@@ -73,6 +76,45 @@ TEST(Route, LeadsBackOverTheSamePlaces) {
         (back.steps[i].T_previous_place.inverse() * other.steps[i].T_previous_place).log().norm(),
         1e-12);
   }
+}
+
+TEST(Route, IsAsShortAsFloydAndWarshallHaveItBetweenAnyTwoPlaces) {
+  constexpr int kPlaces = 30, kEdges = 45;
+  Random random(3);
+  PlaceGraph graph;
+  for (int i = 0; i < kPlaces; ++i) {
+    Place place;
+    place.id = i;
+    place.T_map_place = SE3(SO3(), {random.uniform(0, 9), random.uniform(0, 9), 0});
+    graph.places.push_back(place);
+  }
+  constexpr double kNever = 1e9;
+  Eigen::MatrixXd shortest = Eigen::MatrixXd::Constant(kPlaces, kPlaces, kNever);
+  shortest.diagonal().setZero();
+  for (int k = 0; k < kEdges; ++k) {
+    RelativePoseConstraint edge;
+    edge.from = random.index(kPlaces);
+    edge.to = random.index(kPlaces);
+    graph.constraints.push_back(edge);
+    const double length = (graph.find(edge.from)->T_map_place.translation() -
+                           graph.find(edge.to)->T_map_place.translation())
+                              .norm();
+    shortest(edge.from, edge.to) = shortest(edge.to, edge.from) = length;
+  }
+  for (int k = 0; k < kPlaces; ++k)
+    for (int i = 0; i < kPlaces; ++i)
+      for (int j = 0; j < kPlaces; ++j)
+        shortest(i, j) = std::min(shortest(i, j), shortest(i, k) + shortest(k, j));
+  int joined = 0;
+  for (int i = 0; i < kPlaces; ++i)
+    for (int j = 0; j < kPlaces; ++j) {
+      const Route route = shortest_route(graph, i, j);
+      ASSERT_EQ(static_cast<bool>(route.outcome), shortest(i, j) < kNever);
+      if (!route.outcome) continue;
+      ++joined;
+      ASSERT_NEAR(route.length_m(), shortest(i, j), 1e-9);
+    }
+  EXPECT_GT(joined, kPlaces * kPlaces / 2);
 }
 
 TEST(Route, ToWhereItBeginsIsOnePlaceLong) {

@@ -178,6 +178,28 @@ TEST_F(LoopCloserOnAStreet, RelocalizesAFrameAtAKnownKeyframe) {
   EXPECT_LT(distance_m(found->T_match_query, truth), 0.1);
 }
 
+TEST_F(LoopCloserOnAStreet, KnowsTheKeyframesOfAMapThatItIsGiven) {
+  LoopCloser driven(small_options(), one_eye(), 1);
+  for (int k = 0; k < kFirst; ++k)
+    driven.add_view(k, frame(k), k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
+  Map map;
+  for (const LoopCloser::View& view : driven.views()) {
+    Keyframe keyframe;
+    keyframe.id = view.keyframe;
+    keyframe.frame = view.frame;
+    keyframe.features = view.features;
+    map.keyframes.push_back(keyframe);
+  }
+  const LoopCloser memory(small_options(), one_eye(), 1, map);
+  EXPECT_EQ(memory.views().size(), driven.views().size());
+  const auto found = memory.relocalize(frame(kFirst + 1), 0),
+             same = driven.relocalize(frame(kFirst + 1), 0);
+  ASSERT_TRUE(found && same);
+  EXPECT_EQ(found->match, same->match);
+  EXPECT_EQ(distance_m(found->T_match_query, same->T_match_query), 0);
+  EXPECT_FALSE(LoopCloser(small_options(), one_eye(), 1, Map()).relocalize(frame(0), 0));
+}
+
 TEST_F(LoopCloserOnAStreet, GrowsDepthsWithTheUnit) {
   LoopCloser closer(small_options(), one_eye(), 1);
   for (int k = 0; k < 2; ++k)
