@@ -25,6 +25,8 @@ struct FlowSighting {
   /// the body's attitude, too. `covariance` is without the turn's share then.
   std::optional<Eigen::Matrix3d> J_turn = std::nullopt;
   SO3 R_from_to = {};  ///< the camera's turn that was taken out of the flow; with `J_turn`
+  /// The bias that the gyro was thought to have when it told that turn [rad/s]; with `J_turn`.
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();
 };
 
 }  // namespace placegraph

@@ -188,7 +188,8 @@ void Hover::take_flow(const HoverSights& sights, HoverFrame& result) {
   const FlowSighting sighting{
       previous_->stamp_ns,  sights.stamp_ns,
       motion.over_distance, motion.covariance + common * common * Matrix3d::Identity(),
-      motion.J_rotation,    turn.R_1_2};
+      motion.J_rotation,    turn.R_1_2,
+      previous_->gyro_bias};
   result.flow_sighting = sighting;
   result.flow = filter_.add(sighting);
 }

@@ -162,6 +162,8 @@ std::optional<PositionFilter::Innovation> PositionFilter::innovation(
   if (flow->J_turn) {
     // What the gyro's noise and bias did to the turn they did to the attitude, with the other sign.
     const Matrix3d J = *flow->J_turn * R_cam_body;
+    // The turn as it is with what is known of the bias by now.
+    result.residual -= dt * J * (state.gyro_bias - flow->gyro_bias);
     const double variance = options_.gyro_noise * options_.gyro_noise * dt;
     result.H.block<3, 3>(0, kGyroBias) += dt * J;
     result.R += variance * J * J.transpose();

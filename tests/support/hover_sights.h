@@ -3,6 +3,9 @@
 #include <placegraph/io/synthetic/hover.h>
 #include <placegraph/pipeline/hover.h>
 
+#include <functional>
+#include <optional>
+
 namespace placegraph::test {
 
 /// What a camera over the hover world sees, measured without an image: points of the floor, corners
@@ -18,11 +21,13 @@ class HoverSightsSource {
                     std::uint64_t seed)
       : setting_(*tour.hover), camera_(tour.camera), options_(options), random_(seed, 71) {}
 
+  /// Flow is that since the image that was looked at before.
   HoverSights look(std::size_t image, bool markers_visible = true) {
     HoverSights sights;
     sights.stamp_ns = setting_.flight.at_image(image).stamp_ns;
     const SE3 T_world_cam = pose(image);
-    if (image > 0) sights.flow = flow(pose(image - 1), T_world_cam);
+    if (last_) sights.flow = flow(pose(*last_), T_world_cam);
+    last_ = image;
     if (!markers_visible) return sights;
     const SE3 T_cam_world = T_world_cam.inverse();
     for (const PlacedMarker& marker : setting_.layout.markers) {
@@ -84,14 +89,16 @@ class HoverSightsSource {
   Camera camera_;
   HoverSightsOptions options_;
   Random random_;
+  std::optional<std::size_t> last_;
 };
 
 /// Flies a hover world through the pipeline without images. `visible(t)` says when markers are
-/// looked for, t seconds after the first image.
+/// looked for, t seconds after the first image; `dropped(i)` which images never come.
 template <class Visible>
 std::vector<HoverFrame> fly_without_images(const synthetic::Tour& tour, HoverOptions options,
                                            const HoverSightsOptions& sights, std::uint64_t seed,
-                                           const Visible& visible) {
+                                           const Visible& visible,
+                                           const std::function<bool(std::size_t)>& dropped = {}) {
   const synthetic::HoverSetting& setting = *tour.hover;
   const ImuNoise& noise = setting.flight.imu.noise;
   options.filter.gyro_noise = noise.gyro;
@@ -105,6 +112,7 @@ std::vector<HoverFrame> fly_without_images(const synthetic::Tour& tour, HoverOpt
   for (std::size_t i = 0; i < setting.flight.images.size(); ++i) {
     for (; sample <= setting.flight.images[i]; ++sample)
       (void)hover.add(setting.flight.imu.samples[sample]);
+    if (dropped && dropped(i)) continue;
     const double t = tour.time_s[i] - tour.time_s[0];
     frames.push_back(hover.add(source.look(i, visible(t))));
   }

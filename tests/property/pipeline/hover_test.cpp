@@ -64,5 +64,51 @@ TEST(HoverConsistency, MarkersThatComeLateAreWorthAlmostAsMuch) {
   EXPECT_LT(error.velocity_rmse_mps, 0.1);
 }
 
+/// Once all has come, it is as if it had come in time: but for the turns that were taken out of
+/// flow while the gyro's bias was known otherwise.
+TEST(HoverConsistency, OnceLateMarkersHaveComeTheStateIsThatOfMarkersInTime) {
+  for (const std::uint64_t seed : {41, 42, 43}) {
+    const synthetic::Tour tour = tour_of(seed, 8);
+    const auto until_six = [](double t) { return t < 6; };
+    HoverOptions late;
+    late.marker_delay_s = 0.3;
+    const auto in_time = fly_without_images(tour, {}, {}, seed, until_six),
+               delayed = fly_without_images(tour, late, {}, seed, until_six);
+    ASSERT_TRUE(in_time.back().outcome && delayed.back().outcome);
+    const BodyState &a = in_time.back().state, &b = delayed.back().state;
+    // A tenth of what either is sure of.
+    const Eigen::Matrix<double, 15, 1> sigma = a.covariance.diagonal().cwiseSqrt();
+    EXPECT_LT((a.T_world_body.translation() - b.T_world_body.translation()).norm(),
+              0.1 * sigma.head<3>().norm());
+    EXPECT_LT((a.velocity_world - b.velocity_world).norm(), 0.1 * sigma.segment<3>(3).norm());
+    EXPECT_LT((a.T_world_body.rotation().inverse() * b.T_world_body.rotation()).log().norm(),
+              0.1 * sigma.segment<3>(6).norm());
+    EXPECT_LT((a.covariance - b.covariance).norm(), 0.02 * a.covariance.norm());
+  }
+}
+
+TEST(HoverConsistency, ErrsAsItsCovarianceSaysWhereImagesAreDropped) {
+  double anees = 0;
+  constexpr int kFlights = 4;
+  for (std::uint64_t seed = 1; seed <= kFlights; ++seed) {
+    const synthetic::Tour tour = tour_of(50 + seed, 15);
+    Random random(seed, 9);
+    std::vector<bool> dropped(tour.hover->flight.images.size());
+    // Every third at random, and three times a quarter of a second of them.
+    for (std::size_t i = 0; i < dropped.size(); ++i)
+      dropped[i] = random.uniform() < 1 / 3.0 || (i % 100 >= 60 && i % 100 < 65);
+    const auto frames = fly_without_images(
+        tour, {}, {}, seed, [](double) { return true; }, [&](std::size_t i) { return dropped[i]; });
+    const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
+    ASSERT_TRUE(error.outcome) << error.outcome.reason;
+    EXPECT_GT(error.compared, 0.95 * static_cast<double>(frames.size()));
+    EXPECT_LT(error.position_rmse_m, 0.02) << "seed " << seed;
+    EXPECT_LT(error.velocity_rmse_mps, 0.03) << "seed " << seed;
+    anees += error.anees / kFlights;
+  }
+  EXPECT_GT(anees, 0.5);
+  EXPECT_LT(anees, 2);
+}
+
 }  // namespace
 }  // namespace placegraph

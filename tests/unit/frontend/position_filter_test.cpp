@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/error.h>
 
 #include <limits>
+#include <variant>
 
 #include "tests/support/hover_flight.h"
 
@@ -76,6 +77,42 @@ TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
   ASSERT_TRUE(a.outcome && b.outcome);
   EXPECT_LT((a.state.T_world_body.inverse() * b.state.T_world_body).log().norm(), 1e-9);
   EXPECT_LT((a.state.covariance - b.state.covariance).norm(), 1e-12);
+}
+
+TEST(PositionFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const HoverFlight flight;
+    Random random(seed), order(seed, 7);
+    PositionFilter in_time(flight.noise, flight.T_body_cam), late(flight.noise, flight.T_body_cam);
+    const BodyState start = flight.start(random);
+    in_time.start(start);
+    late.start(start);
+    std::vector<std::variant<PoseSighting, FlowSighting>> waiting;
+    for (int i = 1; i <= 160; ++i) {
+      const double t = i / flight.imu_hz;
+      const ImuSample sample = flight.imu(t, random);
+      ASSERT_TRUE(in_time.add(sample));
+      ASSERT_TRUE(late.add(sample));
+      if (i % 10 == 0) waiting.push_back(flight.flow(t - 10 / flight.imu_hz, t, random));
+      if (i % 20 == 0) waiting.push_back(flight.marker(t, random));
+      for (std::size_t k = waiting.size() - (i % 20 == 0   ? 2
+                                             : i % 10 == 0 ? 1
+                                                           : 0);
+           k < waiting.size(); ++k)
+        ASSERT_TRUE(std::visit([&](const auto& seen) { return in_time.add(seen); }, waiting[k]));
+      if (i % 80 != 0) continue;
+      while (!waiting.empty()) {  // up to four tenths of a second late, shuffled
+        const auto next = waiting.begin() + order.index(static_cast<int>(waiting.size()));
+        ASSERT_TRUE(std::visit([&](const auto& seen) { return late.add(seen); }, *next));
+        waiting.erase(next);
+      }
+    }
+    const auto a = in_time.at(HoverFlight::stamp(0.8)), b = late.at(HoverFlight::stamp(0.8));
+    ASSERT_TRUE(a.outcome && b.outcome);
+    EXPECT_LT((a.state.T_world_body.inverse() * b.state.T_world_body).log().norm(), 1e-9);
+    EXPECT_LT((a.state.velocity_world - b.state.velocity_world).norm(), 1e-9);
+    EXPECT_LT((a.state.covariance - b.state.covariance).norm(), 1e-12);
+  }
 }
 
 TEST(PositionFilter, DoesNotBelieveWhatIsFarFromExpected) {
