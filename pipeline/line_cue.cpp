@@ -12,6 +12,26 @@ SE3 beside(const SE3& T_odom_cam, const Eigen::Vector3d& eye_cam) {
   return T_odom_cam * SE3(SO3(), eye_cam);
 }
 
+constexpr double kNear = 0.05;  // of the median depth
+
+/// Where a camera that has moved sees a segment whose ends are that deep: the part beyond
+/// `least`; without length if none is.
+LineSegment moved_segment(const Camera& camera, const LineSegment& seen, const double (&depths)[2],
+                          const SE3& T_new_old, double least) {
+  Eigen::Vector3d ends[2];
+  for (int k = 0; k < 2; ++k) {
+    const auto ray = camera.unproject(k == 0 ? seen.start : seen.end);
+    ends[k] = T_new_old * Eigen::Vector3d(depths[k] * ray.value_or(Eigen::Vector3d::UnitZ()));
+  }
+  for (int k = 0; k < 2; ++k)
+    if (ends[k].z() < least && ends[1 - k].z() > least)
+      ends[k] = ends[1 - k] + (ends[1 - k].z() - least) / (ends[1 - k].z() - ends[k].z()) *
+                                  (ends[k] - ends[1 - k]);
+  const auto start = camera.project(ends[0]), end = camera.project(ends[1]);
+  if (!start || !end || ends[0].z() <= 0.5 * least || ends[1].z() <= 0.5 * least) return {};
+  return {*start, *end};
+}
+
 }  // namespace
 
 void LineCueOptions::check() const {
@@ -33,6 +53,8 @@ void visit(OptionVisitor& field, LineCueOptions& o) {
   field("sigma_floor_px", o.sigma_floor_px, "no line is placed better across", {0.01, 10});
   field("min_turn_steered_deg", o.min_turn_steered_deg,
         "triangulation.min_turn_deg where directions show the rotation", {0.01, 45});
+  field("stay_frames", o.stay_frames,
+        "an edge that the motion takes out of the image before is begun last", {0, 100});
   field("outlier_px", o.outlier_px, "a line that is missed by more is dropped", {0.5, 100});
 }
 
@@ -81,35 +103,41 @@ void LineCue::steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& 
   compass_->learn(calibration_.camera, seen, R_odom_cam, random);
 }
 
+/// What the lines of the window tell of depths in the newest image.
+std::vector<KnownDepth> LineCue::known_depths(const SlidingWindow& window) const {
+  std::vector<KnownDepth> known;
+  for (const LineTrack& track : tracker_.tracks()) {
+    const auto line = window.line(track.id);
+    if (!line) continue;
+    const LineSegment& s = track.edge.segment;
+    for (const Eigen::Vector2d& px : {s.start, s.middle(), s.end}) {
+      const auto z = depth_on_line(calibration_.camera, T_odom_last_, *line, px);
+      if (z && *z > 0) known.push_back({px.cast<float>(), *z});
+    }
+  }
+  return known;
+}
+
 /// Where the tracks should be seen from `T_odom_cam`: the points at their ends, on the line of the
-/// window or at `depth`, moved; the latter go on to drift as they did.
+/// window or as deep as those beside them (or at `depth`), moved; the latter go on to drift as they
+/// did.
 std::vector<LineSegment> LineCue::expected(const SlidingWindow& window, const SE3& T_odom_cam,
                                            double depth) const {
   const Camera& camera = calibration_.camera;
   const SE3 T_cam_last = T_odom_cam.inverse() * T_odom_last_;
+  const std::vector<KnownDepth> known = known_depths(window);
   std::vector<LineSegment> result;
   for (const LineTrack& track : tracker_.tracks()) {
     const LineSegment& now = track.edge.segment;
     const auto line = window.line(track.id);
-    Eigen::Vector3d ends[2];
+    const double beside = line ? depth : depth_nearby(known, now.middle().cast<float>(), depth);
+    double depths[2];
     for (int k = 0; k < 2; ++k) {
-      const Eigen::Vector2d& px = k == 0 ? now.start : now.end;
-      auto z = line ? depth_on_line(camera, T_odom_last_, *line, px) : std::optional(depth);
-      if (!z || !(*z > 0)) z = depth;
-      const auto ray = camera.unproject(px);
-      ends[k] = T_cam_last * Eigen::Vector3d(*z * ray.value_or(Eigen::Vector3d::UnitZ()));
+      const auto z = line ? depth_on_line(camera, T_odom_last_, *line, k == 0 ? now.start : now.end)
+                          : std::optional(beside);
+      depths[k] = z && *z > 0 ? *z : depth;
     }
-    // The part before the camera.
-    constexpr double kNear = 0.05;  // of the median depth
-    const double least = kNear * depth;
-    for (int k = 0; k < 2; ++k)
-      if (ends[k].z() < least && ends[1 - k].z() > least)
-        ends[k] = ends[1 - k] + (ends[1 - k].z() - least) / (ends[1 - k].z() - ends[k].z()) *
-                                    (ends[k] - ends[1 - k]);
-    const auto start = camera.project(ends[0]), end = camera.project(ends[1]);
-    LineSegment segment;  // without length: cannot be seen
-    if (start && end && ends[0].z() > 0.5 * least && ends[1].z() > 0.5 * least)
-      segment = {*start, *end};
+    LineSegment segment = moved_segment(camera, now, depths, T_cam_last, kNear * depth);
     if (const auto drift = drift_px_.find(track.id);
         !line && drift != drift_px_.end() && segment.length() > 1) {
       const Eigen::Vector2d across = drift->second * segment.normal();
@@ -123,6 +151,7 @@ std::vector<LineSegment> LineCue::expected(const SlidingWindow& window, const SE
 void LineCue::track(const Image& image, const SlidingWindow& window, const SE3& T_odom_cam,
                     double depth) {
   const std::vector<LineSegment> wanted = expected(window, T_odom_cam, depth);
+  T_odom_before_ = T_odom_last_;
   std::map<std::int64_t, LineSegment> wanted_of;
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted_of[tracker_.tracks()[i].id] = wanted[i];
   tracker_.track(image, wanted);
@@ -216,10 +245,22 @@ void LineCue::add_to_window(std::int64_t id, const Sighting& sighting,
 }
 
 void LineCue::observe(std::int64_t keyframe, const Frame& frame,
-                      const RectificationError& rectification, SlidingWindow& window) {
+                      const RectificationError& rectification, double depth,
+                      SlidingWindow& window) {
   T_odom_last_ = window.pose(keyframe);
-  if (tracker_.image().empty()) tracker_.track(frame.image);
-  tracker_.detect(frame.mask);
+  if (tracker_.image().empty()) {
+    tracker_.track(frame.image);
+    T_odom_before_ = T_odom_last_;
+  }
+  // The longer an edge will be seen, the more it tells.
+  SE3 T_later_now;
+  for (int k = 0; k < options_.stay_frames; ++k)
+    T_later_now = T_odom_last_.inverse() * T_odom_before_ * T_later_now;
+  const std::vector<KnownDepth> known = known_depths(window);
+  tracker_.detect(frame.mask, [&](const LineSegment& seen) {
+    const double beside = depth_nearby(known, seen.middle().cast<float>(), depth);
+    return moved_segment(calibration_.camera, seen, {beside, beside}, T_later_now, kNear * depth);
+  });
   follow_mergers();
   const auto seconds = second_eyes(frame, rectification);
   std::map<std::int64_t, Sighting> now;

@@ -7,6 +7,7 @@
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/graph/frame.h>
+#include <placegraph/pipeline/depth_nearby.h>
 #include <placegraph/pipeline/floor_scale.h>
 #include <placegraph/pipeline/frame_view.h>
 
@@ -27,6 +28,7 @@ struct LineCueOptions {
   /// In place of triangulation.min_turn_deg where directions show the rotation, and turns of planes
   /// are those of the way alone: with what is not known of its place, a line is of use much sooner.
   double min_turn_steered_deg = 0.4;
+  int stay_frames = 10;   ///< an edge that the motion takes out of the image before is begun last
   double outlier_px = 4;  ///< a line of the window that is missed by more is dropped
   void check() const;
 };
@@ -49,9 +51,9 @@ class LineCue {
   void accept(const SlidingWindow& window, const SE3& T_odom_cam);
   /// Detects new lines in the newest image, which is that of `keyframe`, and adds what it sees to
   /// the window; lines with enough parallax become lines of the window. `rectification`: what the
-  /// two eyes, where there are two, are thought to be off by.
+  /// two eyes, where there are two, are thought to be off by. `depth`: of what no line is beside.
   void observe(std::int64_t keyframe, const Frame& frame, const RectificationError& rectification,
-               SlidingWindow& window);
+               double depth, SlidingWindow& window);
   /// Rotation is seen by the directions that lines share, too: for a single eye without points,
   /// which knows the place of few lines in a turn.
   void use_compass();
@@ -94,6 +96,7 @@ class LineCue {
     ImageLine::Carriers seen;
     std::optional<LineObservation::SecondEye> second;
   };
+  std::vector<KnownDepth> known_depths(const SlidingWindow& window) const;
   std::vector<LineSegment> expected(const SlidingWindow& window, const SE3& T_odom_cam,
                                     double depth) const;
   std::vector<std::optional<LineObservation::SecondEye>> second_eyes(
@@ -114,6 +117,7 @@ class LineCue {
   LineTracker tracker_;
   std::optional<DirectionCompass> compass_;
   SE3 T_odom_last_;                                          // of the newest image, once accepted
+  SE3 T_odom_before_;                                        // of the image before
   std::map<std::int64_t, std::vector<Sighting>> sightings_;  // of live tracks
   std::map<std::int64_t, LineSegment> at_keyframe_;
   std::map<std::int64_t, Eigen::Matrix4d> covariances_;  // of lines of the window

@@ -4,7 +4,7 @@ namespace placegraph {
 
 void Odometry::observe_lines(std::int64_t keyframe, const Frame& frame) {
   lines_->observe(keyframe, frame, rectification_ ? rectification_->error() : RectificationError(),
-                  window_);
+                  median_depth_m_, window_);
   if (!cues_.points) lines_->hold_course(keyframe, median_depth_m_, window_);
 }
 

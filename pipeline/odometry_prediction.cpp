@@ -1,40 +1,8 @@
+#include <placegraph/pipeline/depth_nearby.h>
 #include <placegraph/pipeline/median.h>
 #include <placegraph/pipeline/odometry.h>
 
-#include <algorithm>
-#include <array>
-#include <limits>
-
 namespace placegraph {
-namespace {
-
-/// A point with a known depth, as the last frame saw it.
-struct Known {
-  Eigen::Vector2f px;
-  double depth;
-};
-
-/// Of a pixel without depth: the median of those of the three nearest points that have one.
-double depth_nearby(const std::vector<Known>& known, const Eigen::Vector2f& px, double otherwise) {
-  constexpr std::size_t kNeighbours = 3;
-  if (known.size() < kNeighbours) return otherwise;
-  std::array<std::pair<float, double>, kNeighbours> nearest;  // squared distance, depth
-  nearest.fill({std::numeric_limits<float>::infinity(), otherwise});
-  for (const Known& k : known) {
-    const float distance = (k.px - px).squaredNorm();
-    if (distance >= nearest.back().first) continue;
-    std::size_t at = kNeighbours - 1;
-    for (; at > 0 && nearest[at - 1].first > distance; --at) nearest[at] = nearest[at - 1];
-    nearest[at] = {distance, k.depth};
-  }
-  std::array<double, kNeighbours> depths;
-  for (std::size_t i = 0; i < kNeighbours; ++i) depths[i] = nearest[i].second;
-  std::nth_element(depths.begin(), depths.begin() + kNeighbours / 2, depths.end());
-  return depths[kNeighbours / 2];
-}
-
-}  // namespace
-
 /// Where the tracks are seen from `T_odom_cam`: landmarks where they are, other points as deep as
 /// the landmarks beside them.
 std::vector<Eigen::Vector2f> Odometry::predict(const SE3& T_odom_cam) const {
@@ -42,7 +10,7 @@ std::vector<Eigen::Vector2f> Odometry::predict(const SE3& T_odom_cam) const {
   const Camera& camera = calibration_.camera;
   const auto& tracks = tracker_.tracks();
   std::vector<std::optional<Eigen::Vector3d>> points;
-  std::vector<Known> known;
+  std::vector<KnownDepth> known;
   for (const PointTrack& track : tracks) {
     points.push_back(window_.landmark(track.id));
     if (!points.back()) continue;

@@ -41,6 +41,14 @@ LineSegment part_of(const LineSegment& whole, const LineSegment& moved, const Li
   return {at(part.start), at(part.end)};
 }
 
+/// The part of a segment beside which the other lies.
+LineSegment common_part(const LineSegment& segment, const LineSegment& other) {
+  const double length = segment.length();
+  const double from = std::clamp(segment.position_of(other.start), 0.0, length);
+  const double to = std::clamp(segment.position_of(other.end), 0.0, length);
+  return {segment.start + from * segment.direction(), segment.start + to * segment.direction()};
+}
+
 double share_inside(const LineSegment& segment, const Image& mask) {
   if (mask.empty()) return 1;
   constexpr int kSamples = 8;
@@ -82,6 +90,8 @@ void visit(OptionVisitor& field, LineTrackerOptions& o) {
   field("max_gap_px", o.growth.max_gap_px, "without support, inside one edge", {1, 1000});
   field("max_tracks", o.max_tracks, "lines followed at once", {1, 10000});
   field("enough_share", o.enough_share, "of max_tracks: no new ones are looked for", {0.01, 1});
+  field("leaving_share", o.leaving_share,
+        "of max_tracks: only with fewer are edges begun that leave the image soon", {0, 1});
   field("max_shift_px", o.max_shift_px, "of a segment from where it is expected", {1, 200});
   field("min_new_px", o.min_new_px, "length of an edge that becomes a track", {5, 1000});
   field("min_length_px", o.min_length_px, "shorter pieces die", {5, 1000});
@@ -102,10 +112,10 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
   require(expected.empty() || expected.size() == tracks_.size(),
           "LineTracker: one expected segment a track needed");
   const auto strips = std::make_shared<const StripImage>(image);
+  const auto refiner = std::make_shared<const EdgeRefiner>(image, options_.detector.refinement);
   merged_.clear();
   std::vector<LineTrack> kept;
   if (!tracks_.empty()) {
-    const EdgeRefiner refiner(image, options_.detector.refinement);
     const double border = options_.detector.border_px;
     const int coarsest =
         std::max(0, static_cast<int>(std::ceil(std::log2(options_.max_shift_px / 4))));
@@ -120,7 +130,7 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
       if (!flow || std::abs(flow->shift_px) > options_.max_shift_px ||
           similarity(flow->alike) < options_.min_similarity)
         continue;
-      const auto edge = refiner.follow(flow->segment, options_.growth);
+      const auto edge = refiner->follow(flow->segment, options_.growth);
       if (!edge) continue;
       const LineSegment inside = clipped(edge->segment, image, border);
       if (inside.length() < options_.min_length_px) continue;
@@ -129,14 +139,7 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
       const double turn =
           std::acos(std::clamp(inside.direction().dot(seen.direction()), -1.0, 1.0));
       if (turn > max_turn) continue;
-      // The way back, from the edge as it was measured, must end on the edge it came from.
-      const LineSegment measured{edge->line.foot(flow->segment.start),
-                                 edge->line.foot(flow->segment.end)};
-      const auto back = follow_segment(*strips, measured, *strips_, before, 0, options_.flow);
-      if (!back || std::max(std::abs(track.edge.segment.offset_of(back->segment.start)),
-                            std::abs(track.edge.segment.offset_of(back->segment.end))) >
-                       options_.max_forward_backward_px)
-        continue;
+      if (!leads_back(track.edge.segment, before, flow->segment, *edge, *strips)) continue;
       track.previous = track.edge.segment;
       track.edge = *edge;
       track.edge.segment = inside;
@@ -147,7 +150,31 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
   tracks_ = std::move(kept);
   image_ = image;
   strips_ = strips;
+  refiner_ = refiner;
   merge_tracks();
+}
+
+/// From the edge as it was measured, the way back must end on the edge it came from. Of that part
+/// only which was measured: a turn that its noise leaves grows beyond.
+bool LineTracker::leads_back(const LineSegment& origin, const LineSegment& before,
+                             const LineSegment& aligned, const EdgeSegment& edge,
+                             const StripImage& strips) const {
+  constexpr double kLeast_px = 4;
+  const LineSegment supported = common_part(aligned, edge.segment);
+  if (supported.length() < kLeast_px) return false;
+  const LineSegment measured{edge.line.foot(supported.start), edge.line.foot(supported.end)};
+  const auto back = follow_segment(strips, measured, *strips_, part_of(before, aligned, supported),
+                                   0, options_.flow);
+  if (!back) return false;
+  const auto agrees = [&](const LineSegment& seen) {
+    return std::max(std::abs(origin.offset_of(seen.start)), std::abs(origin.offset_of(seen.end))) <=
+           options_.max_forward_backward_px;
+  };
+  if (agrees(back->segment)) return true;
+  // Where the surroundings move otherwise, the alignment is off both ways, but not the edge.
+  const auto again = refiner_->follow(back->segment, {0, options_.growth.max_gap_px});
+  return again &&
+         agrees({again->line.foot(back->segment.start), again->line.foot(back->segment.end)});
 }
 
 /// The older of two tracks on one edge goes on, as long as both together reach.
@@ -167,24 +194,35 @@ void LineTracker::merge_tracks() {
   this->keep(keep);
 }
 
-void LineTracker::detect(const Image& mask) {
-  if (image_.empty() ||
-      static_cast<double>(tracks_.size()) >= options_.enough_share * options_.max_tracks)
-    return;
+void LineTracker::detect(const Image& mask, const WhereLater& later) {
+  const auto share_of_most = [&](double share) { return share * options_.max_tracks; };
+  const auto count = [&] { return static_cast<double>(tracks_.size()); };
+  if (image_.empty() || count() >= share_of_most(options_.enough_share)) return;
+  std::vector<EdgeSegment> fresh, leaving;
   for (const EdgeSegment& edge : detect_segments(image_, options_.detector)) {
-    if (static_cast<int>(tracks_.size()) >= options_.max_tracks) break;
     if (edge.segment.length() < options_.min_new_px || share_inside(edge.segment, mask) < 0.5)
       continue;
-    const bool covered = std::any_of(tracks_.begin(), tracks_.end(), [&](const LineTrack& track) {
-      return same_edge(track.edge.segment, edge.segment, 2);
-    });
-    if (covered) continue;
-    LineTrack track;
-    track.id = next_id_++;
-    track.edge = edge;
-    track.previous = edge.segment;
-    tracks_.push_back(track);
+    const bool stays =
+        !later || clipped(later(edge.segment), image_, options_.detector.border_px).length() >=
+                      options_.min_length_px;
+    (stays ? fresh : leaving).push_back(edge);
   }
+  const auto begin = [&](const std::vector<EdgeSegment>& edges, double most) {
+    for (const EdgeSegment& edge : edges) {
+      if (count() >= most) return;
+      const bool covered = std::any_of(tracks_.begin(), tracks_.end(), [&](const LineTrack& track) {
+        return same_edge(track.edge.segment, edge.segment, 2);
+      });
+      if (covered) continue;
+      LineTrack track;
+      track.id = next_id_++;
+      track.edge = edge;
+      track.previous = edge.segment;
+      tracks_.push_back(track);
+    }
+  };
+  begin(fresh, share_of_most(1));
+  begin(leaving, share_of_most(options_.leaving_share));
 }
 
 void LineTracker::keep(const std::vector<bool>& flags) {
@@ -200,6 +238,7 @@ void LineTracker::reset() {
   merged_.clear();
   image_ = Image();
   strips_.reset();
+  refiner_.reset();
 }
 
 }  // namespace placegraph

@@ -3,6 +3,7 @@
 #include <placegraph/frontend/lines/segment_flow.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -15,10 +16,11 @@ struct LineTrackerOptions {
   EdgeGrowth growth;
   int max_tracks = 80;          ///< the longest edges
   double enough_share = 0.75;   ///< of max_tracks: with so many no new ones are looked for
+  double leaving_share = 0.3;   ///< of max_tracks: with fewer, edges that leave soon are begun too
   double max_shift_px = 12;     ///< of a segment from where it is expected
   double min_new_px = 25;       ///< length of an edge that becomes a track
   double min_length_px = 20;    ///< of a track; shorter pieces die
-  double min_similarity = 0.8;  ///< correlation of the strips of two frames, of one side or both
+  double min_similarity = 0.7;  ///< correlation of the strips of two frames, of one side or both
   double max_forward_backward_px = 1;  ///< of the ends, across
   double max_contrast_ratio = 2.5;     ///< between two frames
   void check() const;
@@ -47,9 +49,12 @@ class LineTracker {
   /// now thought to be, or is empty (nothing moved); one without length means that the track cannot
   /// be seen.
   void track(const Image& image, const std::vector<LineSegment>& expected = {});
+  /// Where a segment of the last image is thought to be some frames later, its ends anywhere.
+  using WhereLater = std::function<LineSegment(const LineSegment&)>;
   /// Detects edges of the last image that no track covers, where tracks are few; `mask` 0 = not
-  /// here (may be empty).
-  void detect(const Image& mask = {});
+  /// here (may be empty). The longest come first, but those that will have left the image `later`
+  /// only where there are few without them.
+  void detect(const Image& mask = {}, const WhereLater& later = {});
   /// Drops the tracks whose flag is false (one flag a track, in order).
   void keep(const std::vector<bool>& flags);
   /// Forgets tracks and images; ids go on counting.
@@ -61,13 +66,16 @@ class LineTracker {
   const Image& image() const { return image_; }
 
  private:
+  bool leads_back(const LineSegment& origin, const LineSegment& before, const LineSegment& aligned,
+                  const EdgeSegment& edge, const StripImage& strips) const;
   void merge_tracks();
 
   LineTrackerOptions options_;
   std::vector<LineTrack> tracks_;
   std::vector<std::pair<std::int64_t, std::int64_t>> merged_;
   Image image_;
-  std::shared_ptr<const StripImage> strips_;  // of image_
+  std::shared_ptr<const StripImage> strips_;    // of image_
+  std::shared_ptr<const EdgeRefiner> refiner_;  // of image_
   std::int64_t next_id_ = 0;
 };
 

@@ -151,6 +151,25 @@ TEST(LineTracker, DoesNotDetectWhereTheMaskForbidsOrATrackIsAlready) {
   EXPECT_EQ(tracker.tracks().size(), all);
 }
 
+TEST(LineTracker, EdgesThatLeaveTheImageSoonAreBegunOnlyWhereThereAreFewOthers) {
+  const auto later = [](const LineSegment& s) {  // what is right of column 75 leaves
+    return s.middle().x() > 75 ? LineSegment{} : s;
+  };
+  LineTrackerOptions options;
+  options.leaving_share = 0;
+  LineTracker tracker(options);
+  tracker.track(bar(60));
+  tracker.detect({}, later);
+  EXPECT_TRUE(side_at(tracker, 60));
+  EXPECT_FALSE(side_at(tracker, 90));
+  options.leaving_share = 1;
+  LineTracker lonely(options);
+  lonely.track(bar(60));
+  lonely.detect({}, later);
+  EXPECT_TRUE(side_at(lonely, 60));
+  EXPECT_TRUE(side_at(lonely, 90));
+}
+
 TEST(LineTracker, RefusesWhatBreaksItsContract) {
   LineTracker tracker({});
   EXPECT_THROW(tracker.track(Image()), ArgumentError);
