@@ -111,7 +111,9 @@ class WindowProblem {
 
   ceres::Solver::Summary solve() {
     ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_SCHUR;
+    // Lines meet keyframes only, not one another.
+    options.linear_solver_type = state_.lines.empty() ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
+    options.sparse_linear_algebra_library_type = ceres::SUITE_SPARSE;
     options.dense_linear_algebra_library_type = ceres::EIGEN;
     options.linear_solver_ordering = ordering_;
     options.num_threads = 1;

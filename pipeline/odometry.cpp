@@ -47,9 +47,10 @@ SlidingWindow Odometry::empty_window() const {
   return SlidingWindow(options, calibration_.camera);
 }
 
-void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
+void Odometry::restart(const SE3& T_odom_cam, bool in_known_map,
+                       const std::optional<double>& median_depth_m) {
   in_known_map_ = in_known_map;
-  if (!in_known_map) median_depth_m_ = kUnknownDepth;
+  if (!in_known_map) median_depth_m_ = median_depth_m.value_or(kUnknownDepth);
   landmarks_at_keyframe_ = frames_since_keyframe_ = 0;
   px_at_keyframe_.clear();
   past_landmarks_ = landmarks();
@@ -73,6 +74,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map) {
   keyframe_poses_.clear();
   links_.clear();
   views_.clear();
+  turned_.clear();
   line_views_.clear();
   if (floor_) floor_->reset();
   between_.clear();
@@ -116,6 +118,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
     log(log_, LogLevel::kInfo,
         "frame " + std::to_string(frame.id) + " lost: " + points.outcome.reason);
     update.state = TrackingState::kLost;
+    update.turn = turn_since(px_at_keyframe_, random);
     return update;
   }
   tracker_.keep(keep);

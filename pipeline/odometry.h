@@ -5,6 +5,7 @@
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/frontend/odometry/mono_initializer.h>
 #include <placegraph/frontend/odometry/pose_3d2d.h>
+#include <placegraph/frontend/odometry/rotation_2d2d.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/frame.h>
@@ -39,6 +40,7 @@ struct OdometryOptions {
   PointTrackerOptions tracker;
   Pose3d2dOptions pose;
   MonoInitializerOptions initializer;
+  Rotation2d2dOptions turn;
   StereoMatcherOptions stereo;
   RectificationOptions rectification;
   GroundScaleOptions ground;
@@ -84,6 +86,14 @@ struct OdometryUpdate {
     Eigen::Vector3d centre_odom = Eigen::Vector3d::Zero();
   };
   std::optional<Rescale> rescale;
+  /// A single eye has made no way, only turned, since the last keyframe (where it is lost) or since
+  /// the first view (while it waits for the second; where this frame took that one's place, since
+  /// the one before it).
+  struct Turn {
+    SO3 R_before_cam;
+    Eigen::Matrix3d covariance;  ///< of its right tangent [rad^2]
+  };
+  std::optional<Turn> turn;
 };
 
 /// Motion memory: follows points, lines or both, poses every frame against the landmarks of a
@@ -101,9 +111,11 @@ class Odometry {
   [[nodiscard]] OdometryUpdate add_frame(const Frame& frame,
                                          const std::optional<SE3>& T_odom_cam_known = {});
   /// Forgets window and tracks and begins anew with the next frame, which stands at T_odom_cam. If
-  /// `in_known_map`, a single eye without ground takes its unit from frames that are recognized.
-  /// Keyframe ids go on counting.
-  void restart(const SE3& T_odom_cam, bool in_known_map = false);
+  /// `in_known_map`, a single eye without ground takes its unit from frames that are recognized;
+  /// otherwise, if what it sees is about as far away as before, from `median_depth_m`. Keyframe ids
+  /// go on counting.
+  void restart(const SE3& T_odom_cam, bool in_known_map = false,
+               const std::optional<double>& median_depth_m = {});
 
   /// The camera's motion by other sensors, before the first frame: gives a single eye its unit.
   void set_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
@@ -166,7 +178,11 @@ class Odometry {
   SlidingWindow empty_window() const;
   bool metric_from_start() const;
   OdometryUpdate begin(const Frame& frame);
-  OdometryUpdate replace_reference(const Frame& frame, const std::optional<SE3>& T_known);
+  std::optional<OdometryUpdate::Turn> turn_since(
+      const std::map<std::int64_t, Eigen::Vector2d>& px_before, Random& random) const;
+  OdometryUpdate wait_turning(const Frame& frame, Random& random);
+  OdometryUpdate replace_reference(const Frame& frame, const std::optional<SE3>& T_known,
+                                   const std::optional<OdometryUpdate::Turn>& turn = {});
   OdometryUpdate try_initialize(const Frame& frame, const std::optional<SE3>& T_known);
   OdometryUpdate begin_with_lines(const Frame& frame);
   OdometryUpdate try_lines(const Frame& frame, const std::optional<SE3>& T_known);
@@ -262,6 +278,7 @@ class Odometry {
   std::map<std::int64_t, Link> links_;         // of keyframes that left the window
   std::vector<PointLandmark> past_landmarks_;  // that left the window
   std::vector<View> views_;
+  std::vector<std::pair<std::int64_t, SE3>> turned_;  // frames that wait, T_odom_cam by turns alone
   std::vector<LinesWaiting> line_views_;
   std::vector<FrameBetween> between_;
   Frame reference_frame_;

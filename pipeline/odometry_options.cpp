@@ -18,6 +18,7 @@ void OdometryOptions::check() const {
   check_ranges(*this);
   (void)parse_cues(cues);
   tracker.check();
+  turn.check();
   rectification.check();
   ground.check();
   lines.check();
@@ -32,6 +33,7 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
   field.group("tracker", o.tracker, "points followed over time");
   field.group("pose", o.pose, "pose of a frame from landmarks");
   field.group("initializer", o.initializer, "first two views of a single eye");
+  field.group("turn", o.turn, "a single eye that turns on the spot");
   field.group("stereo", o.stereo, "matching of the right eye");
   field.group("rectification", o.rectification, "self-calibration of the two eyes");
   field.group("ground", o.ground, "metric scale from the road");

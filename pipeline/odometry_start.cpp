@@ -40,19 +40,6 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
   return update;
 }
 
-/// Too few points have survived since the reference: this frame takes its place.
-OdometryUpdate Odometry::replace_reference(const Frame& frame, const std::optional<SE3>& T_known) {
-  started_ = false;
-  tracker_.reset();
-  if (in_known_map_ && !T_known) {
-    OdometryUpdate lost;
-    lost.state = TrackingState::kLost;
-    return lost;
-  }
-  if (T_known) T_odom_start_ = *T_known;
-  return begin(frame);
-}
-
 /// The frames between keyframes `ref` and `cur` get their poses from the points.
 void Odometry::fill_between(std::int64_t ref, std::int64_t cur, Random& random,
                             OdometryUpdate& update) const {
@@ -89,8 +76,9 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
     px_cur.push_back(track.px.cast<double>());
   }
   views_.push_back(view);
+  Random random(seed_, frame.id);
   if (static_cast<int>(ids.size()) < 2 * options_.initializer.min_points)
-    return replace_reference(frame, T_known);
+    return replace_reference(frame, T_known, turn_since(views_.front().px, random));
   std::vector<PartialView> between;
   // A few judges are enough, however long the camera stood still.
   constexpr std::size_t kJudges = 16;
@@ -101,18 +89,19 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
       if (const auto i = index.find(id); i != index.end())
         between.back().emplace_back(i->second, px);
   }
-  Random random(seed_, frame.id);
   MonoInitialization start =
       initialize_mono(calibration_.camera, px_ref, px_cur, between, options_.initializer, random);
+  if (start.outcome && turn_since(views_.front().px, random))
+    start.outcome = Outcome::failure(Outcome::Code::kDegenerate, "a rotation explains the views");
   if (!start.outcome) {
     log(log_, LogLevel::kDebug, "initialization waits: " + start.outcome.reason);
-    return update;
+    return wait_turning(frame, random);
   }
   // The unit is arbitrary until the ground shows it.
   std::vector<double> depths;
   for (const auto& point : start.points_ref)
     if (point) depths.push_back(point->z());
-  double scale = kUnknownDepth / median_of(depths);
+  double scale = median_depth_m_ / median_of(depths);
   if (in_known_map_ && T_known) {
     scale = (T_known->translation() - T_odom_start_.translation()).norm();
   } else if (in_known_map_ && !ground_) {
@@ -142,6 +131,9 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   }
   update.new_keyframes = {{ref, reference_frame_}, {cur, frame}};
 
+  for (const auto& turned : turned_)
+    if (turned.first < reference_frame_.id) update.filled.push_back(turned);
+  turned_.clear();
   fill_between(ref, cur, random, update);
   const double steps = static_cast<double>(views_.size() - 1);
   views_.clear();

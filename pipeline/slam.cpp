@@ -31,6 +31,10 @@ SE3 unscaled(const Sim3& S_map_cam) { return SE3(S_map_cam.rotation(), S_map_cam
 
 /// Of the unit that a run of tracking takes from frames recognized in the map, in logarithms.
 constexpr double kSigmaLogScaleOfBridge = 0.1;
+/// The same where it is guessed: what comes into view by a turn is about as far away as what left.
+constexpr double kSigmaLogScaleOfTurn = 0.7;
+/// Way over the median depth that a rotation may hide.
+constexpr double kWayOfTurn = 0.005;
 
 }  // namespace
 
@@ -47,6 +51,7 @@ struct Slam::Impl {
   void check_frame(const Frame& frame) const;
   void recover(const Frame& frame, std::optional<Loop> located, OdometryUpdate& update);
   std::optional<Loop> carried(const Frame& frame) const;
+  std::optional<Loop> turned(const OdometryUpdate& update) const;
   void add_motion(std::int64_t keyframe);
   void record_pose(std::int64_t keyframe, const SE3& T_keyframe_cam, FrameResult& result);
   SE3 T_map_located(const Loop& located) const;
@@ -71,6 +76,7 @@ struct Slam::Impl {
   std::map<std::int64_t, std::int64_t> frame_of_keyframe, stamp_of_keyframe;
   std::int64_t last_keyframe = -1;
   std::optional<Loop> bridge;  // how the next run of tracking hangs on the last one
+  double sigma_log_scale_of_bridge = kSigmaLogScaleOfBridge;
   SE3 T_map_last;
   int lost_in_a_row = 0;
   std::shared_ptr<const MeasuredMotion> motion;  // of the camera, by other sensors
@@ -144,6 +150,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   }
   OdometryUpdate update =
       odometry.add_frame(frame, located ? std::optional(T_map_located(*located)) : std::nullopt);
+  if (bridge && !located) located = turned(update);
   if (bridge && update.reference) bridge = located;
   const bool waits_in_vain = posed_once && !bridge && update.state == TrackingState::kWaiting;
   if (update.state == TrackingState::kLost || waits_in_vain) recover(frame, located, update);
@@ -163,11 +170,12 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   } else if (const auto blind = carried(frame)) {
     record_pose(blind->match, blind->T_match_query, result);
   } else if (!posed_once && update.reference) {
-    // The first view is the origin while the second is waited for; if another takes its place, it
-    // has no pose after all.
-    if (origin) online.poses[*origin].T_world_body.reset();
+    // The first view is the origin while the second is waited for; if another takes its place, and
+    // not by a turn alone, it has no pose after all.
+    if (origin && !update.turn) online.poses[*origin].T_world_body.reset();
     origin = records.size() - 1;
-    result.T_map_cam = SE3();
+    T_map_last = update.turn ? T_map_last * SE3(update.turn->R_before_cam, {0, 0, 0}) : SE3();
+    result.T_map_cam = T_map_last;
   }
   result.state = result.T_map_cam ? TrackingState::kTracking
                  : posed_once     ? TrackingState::kLost
@@ -207,8 +215,37 @@ std::optional<Loop> Slam::Impl::carried(const Frame& frame) const {
   return loop;
 }
 
+/// Where a single eye that has only turned is since the last keyframe, or since it was last placed.
+std::optional<Loop> Slam::Impl::turned(const OdometryUpdate& update) const {
+  if (!update.turn || last_keyframe < 0) return std::nullopt;
+  Loop loop = bridge.value_or(Loop{-1, last_keyframe});
+  Matrix6d covariance = Matrix6d::Zero();
+  if (bridge) {
+    const Matrix6d back = SE3(update.turn->R_before_cam.inverse(), {0, 0, 0}).adjoint();
+    const Matrix6d before = bridge->information.topLeftCorner<6, 6>();
+    covariance = back * before.ldlt().solve(Matrix6d::Identity()) * back.transpose();
+  } else {
+    const double sigma = kWayOfTurn * odometry.median_depth_m();
+    covariance.topLeftCorner<3, 3>().diagonal().setConstant(sigma * sigma);
+  }
+  covariance.bottomRightCorner<3, 3>() += update.turn->covariance;
+  loop.T_match_query = loop.T_match_query * SE3(update.turn->R_before_cam, {0, 0, 0});
+  loop.information.setZero();
+  loop.information.topLeftCorner<6, 6>() = covariance.ldlt().solve(Matrix6d::Identity());
+  return loop;
+}
+
 void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, OdometryUpdate& update) {
   ++lost_in_a_row;
+  sigma_log_scale_of_bridge = kSigmaLogScaleOfBridge;
+  if (!bridge && update.state == TrackingState::kLost && (bridge = turned(update))) {
+    log(log_sink, LogLevel::kInfo, "frame " + std::to_string(frame.id) + ": a turn on the spot");
+    sigma_log_scale_of_bridge = kSigmaLogScaleOfTurn;
+    const double unit = mapper.S_map_keyframe(bridge->match).scale();
+    odometry.restart(T_map_located(*bridge), false, unit * odometry.median_depth_m());
+    update = odometry.add_frame(frame);
+    return;
+  }
   if (!located) located = closer.relocalize(frame);
   if (located) {
     log(log_sink, LogLevel::kInfo,
@@ -277,7 +314,7 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
                              bridge->T_match_query,
                              bridge->information.topLeftCorner<6, 6>(),
                              ConstraintSource::kOther,
-                             odometry.scale_known() ? 0 : kSigmaLogScaleOfBridge,
+                             odometry.scale_known() ? 0 : sigma_log_scale_of_bridge,
                              1 / mapper.S_map_keyframe(bridge->match).scale()};
     bridge.reset();
   }

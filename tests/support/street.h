@@ -1,6 +1,8 @@
 #pragma once
 #include <placegraph/io/dataset.h>
 
+#include <functional>
+
 #include "tests/support/scene.h"
 #include "tests/support/texture.h"
 
@@ -32,15 +34,17 @@ inline SE3 street_T_world_cam(int i) {
   return pose({0, 0.004 * i, 0}, {0.02 * i + 0.001 * i * i, -kStreetHeight_m, 0.4 * i});
 }
 
-/// The drive as a recorded sequence in memory. Frames in [dark_begin, dark_end) are black.
+/// The drive, or another way along the street, as a recorded sequence in memory. Frames in
+/// [dark_begin, dark_end) are black.
 class StreetDataset : public Dataset {
  public:
-  explicit StreetDataset(int frames, int dark_begin = 0, int dark_end = 0, bool with_depth = false)
+  explicit StreetDataset(int frames, int dark_begin = 0, int dark_end = 0, bool with_depth = false,
+                         const std::function<SE3(int)>& T_world_cam = street_T_world_cam)
       : with_depth_(with_depth) {
     const auto planes = street();
     Trajectory truth;
     for (int i = 0; i < frames; ++i) {
-      const SE3 T_world_left = street_T_world_cam(i);
+      const SE3 T_world_left = T_world_cam(i);
       const SE3 T_world_right = T_world_left * pose({0, 0, 0}, {kStreetBaseline_m, 0, 0});
       Picture left = render(street_camera(), T_world_left, planes, 2);
       Picture right = render(street_camera(), T_world_right, planes, 2);

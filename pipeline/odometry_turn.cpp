@@ -1,0 +1,56 @@
+#include <placegraph/pipeline/odometry.h>
+
+// A single eye that turns on the spot: nothing that comes into view can be placed, but the way it
+// turns is seen.
+
+namespace placegraph {
+
+/// Of the tracks since they were seen at `px_before`; nothing if they say that way was made.
+std::optional<OdometryUpdate::Turn> Odometry::turn_since(
+    const std::map<std::int64_t, Eigen::Vector2d>& px_before, Random& random) const {
+  if (metric_from_start() || !cues_.points) return std::nullopt;
+  std::vector<Eigen::Vector2d> px_ref, px_cur;
+  for (const PointTrack& track : tracker_.tracks())
+    if (const auto before = px_before.find(track.id); before != px_before.end()) {
+      px_ref.push_back(before->second);
+      px_cur.push_back(track.px.cast<double>());
+    }
+  const Rotation2d2dResult turn =
+      estimate_rotation_2d2d(calibration_.camera, px_ref, px_cur, options_.turn, random);
+  if (!turn.outcome) return std::nullopt;
+  return OdometryUpdate::Turn{turn.R_ref_cur, turn.covariance};
+}
+
+/// The second view is still to come; until then a frame stands where its turn puts it.
+OdometryUpdate Odometry::wait_turning(const Frame& frame, Random& random) {
+  OdometryUpdate update;
+  update.turn = turn_since(views_.front().px, random);
+  if (update.turn)
+    turned_.emplace_back(frame.id, T_odom_start_ * SE3(update.turn->R_before_cam, {0, 0, 0}));
+  return update;
+}
+
+/// Too few points have survived since the reference: this frame takes its place.
+OdometryUpdate Odometry::replace_reference(const Frame& frame, const std::optional<SE3>& T_known,
+                                           const std::optional<OdometryUpdate::Turn>& turn) {
+  started_ = false;
+  tracker_.reset();
+  if (in_known_map_ && !T_known && !turn) {
+    OdometryUpdate lost;
+    lost.state = TrackingState::kLost;
+    return lost;
+  }
+  if (turn)
+    turned_.emplace_back(reference_frame_.id, T_odom_start_);
+  else
+    turned_.clear();  // they hung on what is left behind
+  if (T_known)
+    T_odom_start_ = *T_known;
+  else if (turn)
+    T_odom_start_ = T_odom_start_ * SE3(turn->R_before_cam, Eigen::Vector3d::Zero());
+  OdometryUpdate update = begin(frame);
+  update.turn = turn;
+  return update;
+}
+
+}  // namespace placegraph

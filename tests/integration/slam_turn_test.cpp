@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+#include <placegraph/eval/evaluate.h>
+#include <placegraph/pipeline/run.h>
+
+#include <algorithm>
+
+#include "tests/support/street.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+constexpr double kTurnRad = 0.035;  // of a frame
+
+/// `before` frames ahead, then turning on the spot for `turning`, then on along the street.
+StreetDataset way(int before, int turning, int after) {
+  return StreetDataset(before + turning + after, 0, 0, false, [=](int i) {
+    const int way = std::min(i, before) + std::max(0, i - before - turning);
+    const int turn = std::clamp(i - before, 0, turning);
+    return pose({0, kTurnRad * turn, 0}, {0, -kStreetHeight_m, 0.25 * way});
+  });
+}
+
+RunResult run_mono(const StreetDataset& dataset) {
+  RunOptions options;
+  options.sensor = SensorChoice::kMono;
+  options.slam.odometry.tracker.max_tracks = 250;
+  options.slam.loops.detector.max_features = 400;
+  return run_sequence(dataset, options);
+}
+
+EvaluationResult judge(const StreetDataset& dataset, const RunResult& run) {
+  EvaluationOptions options;
+  options.alignment = Alignment::kSim3;
+  return evaluate(*dataset.ground_truth(), run.map.trajectory_optimized(), options);
+}
+
+/// From the first frame to the last, against the truth.
+double turn_error_deg(const StreetDataset& dataset, const Trajectory& trajectory) {
+  const auto turn = [](const Trajectory& t) {
+    return SE3(*t.poses.front().T_world_body).rotation().inverse() *
+           SE3(*t.poses.back().T_world_body).rotation();
+  };
+  return (turn(*dataset.ground_truth()).inverse() * turn(trajectory)).log().norm() * 180 / M_PI;
+}
+
+TEST(SlamThatTurnsOnTheSpot, KeepsItsPlaceInTheMapThoughAllItKnewLeavesTheView) {
+  const StreetDataset dataset = way(12, 45, 14);  // 90 degrees: it goes on sideways
+  const RunResult run = run_mono(dataset);
+  const Trajectory optimized = run.map.trajectory_optimized();
+  ASSERT_EQ(optimized.posed(), dataset.size());
+  EXPECT_LT(turn_error_deg(dataset, optimized), 0.5);
+  for (const Place& place : run.map.place_graph.places) EXPECT_EQ(place.component, 0);
+  // Where the unit of length is, after the turn, is a guess.
+  const EvaluationResult result = judge(dataset, run);
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  EXPECT_LT(result.ape.error_m.rmse, 0.15 * result.path_m);
+}
+
+TEST(SlamThatTurnsOnTheSpot, KnowsHowItStoodBeforeItsFirstSecondView) {
+  const StreetDataset dataset = way(0, 30, 12);
+  const RunResult run = run_mono(dataset);
+  const Trajectory optimized = run.map.trajectory_optimized();
+  ASSERT_EQ(optimized.posed(), dataset.size());
+  EXPECT_LT(turn_error_deg(dataset, optimized), 0.5);
+  const EvaluationResult result = judge(dataset, run);
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  EXPECT_LT(result.ape.error_m.rmse, 0.02 * result.path_m);
+}
+
+}  // namespace
+}  // namespace placegraph
