@@ -20,6 +20,7 @@
 #include "apps/cmd_lines.h"
 #include "apps/cmd_loops.h"
 #include "apps/cmd_markers.h"
+#include "apps/cmd_match.h"
 #include "apps/cmd_optimize.h"
 #include "apps/cmd_planes.h"
 #include "apps/cmd_route.h"
@@ -78,6 +79,7 @@ int main(int argc, char** argv) {
     add_lines_command(app);
     add_loops_command(app);
     add_markers_command(app);
+    add_match_command(app);
     add_optimize_command(app);
     add_planes_command(app);
     add_route_command(app);

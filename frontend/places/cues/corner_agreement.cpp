@@ -1,0 +1,79 @@
+#include <placegraph/frontend/features/matcher.h>
+#include <placegraph/frontend/places/cues/corner_agreement.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace placegraph {
+namespace {
+
+constexpr float kOctave = 1.2f;
+
+}  // namespace
+
+void CornerAgreementOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, CornerAgreementOptions& o) {
+  field("width_px", o.width_px, "images are brought to this width for their corners", {64, 4096});
+  field("max_corners", o.max_corners, "of an image", {50, 5000});
+  field("max_distance", o.max_distance, "differing bits of 256 of two descriptors", {1, 256});
+  field("max_ratio", o.max_ratio, "best over second best distance", {0.1, 1});
+  field("tolerance", o.tolerance, "share of the width, where a corner should be", {0.001, 1});
+}
+
+std::vector<Feature> corners_of_view(const Image& grey, const CornerAgreementOptions& options) {
+  cv::Mat sized = grey;
+  if (grey.cols != options.width_px) {
+    const int height = std::max(1, static_cast<int>(std::lround(static_cast<double>(grey.rows) *
+                                                                options.width_px / grey.cols)));
+    cv::resize(grey, sized, {options.width_px, height}, 0, 0,
+               grey.cols > options.width_px ? cv::INTER_AREA : cv::INTER_CUBIC);
+  }
+  // The strongest wherever they are: spread over the image, fewer would be found again.
+  constexpr int kOctaves = 6, kMargin = 16, kPatch = 31, kFastThreshold = 5;
+  const auto orb = cv::ORB::create(options.max_corners, kOctave, kOctaves, kMargin, 0, 2,
+                                   cv::ORB::HARRIS_SCORE, kPatch, kFastThreshold);
+  std::vector<cv::KeyPoint> keypoints;
+  cv::Mat descriptors;
+  orb->detectAndCompute(sized, cv::noArray(), keypoints, descriptors);
+  std::vector<Feature> corners(keypoints.size());
+  for (std::size_t i = 0; i < keypoints.size(); ++i) {
+    corners[i].px = {keypoints[i].pt.x, keypoints[i].pt.y};
+    corners[i].angle_rad = keypoints[i].angle * std::numbers::pi_v<float> / 180;
+    corners[i].octave = keypoints[i].octave;
+    std::memcpy(corners[i].descriptor.data(), descriptors.ptr(static_cast<int>(i)),
+                sizeof(BinaryDescriptor));
+  }
+  return corners;
+}
+
+int corner_agreement(const std::vector<Feature>& a, const std::vector<Feature>& b,
+                     const CornerAgreementOptions& options) {
+  const std::vector<FeatureMatch> matches =
+      match_features(a, b, {.max_distance = options.max_distance, .max_ratio = options.max_ratio});
+  const auto limit = static_cast<float>(options.tolerance * options.width_px);
+  int most = 0;
+  for (const FeatureMatch& proposal : matches) {
+    const Feature& from = a[static_cast<std::size_t>(proposal.a)];
+    const Feature& to = b[static_cast<std::size_t>(proposal.b)];
+    const float scale = std::pow(kOctave, static_cast<float>(to.octave - from.octave));
+    const float turn = to.angle_rad - from.angle_rad;
+    const float c = scale * std::cos(turn), s = scale * std::sin(turn);
+    int agreeing = 0;
+    for (const FeatureMatch& match : matches) {
+      const Eigen::Vector2f d = a[static_cast<std::size_t>(match.a)].px - from.px;
+      const Eigen::Vector2f expected(to.px.x() + c * d.x() - s * d.y(),
+                                     to.px.y() + s * d.x() + c * d.y());
+      agreeing +=
+          (b[static_cast<std::size_t>(match.b)].px - expected).squaredNorm() < limit * limit;
+    }
+    most = std::max(most, agreeing);
+  }
+  return most;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,30 @@
+#pragma once
+#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/landmark.h>
+
+#include <vector>
+
+namespace placegraph {
+
+struct CornerAgreementOptions {
+  int width_px = 320;  ///< images are brought to it, smaller ones too
+  int max_corners = 300;
+  int max_distance = 70;    ///< bits of 256 between two descriptors
+  double max_ratio = 0.8;   ///< best over second best distance
+  double tolerance = 0.06;  ///< of the width, within which a corner is where it should be
+  void check() const;
+};
+void visit(OptionVisitor& field, CornerAgreementOptions& options);
+
+/// Harris corners of a pyramid with rotated binary descriptors (Rublee et al. 2011), their pixels
+/// those of the image at `width_px`.
+std::vector<Feature> corners_of_view(const Image& grey, const CornerAgreementOptions& options);
+
+/// How many mutually best matches of two views follow one similarity of the image plane, the best
+/// of those that every match by its orientations and octaves proposes: no chance in it. It is loose
+/// enough for views of one place from half a metre apart.
+int corner_agreement(const std::vector<Feature>& a, const std::vector<Feature>& b,
+                     const CornerAgreementOptions& options);
+
+}  // namespace placegraph

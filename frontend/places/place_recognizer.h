@@ -1,0 +1,43 @@
+#pragma once
+#include <placegraph/frontend/places/place_view.h>
+
+#include <vector>
+
+namespace placegraph {
+
+struct PlaceRecognizerOptions {
+  PlaceCueOptions cues;
+  int short_list = 80;  ///< views that are compared in full, after a first look at all
+  int verified = 14;    ///< of those, the first by all cues, whose corners are compared
+  int nominated = 4;    ///< and the first by each cue alone
+  void check() const;
+};
+void visit(OptionVisitor& field, PlaceRecognizerOptions& options);
+
+/// How much a stored view looks like the query: comparable over queries, no probability.
+struct PlaceLikeness {
+  int view = 0;
+  double score = 0;
+};
+
+/// Views in the order they were added, and which of them an image resembles. Nothing is learned:
+/// every score depends on two images alone. All cues are joined by a weighted sum; a coarse look
+/// over all views names those compared in full.
+class PlaceRecognizer {
+ public:
+  explicit PlaceRecognizer(const PlaceRecognizerOptions& options);
+
+  /// The index of the new view: 0, 1, ... Of a query's scales only the first is kept. Views are all
+  /// grey or all in colour (ArgumentError otherwise).
+  int add(PlaceView view);
+  /// The short list among the views first..last (cut to those there are), best first.
+  std::vector<PlaceLikeness> query(const PlaceView& query, int first, int last) const;
+  int size() const { return static_cast<int>(views_.size()); }
+  const PlaceRecognizerOptions& options() const { return options_; }
+
+ private:
+  PlaceRecognizerOptions options_;
+  std::vector<PlaceView> views_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,106 @@
+#include <placegraph/frontend/places/cues/colour_histogram.h>
+#include <placegraph/frontend/places/cues/gradient_layout.h>
+#include <placegraph/frontend/places/cues/tiny_image.h>
+#include <placegraph/frontend/places/place_view.h>
+#include <placegraph/graph/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace placegraph {
+namespace {
+
+/// Shifts of a quarter of the tiny image's width and height, of a third of the gradients' cells.
+constexpr int kTinyShiftX = 6, kTinyShiftY = 4, kGradientShiftX = 4, kGradientShiftY = 3;
+
+double best_over_scales(const std::vector<CueGrid>& query, const CueGrid& stored,
+                        const GridSearch& search) {
+  double best = -1;
+  for (const CueGrid& grid : query) best = std::max(best, best_alignment(grid, stored, search));
+  return best;
+}
+
+}  // namespace
+
+void PlaceCueOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, PlaceCueOptions& o) {
+  field("tiny", o.tiny, "weight of the shrunk image", {0, 100});
+  field("colour", o.colour, "weight of the colour histograms", {0, 100});
+  field("gradients", o.gradients, "weight of the gradient histograms", {0, 100});
+  field("corners", o.corners, "weight of agreeing corners, per e-fold", {0, 100});
+  field("corner_floor", o.corner_floor, "corners that agree by chance", {1, 1000});
+  field("tiny_columns", o.tiny_columns, "cells of the shrunk image", {8, 128});
+  field("zoom", o.zoom, "a query is also looked at larger and smaller by this", {1, 2});
+  field("shift_loss", o.shift_loss, "of similarity where nothing overlaps", {0, 1});
+  field.group("corner_agreement", o.corner_agreement, "corners in one similarity");
+}
+
+PlaceView describe_place(const Image& image, const PlaceCueOptions& options, bool query) {
+  require(!image.empty() && (image.type() == CV_8UC1 || image.type() == CV_8UC3),
+          "describe_place: grey or BGR image needed");
+  cv::Mat grey = image;
+  if (image.channels() == 3) cv::cvtColor(image, grey, cv::COLOR_BGR2GRAY);
+  std::vector<double> scales = {1};
+  if (query && options.zoom > 1) scales = {1, 1 / options.zoom, options.zoom};
+  PlaceView view;
+  // Large images are halved once for all: the cues see a hundred pixels of their width.
+  constexpr int kWidth = 320;
+  cv::Mat sized = image, sized_grey = grey;
+  if (image.cols > kWidth) {
+    const cv::Size size(kWidth, std::max(1, image.rows * kWidth / image.cols));
+    cv::resize(image, sized, size, 0, 0, cv::INTER_AREA);
+    cv::resize(grey, sized_grey, size, 0, 0, cv::INTER_AREA);
+  }
+  for (const double scale : scales) {
+    if (options.tiny > 0) view.tiny.push_back(tiny_image_cue(sized, options.tiny_columns, scale));
+    if (options.gradients > 0) view.gradients.push_back(gradient_layout_cue(sized_grey, {}, scale));
+  }
+  view.coarse = tiny_image_cue(sized, options.tiny_columns / 2);
+  if (options.colour > 0 && image.channels() == 3) view.colour = colour_histogram_cue(sized);
+  if (options.corners > 0) view.corners = corners_of_view(grey, options.corner_agreement);
+  return view;
+}
+
+GridLikeness grid_likeness(const PlaceView& query, const PlaceView& stored,
+                           const PlaceCueOptions& options) {
+  require(query.colour.empty() == stored.colour.empty(),
+          "grid_likeness: one view is grey and one in colour");
+  GridLikeness likeness;
+  if (options.tiny > 0)
+    likeness.tiny = options.tiny * best_over_scales(query.tiny, stored.tiny.front(),
+                                                    {.shift_x = kTinyShiftX,
+                                                     .shift_y = kTinyShiftY,
+                                                     .step = 2,
+                                                     .loss = options.shift_loss});
+  if (!query.colour.empty())
+    likeness.colour =
+        options.colour * best_alignment(query.colour, stored.colour, {.shift_x = 1, .shift_y = 1});
+  if (options.gradients > 0)
+    likeness.gradients =
+        options.gradients *
+        best_over_scales(
+            query.gradients, stored.gradients.front(),
+            {.shift_x = kGradientShiftX, .shift_y = kGradientShiftY, .loss = options.shift_loss});
+  return likeness;
+}
+
+double corner_likeness(const PlaceView& query, const PlaceView& stored,
+                       const PlaceCueOptions& options) {
+  const int agreeing = corner_agreement(query.corners, stored.corners, options.corner_agreement);
+  return options.corners * std::log(static_cast<double>(std::max(agreeing, options.corner_floor)) /
+                                    options.corner_floor);
+}
+
+double coarse_likeness(const PlaceView& query, const PlaceView& stored,
+                       const PlaceCueOptions& options) {
+  double likeness = best_alignment(
+      query.coarse, stored.coarse,
+      {.shift_x = kTinyShiftX / 2, .shift_y = kTinyShiftY / 2, .loss = options.shift_loss});
+  if (!query.colour.empty() && !stored.colour.empty())
+    likeness += options.colour * best_alignment(query.colour, stored.colour, {});
+  return likeness;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,46 @@
+#pragma once
+#include <placegraph/frontend/places/place_recognizer.h>
+
+#include <array>
+#include <vector>
+
+namespace placegraph {
+
+struct SequenceFilterOptions {
+  double memory = 0.9;        ///< weight of the past against the present image
+  double pace_penalty = 0.4;  ///< of the score, per squared view a step is off the pace
+  int max_step = 3;           ///< views between the answers of two images, at most
+  void check() const;
+};
+void visit(OptionVisitor& field, SequenceFilterOptions& options);
+
+/// Evidence of past images for where the present one is: the best path through the views that led
+/// to each, a max-product filter over view, direction of travel (forward or back) and pace (half a
+/// view, one and two views an image). It looks at the past alone. A score is the mean of the
+/// recognizer's along the path, what is longer ago counting less, so that scores remain comparable
+/// over queries. SeqSLAM (Milford & Wyeth 2012) searches straight lines to the same end.
+class SequenceFilter {
+ public:
+  explicit SequenceFilter(const SequenceFilterOptions& options);
+
+  /// The next image's likeness to views among first..last (what is not listed counts as the least
+  /// listed), turned into scores with the past's evidence, best first; as many as views. None for
+  /// an empty list, which ends the sequence.
+  std::vector<PlaceLikeness> update(const std::vector<PlaceLikeness>& list, int first, int last);
+  /// Forgets the past, but not how much scores vary.
+  void restart() { states_.clear(); }
+
+ private:
+  struct State {
+    double pace = 1;            ///< views an image, negative for travel backwards
+    std::vector<double> score;  ///< of views first_, first_ + 1, ...
+  };
+  std::vector<double> predict(const State& state, int first, int last) const;
+
+  SequenceFilterOptions options_;
+  std::vector<State> states_;
+  int first_ = 0;
+  double weight_ = 0;  ///< of the images in the scores
+};
+
+}  // namespace placegraph

@@ -1,0 +1,91 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "tests/support/cli_test.h"
+#include "tests/support/data.h"
+
+namespace placegraph {
+namespace {
+
+using test::write_file;
+using ::testing::HasSubstr;
+
+/// Six places in colour, each seen twice: images 0 to 5, and the same from beside as 6 to 11.
+class Match : public test::CliTest {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directory(dir / "images");
+    std::string truth;
+    for (int i = 0; i < 12; ++i) {
+      cv::Mat coarse(9, 12, CV_8UC3), image;
+      cv::RNG random(static_cast<std::uint64_t>(i % 6) + 1);
+      random.fill(coarse, cv::RNG::UNIFORM, 20, 200);
+      cv::resize(coarse, image, {160, 120}, 0, 0, cv::INTER_CUBIC);
+      if (i >= 6) image = image(cv::Rect(12, 0, 148, 120)).clone();
+      cv::imwrite(dir / ("images/0000" + std::to_string(i + 10) + ".png"), image);
+      if (i >= 6) truth += std::to_string(i) + " 0 5 " + std::to_string(i - 6) + "\n";
+    }
+    write_file(dir / "gt.txt", truth);
+  }
+};
+
+TEST_F(Match, WritesOneBestCandidateAQueryThatTheBenchmarkReads) {
+  for (const std::string mode : {"", "--sequence "}) {
+    const auto matched = run("match . --out found.txt --force " + mode);
+    ASSERT_EQ(matched.code, 0) << matched.err;
+    EXPECT_THAT(matched.out, HasSubstr("12 images, 6 queries"));
+    const auto judged = run("loops --predictions found.txt --gt gt.txt --json");
+    ASSERT_EQ(judged.code, 0) << judged.err;
+    const auto json = nlohmann::json::parse(judged.out);
+    EXPECT_EQ(json.at("answered"), 6);
+    EXPECT_EQ(json.at("r_at_1"), 1);
+  }
+  expect_usage_error("match . --out found.txt", "found.txt");
+}
+
+TEST_F(Match, ComparesWithWhatIsOldEnoughWithoutATruth) {
+  std::filesystem::remove(dir / "gt.txt");
+  expect_usage_error("match . --out found.txt", "12 images, and none is 300 older");
+  const auto matched = run("match images --min-age 6 --out found.txt --cues tiny,gradients");
+  ASSERT_EQ(matched.code, 0) << matched.err;
+  EXPECT_THAT(test::read_file(dir / "found.txt"), ::testing::StartsWith("6 0 "));
+}
+
+TEST_F(Match, RefusesBrokenInput) {
+  expect_usage_error("match none --out found.txt", "none");
+  expect_usage_error("match . --out found.txt --cues smell", "smell");
+  expect_usage_error("match . --out found.txt --set recognizer.short_lst=3", "unknown key");
+  write_file(dir / "gt.txt", "6 0 50 0\n");
+  expect_usage_error("match . --out found.txt", "gt.txt: image 50, and there are 12");
+  write_file(dir / "gt.txt", "6 0\n7 1\n");
+  expect_usage_error("match . --out found.txt", "gt.txt: lists no candidates");
+  write_file(dir / "gt.txt", "6 0 5 0\n");
+  write_file(dir / "images/000016.png", "no image");
+  expect_usage_error("match . --out found.txt", "000016.png");
+}
+
+TEST_F(Match, SaysThatGreyImagesHaveNoColour) {
+  std::filesystem::remove(dir / "images/000010.png");
+  cv::imwrite(dir / "images/000010.png", cv::Mat(120, 160, CV_8UC1, cv::Scalar(90)));
+  const auto matched = run("match . --out found.txt");
+  ASSERT_EQ(matched.code, 0) << matched.err;
+  EXPECT_THAT(matched.err, HasSubstr("without the colour cue"));
+}
+
+TEST_F(Match, KeepsItsTargetsOnARealCorridor) {
+  PLACEGRAPH_DATA_OR_SKIP(folder, "places/corridor_milford");
+  const auto matched = run("match " + folder + " --sequence --out found.txt");
+  ASSERT_EQ(matched.code, 0) << matched.err;
+  const auto judged = run("loops --predictions found.txt --gt " + folder + "/gt.txt --json");
+  const auto json = nlohmann::json::parse(judged.out);
+  EXPECT_GE(json.at("r_at_1").get<double>(), 0.99);
+  EXPECT_GE(json.at("ap").get<double>(), 0.98);
+  EXPECT_GE(json.at("recall_at_100p").get<double>(), 0.6);
+}
+
+}  // namespace
+}  // namespace placegraph
