@@ -21,8 +21,8 @@ if [ -f "$s" ]; then
   render stereo06 "$s" --difficulty standard --stereo
   for cues in points points,plane,direct; do consistency_row "consistency-06-$cues" stereo06 stereo $cues; done
 fi
-render direct-town town-loop --difficulty standard --frames 200
-for cues in points lines plane direct; do consistency_row "consistency-town-$cues" direct-town stereo $cues; done
+render town200 town-loop --difficulty standard --frames 200
+for cues in points lines plane direct; do consistency_row "consistency-town-$cues" town200 stereo $cues; done
 render corridor corridor-loop --difficulty standard --stereo --depth --frames 620
 for cues in points lines points,lines,plane,manhattan; do consistency_row "consistency-corridor-$cues" corridor stereo $cues; done
 for cues in points lines; do consistency_row "consistency-corridor-rgbd-$cues" corridor rgbd $cues; done
