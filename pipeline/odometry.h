@@ -28,7 +28,9 @@ namespace placegraph {
 
 /// When a frame becomes a keyframe.
 struct KeyframeOptions {
-  double max_flow_share = 0.06;    ///< median track displacement since the last one / image width
+  double max_flow_share = 0.06;  ///< median track displacement since the last one / image width
+  /// Whether the camera's turn is taken out of the displacements: what is left is parallax.
+  bool derotated = false;
   double min_tracked_share = 0.7;  ///< of the last keyframe's landmarks still followed
   int max_interval = 20;           ///< frames, if the camera moves at all
   void check() const;

@@ -235,6 +235,32 @@ TEST(SlamOnAStreet, MovesEvenlyFromOneKeyframeToTheNext) {
   EXPECT_LT(*most / *least, 1.04);
 }
 
+/// Eight degrees of turning on the spot are a tenth of the image's width, and no parallax.
+TEST(SlamOnAStreet, NeedsNoKeyframesToTurnWhereItsTurnIsTakenOut) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < 20; ++i) {
+    const SE3 T_world_left = pose({0, 0.4 * i * M_PI / 180, 0}, {0, -kStreetHeight_m, 0});
+    Frame frame;
+    frame.id = frame.stamp_ns = i;
+    frame.image = render(street_camera(), T_world_left, street(), 2).grey;
+    frame.right = render(street_camera(), T_world_left * pose({0, 0, 0}, {kStreetBaseline_m, 0, 0}),
+                         street(), 2)
+                      .grey;
+    frames.push_back(frame);
+  }
+  const auto keyframes = [&](bool derotated) {
+    SlamOptions options = small_options();
+    options.odometry.keyframe.derotated = derotated;
+    Slam slam(options, drive().calibration(Sensor::kStereo));
+    for (const Frame& frame : frames) slam.add_frame(frame);
+    const Map map = slam.finish();
+    EXPECT_EQ(map.trajectory_optimized().posed(), frames.size());
+    return map.keyframes.size();
+  };
+  EXPECT_GE(keyframes(false), 2u);
+  EXPECT_EQ(keyframes(true), 1u);
+}
+
 TEST(SlamOnAStreet, GoesOnWithOneEyeAfterAJumpToAKnownPlace) {
   // Frames 0 to 23, then from 8 on again: the new run takes place and unit from the map.
   Slam slam(small_options(), drive().calibration(Sensor::kMono));
