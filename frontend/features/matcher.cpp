@@ -54,13 +54,21 @@ std::vector<FeatureMatch> match_features(const std::vector<Feature>& a,
     used.push_back(j);
     descriptors.push_back(b[j].descriptor);
   }
+  // Side by side and without branches: these loops are most of the cost of comparing two views.
+  std::vector<int> nearest(used.size(), 257), nearest_a(used.size(), -1);
   for (int i = 0; i < static_cast<int>(a.size()); ++i) {
     hamming_distances(a[i].descriptor, descriptors, distances);
     for (std::size_t k = 0; k < used.size(); ++k) {
-      best_a[i].offer(used[k], distances[k]);
-      best_b[used[k]].offer(i, distances[k]);
+      const bool nearer = distances[k] < nearest[k];
+      nearest[k] = nearer ? distances[k] : nearest[k];
+      nearest_a[k] = nearer ? i : nearest_a[k];
     }
+    Best best;
+    for (std::size_t k = 0; k < used.size(); ++k)
+      if (distances[k] < best.second) best.offer(used[k], distances[k]);
+    best_a[i] = best;
   }
+  for (std::size_t k = 0; k < used.size(); ++k) best_b[used[k]].index = nearest_a[k];
   return mutual(best_a, best_b, options);
 }
 

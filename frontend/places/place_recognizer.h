@@ -7,8 +7,9 @@ namespace placegraph {
 
 struct PlaceRecognizerOptions {
   PlaceCueOptions cues;
-  int short_list = 80;  ///< views that are compared in full, after a first look at all
-  int verified = 14;    ///< of those, the first by all cues, whose corners are compared
+  int glanced = 300;    ///< views that pass a first look at all, at pooled cues
+  int short_list = 60;  ///< of those, the views that are compared in full, after a second look
+  int verified = 12;    ///< of those, the first by all cues, whose corners are compared
   int nominated = 4;    ///< and the first by each cue alone
   void check() const;
 };
@@ -21,8 +22,9 @@ struct PlaceLikeness {
 };
 
 /// Views in the order they were added, and which of them an image resembles. Nothing is learned:
-/// every score depends on two images alone. All cues are joined by a weighted sum; a coarse look
-/// over all views names those compared in full.
+/// every score depends on two images alone. All cues are joined by a weighted sum; two coarse
+/// looks name the views compared in full, so that only the first, a dot product, grows with their
+/// number.
 class PlaceRecognizer {
  public:
   explicit PlaceRecognizer(const PlaceRecognizerOptions& options);
@@ -36,8 +38,11 @@ class PlaceRecognizer {
   const PlaceRecognizerOptions& options() const { return options_; }
 
  private:
+  std::vector<int> glance(const PlaceView& query, int first, int last) const;
+
   PlaceRecognizerOptions options_;
   std::vector<PlaceView> views_;
+  std::vector<std::int16_t> glances_;  ///< of the views, one after the other
 };
 
 }  // namespace placegraph

@@ -21,6 +21,38 @@ double best_over_scales(const std::vector<CueGrid>& query, const CueGrid& stored
   return best;
 }
 
+/// Appends the mean over blocks of cells, of length `weight`.
+void append_pooled(const CueGrid& grid, int columns, int rows, double weight,
+                   std::vector<float>& code) {
+  if (grid.empty()) return;
+  std::vector<float> sums(static_cast<std::size_t>(columns * rows * grid.channels), 0);
+  for (int y = 0; y < grid.rows; ++y)
+    for (int x = 0; x < grid.columns; ++x) {
+      const int block = y * rows / grid.rows * columns + x * columns / grid.columns;
+      for (int c = 0; c < grid.channels; ++c)
+        sums[static_cast<std::size_t>(block * grid.channels + c)] +=
+            grid.values[static_cast<std::size_t>((y * grid.columns + x) * grid.channels + c)];
+    }
+  double squares = 0;
+  for (const float sum : sums) squares += static_cast<double>(sum) * sum;
+  const auto scale = static_cast<float>(weight / std::sqrt(std::max(squares, 1e-12)));
+  for (const float sum : sums) code.push_back(sum * scale);
+}
+
+// Few cells, so that views from a little beside look alike; colours of the image as a whole.
+std::vector<std::int16_t> glance_of(const PlaceView& view) {
+  std::vector<float> code;
+  append_pooled(view.colour, 1, 1, 1, code);
+  append_pooled(view.coarse, 4, 3, 1, code);
+  if (!view.gradients.empty()) append_pooled(view.gradients.front(), 4, 3, 1, code);
+  constexpr float kUnit = 8191;
+  std::vector<std::int16_t> glance;
+  glance.reserve(code.size());
+  for (const float value : code)
+    glance.push_back(static_cast<std::int16_t>(std::lround(value * kUnit)));
+  return glance;
+}
+
 }  // namespace
 
 void PlaceCueOptions::check() const { check_ranges(*this); }
@@ -45,8 +77,8 @@ PlaceView describe_place(const Image& image, const PlaceCueOptions& options, boo
   std::vector<double> scales = {1};
   if (query && options.zoom > 1) scales = {1, 1 / options.zoom, options.zoom};
   PlaceView view;
-  // Large images are halved once for all: the cues see a hundred pixels of their width.
-  constexpr int kWidth = 320;
+  // Large images are shrunk once for all: the grids see a hundred pixels of their width.
+  constexpr int kWidth = 160;
   cv::Mat sized = image, sized_grey = grey;
   if (image.cols > kWidth) {
     const cv::Size size(kWidth, std::max(1, image.rows * kWidth / image.cols));
@@ -60,6 +92,7 @@ PlaceView describe_place(const Image& image, const PlaceCueOptions& options, boo
   view.coarse = tiny_image_cue(sized, options.tiny_columns / 2);
   if (options.colour > 0 && image.channels() == 3) view.colour = colour_histogram_cue(sized);
   if (options.corners > 0) view.corners = corners_of_view(grey, options.corner_agreement);
+  view.glance = glance_of(view);
   return view;
 }
 

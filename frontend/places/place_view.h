@@ -30,7 +30,10 @@ struct PlaceView {
   /// At scale 1 and, of a query, at 1 / zoom and zoom.
   std::vector<CueGrid> tiny, gradients;
   CueGrid colour;  ///< empty for a grey image: there is no colour cue
-  CueGrid coarse;  ///< the tiny image at half its columns, for a first look
+  CueGrid coarse;  ///< the tiny image at half its columns, for a second look
+  /// All grids pooled to a few cells, of unit length each and rounded to whole numbers: a first
+  /// look at tens of thousands of views is a dot product.
+  std::vector<std::int16_t> glance;
   std::vector<Feature> corners;
 };
 
@@ -52,7 +55,8 @@ GridLikeness grid_likeness(const PlaceView& query, const PlaceView& stored,
 double corner_likeness(const PlaceView& query, const PlaceView& stored,
                        const PlaceCueOptions& options);
 
-/// A first look at many views: tiny images at half the columns and colours where they stand.
+/// A second look at hundreds of views: tiny images at half the columns and colours where they
+/// stand.
 double coarse_likeness(const PlaceView& query, const PlaceView& stored,
                        const PlaceCueOptions& options);
 

@@ -58,14 +58,22 @@ CueGrid colour_histogram_cue(const Image& bgr, const ColourHistogramOptions& opt
       const Shares saturation =
           shares_of(pixel[1] * top(options.saturations), options.saturations, false, false);
       const Shares value = shares_of(pixel[2] * top(options.values), options.values, false, false);
-      for (int i = 0; i < 32; ++i) {
-        const std::size_t r = i & 1, c = i >> 1 & 1, h = i >> 2 & 1, s = i >> 3 & 1, v = i >> 4;
-        const float share =
-            row.share[r] * column.share[c] * hue.share[h] * saturation.share[s] * value.share[v];
-        const int cell = row.bin[r] * options.cells + column.bin[c];
-        const int bin =
+      std::array<int, 8> bin;
+      std::array<float, 8> share;
+      for (std::size_t i = 0; i < 8; ++i) {
+        const std::size_t h = i & 1, s = i >> 1 & 1, v = i >> 2;
+        bin[i] =
             (hue.bin[h] * options.saturations + saturation.bin[s]) * options.values + value.bin[v];
-        histogram[static_cast<std::size_t>(cell * bins + bin)] += share;
+        share[i] = hue.share[h] * saturation.share[s] * value.share[v];
+      }
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t r = i & 1, c = i >> 1;
+        const float of_cell = row.share[r] * column.share[c];
+        if (of_cell == 0) continue;
+        float* first =
+            histogram.data() +
+            static_cast<std::ptrdiff_t>(row.bin[r] * options.cells + column.bin[c]) * bins;
+        for (std::size_t k = 0; k < 8; ++k) first[bin[k]] += of_cell * share[k];
       }
     }
   }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
@@ -15,18 +14,19 @@ std::vector<float> histograms(const cv::Mat& grey, GridSize size, const Gradient
   cv::Mat dx, dy;
   cv::Sobel(grey, dx, CV_32F, 1, 0, 1);
   cv::Sobel(grey, dy, CV_32F, 0, 1, 1);
+  cv::Mat magnitudes, angles;
+  cv::cartToPolar(dx, dy, magnitudes, angles, true);
   std::vector<float> cells(static_cast<std::size_t>(size.columns * size.rows * o.orientations), 0);
   const auto cell_of = [&](int px) {
     return (static_cast<float>(px) + 0.5f) / static_cast<float>(o.cell_px) - 0.5f;
   };
   for (int y = 0; y < grey.rows; ++y)
     for (int x = 0; x < grey.cols; ++x) {
-      const float gx = dx.at<float>(y, x), gy = dy.at<float>(y, x);
-      const float magnitude = std::sqrt(gx * gx + gy * gy);
+      const float magnitude = magnitudes.at<float>(y, x);
       if (magnitude == 0) continue;
-      float angle = std::atan2(gy, gx) / std::numbers::pi_v<float>;
-      if (angle < 0) angle += 1;
-      const float bin = angle * static_cast<float>(o.orientations);
+      float angle = angles.at<float>(y, x);
+      while (angle >= 180) angle -= 180;  // both senses of an edge are one orientation
+      const float bin = angle / 180 * static_cast<float>(o.orientations);
       const float u = cell_of(x), v = cell_of(y);
       const float u0 = std::floor(u), v0 = std::floor(v), b0 = std::floor(bin);
       for (int i = 0; i < 8; ++i) {

@@ -1,0 +1,82 @@
+# Place recognition: the benchmark against published figures, our recognition, and each cue alone.
+title="Place recognition"
+[ -d "$data/places" ] || { absent "$title"; return 0; }
+heading "$title"
+command_line "placegraph match FOLDER --out found.txt [--sequence] [--cues CUES]    # kitchen: --min-age 34"
+command_line "placegraph loops --predictions found.txt --gt FOLDER/gt.txt --json"
+command_line "placegraph loops --predictions found.txt --poses poses.txt --radius 0.5 --heading 30 --min-age 34 --json    # kitchen"
+# found NAME SET ARGUMENTS...: matches and judges a set into $out/NAME.json
+found() {
+  name=$1; set_name=$2; shift 2
+  case "$set_name" in
+    kitchen) folder=$data/sequences/sevenscenes_rgbd334; age="--min-age 34"
+      truth="--poses $folder/poses.txt --radius 0.5 --heading 30 --min-age 34" ;;
+    *) folder=$data/places/$set_name; age=""; truth="--gt $folder/gt.txt" ;;
+  esac
+  say "matching $name"
+  $placegraph match "$folder" $age --out "$out/$name.txt" --force "$@" > "$out/$name.log" 2>&1
+  $placegraph loops --predictions "$out/$name.txt" $truth --json > "$out/$name.json"
+}
+# target NAME KEY LIMIT WHAT: a row
+target() {
+  value=$(number "$out/$1.json" "$2")
+  cells "$4" "$2" ">= $3" "$(digits "$value")" "$(verdict "$value" ">=" "$3")"
+}
+sets="corridor_milford gardens_day_thumb"
+[ ! -d "$data/sequences/sevenscenes_rgbd334" ] || sets="$sets kitchen"
+for s in $sets; do
+  found "places-$s" "$s"
+  found "places-$s-sequence" "$s" --sequence
+done
+columns "set" figure target measured met
+target places-corridor_milford r_at_1 0.93 "corridor_milford, single image"
+target places-corridor_milford ap 0.88 "corridor_milford, single image"
+target places-corridor_milford-sequence r_at_1 0.99 "corridor_milford, sequence"
+target places-corridor_milford-sequence ap 0.98 "corridor_milford, sequence"
+target places-corridor_milford-sequence recall_at_100p 0.60 "corridor_milford, sequence"
+target places-gardens_day_thumb r_at_1 0.88 "gardens_day_thumb, single image"
+target places-gardens_day_thumb ap 0.80 "gardens_day_thumb, single image"
+target places-gardens_day_thumb-sequence r_at_1 0.96 "gardens_day_thumb, sequence"
+target places-gardens_day_thumb-sequence ap 0.90 "gardens_day_thumb, sequence"
+case "$sets" in *kitchen)
+  for mode in "|single image" "-sequence|sequence"; do
+    target "places-kitchen${mode%|*}" r_at_1 0.82 "7-Scenes kitchen, ${mode#*|}"
+    target "places-kitchen${mode%|*}" ap 0.75 "7-Scenes kitchen, ${mode#*|}"
+    target "places-kitchen${mode%|*}" recall_at_100p 0.40 "7-Scenes kitchen, ${mode#*|}"
+  done ;;
+esac
+for n in 00 06; do
+  case $n in 00) limits="0.818 0.870" ;; *) limits="0.814 0.814" ;; esac
+  loops=$data/golden/loops
+  [ -d "$loops" ] || continue
+  $placegraph loops --predictions "$loops/ibow_KITTI${n}_loops.txt" --format ibow --gt "$loops/KITTI_${n}_loops_10m.txt" --json > "$out/places-ibow-$n.json"
+  set -- recall_at_100p ap
+  for limit in $limits; do
+    value=$(number "$out/places-ibow-$n.json" "$1")
+    cells "iBoW-LCD's published output, KITTI $n" "$1" "$limit +- .002" "$(digits "$value" 4)" \
+      "$(verdict "$(computed %.6f "sqrt(($value - $limit) ^ 2)")" "<=" 0.002)"
+    shift
+  done
+done
+
+printf '\nEach cue alone, all but one, and all, on single images: R@1 / AP / recall at full precision.\n' >> "$rows"
+columns cues $sets
+figures() { echo "$(digits "$(number "$1" r_at_1)") / $(digits "$(number "$1" ap)") / $(digits "$(number "$1" recall_at_100p)")"; }
+for cues in tiny colour gradients corners colour,gradients,corners tiny,gradients,corners tiny,colour,corners tiny,colour,gradients tiny,colour,gradients,corners; do
+  set --
+  for s in $sets; do
+    found places-cues "$s" --cues "$cues"
+    set -- "$@" "$(figures "$out/places-cues.json")"
+  done
+  cells "$cues" "$@"
+done
+
+frames=$data/sequences/sevenscenes_rgbd334/image_0
+[ -d "$frames" ] || return 0
+cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
+cmake --build --preset release -j2 --target bench_place_study > "$out/places-build.log"
+cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
+printf '\nCPU time of an image of 640x480, medians (target: 12 ms with 10,000 views), and memory.\n\n' >> "$rows"
+command_line "bench_place_study \$DATA/sequences/sevenscenes_rgbd334/image_0 1000 3000 10000 30000"
+echo >> "$rows"
+build/release/tests/bench/bench_place_study "$frames" 1000 3000 10000 30000 | sed 's/^/    /' >> "$rows"
