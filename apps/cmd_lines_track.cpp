@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/frontend/lines/track_consistency.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/io/yaml_config.h>
-#include <placegraph/pipeline/median.h>
 #include <placegraph/pipeline/run.h>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,5 @@
 #include <placegraph/backend/fix_statistics.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +9,6 @@ namespace {
 
 constexpr double kMedianOfNormal = 0.6745;  ///< median of |x| for x of unit deviation
 constexpr std::size_t kLeastPairs = 20;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -25,8 +20,8 @@ GeodeticPosition median_position(const std::vector<GpsFix>& fixes) {
     longitudes.push_back(std::remainder(fix.position.longitude_deg - reference, 360.0));
     heights.push_back(fix.position.height_m);
   }
-  return {median(latitudes), std::remainder(reference + median(longitudes), 360.0),
-          median(heights)};
+  return {median_of(latitudes), std::remainder(reference + median_of(longitudes), 360.0),
+          median_of(heights)};
 }
 
 std::vector<GpsDropout> find_dropouts(const std::vector<NodeVisit>& visits,
@@ -61,8 +56,8 @@ std::optional<FixScatter> scatter_of(const std::vector<FixResidual>& residuals, 
     vertical.push_back(std::abs(d[2]));
   }
   if (vertical.size() < kLeastPairs) return std::nullopt;
-  return FixScatter{std::max(1.0, median(horizontal) / kMedianOfNormal),
-                    std::max(1.0, median(vertical) / kMedianOfNormal)};
+  return FixScatter{std::max(1.0, median_of(horizontal) / kMedianOfNormal),
+                    std::max(1.0, median_of(vertical) / kMedianOfNormal)};
 }
 
 }  // namespace placegraph

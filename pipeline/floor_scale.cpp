@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/floor_scale.h>
-#include <placegraph/pipeline/median.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/odometry.h>
 
 #include <algorithm>

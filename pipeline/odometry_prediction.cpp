@@ -1,5 +1,5 @@
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/depth_nearby.h>
-#include <placegraph/pipeline/median.h>
 #include <placegraph/pipeline/odometry.h>
 
 namespace placegraph {

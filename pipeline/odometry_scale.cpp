@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/odometry.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/align/grey_pyramid.h>
 #include <placegraph/frontend/features/depth_lookup.h>
-#include <placegraph/pipeline/median.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/surface_cue.h>
 
 #include <Eigen/Dense>

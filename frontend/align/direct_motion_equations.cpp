@@ -1,5 +1,6 @@
 #include <placegraph/frontend/align/direct_motion_equations.h>
 #include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -18,12 +19,6 @@ using Sample = DirectReference::Sample;
 
 /// Of ordinary gains and biases [grey].
 constexpr double kSigmaGain = 0.3, kSigmaBias = 30, kLeastSigmaGrey = 1.5;
-
-double median_of_magnitudes(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// A camera whose pixels are those of a level.
 struct LevelCamera {
@@ -75,7 +70,7 @@ void DirectEquations::start_photometry() {
   for (const Row& row : rows_)
     differences[static_cast<std::size_t>(row.plane)].push_back(row.residual);
   for (std::size_t k = 0; k < planes_.size(); ++k)
-    if (!differences[k].empty()) planes_[k].bias = median_of_magnitudes(differences[k]);
+    if (!differences[k].empty()) planes_[k].bias = median_of(differences[k]);
   for (Row& row : rows_) row.residual -= planes_[static_cast<std::size_t>(row.plane)].bias;
 }
 
@@ -118,7 +113,7 @@ void DirectEquations::weigh() {
   magnitudes_.clear();
   for (const Row& row : rows_) magnitudes_.push_back(std::abs(row.residual));
   if (magnitudes_.empty()) return;
-  sigma_ = std::max(kLeastSigmaGrey, 1.4826 * median_of_magnitudes(magnitudes_));
+  sigma_ = std::max(kLeastSigmaGrey, 1.4826 * median_of(magnitudes_));
   const double cut = options_.kernel_width * sigma_;
   for (Row& row : rows_) {
     const double q = 1 - row.residual * row.residual / (cut * cut);

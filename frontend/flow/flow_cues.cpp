@@ -1,4 +1,5 @@
 #include <placegraph/frontend/flow/flow_cues.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -40,12 +41,6 @@ double mahalanobis(const Row& row, const VectorXd& x) {
   return std::sqrt(e.dot(row.information * e));
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 Fit fit(const std::vector<Row>& rows) {
   const auto n = static_cast<Eigen::Index>(rows.size());
   const Eigen::Index unknowns = rows[0].A.cols();
@@ -73,7 +68,7 @@ Fit fit(const std::vector<Row>& rows) {
     std::vector<double> deviations;
     for (const Row& row : rows) deviations.push_back(mahalanobis(row, result.x));
     // Of two normal coordinates the median distance is 1.177 deviations.
-    result.scale = std::max(1.0, median(deviations) / 1.1774);
+    result.scale = std::max(1.0, median_of(deviations) / 1.1774);
     for (Eigen::Index i = 0; i < n; ++i) {
       const double r = deviations[static_cast<std::size_t>(i)] / (kTukey * result.scale);
       result.weights[i] = r < 1 ? (1 - r * r) * (1 - r * r) : 0;

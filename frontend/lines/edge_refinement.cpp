@@ -1,5 +1,6 @@
 #include <placegraph/frontend/lines/edge_refinement.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +29,6 @@ std::optional<Peak> nearest_peak(const std::vector<double>& gradient, int sign, 
   const double before = gradient[best - 1], at = gradient[best], after = gradient[best + 1];
   const double bend = before - 2 * at + after;
   return Peak{best + (bend != 0 ? 0.5 * (before - after) / bend : 0), at};
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 double distance(const ImageLine& line, const Eigen::Vector2d& px) {
@@ -102,7 +97,7 @@ std::optional<EdgeSegment> EdgeRefiner::fit(const std::vector<EdgePoint>& points
   for (int round = 0; line && round < kRounds; ++round) {
     std::vector<double> distances;
     for (const EdgePoint& point : points) distances.push_back(distance(*line, point.px));
-    const double sigma = std::max(options_.min_sigma_px, 1.4826 * median(distances));
+    const double sigma = std::max(options_.min_sigma_px, 1.4826 * median_of(distances));
     kept.clear();
     for (const EdgePoint& point : points)
       if (distance(*line, point.px) <= 2.5 * sigma) kept.push_back(point.px);
@@ -115,7 +110,7 @@ std::optional<EdgeSegment> EdgeRefiner::fit(const std::vector<EdgePoint>& points
   const double variance = std::max(options_.min_sigma_px * options_.min_sigma_px,
                                    squared / static_cast<double>(kept.size() - 2));
   line->covariance *= variance * std::max(1.0, 2 * std::sqrt(M_PI) * options_.blur_px);
-  return EdgeSegment{{}, *line, median(gradients), static_cast<int>(kept.size())};
+  return EdgeSegment{{}, *line, median_of(gradients), static_cast<int>(kept.size())};
 }
 
 std::optional<EdgeSegment> EdgeRefiner::refine(const LineSegment& given) const {

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/lines/local_motion.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -21,12 +22,6 @@ Row row_of(const Eigen::Vector2d& n, const Eigen::Vector2d& p) {
   Row row;
   row << n.x() * p.x(), n.x() * p.y(), n.y() * p.x(), n.y() * p.y(), n.x(), n.y();
   return row;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Distance between two segments: that of the nearest of their ends and middles.
@@ -96,7 +91,7 @@ std::optional<LocalMotion> LocalMotionField::around(const LineSegment& a, int wi
   const Eigen::Vector2d origin = a.middle();
   std::vector<double> distances;
   for (const Evidence& e : evidence) distances.push_back(e.distance);
-  const double median_distance = median(distances);
+  const double median_distance = median_of(distances);
   const double reach = std::max(15.0, median_distance);
 
   std::vector<Equation> equations;
@@ -122,7 +117,8 @@ std::optional<LocalMotion> LocalMotionField::around(const LineSegment& a, int wi
     for (const PointPair& pair : points_)
       for (int k = 0; k < 4; ++k) entries[k].push_back(pair.turn_b_a(k / 2, k % 2));
   if (!entries[0].empty())
-    prior << median(entries[0]), median(entries[1]), median(entries[2]), median(entries[3]);
+    prior << median_of(entries[0]), median_of(entries[1]), median_of(entries[2]),
+        median_of(entries[3]);
 
   constexpr double kPriorPx = 12;  // the prior weighs like a point so far away
   std::vector<double> trust;

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +10,6 @@ namespace placegraph {
 namespace {
 
 constexpr std::array kPaces = {1.0, -1.0, 0.5, -0.5, 2.0, -2.0};
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

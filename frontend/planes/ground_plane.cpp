@@ -1,5 +1,6 @@
 #include <placegraph/frontend/planes/ground_plane.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -107,12 +108,6 @@ double zncc(const Level& level, const Matrix3d& R, const Vector3d& t, const Vect
   if (n < 2) return 0;
   const double va = aa - a * a / n, vb = bb - b * b / n;
   return va > 0 && vb > 0 ? (ab - a * b / n) / std::sqrt(va * vb) : 0;
-}
-
-double median_of(std::vector<double>& values) {
-  auto middle = values.begin() + values.size() / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// g = n/d (3), rotation omega (3): R = exp(omega) R_start, direction of the translation (2):

@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/io/kitti_odometry.h>
 #include <placegraph/io/synthetic/tours.h>
 #include <placegraph/io/synthetic/town_builder.h>
@@ -93,11 +94,6 @@ std::vector<double> smoothed(std::vector<double> values, int half) {
   return values;
 }
 
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
-
 /// Puts the camera on the surface: height exact; slow pitch and roll those of the surface plus the
 /// recording's median mounting angle, fast ones (nodding, vibration) as recorded.
 std::vector<SE3> settle(const RawDrive& raw, const GroundMesh& ground) {
@@ -113,7 +109,7 @@ std::vector<SE3> settle(const RawDrive& raw, const GroundMesh& ground) {
   constexpr int kHalfWindow = 12;  // frames: with two passes slower than about 2 s is the road's
   const std::vector<double> slow_pitch = smoothed(pitch, kHalfWindow),
                             slow_roll = smoothed(roll, kHalfWindow);
-  const double mount_pitch = median(pitch), mount_roll = median(roll);
+  const double mount_pitch = median_of(pitch), mount_roll = median_of(roll);
   std::vector<SE3> poses;
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Matrix3d& R = raw.R_scene_cam[i];

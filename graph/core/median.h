@@ -1,12 +1,13 @@
 #pragma once
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace placegraph {
 
 /// The upper median; at least one value needed.
 inline double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + values.size() / 2;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
