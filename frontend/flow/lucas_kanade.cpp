@@ -34,6 +34,26 @@ Gradients gradients_of(const Image& image, const LucasKanadeOptions& options) {
   return all;
 }
 
+/// The columns and rows of a window that lie on the image and not in its padding.
+struct Part {
+  int from_x = 0, to_x = 0, from_y = 0, to_y = 0;
+  int count() const { return (to_x - from_x) * (to_y - from_y); }
+};
+
+/// Of a window read at (u, v) of an image in a padding of `pad` pixels; a pixel interpolated from
+/// one of the padding is none of the image's.
+Part part_inside(const Image& image, int pad, int radius, double u, double v) {
+  const auto clamped = [&](double value) {
+    return std::clamp(static_cast<int>(value), 0, 2 * radius + 1);
+  };
+  Part part;
+  part.from_x = clamped(pad - (std::floor(u) - radius));
+  part.from_y = clamped(pad - (std::floor(v) - radius));
+  part.to_x = std::max(part.from_x, clamped(image.cols - pad - (std::ceil(u) - radius)));
+  part.to_y = std::max(part.from_y, clamped(image.rows - pad - (std::ceil(v) - radius)));
+  return part;
+}
+
 /// A square window of an image around a point between its pixels.
 class Window {
  public:
@@ -55,6 +75,18 @@ class Window {
         out[x] = w00 * top[x] + w01 * top[x + 1] + w10 * bottom[x] + w11 * bottom[x + 1];
     }
     return true;
+  }
+  void set_difference(const Window& a, const Window& b) {
+    for (int i = 0; i < size(); ++i) values_[i] = a.values_[i] - b.values_[i];
+  }
+  void clear_outside(const Part& part) {
+    if (part.count() == size()) return;
+    for (int y = 0; y < side_; ++y) {
+      float* row = values_.data() + y * side_;
+      const bool within = y >= part.from_y && y < part.to_y;
+      std::fill(row, row + (within ? part.from_x : side_), 0.f);
+      std::fill(row + (within ? part.to_x : side_), row + side_, 0.f);
+    }
   }
   const float* data() const { return values_.data(); }
   int size() const { return side_ * side_; }
@@ -90,7 +122,7 @@ class Follower {
         du_(options.window_px / 2),
         dv_(options.window_px / 2),
         window_(options.window_px / 2),
-        difference_(template_.size()) {}
+        difference_(options.window_px / 2) {}
 
   FlowVector follow(const Gradients& from, const Gradients& to, const Vector2d& px,
                     const Vector2d& guess) {
@@ -119,6 +151,9 @@ class Follower {
     if (!template_.read(from.grey.levels[level], u, v) || !du_.read(from.du[level], u, v) ||
         !dv_.read(from.dv[level], u, v))
       return Kind::kNone;
+    inside_ = part_inside(from.grey.levels[level], from.grey.pad, options_.window_px / 2, u, v);
+    du_.clear_outside(inside_);
+    dv_.clear_outside(inside_);
     const int n = template_.size();
     Matrix2d gradient;
     gradient(0, 0) = dot(du_.data(), du_.data(), n);
@@ -148,22 +183,23 @@ class Follower {
     }
     // Neighbouring residuals are alike, from smoothing and interpolation: about one in four counts.
     constexpr double kPixelsPerSample = 4;
-    covariance = inverse * (kPixelsPerSample * square / std::max(1, n - 2));
+    covariance = inverse * (kPixelsPerSample * square / std::max(1, inside_.count() - 2));
     return full ? Kind::kFull : Kind::kNormal;
   }
 
   std::optional<Mismatch> compare(const Image& image, double u, double v) {
     if (!window_.read(image, u, v)) return std::nullopt;
-    const int n = template_.size();
-    for (int i = 0; i < n; ++i) difference_[i] = template_.data()[i] - window_.data()[i];
+    difference_.set_difference(template_, window_);
+    difference_.clear_outside(inside_);
+    const int n = difference_.size();
     return Mismatch{
         dot(difference_.data(), difference_.data(), n),
         {dot(difference_.data(), du_.data(), n), dot(difference_.data(), dv_.data(), n)}};
   }
 
   LucasKanadeOptions options_;
-  Window template_, du_, dv_, window_;
-  std::vector<float> difference_;
+  Window template_, du_, dv_, window_, difference_;
+  Part inside_;  // of the template: what its mirrored rest shows moves another way
   Vector2d axis_ = Vector2d::UnitX();  // of the larger eigenvalue, last looked at
 };
 

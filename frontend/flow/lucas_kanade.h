@@ -21,7 +21,8 @@ void visit(OptionVisitor& field, LucasKanadeOptions& options);
 /// its normal flow, anything else nothing, and so does a point that leaves the image or, of full
 /// flows, does not come back to its start. Covariances are those of least squares, from the
 /// residual's variance, corrected for the correlation that smoothing gives to neighbouring pixels.
-/// Throws ArgumentError.
+/// Windows may reach over the sides of the first image: what lies outside counts as without
+/// gradient. Throws ArgumentError.
 std::vector<FlowVector> lucas_kanade(const Image& from, const Image& to,
                                      const std::vector<Eigen::Vector2d>& points,
                                      const LucasKanadeOptions& options);

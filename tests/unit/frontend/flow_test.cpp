@@ -78,6 +78,24 @@ TEST(LucasKanade, GivesNormalFlowWhereOneDirectionIsSeenAndNothingWhereNone) {
   EXPECT_EQ(lucas_kanade(blank, blank, {kMiddle}, {})[0].kind, Kind::kNone);
 }
 
+TEST(LucasKanade, FollowsPointsAtTheSidesByWhatIsInTheImageAlone) {
+  // The mirrored rest of their windows seems to move the other way.
+  for (const Vector2d& flow : {Vector2d(3, 0), Vector2d(-3, 0), Vector2d(0, 3), Vector2d(0, -3)}) {
+    const Pair pair = shifted(flow);
+    const double side = kSide / 2 * (1 - flow.normalized().sum());
+    const double near = std::clamp(side, 2.0, kSide - 3.0);
+    std::vector<Vector2d> points;
+    for (int along = 20; along <= kSide - 20; along += 8)
+      points.push_back(flow.x() != 0 ? Vector2d(near, along) : Vector2d(along, near));
+    double worst_px = 0;
+    for (const FlowVector& v : lucas_kanade(pair.from, pair.to, points, {})) {
+      ASSERT_EQ(v.kind, Kind::kFull);
+      worst_px = std::max(worst_px, (v.flow - flow).norm());
+    }
+    EXPECT_LT(worst_px, 0.1) << flow.transpose();
+  }
+}
+
 TEST(LucasKanade, SaysNothingOfPointsThatLeaveTheImageOrDoNotComeBack) {
   const Pair pair = shifted({-6, 0});
   EXPECT_EQ(lucas_kanade(pair.from, pair.to, {Vector2d(2, 40)}, {})[0].kind, Kind::kNone);
