@@ -129,7 +129,8 @@ void InertialWindow::start(const BodyState& state) {
   prior_at_ = state;
   prior_.H = inverse(state.covariance);
   prior_.b = VectorXd::Zero(15);
-  // At rest until the inertial sensor speaks.
+  // At rest until the inertial sensor speaks; then as it says.
+  begins_at_rest_ = true;
   samples_.push_back(
       {state.stamp_ns, state.gyro_bias,
        state.T_world_body.rotation().inverse() * Eigen::Vector3d(-gravity()) + state.accel_bias});
@@ -160,11 +161,15 @@ Outcome InertialWindow::append(std::int64_t stamp_ns) {
     const ImuSample& after = samples_[std::min(at + 1, samples_.size() - 1)];
     const std::int64_t until =
         at + 1 < samples_.size() ? std::min(after.stamp_ns, stamp_ns) : stamp_ns;
-    motion.add(0.5 * (before.gyro_rad_s + after.gyro_rad_s),
-               0.5 * (before.accel_m_s2 + after.accel_m_s2), seconds(now, until));
+    const double share = begins_at_rest_ && at == 0 && samples_.size() > 1 ? 0 : 0.5;
+    motion.add(share * before.gyro_rad_s + (1 - share) * after.gyro_rad_s,
+               share * before.accel_m_s2 + (1 - share) * after.accel_m_s2, seconds(now, until));
     now = until;
   }
-  while (samples_.size() > 1 && samples_[1].stamp_ns <= stamp_ns) samples_.pop_front();
+  while (samples_.size() > 1 && samples_[1].stamp_ns <= stamp_ns) {
+    samples_.pop_front();
+    begins_at_rest_ = false;
+  }
 
   const auto change = motion.change(last.gyro_bias, last.accel_bias);
   const double t = motion.duration_s();

@@ -72,6 +72,7 @@ class InertialWindow {
   double floor_z_m_;
   std::deque<State> states_;
   std::deque<ImuSample> samples_;  ///< the last before the newest state, and those after
+  bool begins_at_rest_ = false;    ///< the first of them was assumed, not measured
   BodyState prior_at_;             ///< where the prior was taken
   QuadraticForm prior_;            ///< of the oldest state's step from there
 };

@@ -5,13 +5,6 @@
 #include <cmath>
 
 namespace placegraph {
-namespace {
-
-/// What a filter that has just begun says is too far off to be linearized at.
-constexpr std::int64_t kSettled_ns = 2'000'000'000;
-
-}  // namespace
-
 HoverRun run_hover(const Dataset& images, const ImuRecording& imu, const SE3& T_body_cam,
                    const MarkerLayout& layout, const HoverRunOptions& options,
                    const std::function<void(std::size_t done)>& progress) {
@@ -64,12 +57,9 @@ std::vector<BodyState> smooth_hover(const HoverRun& run, const ImuRecording& imu
   std::vector<BodyState> smoothed;
   auto sample = imu.samples.begin();
   std::vector<BodyState> held;
-  std::optional<std::int64_t> begun_ns;  // of the filter
   for (const HoverFrame& frame : run.frames) {
     if (!window.started()) {
-      if (!frame.outcome) begun_ns.reset();
-      if (frame.outcome && !begun_ns) begun_ns = frame.stamp_ns;
-      if (!begun_ns || frame.stamp_ns < *begun_ns + kSettled_ns) continue;
+      if (!frame.outcome) continue;
       window.start(frame.state);
       while (sample != imu.samples.end() && sample->stamp_ns <= frame.stamp_ns) ++sample;
       continue;

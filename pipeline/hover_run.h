@@ -35,8 +35,8 @@ HoverRun run_hover(const Dataset& images, const ImuRecording& imu, const SE3& T_
                    const std::function<void(std::size_t done)>& progress = {});
 
 /// The same measurements in a sliding window of `states` images: what is known of each image when
-/// it leaves the window, that much later (the last ones at the end). Begins two seconds after the
-/// filter did; nothing of images before that.
+/// it leaves the window, that much later (the last ones at the end). Begins with the first
+/// state of the filter; nothing of images before that.
 std::vector<BodyState> smooth_hover(const HoverRun& run, const ImuRecording& imu,
                                     const SE3& T_body_cam, const HoverOptions& options,
                                     int states = 20);

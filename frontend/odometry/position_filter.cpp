@@ -64,7 +64,8 @@ void PositionFilter::start(const BodyState& state) {
   Event first;
   first.stamp_ns = state.stamp_ns;
   first.after = state;
-  // At rest until the inertial sensor speaks.
+  // At rest until the inertial sensor speaks; then as it says.
+  first.imu_assumed = true;
   first.imu.stamp_ns = state.stamp_ns;
   first.imu.gyro_rad_s = state.gyro_bias;
   first.imu.accel_m_s2 =
@@ -216,16 +217,18 @@ void PositionFilter::replay(std::size_t from) {
     Event& event = events_[i];
     const Event& before = events_[i - 1];
     event.imu = before.imu;
+    event.imu_assumed = before.imu_assumed;
     if (const auto* sample = std::get_if<ImuSample>(&event.measurement)) {
       // Between two samples the mean of both, except over what was skipped.
       ImuSample mean = *sample;
       constexpr double kSkipped_s = 0.1;
-      if (seconds(before.imu.stamp_ns, sample->stamp_ns) < kSkipped_s) {
+      if (!before.imu_assumed && seconds(before.imu.stamp_ns, sample->stamp_ns) < kSkipped_s) {
         mean.gyro_rad_s = 0.5 * (before.imu.gyro_rad_s + sample->gyro_rad_s);
         mean.accel_m_s2 = 0.5 * (before.imu.accel_m_s2 + sample->accel_m_s2);
       }
       event.after = predict(before, event.stamp_ns, mean);
       event.imu = *sample;
+      event.imu_assumed = false;
       continue;
     }
     event.after = predict(before, event.stamp_ns, before.imu);

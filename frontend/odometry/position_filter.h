@@ -72,7 +72,8 @@ class PositionFilter {
     std::int64_t stamp_ns = 0;
     Measurement measurement;
     BodyState after;
-    ImuSample imu;  // in force from here on
+    ImuSample imu;             // in force from here on
+    bool imu_assumed = false;  // none was measured since the start
     bool accepted = true;
   };
   struct Innovation {

@@ -76,7 +76,7 @@ TEST_F(HoverCli, GoesOnWithoutMarkersFromWhatItKnew) {
 TEST_F(HoverCli, SmoothsTheSameMeasurements) {
   ASSERT_EQ(run("hover " + flight() + " --out smooth --smooth").code, 0);
   const json smoother = result("smooth")["smoother"];
-  EXPECT_EQ(smoother["compared"], 41);  // from two seconds on
+  EXPECT_EQ(smoother["compared"], 81);  // from the first image on
   EXPECT_LT(smoother["position_rmse_m"].get<double>(), 0.02);
   EXPECT_GT(smoother["filter_over_smoother"].get<double>(), 0.5);
   EXPECT_TRUE(fs::exists(dir / "smooth/smoothed.csv"));

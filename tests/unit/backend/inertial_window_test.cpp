@@ -42,6 +42,23 @@ TEST(InertialWindow, HoldsThePosition) {
   }
 }
 
+TEST(InertialWindow, TurnsFromItsStartAsTheFirstSampleSays) {
+  InertialWindow window({}, SE3());
+  BodyState start;
+  start.covariance = 1e-4 * Eigen::Matrix<double, 15, 15>::Identity();
+  window.start(start);
+  for (const double t : {0.01, 0.02})
+    ASSERT_TRUE(window.add(ImuSample{HoverFlight::stamp(t), {0, 0, 1}, {0, 0, 9.80665}}));
+  PoseSighting vague;  // makes the state
+  vague.stamp_ns = HoverFlight::stamp(0.02);
+  vague.covariance = 1e6 * Matrix6d::Identity();
+  ASSERT_TRUE(window.add(vague));
+  const auto answer = window.solve();
+  ASSERT_TRUE(answer.outcome);
+  ASSERT_EQ(answer.states.size(), 2u);
+  EXPECT_NEAR(answer.states[1].T_world_body.rotation().log().z(), 0.02, 1e-6);
+}
+
 TEST(InertialWindow, DoesNotBelieveWhatIsFarFromExpected) {
   Random random = test::seeded_random(2);
   const HoverFlight flight;

@@ -51,6 +51,18 @@ TEST(PositionFilter, HoldsThePositionByFlowAndMarkersThroughAnOutage) {
   EXPECT_LT(flown.worst_m, 0.05);
 }
 
+TEST(PositionFilter, TurnsFromItsStartAsTheFirstSampleSays) {
+  PositionFilter filter({}, SE3());
+  BodyState start;
+  start.covariance = 1e-4 * Eigen::Matrix<double, 15, 15>::Identity();
+  filter.start(start);
+  for (const double t : {0.01, 0.02})
+    ASSERT_TRUE(filter.add(ImuSample{HoverFlight::stamp(t), {0, 0, 1}, {0, 0, 9.80665}}));
+  const auto answer = filter.at(HoverFlight::stamp(0.02));
+  ASSERT_TRUE(answer.outcome);
+  EXPECT_NEAR(answer.state.T_world_body.rotation().log().z(), 0.02, 1e-9);
+}
+
 TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
   const HoverFlight flight;
   Random random(3);
