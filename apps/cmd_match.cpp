@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <opencv2/core/utility.hpp>
 
 #include "apps/output.h"

@@ -76,6 +76,26 @@ TEST_F(Match, SaysThatGreyImagesHaveNoColour) {
   EXPECT_THAT(matched.err, HasSubstr("without the colour cue"));
 }
 
+TEST_F(Match, LearnsLabelsOfTheTrainingHalfOnly) {
+  std::string labels;
+  for (int i = 0; i < 6; ++i) labels += std::to_string(i) + " " + std::to_string(i / 3) + "\n";
+  write_file(dir / "labels.txt", labels);  // none of the images that are asked for
+  for (const std::string mode : {"", "--sequence "}) {
+    const auto told = run("places classify . --out told.txt --force " + mode);
+    ASSERT_EQ(told.code, 0) << told.err;
+    EXPECT_THAT(told.out, HasSubstr("6 views learned, 6 told"));
+    EXPECT_THAT(test::read_file(dir / "told.txt"), ::testing::StartsWith("6 0 "));
+    EXPECT_THAT(test::read_file(dir / "told.txt"), HasSubstr("\n11 1 "));
+  }
+  ASSERT_EQ(run("places classify . --out told.txt --force --reject 1").code, 0);
+  EXPECT_THAT(test::read_file(dir / "told.txt"), HasSubstr("6 -1 "));
+  write_file(dir / "labels.txt", "0 0\n1\n");
+  expect_usage_error("places classify . --out no.txt", "labels.txt:2");
+  write_file(dir / "labels.txt", "0 0\n");
+  expect_usage_error("places classify . --out no.txt", "labels.txt: no label for training image 1");
+  expect_usage_error("places classify . --out no.txt --train 12", "there are 12 images");
+}
+
 TEST_F(Match, KeepsItsTargetsOnARealCorridor) {
   PLACEGRAPH_DATA_OR_SKIP(folder, "places/corridor_milford");
   const auto matched = run("match " + folder + " --sequence --out found.txt");

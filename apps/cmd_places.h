@@ -1,0 +1,9 @@
+#pragma once
+#include <CLI/App.hpp>
+
+namespace placegraph::apps {
+
+/// `placegraph places classify DIR --out FILE`: labelled places, learned and told.
+void add_places_command(CLI::App& app);
+
+}  // namespace placegraph::apps
