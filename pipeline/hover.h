@@ -29,7 +29,12 @@ struct HoverOptions {
   double flow_common_px = 0.025;
   int min_flow_points = 12;  ///< fewer say nothing
   bool use_flow = true;
-  PointTrackerOptions tracker{.max_tracks = 120, .window_px = 15, .pyramid_levels = 4};
+  /// Weak corners too, they weigh as little as they are known; steps alone, no looks are sought.
+  PointTrackerOptions tracker{.max_tracks = 120,
+                              .window_px = 15,
+                              .pyramid_levels = 4,
+                              .min_eigenvalue = 1e-4,
+                              .max_anchor_shift_px = 0};
   /// A pose by markers comes so much later than its image, as where another computer finds it.
   double marker_delay_s = 0;
   int max_markers = 4;       ///< looked for where several are expected: the largest
