@@ -24,7 +24,9 @@ struct LineCueOptions {
   PoseFromLinesOptions pose;
   LineInitializerOptions start;
   FloorScaleOptions floor;
-  double sigma_floor_px = 0.15;  ///< no line is placed better across: lens, rolling shutter, blur
+  /// No line is placed better across: lens, rolling shutter, blur, and what one look at an edge
+  /// errs by stays for as long as it is followed.
+  double sigma_floor_px = 0.3;
   /// In place of triangulation.min_turn_deg where directions show the rotation, and turns of planes
   /// are those of the way alone: with what is not known of its place, a line is of use much sooner.
   double min_turn_steered_deg = 0.4;

@@ -52,6 +52,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map,
                        const std::optional<double>& median_depth_m) {
   in_known_map_ = in_known_map;
   if (!in_known_map) median_depth_m_ = median_depth_m.value_or(kUnknownDepth);
+  guesses_unit_ = !in_known_map && median_depth_m;
   landmarks_at_keyframe_ = frames_since_keyframe_ = 0;
   px_at_keyframe_.clear();
   past_landmarks_ = landmarks();
@@ -64,7 +65,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map,
   state_ = TrackingState::kWaiting;
   started_ = lost_ = false;
   scale_known_ = metric_from_start();
-  T_odom_start_ = T_odom_last_ = T_odom_cam;
+  T_odom_restart_ = T_odom_start_ = T_odom_last_ = T_odom_cam;
   T_last_cur_ = SE3();
   velocity_known_ = false;
   first_keyframe_ = next_keyframe_;

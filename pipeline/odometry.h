@@ -67,7 +67,7 @@ enum class TrackingState { kWaiting, kTracking, kLost };
 /// What one frame brought.
 struct OdometryUpdate {
   TrackingState state = TrackingState::kWaiting;
-  SE3 T_odom_cam;              ///< if tracking
+  SE3 T_odom_cam;              ///< if tracking, or the first of the two views
   std::int64_t keyframe = -1;  ///< reference keyframe, if tracking
   int inliers = 0;
   bool reference = false;  ///< while waiting: this frame is the first of the two views
@@ -129,6 +129,9 @@ class Odometry {
     return floor_ && !scale_known_ && !in_known_map_ && state_ == TrackingState::kTracking;
   }
   bool scale_known() const { return scale_known_; }
+  /// Nothing has given this run its unit: what it sees is thought to be as far away as what was
+  /// seen before.
+  bool guesses_unit() const { return guesses_unit_; }
   /// Newest estimate of a keyframe of the present run of tracking, T_odom_cam.
   SE3 keyframe_pose(std::int64_t id) const { return keyframe_poses_.at(id); }
   /// First keyframe of the present run of tracking.
@@ -266,9 +269,10 @@ class Odometry {
   bool started_ = false;  // the first frame of this run has been seen
   bool lost_ = false;     // the last frame
   bool scale_known_ = false;
-  bool in_known_map_ = false;
+  bool in_known_map_ = false, guesses_unit_ = false;
 
-  SE3 T_odom_start_, T_odom_last_, T_last_cur_;  // the last one: velocity over one frame
+  SE3 T_odom_restart_, T_odom_start_, T_odom_last_,
+      T_last_cur_;  // the last one: velocity over one frame
   bool velocity_known_ = false;
   double prediction_error_px_ = 0;  // of the last frame's tracks, median
   std::int64_t next_keyframe_ = 0, first_keyframe_ = 0, last_keyframe_ = -1;

@@ -32,6 +32,7 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
     return update;
   }
   update.reference = true;
+  update.T_odom_cam = T_odom_start_;
   reference_frame_ = frame;
   views_.clear();
   View view{frame.id, {}};
@@ -131,8 +132,7 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   }
   update.new_keyframes = {{ref, reference_frame_}, {cur, frame}};
 
-  for (const auto& turned : turned_)
-    if (turned.first < reference_frame_.id) update.filled.push_back(turned);
+  update.filled = std::move(turned_);  // what follows knows better
   turned_.clear();
   fill_between(ref, cur, random, update);
   const double steps = static_cast<double>(views_.size() - 1);

@@ -25,8 +25,16 @@ std::optional<OdometryUpdate::Turn> Odometry::turn_since(
 OdometryUpdate Odometry::wait_turning(const Frame& frame, Random& random) {
   OdometryUpdate update;
   update.turn = turn_since(views_.front().px, random);
-  if (update.turn)
-    turned_.emplace_back(frame.id, T_odom_start_ * SE3(update.turn->R_before_cam, {0, 0, 0}));
+  if (!update.turn) return update;
+  turned_.emplace_back(frame.id, T_odom_start_ * SE3(update.turn->R_before_cam, {0, 0, 0}));
+  // However long it stands: these views are posed, and few judges are enough.
+  constexpr std::size_t kMostViews = 64;
+  if (views_.size() > kMostViews) {
+    std::set<std::int64_t> posed;
+    for (const auto& turned : turned_) posed.insert(turned.first);
+    std::size_t k = 0;
+    std::erase_if(views_, [&](const View& v) { return k++ % 2 == 1 && posed.contains(v.frame); });
+  }
   return update;
 }
 
@@ -44,12 +52,22 @@ OdometryUpdate Odometry::replace_reference(const Frame& frame, const std::option
     turned_.emplace_back(reference_frame_.id, T_odom_start_);
   else
     turned_.clear();  // they hung on what is left behind
-  if (T_known)
+  if (T_known) {
     T_odom_start_ = *T_known;
-  else if (turn)
+  } else if (turn) {
     T_odom_start_ = T_odom_start_ * SE3(turn->R_before_cam, Eigen::Vector3d::Zero());
+    guesses_unit_ = guesses_unit_ || in_known_map_;  // out of the view of what would tell it
+    in_known_map_ = false;
+  } else {
+    T_odom_start_ = T_odom_restart_;
+  }
   OdometryUpdate update = begin(frame);
   update.turn = turn;
+  if (!update.reference) {  // nothing to go on from: what comes next stands anywhere
+    update.turn.reset();
+    turned_.clear();
+    T_odom_start_ = T_odom_restart_;
+  }
   return update;
 }
 

@@ -33,8 +33,6 @@ SE3 unscaled(const Sim3& S_map_cam) { return SE3(S_map_cam.rotation(), S_map_cam
 constexpr double kSigmaLogScaleOfBridge = 0.1;
 /// The same where it is guessed: what comes into view by a turn is about as far away as what left.
 constexpr double kSigmaLogScaleOfTurn = 0.7;
-/// Way over the median depth that a rotation may hide.
-constexpr double kWayOfTurn = 0.005;
 
 }  // namespace
 
@@ -76,11 +74,10 @@ struct Slam::Impl {
   std::map<std::int64_t, std::int64_t> frame_of_keyframe, stamp_of_keyframe;
   std::int64_t last_keyframe = -1;
   std::optional<Loop> bridge;  // how the next run of tracking hangs on the last one
-  double sigma_log_scale_of_bridge = kSigmaLogScaleOfBridge;
   SE3 T_map_last;
   int lost_in_a_row = 0;
   std::shared_ptr<const MeasuredMotion> motion;  // of the camera, by other sensors
-  std::optional<std::size_t> origin;  // first view of a single eye, until the second comes
+  std::vector<std::size_t> origins;  // first views of a single eye, until the second comes
   bool posed_once = false, finished = false;
 };
 
@@ -172,10 +169,12 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   } else if (!posed_once && update.reference) {
     // The first view is the origin while the second is waited for; if another takes its place, and
     // not by a turn alone, it has no pose after all.
-    if (origin && !update.turn) online.poses[*origin].T_world_body.reset();
-    origin = records.size() - 1;
-    T_map_last = update.turn ? T_map_last * SE3(update.turn->R_before_cam, {0, 0, 0}) : SE3();
-    result.T_map_cam = T_map_last;
+    if (!update.turn) {
+      for (const std::size_t origin : origins) online.poses[origin].T_world_body.reset();
+      origins.clear();
+    }
+    origins.push_back(records.size() - 1);
+    result.T_map_cam = update.T_odom_cam;
   }
   result.state = result.T_map_cam ? TrackingState::kTracking
                  : posed_once     ? TrackingState::kLost
@@ -224,10 +223,11 @@ std::optional<Loop> Slam::Impl::turned(const OdometryUpdate& update) const {
     const Matrix6d back = SE3(update.turn->R_before_cam.inverse(), {0, 0, 0}).adjoint();
     const Matrix6d before = bridge->information.topLeftCorner<6, 6>();
     covariance = back * before.ldlt().solve(Matrix6d::Identity()) * back.transpose();
-  } else {
-    const double sigma = kWayOfTurn * odometry.median_depth_m();
-    covariance.topLeftCorner<3, 3>().diagonal().setConstant(sigma * sigma);
   }
+  // Way that moves points by no more than what passes for a rotation.
+  const double sigma_m =
+      options.odometry.turn.threshold_px / calibration.camera.fx * odometry.median_depth_m();
+  covariance.topLeftCorner<3, 3>().diagonal().array() += sigma_m * sigma_m;
   covariance.bottomRightCorner<3, 3>() += update.turn->covariance;
   loop.T_match_query = loop.T_match_query * SE3(update.turn->R_before_cam, {0, 0, 0});
   loop.information.setZero();
@@ -237,15 +237,6 @@ std::optional<Loop> Slam::Impl::turned(const OdometryUpdate& update) const {
 
 void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, OdometryUpdate& update) {
   ++lost_in_a_row;
-  sigma_log_scale_of_bridge = kSigmaLogScaleOfBridge;
-  if (!bridge && update.state == TrackingState::kLost && (bridge = turned(update))) {
-    log(log_sink, LogLevel::kInfo, "frame " + std::to_string(frame.id) + ": a turn on the spot");
-    sigma_log_scale_of_bridge = kSigmaLogScaleOfTurn;
-    const double unit = mapper.S_map_keyframe(bridge->match).scale();
-    odometry.restart(T_map_located(*bridge), false, unit * odometry.median_depth_m());
-    update = odometry.add_frame(frame);
-    return;
-  }
   if (!located) located = closer.relocalize(frame);
   if (located) {
     log(log_sink, LogLevel::kInfo,
@@ -256,6 +247,13 @@ void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, Odomet
     const SE3 T_map_frame = T_map_located(*located);
     odometry.restart(T_map_frame, true);
     update = odometry.add_frame(frame, T_map_frame);
+    return;
+  }
+  if (!bridge && update.state == TrackingState::kLost && (bridge = turned(update))) {
+    log(log_sink, LogLevel::kInfo, "frame " + std::to_string(frame.id) + ": a turn on the spot");
+    const double unit = mapper.S_map_keyframe(bridge->match).scale();
+    odometry.restart(T_map_located(*bridge), false, unit * odometry.median_depth_m());
+    update = odometry.add_frame(frame);
     return;
   }
   bridge.reset();
@@ -310,11 +308,14 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
     link = PlaceMapper::Link{last_keyframe, *T_previous_this};
   } else if (bridge) {
     // The new run is in the map's unit, the match perhaps in another.
+    const double sigma_log_scale = odometry.scale_known()    ? 0
+                                   : odometry.guesses_unit() ? kSigmaLogScaleOfTurn
+                                                             : kSigmaLogScaleOfBridge;
     link = PlaceMapper::Link{bridge->match,
                              bridge->T_match_query,
                              bridge->information.topLeftCorner<6, 6>(),
                              ConstraintSource::kOther,
-                             odometry.scale_known() ? 0 : sigma_log_scale_of_bridge,
+                             sigma_log_scale,
                              1 / mapper.S_map_keyframe(bridge->match).scale()};
     bridge.reset();
   }

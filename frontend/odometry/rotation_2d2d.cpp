@@ -36,15 +36,18 @@ struct Fit {
   SO3 R_ref_cur;
   Matrix3d normal = Matrix3d::Zero();
   double sum_px2 = 0;
+  int count = 0;
+  bool full = false;  // whether the pixels tell all three angles
 };
 
 /// Gauss-Newton on the pixels of the inliers.
 Fit refine(const Rays& rays, const Matrix3d& start, const std::vector<int>& inliers) {
-  Fit fit{SO3(Eigen::Quaterniond(start)), Matrix3d::Zero(), 0};
+  Fit fit;
+  fit.R_ref_cur = SO3(Eigen::Quaterniond(start));
   constexpr int kIterations = 3;
   for (int iteration = 0; iteration <= kIterations; ++iteration) {
     fit.normal.setZero();
-    fit.sum_px2 = 0;
+    fit.sum_px2 = fit.count = 0;
     Vector3d gradient = Vector3d::Zero();
     const Matrix3d R_cur_ref = fit.R_ref_cur.inverse().matrix();
     for (const int i : inliers) {
@@ -54,9 +57,11 @@ Fit refine(const Rays& rays, const Matrix3d& start, const std::vector<int>& inli
       fit.normal += J.transpose() * J;
       gradient += J.transpose() * *r;
       fit.sum_px2 += r->squaredNorm();
+      ++fit.count;
     }
     const Eigen::LDLT<Matrix3d> solver(fit.normal);
-    if (iteration == kIterations || !(solver.rcond() > 1e-12)) break;
+    fit.full = fit.count > 1 && solver.rcond() > 1e-9;
+    if (iteration == kIterations || !fit.full) break;
     fit.R_ref_cur = fit.R_ref_cur.plus(-solver.solve(gradient));
   }
   return fit;
@@ -112,11 +117,14 @@ Rotation2d2dResult estimate_rotation_2d2d(const Camera& camera, const std::vecto
     return result;
   }
   const Fit fit = refine(rays, found.model, found.inliers);
-  const double count = static_cast<double>(found.inliers.size());
+  if (!fit.full) {
+    result.outcome = Outcome::failure(Code::kDegenerate, "all points lie in one direction");
+    return result;
+  }
   result.R_ref_cur = fit.R_ref_cur;
-  result.rmse_px = std::sqrt(fit.sum_px2 / count);
+  result.rmse_px = std::sqrt(fit.sum_px2 / fit.count);
   const double f = 0.5 * (camera.fx + camera.fy);
-  const double variance_px2 = std::max(fit.sum_px2 / (2 * count), 1e-6);
+  const double variance_px2 = std::max(fit.sum_px2 / (2 * fit.count), 1e-6);
   result.covariance = variance_px2 * fit.normal.ldlt().solve(Matrix3d::Identity()) +
                       variance_px2 / (f * f) * Matrix3d::Identity();
   return result;

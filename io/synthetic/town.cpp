@@ -3,6 +3,8 @@
 #include <placegraph/io/synthetic/town_builder.h>
 #include <placegraph/io/synthetic/traffic.h>
 
+#include <algorithm>
+
 namespace placegraph::synthetic {
 namespace {
 
@@ -81,10 +83,11 @@ Tour make_town_loop(const TourRequest& request) {
     const double t = 0.1 * static_cast<double>(i);
     const PathPoint p = path_point(path, kStep_m, positions[i]);
     // The body nods when it brakes, leans in bends, and the road shakes it.
-    const std::size_t a = i > 3 ? i - 3 : 0, b = std::min(i + 3, positions.size() - 1);
-    const double span = 0.05 * static_cast<double>(b - a);
+    const std::size_t reach = std::min({std::size_t{3}, i, positions.size() - 1 - i});
+    const double span = 0.1 * static_cast<double>(reach);
     const double acceleration =
-        span > 0 ? (positions[b] - 2 * positions[(a + b) / 2] + positions[a]) / (span * span) : 0;
+        reach > 0 ? (positions[i + reach] - 2 * positions[i] + positions[i - reach]) / (span * span)
+                  : 0;
     const double pitch = 0.003 * acceleration + 0.0022 * value_noise(t * 2.1, 0.5, seed + 2) +
                          0.0012 * value_noise(t * 5.3, 0.5, seed + 3);
     const double roll =

@@ -13,9 +13,10 @@ using namespace test;
 
 constexpr double kTurnRad = 0.035;  // of a frame
 
-/// `before` frames ahead, then turning on the spot for `turning`, then on along the street.
-StreetDataset way(int before, int turning, int after) {
-  return StreetDataset(before + turning + after, 0, 0, false, [=](int i) {
+/// `before` frames ahead, then turning on the spot for `turning`, then on along the street. Frames
+/// in [dark_begin, dark_end) are black.
+StreetDataset way(int before, int turning, int after, int dark_begin = 0, int dark_end = 0) {
+  return StreetDataset(before + turning + after, dark_begin, dark_end, false, [=](int i) {
     const int way = std::min(i, before) + std::max(0, i - before - turning);
     const int turn = std::clamp(i - before, 0, turning);
     return pose({0, kTurnRad * turn, 0}, {0, -kStreetHeight_m, 0.25 * way});
@@ -67,6 +68,25 @@ TEST(SlamThatTurnsOnTheSpot, KnowsHowItStoodBeforeItsFirstSecondView) {
   const EvaluationResult result = judge(dataset, run);
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
   EXPECT_LT(result.ape.error_m.rmse, 0.02 * result.path_m);
+}
+
+TEST(SlamThatTurnsOnTheSpot, ForgetsWhatItSawBeforeTheDarkIfNothingWasPlacedYet) {
+  const StreetDataset dataset = way(0, 24, 12, 16, 20);
+  const RunResult run = run_mono(dataset);
+  // Whatever is posed hangs together: the dark tells nothing of how it turned there.
+  for (const Trajectory& trajectory : {run.map.trajectory_online, run.map.trajectory_optimized()}) {
+    EXPECT_TRUE(trajectory.poses.back().T_world_body);
+    for (std::size_t i = 0; i < dataset.size(); ++i) {
+      const auto& pose = trajectory.poses[i].T_world_body;
+      if (!pose) continue;
+      const auto& truth = dataset.ground_truth()->poses;
+      const SO3 turn =
+          SE3(*pose).rotation().inverse() * SE3(*trajectory.poses.back().T_world_body).rotation();
+      const SO3 expected = SE3(*truth[i].T_world_body).rotation().inverse() *
+                           SE3(*truth.back().T_world_body).rotation();
+      EXPECT_LT((expected.inverse() * turn).log().norm() * 180 / M_PI, 0.7) << "frame " << i;
+    }
+  }
 }
 
 }  // namespace

@@ -317,6 +317,15 @@ TEST(TownLoop, IsLongEnoughAndComesBackTwice) {
   EXPECT_GE(stretches, 2);
 }
 
+TEST(TownLoop, NodsLikeACarFromItsFirstFrameToItsLast) {
+  const SyntheticWorld world = open("town-loop");
+  const auto& poses = world.tour().T_scene_cam;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const Eigen::Vector3d turn = (poses[i - 1].rotation().inverse() * poses[i].rotation()).log();
+    EXPECT_LT(std::abs(turn.x()), 0.5 * M_PI / 180) << "frame " << i;
+  }
+}
+
 TEST(TownLoop, MovingCarsAreFollowedByFlowAndKeepTheirDistance) {
   const SyntheticWorld world = open("town-loop", Difficulty::kStandard);
   const Tour& tour = world.tour();

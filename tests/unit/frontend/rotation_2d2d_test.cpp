@@ -56,6 +56,12 @@ TEST(Rotation2d2d, RefusesViewsBetweenWhichWayWasMade) {
   EXPECT_EQ(lenient.outcome.code, Code::kInconsistent);
 }
 
+TEST(Rotation2d2d, SaysNothingOfPointsThatLieInOneDirection) {
+  Random random = seeded_random(55);
+  const std::vector<Eigen::Vector2d> px(40, Eigen::Vector2d(320, 240));
+  EXPECT_EQ(estimate_rotation_2d2d(kCamera, px, px, {}, random).outcome.code, Code::kDegenerate);
+}
+
 TEST(Rotation2d2d, RefusesTooFewPointsAndListsOfUnequalLength) {
   Random random = seeded_random(54);
   const PointScene scene = make_scene(kCamera, {SE3(), kTurn}, 10, random);
