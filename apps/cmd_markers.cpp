@@ -165,6 +165,7 @@ void draw(const Arguments& arguments, const Image& grey, const std::vector<Found
 }
 
 void detect(Arguments arguments) {
+  require(std::isfinite(arguments.side_m), "--side: must be a finite number");
   for (const std::string& file : {arguments.out, arguments.drawing})
     if (!file.empty()) require_free(file, arguments.force);
   MarkerLayout layout;

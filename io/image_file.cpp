@@ -31,7 +31,11 @@ std::string read_bytes(const std::string& path) {
 /// Decoders fill the missing part of a cut JPEG or PNG with grey or black and call it success; an
 /// image without its end marker is not one.
 bool is_truncated(const std::string& bytes) {
-  if (bytes.starts_with("\xff\xd8")) return bytes.rfind("\xff\xd9") == std::string::npos;
+  if (bytes.starts_with("\xff\xd8")) {
+    // A thumbnail in the head has an end of its own: that of the image follows its scans.
+    const auto end = bytes.rfind("\xff\xd9"), scan = bytes.rfind("\xff\xda");
+    return end == std::string::npos || (scan != std::string::npos && end < scan);
+  }
   if (bytes.starts_with("\x89PNG")) return bytes.rfind("IEND") == std::string::npos;
   return false;
 }

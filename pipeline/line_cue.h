@@ -26,7 +26,7 @@ struct LineCueOptions {
   FloorScaleOptions floor;
   /// No line is placed better across: lens, rolling shutter, blur, and what one look at an edge
   /// errs by stays for as long as it is followed.
-  double sigma_floor_px = 0.3;
+  double sigma_floor_px = 0.6;
   /// In place of triangulation.min_turn_deg where directions show the rotation, and turns of planes
   /// are those of the way alone: with what is not known of its place, a line is of use much sooner.
   double min_turn_steered_deg = 0.4;

@@ -49,6 +49,8 @@ LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibratio
                        std::uint64_t seed, const Map& map)
     : LoopCloser(options, calibration, seed) {
   for (const Keyframe& keyframe : map.keyframes) {
+    require(views_.empty() || views_.back().keyframe < keyframe.id,
+            "LoopCloser: the map's keyframes must stand in the order of their ids");
     database_.add(keyframe.id, keyframe.features);
     views_.push_back({keyframe.id, keyframe.frame, keyframe.features});
   }

@@ -217,7 +217,10 @@ std::optional<Loop> Slam::Impl::carried(const Frame& frame) const {
 /// Where a single eye that has only turned is since the last keyframe, or since it was last placed.
 std::optional<Loop> Slam::Impl::turned(const OdometryUpdate& update) const {
   if (!update.turn || last_keyframe < 0) return std::nullopt;
-  Loop loop = bridge.value_or(Loop{-1, last_keyframe});
+  Loop loop;
+  loop.query = -1;
+  loop.match = last_keyframe;
+  if (bridge) loop = *bridge;
   Matrix6d covariance = Matrix6d::Zero();
   if (bridge) {
     const Matrix6d back = SE3(update.turn->R_before_cam.inverse(), {0, 0, 0}).adjoint();

@@ -87,6 +87,7 @@ TEST_F(MarkersCli, SaysWhatIsWrong) {
   expect_usage_error("markers detect none.png --camera K.txt", "none.png");
   expect_usage_error("markers detect two.png --camera none.txt", "none.txt");
   expect_usage_error("markers detect two.png --camera K.txt --side -1", "side");
+  expect_usage_error("markers detect two.png --camera K.txt --side nan", "side");
   dir.write("small.txt", "460 460 160 120 320 240\n");
   expect_usage_error("markers detect two.png --camera small.txt", "640x480");
   dir.write("kept.json", "{}");

@@ -238,6 +238,10 @@ TEST(KittiOdometry, RefusesImagesThatAreCutEmptyForeignOrOfAnotherSize) {
   cv::imencode(".jpg", tiny_grey(64, 64, 0), jpeg);
   const std::string jpeg_text(jpeg.begin(), jpeg.end());
   EXPECT_THAT(message(jpeg_text.substr(0, jpeg_text.size() - 20)), HasSubstr("is truncated"));
+  // The end of a thumbnail in the head is not the image's.
+  const std::string thumbnail("\xff\xd8\xff\xe1\x00\x06\xff\xd9\x00\x00", 10);
+  EXPECT_THAT(message(thumbnail + jpeg_text.substr(2, jpeg_text.size() - 22)),
+              HasSubstr("is truncated"));
   EXPECT_THAT(message(jpeg_text), HasSubstr("000001.png: image is 64x64, but 8x6 is expected"));
   const auto dataset = open_dataset(folder / "s");
   fs::remove(folder / "s/image_0/000002.png");
