@@ -51,6 +51,8 @@ void visit(OptionVisitor& field, LineCueOptions& o) {
   field.group("start", o.start, "first views of a single eye without points");
   field.group("floor", o.floor, "metric scale from lines on the floor, without points");
   field("sigma_floor_px", o.sigma_floor_px, "no line is placed better across", {0.01, 10});
+  field("alike_sightings", o.alike_sightings,
+        "sightings of one edge in the window that are worth one independent one", {1, 1000});
   field("min_turn_steered_deg", o.min_turn_steered_deg,
         "triangulation.min_turn_deg where directions show the rotation", {0.01, 45});
   field("stay_frames", o.stay_frames,
@@ -240,8 +242,15 @@ void LineCue::accept(const SlidingWindow& window, const SE3& T_odom_cam) {
 
 void LineCue::add_to_window(std::int64_t id, const Sighting& sighting,
                             SlidingWindow& window) const {
-  window.add_line_observation({sighting.keyframe, id, sighting.seen.first, sighting.seen.second,
-                               sighting.seen.sigma_px, sighting.second});
+  const double alike = std::sqrt(options_.alike_sightings);
+  LineObservation observation{sighting.keyframe,
+                              id,
+                              sighting.seen.first,
+                              sighting.seen.second,
+                              alike * sighting.seen.sigma_px,
+                              sighting.second};
+  if (observation.second) observation.second->sigma_px *= alike;
+  window.add_line_observation(observation);
 }
 
 void LineCue::observe(std::int64_t keyframe, const Frame& frame,

@@ -24,9 +24,10 @@ struct LineCueOptions {
   PoseFromLinesOptions pose;
   LineInitializerOptions start;
   FloorScaleOptions floor;
-  /// No line is placed better across: lens, rolling shutter, blur, and what one look at an edge
-  /// errs by stays for as long as it is followed.
-  double sigma_floor_px = 0.6;
+  double sigma_floor_px = 0.15;  ///< no line is placed better across: lens, rolling shutter, blur
+  /// What one look at an edge errs by stays while it is followed: so many sightings in the window
+  /// are worth one independent one.
+  double alike_sightings = 16;
   /// In place of triangulation.min_turn_deg where directions show the rotation, and turns of planes
   /// are those of the way alone: with what is not known of its place, a line is of use much sooner.
   double min_turn_steered_deg = 0.4;
