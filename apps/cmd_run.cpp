@@ -183,7 +183,11 @@ double path_length_m(const Trajectory& truth) {
 void run(const Arguments& arguments) {
   const RunOptions options = options_of(arguments);
   require_free_folder(arguments.out, arguments.force);
-  if (!arguments.draw.empty()) require_free_folder(arguments.draw, arguments.force);
+  if (!arguments.draw.empty()) {
+    require_free_folder(arguments.draw, arguments.force);
+    require(fs::weakly_canonical(arguments.draw) != fs::weakly_canonical(arguments.out),
+            "--draw: must be another folder than --out");
+  }
   const auto dataset = open_dataset(arguments.sequence);
   const OutputFolder folder(arguments.out);
   std::optional<OutputFolder> drawings;
@@ -259,7 +263,8 @@ void add_run_command(CLI::App& app) {
   command->add_option("--sensor", arguments->sensor, "what to run it as; default: the best it has")
       ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}));
   command->add_option("--cues", arguments->cues,
-                      "what motion is seen by, joined by commas: points, lines, plane, manhattan, direct; default: points,plane");
+                      "what motion is seen by, joined by commas: points, lines, plane, manhattan, "
+                      "direct; default: points,plane");
   command->add_option("--camera-height", arguments->camera_height_m,
                       "height above the ground [m]: gives a single eye its scale");
   command->add_option("--odometry", arguments->odometry,
@@ -268,8 +273,7 @@ void add_run_command(CLI::App& app) {
   command->add_option("--set", arguments->settings, "one option, key=value; may be repeated")
       ->allow_extra_args(false);
   command->add_flag("--no-loops", arguments->no_loops, "do not look for revisits");
-  command->add_option("--seed", arguments->seed, "of every random stream")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("--seed", arguments->seed, "of every random stream");
   command->add_option("--threads", arguments->threads, "the result does not depend on it");
   command->add_flag("--json", arguments->as_json, "print result.json");
   command->add_flag("--force", arguments->force, "write into a folder that is not empty");

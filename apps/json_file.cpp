@@ -6,15 +6,18 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace placegraph::apps {
 
 nlohmann::json read_json(const std::string& path) {
   std::ifstream stream(path);
   if (!stream) throw FileError(path, "cannot be opened for reading");
-  nlohmann::json document = nlohmann::json::parse(stream, nullptr, false);
-  if (document.is_discarded()) throw FileError(path, "is not valid JSON");
-  return document;
+  try {
+    return nlohmann::json::parse(stream);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw FileError(path, "is not valid JSON, at byte " + std::to_string(error.byte));
+  }
 }
 
 nlohmann::json pose_json(const SE3& T) {

@@ -30,8 +30,10 @@ std::string all_names() {
 Cues parse_cues(const std::string& names) {
   Cues cues{false, false, false, false, false};
   std::set<std::string> seen;
-  std::istringstream list(names);
+  std::istringstream list(names + ",");
   for (std::string name; std::getline(list, name, ',');) {
+    // As people write lists: "points, lines".
+    name.erase(0, name.find_first_not_of(' '));
     const auto known = std::find_if(std::begin(kCues), std::end(kCues),
                                     [&](const Named& named) { return name == named.name; });
     require(known != std::end(kCues), "cues: '" + name + "' is none of " + all_names());

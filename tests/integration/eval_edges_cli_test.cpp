@@ -53,7 +53,7 @@ TEST_F(EvalEdges, NamesWhatIsWrongWithItsInput) {
   write_file(dir / "run/places.json", "{}");
   expect_usage_error("eval-edges poses.txt run", "places.json: is not what placegraph run writes");
   write_file(dir / "run/places.json", "{");
-  expect_usage_error("eval-edges poses.txt run", "places.json: is not valid JSON");
+  expect_usage_error("eval-edges poses.txt run", "places.json: is not valid JSON, at byte");
   std::filesystem::remove(dir / "run/places.json");
   expect_usage_error("eval-edges poses.txt run", "places.json: cannot be opened");
   std::filesystem::remove(dir / "run/graph.g2o");

@@ -11,14 +11,14 @@ TEST(Cues, AreThoseNamed) {
   EXPECT_FALSE(lines.points || lines.plane);
   const Cues all = parse_cues("plane,lines,points");
   EXPECT_TRUE(all.lines && all.points && all.plane);
-  EXPECT_TRUE(parse_cues("lines,manhattan").manhattan);
+  EXPECT_TRUE(parse_cues("lines, manhattan").manhattan);
   EXPECT_FALSE(all.surfaces_alone());
   EXPECT_TRUE(parse_cues("plane").surfaces_alone());
   EXPECT_TRUE(parse_cues("direct").direct);
 }
 
 TEST(Cues, UnknownRepeatedOrUselessOnesAreRefusedByName) {
-  for (const char* names : {"", "points,wheels", "points,points", "points,,lines", "manhattan"})
+  for (const char* names : {"", "points,wheels", "points,points", "points,,lines", "points,", "manhattan"})
     EXPECT_THROW((void)parse_cues(names), ArgumentError) << names;
   try {
     (void)parse_cues("points,wheels");
