@@ -34,7 +34,7 @@ struct Arguments {
   std::vector<std::string> settings;
   std::optional<std::string> sensor, cues;
   std::optional<double> camera_height_m;
-  std::optional<std::uint64_t> seed;
+  std::optional<std::int64_t> seed;
   std::optional<int> threads;
   bool no_loops = false, as_json = false, force = false, verbose = false, profile = false;
 };
@@ -51,7 +51,10 @@ RunOptions options_of(const Arguments& arguments) {
     options.camera_height_m = *arguments.camera_height_m;
   }
   if (!arguments.odometry.empty()) options.motion.file = arguments.odometry;
-  if (arguments.seed) options.slam.seed = *arguments.seed;
+  if (arguments.seed) {
+    require(*arguments.seed >= 0, "--seed: must not be negative");
+    options.slam.seed = static_cast<std::uint64_t>(*arguments.seed);
+  }
   if (arguments.threads) options.threads = *arguments.threads;
   if (arguments.no_loops) options.slam.loops.enabled = false;
   options.check();
