@@ -64,7 +64,6 @@ void Odometry::fill_between(std::int64_t ref, std::int64_t cur, Random& random,
 OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<SE3>& T_known) {
   if (!cues_.points) return try_lines(frame, T_known);
   OdometryUpdate update;
-  const View& reference = views_.front();
   View view{frame.id, {}};
   std::vector<std::int64_t> ids;
   std::map<std::int64_t, int> index;
@@ -73,7 +72,7 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
     view.px[track.id] = track.px.cast<double>();
     index[track.id] = static_cast<int>(ids.size());
     ids.push_back(track.id);
-    px_ref.push_back(reference.px.at(track.id));
+    px_ref.push_back(views_.front().px.at(track.id));
     px_cur.push_back(track.px.cast<double>());
   }
   views_.push_back(view);
