@@ -146,17 +146,21 @@ OdometryUpdate Odometry::track(const Frame& frame) {
 bool Odometry::keyframe_due(const Frame& frame, int inliers) const {
   const KeyframeOptions& o = options_.keyframe;
   if (inliers < o.min_tracked_share * landmarks_at_keyframe_) return true;
+  std::vector<double> flow_px;
   std::vector<FlowVector> flow;
   for (const PointTrack& track : tracker_.tracks()) {
     const auto at_keyframe = px_at_keyframe_.find(track.id);
     if (at_keyframe == px_at_keyframe_.end()) continue;
-    FlowVector vector;
+    const Eigen::Vector2d moved_px = track.px.cast<double>() - at_keyframe->second;
+    if (!o.derotated) {
+      flow_px.push_back(moved_px.norm());
+      continue;
+    }
+    FlowVector& vector = flow.emplace_back();
     vector.kind = FlowVector::Kind::kFull;
     vector.px = at_keyframe->second;
-    vector.flow = track.px.cast<double>() - at_keyframe->second;
-    flow.push_back(vector);
+    vector.flow = moved_px;
   }
-  std::vector<double> flow_px;
   if (lines_ && !cues_.points)
     flow_px = lines_->flow_px();
   else if (o.derotated)
@@ -164,8 +168,6 @@ bool Odometry::keyframe_due(const Frame& frame, int inliers) const {
          derotate(calibration_.camera, flow,
                   {(window_.pose(last_keyframe_).inverse() * T_odom_last_).rotation()}))
       flow_px.push_back(calibration_.camera.fx * vector.flow().norm());
-  else
-    for (const FlowVector& vector : flow) flow_px.push_back(vector.flow.norm());
   if (flow_px.size() < 10) return true;
   const double share = median_of(flow_px) / frame.image.cols;
   return share > o.max_flow_share ||
