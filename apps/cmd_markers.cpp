@@ -5,19 +5,17 @@
 #include <placegraph/frontend/odometry/marker_filter.h>
 #include <placegraph/frontend/odometry/marker_pose.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/calibration_file.h>
-#include <placegraph/io/camera_file.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/marker_layout_file.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "apps/calib_option.h"
 #include "apps/draw_markers.h"
 #include "apps/output.h"
 #include "apps/usage.h"
@@ -47,15 +45,7 @@ struct Found {
 };
 
 Camera read_camera(const Arguments& arguments) {
-  Camera camera;
-  const std::string kind = std::filesystem::path(arguments.camera).extension().string();
-  if (kind == ".yaml" || kind == ".yml") {
-    CalibrationYaml yaml;
-    read_calibration_yaml(arguments.camera, yaml);
-    camera = yaml.camera();
-  } else {
-    camera = read_camera_file(arguments.camera);
-  }
+  Camera camera = read_calib(arguments.camera);
   camera.cx -= arguments.shift_px();
   camera.cy -= arguments.shift_px();
   return camera;
@@ -209,19 +199,15 @@ void detect(Arguments arguments) {
 
 void add_markers_command(CLI::App& app) {
   CLI::App* markers = app.add_subcommand("markers", "Square markers of images");
-  markers->footer("placegraph markers detect image.png --camera K.txt --side 0.2 --draw found.png");
+  markers->footer("placegraph markers detect image.png --calib K.txt --side 0.2 --draw found.png");
   markers->require_subcommand(1);
   auto arguments = std::make_shared<Arguments>();
   Arguments& a = *arguments;
   CLI::App* command = markers->add_subcommand(
       "detect", "Find markers: corners below a tenth of a pixel, both poses that explain them");
-  command->footer("placegraph markers detect image.png --camera K.txt --side 0.2 --draw found.png");
+  command->footer("placegraph markers detect image.png --calib K.txt --side 0.2 --draw found.png");
   command->add_option("IMAGE", a.image, "image")->required();
-  command
-      ->add_option("--camera", a.camera,
-                   "one line fx fy cx cy width height [px], or a calibration.yaml")
-      ->required()
-      ->check(CLI::ExistingFile);
+  add_calib_option(*command, a.camera, kCalibFile, "--camera")->required();
   auto* dictionary =
       command->add_option("--dictionary", a.dictionary, "apriltag_36h11, aruco_4x4_50, ...")
           ->capture_default_str();

@@ -4,7 +4,6 @@
 #include <placegraph/frontend/planes/motion_from_planes.h>
 #include <placegraph/frontend/planes/planar_regions.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/calibration_file.h>
 #include <placegraph/io/match_file.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/calib_option.h"
 #include "apps/output.h"
 #include "apps/usage.h"
 
@@ -67,15 +67,6 @@ ordered_json motion_json(const MotionFromPlanesResult& result) {
   return json;
 }
 
-Camera read_camera(const std::string& path) {
-  CalibrationYaml yaml;
-  read_calibration_yaml(path, yaml);
-  const Camera camera = yaml.camera();
-  if (camera.distortion != Distortion::kNone)
-    throw FileError(path, "planes need matches and a camera without distortion");
-  return camera;
-}
-
 void print(const Arguments& arguments, int matches, const PlanarRegionsResult& result,
            const ordered_json& motion, double cpu_ms) {
   if (arguments.json) {
@@ -105,8 +96,7 @@ void print(const Arguments& arguments, int matches, const PlanarRegionsResult& r
 void run(const Arguments& arguments) {
   arguments.regions.check();
   arguments.planes_motion.check();
-  require(arguments.motion.empty() || !arguments.calibration.empty(),
-          "--motion: needs --calibration");
+  require(arguments.motion.empty() || !arguments.calibration.empty(), "--motion: needs --calib");
   require(arguments.motion.empty() || arguments.motion != arguments.out,
           "--motion: the same file as --out");
   require_free(arguments.out, arguments.force);
@@ -114,7 +104,8 @@ void run(const Arguments& arguments) {
   const MatchFile file = read_matches(arguments.in);
   const PointMatches matches{file.px_a, file.px_b};
   std::optional<Camera> camera;
-  if (!arguments.calibration.empty()) camera = read_camera(arguments.calibration);
+  if (!arguments.calibration.empty())
+    camera = read_calib_without_distortion(arguments.calibration, "planes need matches and");
 
   const Stopwatch watch;
   Random random(arguments.seed);
@@ -149,15 +140,16 @@ void add_planes_command(CLI::App& app) {
   CLI::App* command = planes->add_subcommand(
       "two-view", "Label the point matches of two views by the plane they lie on");
   command->footer(
-      "placegraph planes two-view matches.txt --out labels.txt --calibration calibration.yaml "
+      "placegraph planes two-view matches.txt --out labels.txt --calib K.txt "
       "--motion motion.json");
   command->add_option("MATCHES", a.in, "lines of xA yA xB yB [px]; further columns are not read")
       ->required()
       ->check(CLI::ExistingFile);
   command->add_option("-o,--out", a.out, "one label a match: 0 on no plane, 1 the largest plane")
       ->required();
-  command->add_option("--calibration", a.calibration, "camera of both views: also the motion")
-      ->check(CLI::ExistingFile);
+  add_calib_option(*command, a.calibration,
+                   std::string("camera of both views: also the motion; ") + kCalibFile,
+                   "--calibration");
   command->add_option("--motion", a.motion, "motion and planes as JSON");
   command->add_option("--noise", a.regions.noise_px, "of a match, about [px]")
       ->capture_default_str();

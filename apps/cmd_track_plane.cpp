@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/calibration_file.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/text_file.h>
 #include <placegraph/io/trajectory_file.h>
@@ -14,6 +13,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/calib_option.h"
 #include "apps/frame_source.h"
 #include "apps/output.h"
 #include "apps/plane_track_files.h"
@@ -68,11 +68,8 @@ std::optional<Camera> camera_of(const Arguments& arguments, const FrameSource& s
             "--calib: " + arguments.in + " has no calibration; name a file with one");
     return camera;
   }
-  CalibrationYaml yaml;
-  read_calibration_yaml(arguments.calibration, yaml);
-  const Camera camera = yaml.camera();
-  if (camera.distortion != Distortion::kNone)
-    throw FileError(arguments.calibration, "a plane's motion needs images without distortion");
+  const Camera camera =
+      read_calib_without_distortion(arguments.calibration, "a plane's motion needs");
   if (camera.width != image.cols || camera.height != image.rows)
     throw FileError(arguments.calibration,
                     fmt::format("is for images of {}x{}, these are {}x{}", camera.width,
@@ -222,7 +219,7 @@ void add_track_plane_command(CLI::App& app) {
       command
           ->add_option("--calib", a.calibration,
                        "also the motion before the plane, with the sequence's own camera or that "
-                       "of a calibration.yaml")
+                       "of a file: a line fx fy cx cy width height [px], or a calibration.yaml")
           ->expected(0, 1);
   add_choice(*command, "--model", a.options.model, plane_model_names(), "how it may move");
   add_choice(*command, "--similarity", a.options.align.gradient.similarity, similarity_names(),

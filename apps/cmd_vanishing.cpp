@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <placegraph/frontend/lines/scene_directions.h>
-#include <placegraph/io/camera_file.h>
 #include <placegraph/io/segment_file.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/calib_option.h"
 #include "apps/output.h"
 #include "apps/usage.h"
 
@@ -109,7 +109,7 @@ void print(const Arguments& arguments, std::size_t segments, const SceneDirectio
 void run(const Arguments& arguments) {
   arguments.options.check();
   const std::vector<LineSegment> segments = read_segment_columns(arguments.in);
-  const Camera camera = read_camera_file(arguments.camera);
+  const Camera camera = read_calib_without_distortion(arguments.camera, "segments need");
   const Stopwatch watch;
   Random random(arguments.seed);
   const SceneDirections scene = find_scene_directions(segments, camera, arguments.options, random);
@@ -134,9 +134,7 @@ void add_vanishing_command(CLI::App& app) {
   command->add_option("LINES", a.in, "lines of u1 v1 u2 v2 [px]; further columns are not read")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("--calib", a.camera, "one line fx fy cx cy width height [px]")
-      ->required()
-      ->check(CLI::ExistingFile);
+  add_calib_option(*command, a.camera, kCalibFile)->required();
   command
       ->add_option("--noise", a.options.points.noise.end_px,
                    "of the ends of segments, about; it is estimated [px]")

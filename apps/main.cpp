@@ -21,6 +21,7 @@
 #include "apps/cmd_loops.h"
 #include "apps/cmd_markers.h"
 #include "apps/cmd_match.h"
+#include "apps/cmd_motion.h"
 #include "apps/cmd_optimize.h"
 #include "apps/cmd_places.h"
 #include "apps/cmd_planes.h"
@@ -81,6 +82,7 @@ int main(int argc, char** argv) {
     add_loops_command(app);
     add_markers_command(app);
     add_match_command(app);
+    add_motion_command(app);
     add_optimize_command(app);
     add_places_command(app);
     add_planes_command(app);

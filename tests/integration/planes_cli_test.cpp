@@ -49,7 +49,7 @@ class PlanesCli : public test::CliTest {
 TEST_F(PlanesCli, LabelsMatchesAndTellsTheMotion) {
   const test::PlanesWorld world = make_world(2);
   const CommandResult result =
-      run("planes two-view matches.txt --out labels.txt --calibration calibration.yaml "
+      run("planes two-view matches.txt --out labels.txt --calib calibration.yaml "
           "--motion motion.json --json");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_LT(test::misclassification(world.labels, labels_of(dir / "labels.txt")), 0.05);
@@ -63,6 +63,24 @@ TEST_F(PlanesCli, LabelsMatchesAndTellsTheMotion) {
   Eigen::Vector3d t;
   for (int i = 0; i < 3; ++i) t[i] = motion["readings"][0]["t_b_a"][i];
   EXPECT_LT(test::angle_between(t, world.T_cur_ref.translation()), 0.08);
+}
+
+TEST_F(PlanesCli, TakesTheCameraInEitherFormAndByItsFormerName) {
+  const test::PlanesWorld world = make_world(2);
+  const Camera& k = world.camera;
+  std::ostringstream line;
+  line.precision(10);
+  line << k.fx << ' ' << k.fy << ' ' << k.cx << ' ' << k.cy << " 640 480\n";
+  write_file(dir / "K.txt", line.str());
+  const auto motion_by = [&](const std::string& camera) {
+    const CommandResult result = run("planes two-view matches.txt --out labels.txt --force " +
+                                     camera + " --motion motion.json");
+    EXPECT_EQ(result.code, 0) << result.err;
+    return read_file(dir / "motion.json");
+  };
+  const std::string motion = motion_by("--calib calibration.yaml");
+  EXPECT_EQ(motion_by("--calibration calibration.yaml"), motion);
+  EXPECT_EQ(motion_by("--calib K.txt"), motion);
 }
 
 TEST_F(PlanesCli, LabelsAllZeroWhereThereIsNoPlane) {
@@ -83,7 +101,11 @@ TEST_F(PlanesCli, ReadsStrictlyAndNeverOverwritesUnasked) {
   expect_usage_error("planes", "subcommand");
   expect_usage_error("planes two-view matches.txt", "--out");
   expect_usage_error("planes two-view none.txt --out l.txt", "none.txt");
-  expect_usage_error("planes two-view matches.txt --out l.txt --motion m.json", "--calibration");
+  expect_usage_error("planes two-view matches.txt --out l.txt --motion m.json", "--calib");
+  expect_usage_error(
+      "planes two-view matches.txt --out l.txt --calib calibration.yaml --calibration "
+      "calibration.yaml",
+      "excludes");
   expect_usage_error("planes two-view matches.txt --out l.txt --noise 0", "noise_px");
   write_file(dir / "broken.txt", "1 2 3 4\n1 2 3\n");
   expect_usage_error("planes two-view broken.txt --out l.txt", "broken.txt:2: ");
