@@ -113,24 +113,28 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   std::vector<bool> keep;
   const Pose3d2dResult points = follow_points(frame, prior, random, keep);
   update.inliers = static_cast<int>(points.inliers.size());
-  std::optional<SE3> T_odom_cam;
-  if (points.outcome) T_odom_cam = points.T_ref_cam;
-  if (lines_) T_odom_cam = pose_with_lines(frame, prior, points, random, update.inliers);
-  if (!T_odom_cam) {
-    log(log_, LogLevel::kInfo,
-        "frame " + std::to_string(frame.id) + " lost: " + points.outcome.reason);
+  Outcome posed = points.outcome;
+  SE3 T_odom_cam = points.T_ref_cam;
+  if (lines_) {
+    const PoseFromLines both = pose_with_lines(frame, prior, points, random);
+    posed = both.outcome;
+    T_odom_cam = both.T_ref_cam;
+    update.inliers += static_cast<int>(both.inliers.size());
+  }
+  if (!posed) {
+    log(log_, LogLevel::kInfo, "frame " + std::to_string(frame.id) + " lost: " + posed.reason);
     update.state = TrackingState::kLost;
     update.turn = turn_since(px_at_keyframe_, random);
     return update;
   }
   tracker_.keep(keep);
 
-  T_last_cur_ = T_odom_last_.inverse() * *T_odom_cam;
+  T_last_cur_ = T_odom_last_.inverse() * T_odom_cam;
   velocity_known_ = true;
-  T_odom_last_ = *T_odom_cam;
+  T_odom_last_ = T_odom_cam;
   ++frames_since_keyframe_;
   if (keyframe_due(frame, update.inliers)) {
-    add_keyframe(frame, *T_odom_cam, update);
+    add_keyframe(frame, T_odom_cam, update);
     T_odom_last_ = window_.pose(last_keyframe_);
     if (update.rescale)
       T_last_cur_ = SE3(T_last_cur_.rotation(), update.rescale->factor * T_last_cur_.translation());

@@ -197,8 +197,8 @@ class Odometry {
   Pose3d2dResult follow_points(const Frame& frame, const SE3& prior, Random& random,
                                std::vector<bool>& keep);
   Pose3d2dResult pose_from_points(const SE3& prior, Random& random, std::vector<bool>& keep) const;
-  std::optional<SE3> pose_with_lines(const Frame& frame, const SE3& prior,
-                                     const Pose3d2dResult& points, Random& random, int& inliers);
+  PoseFromLines pose_with_lines(const Frame& frame, const SE3& prior, const Pose3d2dResult& points,
+                                Random& random);
   int landmarks_in_window() const;
   OdometryUpdate begin_on_surfaces(const Frame& frame);
   OdometryUpdate track_surfaces(const Frame& frame);

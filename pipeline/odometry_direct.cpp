@@ -3,6 +3,17 @@
 #include <cmath>
 
 namespace placegraph {
+namespace {
+
+/// Of a motion that is well enough to go on by, but not to begin with.
+Outcome weakly_agrees(const DirectMotion& motion) {
+  return Outcome::failure(Outcome::Code::kInconsistent,
+                          "to begin with, correlation " + std::to_string(motion.agreement) +
+                              " and a share of inliers of " + std::to_string(motion.inlier_share) +
+                              " are too little");
+}
+
+}  // namespace
 
 /// Two eyes and depth measure lengths at once, as does a surface at a known distance.
 bool Odometry::metric_from_start() const {
@@ -55,6 +66,7 @@ MotionGuess Odometry::expected_motion() const {
 DirectMotion Odometry::align_surfaces() const {
   const MotionGuess guess = expected_motion();
   DirectMotion best;
+  best.outcome = Outcome::failure(Outcome::Code::kNoConsensus, "no way to begin with suits");
   if (velocity_known_) {
     best = surfaces_->align(guess);
     if (best.outcome) return best;
@@ -66,12 +78,18 @@ DirectMotion Odometry::align_surfaces() const {
   sigmas << 0.3 * reach_m, 0.2 * reach_m, reach_m, 0.015, 0.025, 0.01;
   MotionGuess about{guess.T_ref_cur};
   about.information = sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
-  double best_score = 0;
+  double best_score = 0, nearest = 0;
   const auto consider = [&](const DirectMotion& motion) {
     const double score = motion.agreement * motion.inlier_share * std::sqrt(motion.visible_share);
     if (!motion.outcome || motion.agreement < kLeastAgreement ||
-        motion.inlier_share < kLeastInliers || score <= best_score)
+        motion.inlier_share < kLeastInliers) {
+      // What came nearest says why there is none, where the velocity led nowhere.
+      if (velocity_known_ || best_score > 0 || !(score > nearest)) return;
+      nearest = score;
+      best.outcome = motion.outcome ? weakly_agrees(motion) : motion.outcome;
       return;
+    }
+    if (score <= best_score) return;
     best_score = score;
     best = motion;
   };

@@ -10,10 +10,9 @@ void Odometry::observe_lines(std::int64_t keyframe, const Frame& frame) {
 
 /// Lines are looked for from where the points say, or else from where the camera was going, which
 /// is a weak measurement of its own; where it was going is not known at first, so several ways are
-/// tried.
-std::optional<SE3> Odometry::pose_with_lines(const Frame& frame, const SE3& prior,
-                                             const Pose3d2dResult& points, Random& random,
-                                             int& inliers) {
+/// tried. What points alone tell is the answer where lines tell nothing.
+PoseFromLines Odometry::pose_with_lines(const Frame& frame, const SE3& prior,
+                                        const Pose3d2dResult& points, Random& random) {
   const LineCue before = *lines_;
   PoseFromLines best;
   const auto look_from = [&](const PoseGuess& guess) {
@@ -47,11 +46,15 @@ std::optional<SE3> Odometry::pose_with_lines(const Frame& frame, const SE3& prio
       look_from(guess);
     }
   }
-  inliers += static_cast<int>(best.inliers.size());
-  if (!best.outcome && !points.outcome) return std::nullopt;
-  const SE3 T_odom_cam = best.outcome ? best.T_ref_cam : points.T_ref_cam;
-  lines_->accept(window_, T_odom_cam);
-  return T_odom_cam;
+  if (!best.outcome && points.outcome) {
+    best.outcome = points.outcome;
+    best.T_ref_cam = points.T_ref_cam;
+  }
+  if (best.outcome)
+    lines_->accept(window_, best.T_ref_cam);
+  else if (cues_.points)
+    best.outcome.reason = points.outcome.reason + "; " + best.outcome.reason;
+  return best;
 }
 
 }  // namespace placegraph

@@ -208,7 +208,10 @@ PoseFromLines estimate_pose_from_lines(const Camera& camera, const std::vector<S
   const int n = static_cast<int>(lines.size());
   PoseFromLines result;
   if (n < std::max(3, options.ransac.min_inliers)) {
-    result.outcome = Outcome::failure(Outcome::Code::kTooFewData, std::to_string(n) + " lines");
+    result.outcome =
+        Outcome::failure(Outcome::Code::kTooFewData,
+                         std::to_string(n) + " lines, " +
+                             std::to_string(std::max(3, options.ransac.min_inliers)) + " needed");
     return result;
   }
   for (const SeenLine& line : lines)

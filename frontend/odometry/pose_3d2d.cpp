@@ -117,7 +117,10 @@ Pose3d2dResult estimate_pose_3d2d(const Camera& camera,
   const int n = static_cast<int>(px.size());
   if (n < std::max(4, options.ransac.min_inliers)) {
     Pose3d2dResult result;
-    result.outcome = Outcome::failure(Outcome::Code::kTooFewData, std::to_string(n) + " points");
+    result.outcome =
+        Outcome::failure(Outcome::Code::kTooFewData,
+                         std::to_string(n) + " points, " +
+                             std::to_string(std::max(4, options.ransac.min_inliers)) + " needed");
     return result;
   }
   if (prior) {

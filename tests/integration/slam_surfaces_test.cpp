@@ -73,7 +73,15 @@ TEST(SlamBySurfaces, OneEyeNeedsItsHeight) {
 
 TEST(SlamBySurfaces, AreLostInTheDarkAndSaySo) {
   const StreetDataset dataset(16, 8, 11);
-  const RunResult run = run_sequence(dataset, run_by("plane", SensorChoice::kStereo));
+  std::vector<std::string> lost;
+  const RunResult run = run_sequence(dataset, run_by("plane", SensorChoice::kStereo), {},
+                                     [&](LogLevel, const std::string& message) {
+                                       if (message.find(" lost:") != message.npos)
+                                         lost.push_back(message);
+                                     });
+  EXPECT_EQ(lost.size(), 3u);
+  for (const std::string& message : lost)
+    EXPECT_GT(message.size(), message.find("lost: ") + 6) << message << " gives no reason";
   for (int i = 8; i < 11; ++i)
     EXPECT_FALSE(run.map.trajectory_online.poses[static_cast<std::size_t>(i)].T_world_body);
   EXPECT_TRUE(run.map.trajectory_online.poses[7].T_world_body);
