@@ -1,4 +1,5 @@
 #include <placegraph/frontend/odometry/epipolar_error.h>
+#include <placegraph/frontend/odometry/epipolar_refinement.h>
 #include <placegraph/frontend/odometry/pose_gravity.h>
 #include <placegraph/graph/core/error.h>
 
@@ -91,48 +92,20 @@ std::vector<SE3> solve_three_points(const Views& views, const std::vector<int>& 
   return models;
 }
 
-SE3 unit_length(const SE3& T) {
-  return SE3(T.rotation(), T.translation() / T.translation().norm());
-}
-
-/// Gauss-Newton over T_ref_cur on the Huber-weighted Sampson errors and on what the verticals say
-/// of the rotation: R down_cur = down_ref. `information` is of the pose returned, per px^2 of
-/// `sigma_px`.
+/// On the epipolar errors and on what the verticals say of the rotation: R down_cur = down_ref.
 SE3 refine(const Views& views, const std::vector<int>& indices, const SE3& T_start,
            const GravityPoseOptions& o, double sigma_px, int iterations, Matrix6d* information) {
   const Vector3d down_ref = views.R_level_ref.row(1), down_cur = views.R_level_cur.row(1);
   const double sigma_down = std::sqrt(2.0) * o.sigma_gravity_deg * M_PI / 180;
-  const double huber_px = o.threshold_px / 2;
-  SE3 T = unit_length(T_start);
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    const EpipolarError error(views.camera, T);
-    Matrix6d H = Matrix6d::Zero();
-    Vector6d g = Vector6d::Zero();
-    Eigen::Matrix<double, 1, 6> J;
-    for (int i : indices) {
-      const double r = error(views.x_ref[i], views.x_cur[i], &J);
-      if (!J.allFinite() || !std::isfinite(r)) continue;
-      const double weight =
-          (std::abs(r) > huber_px ? huber_px / std::abs(r) : 1) / (sigma_px * sigma_px);
-      H.noalias() += weight * J.transpose() * J;
-      g.noalias() += weight * r * J.transpose();
-    }
+  const auto verticals = [&](const SE3& T, Matrix6d& H, Vector6d& g) {
     // d (R exp(w) down_cur) / dw = -R hat(down_cur); about the vertical itself it is zero.
     const Matrix3d R = T.rotation().matrix();
     const Matrix3d J_down = -R * hat(down_cur) / sigma_down;
     H.bottomRightCorner<3, 3>() += J_down.transpose() * J_down;
     g.tail<3>() += J_down.transpose() * (R * down_cur - down_ref) / sigma_down;
-    if (information) *information = H;
-    // The length of the translation is nobody's: held.
-    const Vector3d along = R.transpose() * T.translation();
-    Matrix6d held = H;
-    held.topLeftCorner<3, 3>() += H.trace() * along * along.transpose();
-    const Vector6d step = -(held + 1e-12 * H.trace() * Matrix6d::Identity()).ldlt().solve(g);
-    if (!step.allFinite()) break;
-    T = unit_length(T.plus(step));
-    if (step.norm() < 1e-9) break;
-  }
-  return T;
+  };
+  return refine_epipolar(views.camera, views.x_ref, views.x_cur, indices, T_start,
+                         {o.threshold_px / 2, sigma_px, iterations}, information, verticals);
 }
 
 }  // namespace
@@ -186,10 +159,7 @@ GravityPoseResult estimate_pose_with_gravity(const Camera& camera,
   if (!consensus.outcome) return result;
   SE3 T =
       refine(views, result.inliers, consensus.model, options, options.threshold_px / 2, 6, nullptr);
-  double sum = 0;
-  const EpipolarError error(camera, T);
-  for (int i : result.inliers) sum += std::pow(error(views.x_ref[i], views.x_cur[i]), 2);
-  result.rmse_px = std::sqrt(sum / static_cast<double>(result.inliers.size()));
+  result.rmse_px = epipolar_rmse_px(camera, views.x_ref, views.x_cur, result.inliers, T);
   // The residuals of a few points may be small by chance: sigma is not believed below 0.1 px.
   T = refine(views, result.inliers, T, options, std::max(0.1, result.rmse_px), 2,
              &result.information);

@@ -15,6 +15,7 @@
 #include <placegraph/frontend/odometry/pose_3d2d.h>
 #include <placegraph/frontend/odometry/pose_3d3d.h>
 #include <placegraph/frontend/odometry/pose_gravity.h>
+#include <placegraph/frontend/odometry/relative_pose.h>
 #include <placegraph/frontend/places/loop_verifier.h>
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/frontend/planes/dominant_surface.h>
@@ -29,15 +30,17 @@ namespace {
 
 template <class Options>
 class FrontendOptions : public testing::Test {};
-using All = testing::Types<
-    DetectorOptions, MatcherOptions, StereoMatcherOptions, PointTrackerOptions,
-    MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
-    PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions, PlanarRegionsOptions,
-    MotionFromPlanesOptions, SegmentDetectorOptions, SegmentMatcherOptions, SceneDirectionOptions,
-    PlaneTrackerOptions, GravityPoseOptions, CircularMotionOptions, Pose3d3dOptions,
-    InverseDepthPlaneOptions, DominantSurfaceOptions, LineTrackerOptions, LineStereoOptions,
-    LineTriangulationOptions, PoseFromLinesOptions, PositionFilterOptions, SquareFitOptions,
-    MarkerDetectorOptions, MarkerFilterOptions, BeaconDetectorOptions, BeaconPoseOptions>;
+using All =
+    testing::Types<DetectorOptions, MatcherOptions, StereoMatcherOptions, PointTrackerOptions,
+                   MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
+                   PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
+                   PlanarRegionsOptions, MotionFromPlanesOptions, SegmentDetectorOptions,
+                   SegmentMatcherOptions, SceneDirectionOptions, PlaneTrackerOptions,
+                   GravityPoseOptions, RelativePoseOptions, CircularMotionOptions, Pose3d3dOptions,
+                   InverseDepthPlaneOptions, DominantSurfaceOptions, LineTrackerOptions,
+                   LineStereoOptions, LineTriangulationOptions, PoseFromLinesOptions,
+                   PositionFilterOptions, SquareFitOptions, MarkerDetectorOptions,
+                   MarkerFilterOptions, BeaconDetectorOptions, BeaconPoseOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.

@@ -23,6 +23,27 @@ TEST(MatchFile, ReadsTheFirstFourColumnsOnly) {
   EXPECT_EQ(matches.px_a[1], Eigen::Vector2d(10, 0));
 }
 
+TEST(MatchFile, ReadsPointsOfKnownPlaceInOneViewOrBoth) {
+  const TemporaryFolder dir;
+  write_file(dir / "p.txt", "1 2 3 4 5 6 7\n");
+  const PointPairFile pairs = read_point_pairs(dir / "p.txt");
+  ASSERT_EQ(pairs.points_a.size(), 1u);
+  EXPECT_EQ(pairs.points_a[0], Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(pairs.points_b[0], Eigen::Vector3d(4, 5, 6));
+  const SeenPointFile seen = read_seen_points(dir / "p.txt");
+  ASSERT_EQ(seen.px.size(), 1u);
+  EXPECT_EQ(seen.points[0], Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(seen.px[0], Eigen::Vector2d(4, 5));
+  write_file(dir / "p.txt", "1 2 3 4 5\n");
+  EXPECT_EQ(read_seen_points(dir / "p.txt").px.size(), 1u);
+  try {
+    (void)read_point_pairs(dir / "p.txt");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("p.txt:1: 5 columns, at least 6 expected: xA yA zA"));
+  }
+}
+
 TEST(MatchFile, NamesTheLineThatIsBroken) {
   const TemporaryFolder dir;
   const auto message = [&](const std::string& text) {
