@@ -1,8 +1,6 @@
 # Direct alignment of planar templates: how far from the truth it may start. ALIGNMENT_TRIALS other than 20.
 trials=${ALIGNMENT_TRIALS:-20}
-cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
-cmake --build --preset release -j2 --target bench_align_study
-cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
+build_bench bench_align_study
 study=build/release/tests/bench/bench_align_study
 # told WHAT: a figure of the targets
 told() { sed -n "s/^$1	//p" "$out/alignment_rendered_targets.tsv"; }

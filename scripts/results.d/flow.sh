@@ -1,8 +1,6 @@
 # Optical flow against the exact flow of rendered frames, and what is read from it. FLOW_FRAMES other than 6.
 frames=${FLOW_FRAMES:-6}
-cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
-cmake --build --preset release -j2 --target bench_flow_study
-cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
+build_bench bench_flow_study
 say "flow: rendering and following"
 build/release/tests/bench/bench_flow_study "$out/flow" "$frames" > "$out/flow.log"
 # told WHAT: a figure of the targets

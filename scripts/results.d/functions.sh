@@ -27,6 +27,15 @@ table() { columns figure align "lengths [m]" step target measured met; }
 row() { cells "$@"; }
 absent() { heading "$1"; echo "Absent: the data are not on this machine." >> "$rows"; say "$1: absent"; }
 
+# build_bench TARGET...: programs of tests/bench, which the preset leaves out
+build_bench() {
+  cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
+  cmake --build --preset release -j2 --target "$@"
+  cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
+}
+# tabbed FILE KEY: of lines `key<tab>value`
+tabbed() { sed -n "s/^$2	//p" "$1"; }
+
 # render NAME ARGUMENTS...: renders $out/NAME-world quietly
 render() {
   name=$1; shift

@@ -1,8 +1,6 @@
 # How the cost grows up to 100,000 poses. GROWTH_POSES names other sizes.
 export OPENBLAS_NUM_THREADS=1
-cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
-cmake --build --preset release -j2 --target bench_graph_growth
-cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
+build_bench bench_graph_growth
 heading "Growth: grid worlds in space"
 command_line "OPENBLAS_NUM_THREADS=1 build/release/tests/bench/bench_graph_growth docs/images/graph_growth.png ${GROWTH_POSES:-}"
 echo >> "$rows"

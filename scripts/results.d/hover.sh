@@ -1,8 +1,6 @@
 # Flights of the hover world: position, velocity, drift without markers, CPU a frame, consistency. HOVER_FLIGHTS other than 50.
 flights=${HOVER_FLIGHTS:-50}
-cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
-cmake --build --preset release -j2 --target bench_hover_study
-cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
+build_bench bench_hover_study
 # hover NAME WORLD ARGUMENTS...: result.json in $out/NAME
 hover() {
   name=$1; world=$2; shift 2

@@ -1,8 +1,6 @@
 # Square markers: the simulated tags of the research data, and a sweep of rendered views. MARKER_SEEDS other than 3.
 seeds=${MARKER_SEEDS:-3}
-cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
-cmake --build --preset release -j2 --target bench_marker_study
-cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
+build_bench bench_marker_study
 say "markers: rendering and looking"
 tags=$data/scene/apriltag_sim
 [ -d "$tags" ] || tags=

@@ -1,7 +1,5 @@
 # Shortest ways over the places of rendered drives against the truth, and the way back replayed.
-cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
-cmake --build --preset release -j2 --target bench_route_study
-cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
+build_bench bench_route_study
 heading "The way back over the places of rendered drives"
 command_line "placegraph synth town-loop --out TOWN --difficulty standard"
 command_line "placegraph synth \$DATA/kitti_gt/06/poses.txt --out R06 --difficulty standard --mono    # and 00"

@@ -3,67 +3,15 @@
 #include <placegraph/frontend/lines/segment_matcher.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/segment_file.h>
-#include <placegraph/io/text_file.h>
 
 #include <algorithm>
 #include <iostream>
-#include <set>
-#include <sstream>
 
 #include "tests/support/data.h"
+#include "tests/support/segment_groups.h"
 
 namespace placegraph {
 namespace {
-
-/// Segments of one edge in either image: each in `a` matches each in `b`.
-struct Group {
-  std::vector<int> a, b;
-};
-
-/// "(0,28) (3)" a line.
-std::vector<Group> read_groups(const std::string& path) {
-  TextFile file(path);
-  std::vector<Group> groups;
-  for (std::string_view line; file.next_data(line);) {
-    Group group;
-    std::vector<int>* side = &group.a;
-    std::istringstream text{std::string(line)};
-    for (char c = 0; text >> c;) {
-      if (c == ')') side = &group.b;
-      if (c != '(' && c != ',') continue;
-      int index = 0;
-      if (text >> index) side->push_back(index);
-    }
-    groups.push_back(group);
-  }
-  return groups;
-}
-
-struct Judgement {
-  double precision = 0;      ///< share of the matches that people marked too
-  double recall_groups = 0;  ///< share of the groups of which a pair was found
-  double recall_pairs = 0;   ///< share of all pairs of segments in groups
-};
-
-Judgement judge(const std::vector<SegmentMatch>& matches, const std::vector<Group>& groups) {
-  std::set<std::pair<int, int>> found, truth;
-  for (const SegmentMatch& match : matches) found.emplace(match.a, match.b);
-  int hit = 0, right = 0;
-  for (const Group& group : groups) {
-    bool any = false;
-    for (int i : group.a)
-      for (int j : group.b) {
-        truth.emplace(i, j);
-        any |= found.contains({i, j});
-      }
-    hit += any;
-  }
-  for (const auto& match : found) right += truth.contains(match);
-  const auto share = [](int part, std::size_t whole) {
-    return whole ? part / static_cast<double>(whole) : 0.0;
-  };
-  return {share(right, found.size()), share(hit, groups.size()), share(right, truth.size())};
-}
 
 struct Pair {
   const char *name, *image_a, *image_b, *number_b;
@@ -94,8 +42,10 @@ TEST_P(LineMatching, IsPreciseAndFindsMostEdges) {
         read_image(folder + pair.image_b).grey,
         read_segments(folder + kind + pair.number_b + ".txt"), {});
     EXPECT_TRUE(found.outcome) << pair.name << ": " << found.outcome.reason;
-    const Judgement result =
-        judge(found.matches, read_groups(folder + kind + "_GroundTruthMatches.txt"));
+    std::set<std::pair<int, int>> matches;
+    for (const SegmentMatch& match : found.matches) matches.emplace(match.a, match.b);
+    const test::SegmentJudgement result = test::judge_segment_matches(
+        matches, test::read_segment_groups(folder + kind + "_GroundTruthMatches.txt"));
     std::cout << pair.name << " " << kind << ": " << found.matches.size() << " matches, precision "
               << result.precision << ", recall of groups " << result.recall_groups << ", of pairs "
               << result.recall_pairs << "\n";
