@@ -80,6 +80,9 @@ TEST_F(LinesCli, SaysWhatIsWrong) {
   expect_usage_error("lines", "subcommand");
   expect_usage_error("lines match a.png -o m.txt", "IMAGES");
   expect_usage_error("lines match a.png absent.png -o m.txt", "absent.png: image is missing");
+  expect_usage_error("lines match -o m.txt", "IMAGES is required");
+  expect_usage_error("lines match --segments a.txt b.txt -o m.txt",
+                     "--segments: needs the two images as well");
   dir.write("bad.txt", "1 2 3\n");
   expect_usage_error("lines match a.png b.png --segments a.txt bad.txt -o m.txt", "bad.txt:1:");
   expect_usage_error("lines match a.png b.png -o a.txt", "--force");
