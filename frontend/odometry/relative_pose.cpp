@@ -58,6 +58,15 @@ Matrix6d covariance_of(const Matrix6d& information) {
   return covariance;
 }
 
+/// The matches whose rays meet to `threshold_px`.
+std::vector<int> meeting(const Views& views, const SE3& T_ref_cur, double threshold_px) {
+  const EpipolarError error(views.camera, T_ref_cur);
+  std::vector<int> indices;
+  for (int i = 0; i < static_cast<int>(views.x_ref.size()); ++i)
+    if (std::abs(error(views.x_ref[i], views.x_cur[i])) < threshold_px) indices.push_back(i);
+  return indices;
+}
+
 /// Of the four motions of an essential matrix the one that has most points before both eyes.
 void take_essential(const Views& views, const Pose2d2dResult& found,
                     const RelativePoseOptions& options, RelativePose& result) {
@@ -72,18 +81,24 @@ void take_essential(const Views& views, const Pose2d2dResult& found,
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   const double huber_px = options.two_view.threshold_px / 2;
   const auto refine = [&](const SE3& T, double sigma_px, Matrix6d* information) {
-    return refine_epipolar(views.camera, views.x_ref, views.x_cur, found.inliers, T,
+    return refine_epipolar(views.camera, views.x_ref, views.x_cur, result.inliers, T,
                            {huber_px, sigma_px, 10}, information);
   };
-  SE3 T = refine(ranked[0].second, 1, nullptr);
-  result.rmse_px = epipolar_rmse_px(views.camera, views.x_ref, views.x_cur, found.inliers, T);
+  // The inliers of five points are a biased choice; those of all of them less so.
+  SE3 T = ranked[0].second;
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    T = refine(T, 1, nullptr);
+    result.inliers = meeting(views, T, options.two_view.threshold_px);
+  }
+  result.rmse_px = epipolar_rmse_px(views.camera, views.x_ref, views.x_cur, result.inliers, T);
   Matrix6d information = Matrix6d::Zero();
   T = refine(T, std::max(kLeastSigma_px, result.rmse_px), &information);
   result.T_ref_cur = T;
   result.R_ref_cur = T.rotation();
   result.covariance = covariance_of(information);
   const TwoViewParallax parallax =
-      two_view_parallax(views.camera, T, views.x_ref, views.x_cur, found.inliers);
+      two_view_parallax(views.camera, T, views.x_ref, views.x_cur, result.inliers);
   result.parallax_px = parallax.median_px;
   for (const auto& [ahead, other] : ranked)
     if (ahead > options.ambiguity * ranked[0].first) result.rivals.push_back(other);
