@@ -45,12 +45,6 @@ std::vector<LineSegment> segments_for(const MatchArguments& arguments, std::size
 }
 
 void match(const MatchArguments& arguments) {
-  // Positions alone do not tell: where windows repeat, a wrong motion explains half of the edges.
-  require(arguments.images.size() == 2,
-          arguments.segments.empty()
-              ? "IMAGES is required: two images"
-              : "--segments: needs the two images as well, `lines match A.png B.png --segments "
-                "A.txt B.txt`: segments are told apart by what surrounds them");
   require_free(arguments.out, arguments.force);
   for (const std::string& path : arguments.segments_out) require_free(path, arguments.force);
   const Image image_a = read_image(arguments.images[0]).grey;
@@ -93,15 +87,22 @@ void add_match(CLI::App& lines) {
   CLI::App* command = lines.add_subcommand(
       "match", "Find the same straight edges in two images, however far apart");
   command->footer("placegraph lines match a.png b.png -o matches.txt");
-  command->add_option("IMAGES", a.images, "two images (needed)")->expected(2);
+  auto* images = command->add_option("IMAGES", a.images, "two images")->required()->expected(2);
   command
       ->add_option("-o,--out", a.out,
                    "file to write, `i j` a line: numbers of the segments from 0, in the order of "
                    "--segments or --write-segments")
       ->required();
-  auto* given =
-      command->add_option("--segments", a.segments,
-                          "take these two files of segments of the images, u1 v1 u2 v2 a line");
+  // Positions alone do not tell: a mere reflection of a facade explains half of its edges, too.
+  const auto take_segments = [&a, images](const std::vector<std::string>& files) {
+    require(images->count() > 0,
+            "--segments: needs the two images as well, `lines match A.png B.png --segments A.txt "
+            "B.txt`: segments are told apart by what surrounds them");
+    a.segments = files;
+  };
+  auto* given = command->add_option_function<std::vector<std::string>>(
+      "--segments", take_segments,
+      "take these two files of segments of the images, u1 v1 u2 v2 a line");
   given->type_size(2)->expected(1);
   command->add_option("--write-segments", a.segments_out, "two files for the segments")
       ->type_size(2)

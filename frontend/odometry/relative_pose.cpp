@@ -171,7 +171,8 @@ void take_homography(const Views& views, const Pose2d2dResult& found,
   result.R_ref_cur = result.T_ref_cur->rotation();
   // (T Exp(xi))^-1 = T^-1 Exp(-Ad_T xi)
   const Matrix6d Ad = T_cur_ref.adjoint();
-  result.covariance = Ad * motion.readings.front().covariance * Ad.transpose();
+  const Matrix6d covariance = Ad * motion.readings.front().covariance * Ad.transpose();
+  result.covariance = 0.5 * (covariance + covariance.transpose());
   result.parallax_px =
       two_view_parallax(views.camera, *result.T_ref_cur, views.x_ref, views.x_cur, found.inliers)
           .median_px;

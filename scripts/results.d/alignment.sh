@@ -1,5 +1,5 @@
-# Direct alignment of planar templates: how far from the truth it may start. ALIGNMENT_TRIALS other than 12.
-trials=${ALIGNMENT_TRIALS:-12}
+# Direct alignment of planar templates: how far from the truth it may start. ALIGNMENT_TRIALS other than 20.
+trials=${ALIGNMENT_TRIALS:-20}
 build_bench bench_align_study
 study=build/release/tests/bench/bench_align_study
 # told WHAT: a figure of the targets

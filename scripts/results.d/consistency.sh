@@ -23,6 +23,7 @@ if [ -f "$s" ]; then
 fi
 render town200 town-loop --difficulty standard --frames 200
 for cues in points lines plane direct; do consistency_row "consistency-town-$cues" town200 stereo $cues; done
+consistency_row "consistency-town-mono" town200 mono points,plane  # of known height: the world's own
 render corridor corridor-loop --difficulty standard --stereo --depth --frames 620
 for cues in points lines points,lines,plane,manhattan; do consistency_row "consistency-corridor-$cues" corridor stereo $cues; done
 for cues in points lines; do consistency_row "consistency-corridor-rgbd-$cues" corridor rgbd $cues; done

@@ -4,7 +4,7 @@
 // another illumination, blur and 30 % occlusion. Starts are views that a camera may have: with the
 // corners of a convex quadrilateral. On rendered templates also how many steps ESM takes from 4 px
 // to a hundredth pixel, and how much further than ESM alone swarm and ESM reach.
-//   bench_align_study OUT_PREFIX [TRIALS=12] [PLANAR_HOMOGRAPHY_FOLDER]
+//   bench_align_study OUT_PREFIX [TRIALS=20] [PLANAR_HOMOGRAPHY_FOLDER]
 // writes OUT_PREFIX.tsv, OUT_PREFIX.md, OUT_PREFIX_optimizers.png, OUT_PREFIX_similarities.png
 // and, of rendered templates, OUT_PREFIX_targets.tsv.
 #include <fmt/format.h>
@@ -384,7 +384,7 @@ void write_text(const std::string& path, const std::string& text) {
 
 void run(int argc, char** argv) {
   require(argc >= 2 && argc <= 4, "bench_align_study OUT_PREFIX [TRIALS] [FOLDER]");
-  const int trials = argc > 2 ? std::atoi(argv[2]) : 12;
+  const int trials = argc > 2 ? std::atoi(argv[2]) : 20;
   require(trials > 0, "TRIALS must be positive");
   const std::string prefix = argv[1];
   const auto photographs = argc > 3 ? read_photographs(argv[3]) : std::vector<Photograph>();

@@ -90,9 +90,9 @@ TEST_F(VanishingCli, SaysWhatIsWrong) {
   dir.write("lines.txt", "10 10 60 12\n");
   expect_usage_error("vanishing", "LINES");
   expect_usage_error("vanishing lines.txt", "--calib");
-  write_file(dir / "fish.yaml",
-             "width: 640\nheight: 480\nfx: 500\nfy: 500\ncx: 320\ncy: 240\n"
-             "distortion: radtan\ncoefficients: [0.1, 0, 0, 0]\n");
+  dir.write("fish.yaml",
+            "width: 640\nheight: 480\nfx: 500\nfy: 500\ncx: 320\ncy: 240\n"
+            "distortion:\n  model: equidistant\n  coefficients: [0.1, 0, 0, 0]\n");
   expect_usage_error("vanishing lines.txt --calib fish.yaml", "without distortion");
   expect_usage_error("vanishing absent.txt --calib K.txt", "absent.txt");
   expect_usage_error("vanishing lines.txt --calib absent.txt", "absent.txt");
