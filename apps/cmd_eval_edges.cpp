@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/edge_consistency.h>
+#include <placegraph/graph/constraint_source.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/trajectory_file.h>
 #include <CLI/CLI.hpp>
@@ -38,11 +39,6 @@ std::map<std::int64_t, SE3> true_places(const Trajectory& truth, const RunMap& m
   return result;
 }
 
-const char* name_of(ConstraintSource source) {
-  if (source == ConstraintSource::kLoop) return "loop";
-  return source == ConstraintSource::kOdometry ? "odometry" : "other";
-}
-
 void run(const Arguments& arguments) {
   fs::path truth = arguments.truth;
   if (fs::is_directory(truth)) truth /= "poses.txt";
@@ -55,13 +51,13 @@ void run(const Arguments& arguments) {
   std::string text = "source      edges  unknown  mean NEES  median  beyond 99 %\n";
   for (const auto& [source, edges] : by_source) {
     const EdgeConsistency c = edge_consistency(edges, nodes);
-    text += fmt::format("{:<10} {:>6} {:>8} {:>10.3f} {:>7.3f} {:>10.1f} %\n", name_of(source),
+    text += fmt::format("{:<10} {:>6} {:>8} {:>10.3f} {:>7.3f} {:>10.1f} %\n", to_string(source),
                         c.edges, c.unknown, c.mean_nees, c.median_nees, 100 * c.share_beyond_99);
-    report[name_of(source)] = {{"edges", c.edges},
-                               {"unknown", c.unknown},
-                               {"mean_nees", c.mean_nees},
-                               {"median_nees", c.median_nees},
-                               {"share_beyond_99", c.share_beyond_99}};
+    report[to_string(source)] = {{"edges", c.edges},
+                                 {"unknown", c.unknown},
+                                 {"mean_nees", c.mean_nees},
+                                 {"median_nees", c.median_nees},
+                                 {"share_beyond_99", c.share_beyond_99}};
   }
   std::fputs(arguments.json ? (report.dump(1) + "\n").c_str() : text.c_str(), stdout);
 }

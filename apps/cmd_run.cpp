@@ -1,9 +1,9 @@
 #include "apps/cmd_run.h"
 
-#include <placegraph/eval/evaluate.h>
-#include <placegraph/eval/loop_check.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/place_transitions.h>
 #include <placegraph/io/g2o.h>
+#include <placegraph/io/place_graph_export.h>
 #include <placegraph/io/trajectory_file.h>
 #include <placegraph/io/yaml_config.h>
 #include <placegraph/pipeline/run.h>
@@ -21,6 +21,7 @@
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/run_files.h"
+#include "apps/run_judgement.h"
 #include "apps/usage.h"
 
 namespace placegraph::apps {
@@ -66,48 +67,10 @@ double cpu_seconds(const rusage& usage) {
          1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
-/// The judgement of a run whose sequence knows the truth.
-json judgement(const Trajectory& truth, const Trajectory& estimate, Alignment alignment) {
-  EvaluationOptions options;
-  options.association = Association::kIndex;
-  options.alignment = alignment;
-  const EvaluationResult result = evaluate(truth, estimate, options);
-  if (!result.outcome) return {{"refused", result.outcome.reason}};
-  json figures;
-  for (const Metric& metric : metrics(result))
-    figures[metric.key] = metric.value ? json(*metric.value) : json(nullptr);
-  return figures;
-}
-
-/// Accepted loops against the truth: depth measures to centimetres, other sensors to a metre.
-json loop_judgement(const Trajectory& truth, const RunResult& run) {
-  LoopCheckOptions options;
-  if (run.sensor != Sensor::kRgbd) options.max_translation_m = 1;
-  const LoopCheck check = check_loops(truth, run.map.loops, options);
-  json loops = json::array();
-  for (const CheckedLoop& loop : check.loops)
-    loops.push_back({{"query", loop.query_frame},
-                     {"match", loop.match_frame},
-                     {"translation_error_m", loop.translation_error_m},
-                     {"rotation_error_deg", loop.rotation_error_deg}});
-  return {{"max_translation_m", options.max_translation_m},
-          {"max_rotation_deg", options.max_rotation_deg},
-          {"min_frames_apart", options.min_frames_apart},
-          {"true_loops", check.correct},
-          {"false_loops", check.wrong},
-          {"too_near", check.too_near},
-          {"loops", loops}};
-}
-
-/// Ground truth of the frames that were run.
-std::optional<Trajectory> truth_of(const Dataset& dataset, const RunOptions& options,
-                                   std::size_t frames) {
-  if (!dataset.ground_truth() || dataset.ground_truth()->size() != dataset.size())
-    return std::nullopt;
-  Trajectory truth = *dataset.ground_truth();
-  truth.poses.erase(truth.poses.begin(), truth.poses.begin() + options.first_frame);
-  truth.poses.resize(frames);
-  return truth;
+/// Ground truth of the sequence, if there is one pose for every frame.
+const Trajectory* truth_of(const Dataset& dataset) {
+  const auto& truth = dataset.ground_truth();
+  return truth && truth->size() == dataset.size() ? &*truth : nullptr;
 }
 
 std::int64_t frames_to_run(const Dataset& dataset, const RunOptions& options) {
@@ -116,8 +79,7 @@ std::int64_t frames_to_run(const Dataset& dataset, const RunOptions& options) {
 }
 
 void write_results(const std::string& folder, const RunResult& run, const Trajectory& optimized,
-                   const std::optional<Trajectory>& truth, const std::string& title,
-                   const json& summary) {
+                   const Trajectory* truth, const std::string& title, const json& summary) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
   fs::remove(path("result.json"));  // written last: it vouches for the others
   for (const auto& [trajectory, name] : {std::pair(&run.map.trajectory_online, "trajectory_online"),
@@ -129,6 +91,9 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
   }
   write_g2o(path("graph.g2o"), run.map.place_graph.pose_graph());
   write_file(path("places.json"), places_json(run.map));
+  const auto transitions = place_transitions(run.map);
+  write_file(path("places.graphml"), to_graphml(run.map.place_graph, transitions));
+  write_file(path("places.dot"), to_dot(run.map.place_graph, transitions));
   write_file(path("loops.csv"), loops_csv(run.map));
   write_file(path("plot.png"), run_plot(run, optimized, truth, title));
   write_file(path("result.json"), summary.dump(1) + "\n");
@@ -171,16 +136,6 @@ void print_stages(const json& summary) {
     std::printf("%-22s %9lld %13.2f %13.2f\n", stage["name"].get<std::string>().c_str(),
                 static_cast<long long>(calls), ms / static_cast<double>(calls), ms / frames);
   }
-}
-
-double path_length_m(const Trajectory& truth) {
-  double length = 0;
-  for (std::size_t i = 1; i < truth.size(); ++i)
-    if (truth.poses[i - 1].T_world_body && truth.poses[i].T_world_body)
-      length += (truth.poses[i].T_world_body->translation() -
-                 truth.poses[i - 1].T_world_body->translation())
-                    .norm();
-  return length;
 }
 
 void run(const Arguments& arguments) {
@@ -234,14 +189,8 @@ void run(const Arguments& arguments) {
   summary["cpu_s"] = cpu_seconds(after) - cpu_seconds(before);
   summary["peak_mb"] = peak_mb();
   summary["stages"] = describe_stages(run);
-  const auto truth = truth_of(*dataset, options, optimized.size());
-  if (truth) {
-    summary["path_m"] = path_length_m(*truth);
-    summary["evaluation"] = {{"origin", judgement(*truth, optimized, Alignment::kOrigin)},
-                             {"se3", judgement(*truth, optimized, Alignment::kSe3)},
-                             {"sim3", judgement(*truth, optimized, Alignment::kSim3)}};
-    if (run.map.metric) summary["loop_check"] = loop_judgement(*dataset->ground_truth(), run);
-  }
+  const Trajectory* truth = truth_of(*dataset);
+  if (truth) summary.update(judge_run(*truth, run, optimized));
   write_results(arguments.out, run, optimized, truth, dataset->name(), summary);
   if (arguments.as_json)
     std::printf("%s\n", summary.dump(1).c_str());

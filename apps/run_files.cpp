@@ -2,7 +2,9 @@
 
 #include <placegraph/eval/evaluate.h>
 #include <placegraph/eval/plot.h>
+#include <placegraph/graph/constraint_source.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/place_transitions.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include <sstream>
 
 #include "apps/json_file.h"
+#include "apps/run_judgement.h"
 
 namespace placegraph::apps {
 namespace {
@@ -31,6 +34,17 @@ PlotCurve curve_of(const Trajectory& trajectory, const std::string& name) {
     if (pose.T_world_body) curve.positions_m.back() = pose.T_world_body->translation();
   }
   return curve;
+}
+
+/// Of the places that are in the frame of the map.
+std::vector<Eigen::Vector3d> place_positions(const Map& map, const AlignmentResult& alignment) {
+  const std::vector<int> components = map.place_graph.joined_components();
+  std::vector<Eigen::Vector3d> positions;
+  for (std::size_t i = 0; i < components.size(); ++i)
+    if (components[i] == 0)
+      positions.push_back(
+          alignment.apply(map.place_graph.places[i].T_map_place.isometry()).translation());
+  return positions;
 }
 
 Sim3 similarity_of(const SE2&) { throw ArgumentError("a place graph is not planar"); }
@@ -65,18 +79,19 @@ std::string places_json(const Map& map) {
   }
   json edges = json::array();
   for (const RelativePoseConstraint& c : map.place_graph.constraints)
-    edges.push_back({{"from", c.from},
-                     {"to", c.to},
-                     {"source", c.source == ConstraintSource::kLoop       ? "loop"
-                                : c.source == ConstraintSource::kOdometry ? "odometry"
-                                                                          : "other"}});
+    edges.push_back({{"from", c.from}, {"to", c.to}, {"source", to_string(c.source)}});
+  json transitions = json::array();
+  for (const PlaceTransition& t : place_transitions(map))
+    transitions.push_back({{"from", t.from}, {"to", t.to}, {"count", t.count}});
   json loops = json::array();
   for (const LoopRecord& loop : map.loops)
     if (loop.accepted)
       loops.push_back({{"query_frame", loop.query_frame},
                        {"match_frame", loop.match_frame},
                        {"T_match_query", pose_json(loop.T_match_query)}});
-  return json{{"places", places}, {"edges", edges}, {"loops", loops}}.dump(1) + "\n";
+  return json{{"places", places}, {"edges", edges}, {"transitions", transitions}, {"loops", loops}}
+             .dump(1) +
+         "\n";
 }
 
 std::string loops_csv(const Map& map) {
@@ -131,22 +146,27 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
 }
 
 std::string run_plot(const RunResult& run, const Trajectory& optimized,
-                     const std::optional<Trajectory>& ground_truth, const std::string& title) {
+                     const Trajectory* ground_truth, const std::string& title) {
   Plot plot;
-  if (ground_truth && ground_truth->size() == optimized.size()) {
+  if (ground_truth) {
     EvaluationOptions options;
     options.association = Association::kIndex;
     options.alignment = run.map.metric ? Alignment::kOrigin : Alignment::kSim3;
     std::vector<EvaluationResult> results;
     for (const auto& [trajectory, name] :
          {std::pair(&run.map.trajectory_online, "online"), std::pair(&optimized, "optimized")}) {
-      EvaluationResult result = evaluate(*ground_truth, *trajectory, options, name);
+      EvaluationResult result =
+          evaluate(truth_of_frames(*ground_truth, run.map), *trajectory, options, name);
       if (result.outcome) results.push_back(std::move(result));
     }
-    if (!results.empty()) plot = plot_of(results);
+    if (!results.empty()) {
+      plot = plot_of(results);
+      plot.places_m = place_positions(run.map, results.back().alignment);
+    }
   }
   if (plot.curves.empty()) {
     plot.curves = {curve_of(run.map.trajectory_online, "online"), curve_of(optimized, "optimized")};
+    plot.places_m = place_positions(run.map, {});
     const PlotCurve& curve = plot.curves.back();
     for (const LoopRecord& loop : run.map.loops) {
       if (!loop.accepted) continue;

@@ -14,8 +14,9 @@ std::string loops_csv(const Map& map);  ///< query,match,inliers,accepted,stage
 nlohmann::json describe_motion(const PlaceGraph& graph);
 /// Everything result.json says of the map and its trajectories; times are the caller's.
 nlohmann::json describe_run(const RunResult& run, const Trajectory& optimized);
-/// Top view of the trajectories, loops as links, errors if there is ground truth; PNG bytes.
+/// Top view of the trajectories and the places, loops as links, errors if the truth of the sequence
+/// is known (else nullptr); PNG bytes.
 std::string run_plot(const RunResult& run, const Trajectory& optimized,
-                     const std::optional<Trajectory>& ground_truth, const std::string& title);
+                     const Trajectory* ground_truth, const std::string& title);
 
 }  // namespace placegraph::apps

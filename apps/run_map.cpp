@@ -1,5 +1,6 @@
 #include "apps/run_map.h"
 
+#include <placegraph/graph/constraint_source.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/g2o.h>
 
@@ -31,11 +32,6 @@ Place place_of(const json& entry, RunMap& map) {
   return place;
 }
 
-ConstraintSource source_of(const std::string& name) {
-  if (name == "loop") return ConstraintSource::kLoop;
-  return name == "odometry" ? ConstraintSource::kOdometry : ConstraintSource::kOther;
-}
-
 /// places.json names the edges of graph.g2o in their order.
 void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
   const char* mismatch = "its edges are not those of graph.g2o";
@@ -45,7 +41,9 @@ void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
     require(edge && edges[i].at("from") == edge->from && edges[i].at("to") == edge->to, mismatch);
     require(map.graph.find(edge->from) && map.graph.find(edge->to), mismatch);
     map.graph.constraints.push_back(*edge);
-    map.graph.constraints.back().source = source_of(edges[i].at("source").get<std::string>());
+    const auto source = constraint_source(edges[i].at("source").get<std::string>());
+    require(source.has_value(), "an edge's source is no source");
+    map.graph.constraints.back().source = *source;
   }
 }
 

@@ -179,6 +179,8 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
     if (std::none_of(legend.begin(), legend.end(),
                      [&](const LegendEntry& entry) { return entry.text == style.text; }))
       legend.push_back(style);
+  if (!plot.places_m.empty())
+    legend.push_back({fmt::format("{} places", plot.places_m.size()), kInk, 1});
   if (!plot.links_m.empty())
     legend.push_back(
         {fmt::format("{} loop closure{}", plot.links_m.size(), plot.links_m.size() == 1 ? "" : "s"),
@@ -233,6 +235,7 @@ void draw_top_view(PlotCanvas& canvas, const Plot& plot, Panel panel) {
         draw_with_gaps(canvas, lines[i], styles[i].colour, styles[i].width_px);
   for (const auto& [a, b] : plot.rejected_links_m) canvas.line({px(a), px(b)}, kRejected, 1.5);
   for (const auto& [a, b] : plot.links_m) canvas.line({px(a), px(b)}, kLink, 1.5);
+  for (const Eigen::Vector3d& place : plot.places_m) canvas.disc(px(place), 2.5, kWhite, kInk);
   const auto start = std::find_if(chooser.positions_m.begin(), chooser.positions_m.end(),
                                   [](const auto& p) { return p.has_value(); });
   if (start != chooser.positions_m.end()) canvas.disc(px(**start), 5, kWhite, kInk);

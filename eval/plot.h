@@ -30,6 +30,7 @@ struct Plot {
   std::vector<PlotCurve> curves;
   std::vector<PlotError> errors;
   std::string error_label = "position error";
+  std::vector<Eigen::Vector3d> places_m;                                      ///< nodes of the map
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> links_m;           ///< loop closures
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rejected_links_m;  ///< false ones
 };

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/graph/constraint_source.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/position_of.h>
 #include <placegraph/io/atomic_file.h>
@@ -14,18 +15,6 @@ namespace {
 
 using Buffer = std::back_insert_iterator<fmt::memory_buffer>;
 using Line = std::vector<GeodeticPosition>;
-
-const char* name_of(ConstraintSource source) {
-  switch (source) {
-    case ConstraintSource::kOdometry:
-      return "odometry";
-    case ConstraintSource::kLoop:
-      return "loop";
-    case ConstraintSource::kOther:
-      break;
-  }
-  return "other";
-}
 
 /// Cuts a line where two neighbours lie on both sides of the 180th meridian; both ends of a cut lie
 /// on it (RFC 7946, 3.1.9).
@@ -195,7 +184,7 @@ void write_geojson(const std::string& path, const GeoDocument& document) {
         out,
         ",\n{{\"type\":\"Feature\",\"properties\":{{\"kind\":\"edge\",\"from\":{},\"to\":{},"
         "\"source\":\"{}\"}},\"geometry\":{{\"type\":\"MultiLineString\",\"coordinates\":",
-        edge.constraint->from, edge.constraint->to, name_of(edge.constraint->source));
+        edge.constraint->from, edge.constraint->to, to_string(edge.constraint->source));
     put_lines(out, edge.lines);
     fmt::format_to(out, "}}}}");
   }
@@ -238,7 +227,7 @@ void write_kml(const std::string& path, const GeoDocument& document) {
   for (const Shapes::Edge& edge : shapes.edges)
     if (!edge.lines.empty())
       put_placemark(out, fmt::format("{} - {}", edge.constraint->from, edge.constraint->to),
-                    name_of(edge.constraint->source), edge.lines);
+                    to_string(edge.constraint->source), edge.lines);
   fmt::format_to(out, "</Folder>\n<Folder><name>nodes</name>\n");
   for (std::size_t i = 0; i < shapes.nodes.size(); ++i)
     put_placemark(out, std::to_string(document.graph.nodes[i].id), "node", shapes.nodes[i]);

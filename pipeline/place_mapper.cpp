@@ -130,8 +130,7 @@ void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
     for (const auto& [number, other] : places_)
       place.component = std::max(place.component, other.component + 1);
   }
-  // Numbers of places that are gone are not given again.
-  const std::int64_t number = static_cast<std::int64_t>(parts_.size());
+  const std::int64_t number = founded_++;
   nodes_[id] = node;
   parts_[id] = {number, Sim3()};
   places_[number] = place;
@@ -237,6 +236,9 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
         Sim3(S.rotation(), (place_grows ? factor : 1) * S.translation(),
              S.scale() * (place_grows ? factor : 1) / (in_run(anchor) ? factor : 1));
   }
+  for (Merged& merged : merged_)
+    for (auto& [anchor, covariance] : merged.covariance_of_part)
+      if (in_run(anchor)) covariance = scaled<7>(covariance, 1 / factor);
   for (auto& [number, place] : places_) {
     if (!in_run(place.anchor_keyframe)) continue;
     place.reach *= factor;

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <map>
+#include <set>
 
 namespace placegraph {
 
@@ -148,9 +149,20 @@ class PlaceMapper {
     Matrix7d covariance;  // of S_older_younger in its right tangent
   };
   bool agrees(const Loop& loop) const;
+  /// Parts that came into a place with a younger one, and what they knew of each other there.
+  struct Merged {
+    std::int64_t anchor;  // of the younger place
+    std::map<std::int64_t, Matrix7d> covariance_of_part;
+  };
   std::vector<Merger> find_mergers(std::int64_t first_open) const;
-  void merge_all(std::int64_t first_open);
+  std::optional<Merger> merger_of(std::int64_t a, std::int64_t b, std::int64_t first_open) const;
+  std::vector<std::pair<std::int64_t, std::int64_t>> pairs_that_loops_show(bool all) const;
+  std::vector<std::pair<std::int64_t, std::int64_t>> pairs_on_known_ground(bool all) const;
+  bool merge_all(std::int64_t first_open);
   void merge(const Merger& merger);
+  std::vector<bool> strained() const;
+  bool part_strained();
+  void separate(const Merged& merged);
 
   PlaceOptions options_;
   std::map<std::int64_t, Node> nodes_;
@@ -159,6 +171,10 @@ class PlaceMapper {
   std::vector<Loop> loops_;
   std::vector<Edge> motions_;
   std::vector<bool> scale_known_;  // of every run
+  std::vector<Merged> merged_;
+  std::set<std::pair<std::int64_t, std::int64_t>> parted_;  // anchors that are not one place
+  std::int64_t founded_ = 0;  // places so far: numbers of those that are gone are not given again
+  std::size_t judged_loops_ = 0;  // how many the merged places have been judged with
   PlaceOptimizer optimizer_;
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
   std::int64_t changed_since_ = kNever;  // edges of earlier keyframes are as the optimizer has them

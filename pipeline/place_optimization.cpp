@@ -1,6 +1,5 @@
 #include <placegraph/pipeline/place_mapper.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -92,19 +91,27 @@ IncrementalStep PlaceMapper::follow() {
 IncrementalStep PlaceMapper::optimize(std::int64_t first_open) {
   const IncrementalStep step = follow();
   take_poses();
+  if (judged_loops_ != loops_.size()) part_strained();
   merge_all(first_open);
   settle_units();
   return step;
 }
 
 IncrementalStep PlaceMapper::finish() {
-  (void)follow();
-  (void)optimizer_.finish();
-  take_poses();
-  merge_all(kNever);
-  (void)follow();
-  const IncrementalStep step = optimizer_.finish();
-  take_poses();
+  const auto settle = [&] {
+    (void)follow();
+    const IncrementalStep step = optimizer_.finish();
+    take_poses();
+    return step;
+  };
+  IncrementalStep step = settle();
+  // A place joins one other at a time, and every one changes the map a little.
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    const bool parted = part_strained(), merged = merge_all(kNever);
+    if (!parted && !merged) break;
+    step = settle();
+  }
   settle_units();
   return step;
 }
@@ -149,66 +156,6 @@ std::optional<PredictedMotion> PlaceMapper::predicted(std::int64_t from, std::in
   const Matrix7d adjoint = S_place_keyframe(nodes_.at(to)).inverse().adjoint();
   motion.covariance = adjoint * optimizer_.relative_covariance(a, b) * adjoint.transpose();
   return motion;
-}
-
-/// Whether the map is where the loop says: an outlier that the kernel holds off is no witness.
-bool PlaceMapper::agrees(const Loop& loop) const {
-  constexpr double kChi2 = 24.3;  // 7 degrees of freedom, 99.9 %
-  const Sim3 S_match_query = S_map_keyframe(loop.match).inverse() * S_map_keyframe(loop.query);
-  const Vector7d error = (loop.S_match_query().inverse() * S_match_query).log();
-  return error.dot(loop.information * error) < kChi2;
-}
-
-/// Pairs of places within reach of each other by a loop that the map agrees with, and well enough
-/// known to each other; of every place only the first, as the others change with it.
-std::vector<PlaceMapper::Merger> PlaceMapper::find_mergers(std::int64_t first_open) const {
-  // Old loops have had their chances; they get a last one in the end.
-  constexpr std::size_t kRecent = 100;
-  const std::size_t begin =
-      first_open == kNever || loops_.size() < kRecent ? 0 : loops_.size() - kRecent;
-  std::vector<Merger> mergers;
-  std::set<std::int64_t> taken;
-  for (std::size_t i = begin; i < loops_.size(); ++i) {
-    const Loop& loop = loops_[i];
-    const std::int64_t older = std::min(place_of(loop.match), place_of(loop.query));
-    const std::int64_t younger = std::max(place_of(loop.match), place_of(loop.query));
-    if (older == younger || taken.count(older) || taken.count(younger)) continue;
-    const PlaceState &a = places_.at(older), &b = places_.at(younger);
-    if (b.last_keyframe >= first_open || a.anchor_keyframe >= first_open) continue;
-    const Sim3 S_a_b = a.S_map_place.inverse() * b.S_map_place;
-    if (S_a_b.translation().norm() >= a.reach ||
-        S_a_b.rotation().log().norm() >= options_.max_angle_deg * M_PI / 180 || !agrees(loop))
-      continue;
-    const Merger merger{older, younger, optimizer_.relative_covariance(older, younger)};
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(
-        Eigen::Matrix3d(merger.covariance.topLeftCorner<3, 3>()), Eigen::EigenvaluesOnly);
-    if (std::sqrt(eigen.eigenvalues()[2]) > options_.merge_sigma * b.reach) continue;
-    mergers.push_back(merger);
-    taken.insert({older, younger});
-  }
-  return mergers;
-}
-
-void PlaceMapper::merge_all(std::int64_t first_open) {
-  if (!options_.merge) return;
-  for (const Merger& merger : find_mergers(first_open)) merge(merger);
-}
-
-/// The parts of the younger place become parts of the older one, where the map has them now;
-/// constraints follow from the parts.
-void PlaceMapper::merge(const Merger& merger) {
-  PlaceState& older = places_.at(merger.older);
-  older.last_keyframe = std::max(older.last_keyframe, places_.at(merger.younger).last_keyframe);
-  const Sim3 S_older_younger = older.S_map_place.inverse() * places_.at(merger.younger).S_map_place;
-  for (auto& [anchor, part] : parts_) {
-    if (part.place != merger.younger) continue;
-    const Matrix7d adjoint = part.S_place_part.inverse().adjoint();
-    part.covariance += adjoint * merger.covariance * adjoint.transpose();
-    part.S_place_part = S_older_younger * part.S_place_part;
-    part.place = merger.older;
-    changed(anchor);
-  }
-  places_.erase(merger.younger);
 }
 
 }  // namespace placegraph

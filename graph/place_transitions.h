@@ -1,0 +1,18 @@
+#pragma once
+#include <placegraph/graph/map.h>
+
+#include <vector>
+
+namespace placegraph {
+
+/// How often the camera went straight from one place to another.
+struct PlaceTransition {
+  std::int64_t from = 0, to = 0;
+  int count = 0;
+};
+
+/// Of the consecutive frames of a map, by `from`, then `to`; frames that are lost or in another
+/// component interrupt. Throws ArgumentError if a frame's keyframe is not in the map.
+std::vector<PlaceTransition> place_transitions(const Map& map);
+
+}  // namespace placegraph
