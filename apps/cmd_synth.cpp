@@ -78,8 +78,9 @@ void add_synth_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("synth", "Render a sequence with exact ground truth");
   command->footer("placegraph synth town-loop --out out/town-loop --difficulty standard");
   command
-      ->add_option("WORLD", a.world.world,
-                   "town-loop, corridor-loop, warehouse, hover, or a KITTI pose file")
+      ->add_option(
+          "WORLD", a.world.world,
+          "town-loop, repeated-blocks, corridor-loop, warehouse, hover, or a KITTI pose file")
       ->required();
   command->add_option("--out", a.out, "folder to write, in KITTI's layout; hover in EuRoC's")
       ->required();

@@ -21,6 +21,7 @@ struct BuiltIn {
   Tour (*make)(const TourRequest&);
 };
 constexpr BuiltIn kWorlds[] = {{"town-loop", synthetic::make_town_loop},
+                               {"repeated-blocks", synthetic::make_repeated_blocks},
                                {"corridor-loop", synthetic::make_corridor_loop},
                                {"warehouse", synthetic::make_warehouse},
                                {"hover", synthetic::make_hover}};
@@ -61,7 +62,8 @@ void SyntheticOptions::check() const {
 }
 
 void visit(OptionVisitor& field, SyntheticOptions& o) {
-  field("world", o.world, "town-loop, corridor-loop, warehouse, hover or a KITTI pose file");
+  field("world", o.world,
+        "town-loop, repeated-blocks, corridor-loop, warehouse, hover or a KITTI pose file");
   field.choice("difficulty", o.difficulty, {"clean", "standard", "hard"}, "noise, blur, traffic");
   field("seed", o.seed, "of textures, scenery, traffic and noise");
   field("frames", o.frames, "at most this many; 0 = all", {0, 1e9});

@@ -37,6 +37,9 @@ struct TourRequest {
 
 /// A drive of 10 Hz through a small grid of streets, about 650 m, parts of it twice.
 Tour make_town_loop(const TourRequest& request);
+/// A street of seven blocks that are the same to the last brick, driven once: every look back is
+/// false.
+Tour make_repeated_blocks(const TourRequest& request);
 /// Two rounds through the corridor of an office floor, past open and closed rooms, about 95 m.
 Tour make_corridor_loop(const TourRequest& request);
 /// A walk between the racks of a hall and through the offices beside it, partly twice.

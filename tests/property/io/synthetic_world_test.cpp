@@ -276,7 +276,8 @@ TEST_P(World, NothingSolidStandsOnThePath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, World,
-                         ::testing::Values("town-loop", "corridor-loop", "warehouse"),
+                         ::testing::Values("town-loop", "repeated-blocks", "corridor-loop",
+                                           "warehouse"),
                          [](const auto& tested) {
                            std::string name = tested.param;
                            std::replace(name.begin(), name.end(), '-', '_');
