@@ -140,7 +140,7 @@ void PlaceMapper::merge(const Merger& merger) {
 /// Which of the mergers the odometry around them contradicts: its edges out of what was merged are
 /// further off than chance allows, and so three times over what edges are off elsewhere in the map.
 std::vector<bool> PlaceMapper::strained() const {
-  constexpr double kStrain = 3, kProbability = 0.999;
+  constexpr double kStrain = 3, kProbability = 0.999, kMostUsual = 10;
   std::map<std::int64_t, std::vector<std::size_t>> mergers_of_part;
   for (std::size_t i = 0; i < merged_.size(); ++i)
     for (const auto& [anchor, covariance] : merged_[i].covariance_of_part)
@@ -167,7 +167,8 @@ std::vector<bool> PlaceMapper::strained() const {
       }
     }
   }
-  const double usual = ratios.empty() ? 1 : std::max(1.0, median_of(ratios));
+  // In a ring that is closed by mistake all edges are strained alike.
+  const double usual = ratios.empty() ? 1 : std::clamp(median_of(ratios), 1.0, kMostUsual);
   std::vector<bool> result(merged_.size(), false);
   for (std::size_t i = 0; i < merged_.size(); ++i)
     result[i] = dof[i] > 0 &&

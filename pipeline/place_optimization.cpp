@@ -91,8 +91,7 @@ IncrementalStep PlaceMapper::follow() {
 IncrementalStep PlaceMapper::optimize(std::int64_t first_open) {
   const IncrementalStep step = follow();
   take_poses();
-  if (judged_loops_ != loops_.size()) part_strained();
-  merge_all(first_open);
+  if (judged_loops_ == loops_.size() || !part_strained()) merge_all(first_open);
   settle_units();
   return step;
 }
@@ -108,9 +107,11 @@ IncrementalStep PlaceMapper::finish() {
   // A place joins one other at a time, and every one changes the map a little.
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
-    const bool parted = part_strained(), merged = merge_all(kNever);
+    const bool parted = part_strained();
+    if (parted) step = settle();
+    const bool merged = merge_all(kNever);
+    if (merged) step = settle();
     if (!parted && !merged) break;
-    step = settle();
   }
   settle_units();
   return step;

@@ -175,7 +175,9 @@ TEST(PlaceOptimization, ClosesScaleDriftByALoopThatTellsTheRatioOfUnits) {
 
 TEST(PlaceOptimization, JoinsComponentsOfUnknownRatioByALoop) {
   // The second drive is the first one in units of 2.5 m.
-  PlaceMapper mapper({});
+  PlaceOptions options;
+  options.merge = false;
+  PlaceMapper mapper(options);
   mapper.add_keyframe(0, std::nullopt, {}, kDepth_m, false);
   mapper.add_keyframe(1, link(0, kLong), {}, kDepth_m);
   const SE3 start = pose({0, 1, 0}, {50, 0, 0});
