@@ -155,6 +155,9 @@ class PlaceMapper {
     std::map<std::int64_t, Matrix7d> covariance_of_part;
   };
   std::vector<Merger> find_mergers(std::int64_t first_open) const;
+  std::optional<std::int64_t> known_ground(const Sim3& S_map_here, std::int64_t keyframe,
+                                           double reach) const;
+  bool same_known_ground(const Node& node, const Sim3& S_place_this) const;
   std::optional<Merger> merger_of(std::int64_t a, std::int64_t b, std::int64_t first_open) const;
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs_that_loops_show(bool all) const;
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs_on_known_ground(bool all) const;

@@ -46,31 +46,51 @@ std::vector<std::pair<std::int64_t, std::int64_t>> PlaceMapper::pairs_that_loops
   return pairs;
 }
 
-/// Where loops have led back to known ground, the map itself tells which older place a younger one
-/// lies in: the nearest, with a way between that leads out of both.
+/// The older place that one stands in by the map, once loops have led back to known ground: the
+/// nearest within reach [in the map's unit] that looks the same way, if the way from there to
+/// `keyframe` leads out of reach.
+std::optional<std::int64_t> PlaceMapper::known_ground(const Sim3& S_map_here, std::int64_t keyframe,
+                                                      double reach) const {
+  std::optional<std::int64_t> nearest;
+  if (loops_.empty()) return nearest;
+  const PlaceState& own = place_at(keyframe);
+  double least = reach;
+  for (const auto& [number, place] : places_) {
+    if (place.anchor_keyframe >= own.anchor_keyframe || place.component != own.component) continue;
+    const double place_reach = place.reach * place.S_map_place.scale();
+    const double distance = (place.S_map_place.translation() - S_map_here.translation()).norm();
+    if (distance >= std::min(least, place_reach)) continue;
+    const SO3 turn = place.S_map_place.rotation().inverse() * S_map_here.rotation();
+    if (turn.log().norm() >= options_.max_angle_deg * M_PI / 180) continue;
+    const auto way = odometry(place.anchor_keyframe, keyframe);
+    if (way && way->way * own.S_map_place.scale() < 2 * std::max(reach, place_reach)) continue;
+    least = distance;
+    nearest = number;
+  }
+  return nearest;
+}
+
+/// Whether a keyframe stands in the same older place as the anchor of its part: where a way is gone
+/// again, its parts end where those of the first time did.
+bool PlaceMapper::same_known_ground(const Node& node, const Sim3& S_place_this) const {
+  const PlaceState& place = place_at(node.part);
+  const double reach = place.reach * place.S_map_place.scale();
+  return known_ground(place.S_map_place * S_place_this, node.part, reach) ==
+         known_ground(S_map_keyframe(node.part), node.part, reach);
+}
+
+/// Places that lie in older ones by the map itself.
 std::vector<std::pair<std::int64_t, std::int64_t>> PlaceMapper::pairs_on_known_ground(
     bool all) const {
   constexpr std::ptrdiff_t kRecent = 8;
   std::vector<std::pair<std::int64_t, std::int64_t>> pairs;
-  if (loops_.empty()) return pairs;
   const auto count = static_cast<std::ptrdiff_t>(places_.size());
-  for (auto b = std::prev(places_.end(), all ? count : std::min(count, kRecent));
-       b != places_.end(); ++b) {
-    const PlaceState& younger = b->second;
-    std::optional<std::int64_t> nearest;
-    double least = younger.reach * younger.S_map_place.scale();
-    for (const auto& [number, older] : places_) {
-      if (older.anchor_keyframe >= younger.anchor_keyframe || older.component != younger.component)
-        continue;
-      const double distance =
-          (older.S_map_place.translation() - younger.S_map_place.translation()).norm();
-      if (distance >= std::min(least, older.reach * older.S_map_place.scale())) continue;
-      const auto way = odometry(older.anchor_keyframe, younger.anchor_keyframe);
-      if (way && way->way < 2 * std::max(older.reach, younger.reach)) continue;
-      least = distance;
-      nearest = number;
-    }
-    if (nearest) pairs.emplace_back(*nearest, b->first);
+  for (auto at = std::prev(places_.end(), all ? count : std::min(count, kRecent));
+       at != places_.end(); ++at) {
+    const auto& [number, place] = *at;
+    if (const auto older = known_ground(place.S_map_place, place.anchor_keyframe,
+                                        place.reach * place.S_map_place.scale()))
+      pairs.emplace_back(*older, number);
   }
   return pairs;
 }
