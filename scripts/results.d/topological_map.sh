@@ -1,0 +1,63 @@
+# The topological map and its loops on rendered drives, half size: all of KITTI 00, 05, 06 and 08,
+# three times round one block, and a street of blocks that are the same.
+title="The topological map and its loops"
+[ -d "$data/kitti_gt/00" ] || { absent "$title"; return 0; }
+heading "$title"
+command_line "placegraph synth \$DATA/kitti_gt/NN/poses.txt --out WORLD --difficulty standard --mono --size 620x188"
+command_line "placegraph synth rounds.txt --out WORLD --difficulty standard --mono --size 620x188    # 316 m three times, 0.3 m aside"
+command_line "placegraph synth repeated-blocks --out WORLD --difficulty standard --mono --size 620x188"
+command_line "placegraph run WORLD --sensor mono --camera-height 1.65 --out OUT    # place_check and loop_check of OUT/result.json"
+command_line "placegraph match WORLD --sequence --min-age 300 --out found.txt"
+command_line "placegraph loops --predictions found.txt --poses WORLD/poses.txt --min-age 300 --json"
+
+# half NAME WORLD: renders it, maps it, and recognizes its views
+half() {
+  render "half$1" "$2" --difficulty standard --mono --size 620x188
+  run "half$1" "$out/half$1-world" --sensor mono --camera-height 1.65
+  case $1 in 00 06)
+    say "matching half$1"
+    $placegraph match "$out/half$1-world" --sequence --min-age 300 --out "$out/half$1.txt" --force > "$out/half$1-match.log" 2>&1
+    $placegraph loops --predictions "$out/half$1.txt" --poses "$out/half$1-world/poses.txt" --min-age 300 --json > "$out/half$1-loops.json" ;;
+  esac
+}
+
+# Three rounds of 95 m, half a circle of 20 m radius, 95 m, half a circle; a pose a metre.
+LC_ALL=C awk 'BEGIN {
+  pi = atan2(0, -1); r = 20; l = 95; arc = pi * r; round = 2 * (l + arc)
+  for (k = 0; k < 3; k++) for (s = 0; s < round; s++) {
+    d = s; half_turn = 0; side = 0
+    if (d >= l + arc) { d -= l + arc; half_turn = pi; side = 1 }
+    if (d < l) { a = 0; x = 0; z = d } else { a = (d - l) / r; x = r * (1 - cos(a)); z = l + r * sin(a) }
+    if (side) { x = 2 * r - x; z = l - z }
+    a += half_turn; x += 0.3 * k * cos(a); z -= 0.3 * k * sin(a)
+    printf "%.9g 0 %.9g %.9g 0 1 0 0 %.9g 0 %.9g %.9g\n", cos(a), sin(a), x, -sin(a), cos(a), z
+  } }' > "$out/rounds.txt"
+
+for drive in 00 05 06 08; do half $drive "$data/kitti_gt/$drive/poses.txt"; done
+half rounds "$out/rounds.txt"
+half blocks repeated-blocks
+
+columns drive places "of them added by revisits" purity "adjacency, precision" "adjacency, recall" "loops, true" "loops, false" "met (<= 5 %, >= .95 each, 0 false)"
+for drive in 00 05 06 08 rounds blocks; do
+  f=$out/half$drive/result.json
+  growth=$(number "$f" growth); purity=$(number "$f" purity)
+  precision=$(number "$f" adjacency_precision); recall=$(number "$f" adjacency_recall); false=$(number "$f" false_loops)
+  met=yes
+  for check in "$growth <= 0.05" "$purity >= 0.95" "$precision >= 0.95" "$recall >= 0.95" "$false <= 0"; do
+    set -- $check
+    [ "$(verdict "$1" "$2" "$3")" = yes ] || met="**no**"
+  done
+  cells "$drive" "$(number "$f" places)" "$(number "$f" added_places) of $(number "$f" revisited_places) ($(computed %.1f "100 * $growth") %)" \
+    "$(digits "$purity")" "$(digits "$precision")" "$(digits "$recall")" "$(number "$f" true_loops)" "$false" "$met"
+done
+
+printf '\nPlaces founded in the first, second and third round: ' >> "$rows"
+awk '/"anchor_keyframe"/ { anchor = 1 } anchor && /"frame":/ { gsub(/[^0-9]/, ""); n[int($0 / 316)]++; anchor = 0 }
+  END { printf "%d, %d, %d.\n", n[0], n[1], n[2] }' "$out/halfrounds/places.json" >> "$rows"
+
+printf '\nRecognition alone, before geometry: revisits (within 5 m and 30 deg of a view 300 frames older) found by the sequence.\n' >> "$rows"
+columns drive revisits R@1 AP "recall at full precision" target met
+for drive in 00 06; do
+  f=$out/half$drive-loops.json; recall=$(number "$f" recall_at_100p)
+  cells "$drive" "$(number "$f" positives)" "$(digits "$(number "$f" r_at_1)")" "$(digits "$(number "$f" ap)")" "$(digits "$recall")" ">= 0.95" "$(verdict "$recall" ">=" 0.95)"
+done
