@@ -14,7 +14,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "apps/calib_option.h"
 #include "apps/draw_flow.h"
+#include "apps/flow_cues_report.h"
 #include "apps/output.h"
 #include "apps/usage.h"
 
@@ -22,10 +24,40 @@ namespace placegraph::apps {
 namespace {
 
 struct Arguments {
-  std::string from, to, method = "dis", out, drawing, truth;
+  std::string from, to, method = "dis", out, drawing, truth, camera;
   std::vector<std::string> settings;
-  bool as_json = false, force = false;
+  std::vector<double> gyro, turn, normal;
+  double dt_s = 0, turn_sigma = 1e-3;
+  int cell_px = 16;
+  bool cues = false, as_json = false, force = false;
 };
+
+Eigen::Vector3d vector_of(const char* option, const std::vector<double>& values) {
+  const Eigen::Vector3d vector(values[0], values[1], values[2]);
+  require(vector.allFinite(), fmt::format("{}: is not finite", option));
+  return vector;
+}
+
+/// What is known beside the images; throws ArgumentError for what does not fit together.
+CueSetting cue_setting(const Arguments& arguments) {
+  require(!arguments.camera.empty(), "--cues: need the camera, --calib");
+  require(arguments.gyro.empty() || arguments.dt_s > 0, "--gyro: needs --dt");
+  CueSetting setting;
+  setting.camera = read_calib(arguments.camera);
+  if (arguments.dt_s > 0) setting.dt_s = arguments.dt_s;
+  if (!arguments.normal.empty()) {
+    const Eigen::Vector3d normal = vector_of("--normal", arguments.normal);
+    require(normal.norm() > 1e-9, "--normal: a direction needs a length");
+    setting.normal = normal.normalized();
+  }
+  std::optional<Eigen::Vector3d> turn;
+  if (!arguments.gyro.empty()) turn = arguments.dt_s * vector_of("--gyro", arguments.gyro);
+  if (!arguments.turn.empty()) turn = vector_of("--turn", arguments.turn);
+  if (turn)
+    setting.turn = {SO3::exp(*turn),
+                    arguments.turn_sigma * arguments.turn_sigma * Eigen::Matrix3d::Identity()};
+  return setting;
+}
 
 std::int64_t known_pixels(const Image& flow) {
   std::int64_t count = 0;
@@ -45,8 +77,11 @@ void flow(const Arguments& arguments) {
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   set_option(options, "method=" + arguments.method);
   options.check();
+  std::optional<CueSetting> cues;
+  if (arguments.cues) cues = cue_setting(arguments);
   const Image from = read_image(arguments.from).grey, to = read_image(arguments.to).grey;
   require_size(arguments.to, to, from.cols, from.rows);
+  if (cues) require_size(arguments.from, from, cues->camera.width, cues->camera.height);
   std::optional<Image> truth;
   if (!arguments.truth.empty()) {
     truth = read_flow(arguments.truth);
@@ -80,6 +115,10 @@ void flow(const Arguments& arguments) {
         "of the truth covered",
         error.mean_px, error.median_px, 100 * error.share_beyond_3px, 100 * error.coverage);
   }
+  if (cues) {
+    figures["cues"] = describe_cues(sampled_flow(from, found, arguments.cell_px), *cues);
+    line += "\n" + cue_lines(figures["cues"]);
+  }
   fmt::print("{}\n", arguments.as_json ? figures.dump(2) : line);
 }
 
@@ -101,6 +140,31 @@ void add_flow_command(CLI::App& app) {
   command->add_option("--set", a.settings, "an option of the method, key=value; may be repeated")
       ->type_size(1)
       ->allow_extra_args(false);
+  auto* cues = command->add_flag("--cues", a.cues,
+                                 "also what the flow tells at once: divergence, speed over "
+                                 "distance, time to contact, balance; see docs/flow.md");
+  command
+      ->add_option("--calib", a.camera,
+                   "one line fx fy cx cy width height [px], or a calibration.yaml")
+      ->check(CLI::ExistingFile)
+      ->needs(cues);
+  command->add_option("--dt", a.dt_s, "time between the images [s]; without, images are counted")
+      ->check(CLI::PositiveNumber)
+      ->needs(cues);
+  const auto three = [&](const char* name, std::vector<double>& values, const char* what) {
+    return command->add_option(name, values, what)->expected(3)->delimiter(',')->needs(cues);
+  };
+  auto* gyro = three("--gyro", a.gyro,
+                     "how the camera turns [rad/s], its own axes: that is taken out of the flow");
+  three("--turn", a.turn, "the same as a rotation vector from image to image [rad]")
+      ->excludes(gyro);
+  command->add_option("--turn-sigma", a.turn_sigma, "of either, from image to image, an axis [rad]")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  three("--normal", a.normal, "to the plane that is approached or passed, in the first camera");
+  command->add_option("--cell", a.cell_px, "one vector in a square of so many pixels a side")
+      ->check(CLI::Range(4, 512))
+      ->capture_default_str();
   command->add_flag("--json", a.as_json, "print JSON");
   command->add_flag("--force", a.force, "overwrite OUT and the drawing");
   command->callback([arguments] { flow(*arguments); });

@@ -8,7 +8,7 @@
 #include <placegraph/io/marker_layout_file.h>
 #include <placegraph/io/trajectory_file.h>
 #include <placegraph/io/yaml_config.h>
-#include <placegraph/pipeline/hover_run.h>
+#include <placegraph/pipeline/hover_marker_map.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,6 +19,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/hover_map_report.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/usage.h"
@@ -30,11 +31,11 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct Arguments {
-  std::string flight, out, markers, config;
+  std::string flight, out, markers, true_markers, config;
   std::vector<std::string> settings, blind;
   std::optional<double> markers_until_s;
   double predict_ahead_ms = 0;
-  bool no_markers = false, start_from_truth = false, smooth = false;
+  bool no_markers = false, start_from_truth = false, smooth = false, map_markers = false;
   bool as_json = false, force = false, profile = false;
 };
 
@@ -219,6 +220,8 @@ void print_summary(const json& summary, const std::string& folder) {
                 error["position_rmse_m"].get<double>(), error["velocity_rmse_mps"].get<double>(),
                 error["attitude_rmse_deg"].get<double>(), error["way_m"].get<double>());
   }
+  if (summary.contains("marker_map"))
+    std::printf("%s\n", marker_map_line(summary["marker_map"]).c_str());
   std::printf(
       "%.2f ms CPU a frame (%.2f of them reading), results in %s\n",
       summary["cpu_ms_per_frame"].get<double>() + summary["reading_ms_per_frame"].get<double>(),
@@ -233,72 +236,113 @@ void print_stages(const json& summary) {
                 stage["calls"].get<long long>(), 1e3 * stage["cpu_s"].get<double>() / frames);
 }
 
-void write_results(const std::string& folder, const HoverRun& run,
-                   const std::vector<BodyState>& smoothed, const json& summary) {
+/// What a flight is told from, and judged by.
+struct Flight {
+  EurocBody body;
+  ImuRecording imu;
+  HoverRunOptions options;
+  MarkerLayout layout, true_layout;
+  std::vector<BodyState> truth;  ///< empty: there is none
+};
+
+Flight open_flight(const Arguments& arguments) {
+  require(is_euroc(arguments.flight),
+          arguments.flight + ": is no folder with mav0/cam0/data.csv (EuRoC's layout)");
+  Flight flight{open_euroc_body(arguments.flight), {}, {}, {}, {}, {}};
+  flight.imu = read_imu(flight.body.mav_folder + "/imu0");
+  flight.options = options_of(arguments, flight.imu.noise);
+  const std::string beside = (fs::path(arguments.flight) / "markers.yaml").string();
+  if (!arguments.no_markers)
+    flight.layout = read_marker_layout(arguments.markers.empty() ? beside : arguments.markers);
+  require(!arguments.map_markers || !flight.layout.unplaced_sides_m.empty(),
+          "--map-markers: the layout gives every marker its place");
+  require(!arguments.map_markers || arguments.predict_ahead_ms == 0,
+          "--map-markers: what is told ahead is not where an image was");
+  if (!arguments.true_markers.empty())
+    flight.true_layout = read_marker_layout(arguments.true_markers);
+  const std::string truth = flight.body.mav_folder + "/state_groundtruth_estimate0/data.csv";
+  if (fs::exists(truth)) flight.truth = read_body_states(truth);
+  if (arguments.start_from_truth) {
+    require(!flight.truth.empty(), "--start-from-truth: there is no " + truth);
+    flight.options.start = surely(flight.truth.front());
+  }
+  return flight;
+}
+
+/// What came of it.
+struct Flown {
+  HoverRun run;
+  std::vector<BodyState> smoothed;
+  std::optional<MarkerMap> map;
+  json summary;
+};
+
+Flown fly(const Arguments& arguments, const Flight& flight) {
+  const EurocBody& body = flight.body;
+  Flown flown;
+  const Stopwatch watch;
+  {
+    Progress progress("hovering " + body.images->name(),
+                      static_cast<std::int64_t>(body.images->size()));
+    flown.run =
+        run_hover(*body.images, flight.imu, body.T_body_cam, flight.layout, flight.options,
+                  [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
+  }
+  json& summary = flown.summary;
+  summary = describe(flown.run, body.images->stamp_ns(0));
+  const auto frames = static_cast<double>(flown.run.frames.size());
+  const double reading_ms = 1e3 * flown.run.stages.front().cpu_s / frames;
+  summary["sequence"] = body.images->name();
+  summary["reading_ms_per_frame"] = reading_ms;
+  summary["cpu_ms_per_frame"] = watch.cpu_ms() / frames - reading_ms;
+  if (!flight.truth.empty()) {
+    summary["error"] = describe_error(flight.truth, answers_of(flown.run));
+    summary["drift"] = describe_drift(flight.truth, flown.run);
+  }
+  if (arguments.smooth) {
+    const Stopwatch smoothing;
+    flown.smoothed = smooth_hover(flown.run, flight.imu, body.T_body_cam, flight.options.hover);
+    summary["smoother_cpu_ms_per_frame"] = smoothing.cpu_ms() / frames;
+    if (!flight.truth.empty())
+      summary["smoother"] = describe_smoother(flight.truth, flown.run, flown.smoothed);
+  }
+  if (arguments.map_markers) {
+    flown.map = map_hover_markers(*body.images, flown.run, body.T_body_cam, flight.layout,
+                                  flight.options.hover);
+    summary["marker_map"] = describe_marker_map(*flown.map, flight.layout, flight.true_layout);
+  }
+  summary["peak_mb"] = peak_mb();
+  return flown;
+}
+
+void write_results(const std::string& folder, const Flown& flown, const MarkerLayout& layout) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
   fs::remove(path("result.json"));  // written last: it vouches for the others
-  write_trajectory(path("trajectory.tum"), trajectory_of(run), TrajectoryFormat::kTum);
-  write_body_states(path("states.csv"), answers_of(run));
-  if (!smoothed.empty()) write_body_states(path("smoothed.csv"), smoothed);
-  write_file(path("frames.csv"), frames_csv(run));
-  write_file(path("result.json"), summary.dump(1) + "\n");
+  write_trajectory(path("trajectory.tum"), trajectory_of(flown.run), TrajectoryFormat::kTum);
+  write_body_states(path("states.csv"), answers_of(flown.run));
+  if (!flown.smoothed.empty()) write_body_states(path("smoothed.csv"), flown.smoothed);
+  if (flown.map && flown.map->outcome)
+    write_marker_layout(path("markers.yaml"), with_mapped(layout, *flown.map));
+  write_file(path("frames.csv"), frames_csv(flown.run));
+  write_file(path("result.json"), flown.summary.dump(1) + "\n");
 }
 
 void run(const Arguments& arguments) {
   require_free_folder(arguments.out, arguments.force);
-  require(is_euroc(arguments.flight),
-          arguments.flight + ": is no folder with mav0/cam0/data.csv (EuRoC's layout)");
-  const EurocBody body = open_euroc_body(arguments.flight);
-  const ImuRecording imu = read_imu(body.mav_folder + "/imu0");
-  HoverRunOptions options = options_of(arguments, imu.noise);
-  MarkerLayout layout;
-  const std::string beside = (fs::path(arguments.flight) / "markers.yaml").string();
-  if (!arguments.no_markers)
-    layout = read_marker_layout(arguments.markers.empty() ? beside : arguments.markers);
-  std::vector<BodyState> truth;
-  const std::string truth_path = body.mav_folder + "/state_groundtruth_estimate0/data.csv";
-  if (fs::exists(truth_path)) truth = read_body_states(truth_path);
-  if (arguments.start_from_truth) {
-    require(!truth.empty(), "--start-from-truth: there is no " + truth_path);
-    options.start = surely(truth.front());
-  }
+  const Flight flight = open_flight(arguments);
   const OutputFolder folder(arguments.out);
-
-  const Stopwatch watch;
-  HoverRun flown;
-  {
-    Progress progress("hovering " + body.images->name(),
-                      static_cast<std::int64_t>(body.images->size()));
-    flown = run_hover(*body.images, imu, body.T_body_cam, layout, options,
-                      [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
-  }
-  json summary = describe(flown, body.images->stamp_ns(0));
-  const auto frames = static_cast<double>(flown.frames.size());
-  const double reading_ms = 1e3 * flown.stages.front().cpu_s / frames;
-  summary["sequence"] = body.images->name();
-  summary["reading_ms_per_frame"] = reading_ms;
-  summary["cpu_ms_per_frame"] = watch.cpu_ms() / frames - reading_ms;
-  summary["peak_mb"] = peak_mb();
-  if (!truth.empty()) {
-    summary["error"] = describe_error(truth, answers_of(flown));
-    summary["drift"] = describe_drift(truth, flown);
-  }
-  std::vector<BodyState> smoothed;
-  if (arguments.smooth) {
-    const Stopwatch smoothing;
-    smoothed = smooth_hover(flown, imu, body.T_body_cam, options.hover);
-    summary["smoother_cpu_ms_per_frame"] = smoothing.cpu_ms() / frames;
-    if (!truth.empty()) summary["smoother"] = describe_smoother(truth, flown, smoothed);
-  }
-  write_results(arguments.out, flown, smoothed, summary);
+  const Flown flown = fly(arguments, flight);
+  write_results(arguments.out, flown, flight.layout);
   if (arguments.as_json)
-    std::printf("%s\n", summary.dump(1).c_str());
+    std::printf("%s\n", flown.summary.dump(1).c_str());
   else
-    print_summary(summary, arguments.out);
-  if (arguments.profile && !arguments.as_json) print_stages(summary);
-  if (answers_of(flown).empty())
+    print_summary(flown.summary, arguments.out);
+  if (arguments.profile && !arguments.as_json) print_stages(flown.summary);
+  if (answers_of(flown.run).empty())
     throw NoAnswer(arguments.flight + ": no image could be told a state (" +
-                   flown.frames.back().outcome.reason + ")");
+                   flown.run.frames.back().outcome.reason + ")");
+  if (flown.map && !flown.map->outcome)
+    throw NoAnswer(arguments.flight + ": no marker was mapped (" + flown.map->outcome.reason + ")");
 }
 
 }  // namespace
@@ -324,6 +368,12 @@ void add_hover_command(CLI::App& app) {
                    "FROM:TO, seconds in which markers are not looked for; may be repeated")
       ->allow_extra_args(false)
       ->excludes(none);
+  auto* map = command->add_flag("--map-markers", a.map_markers,
+                                "find where the markers are whose place the layout does not give; "
+                                "OUT/markers.yaml has them all");
+  command->add_option("--true-markers", a.true_markers, "layout that the mapped ones are judged by")
+      ->check(CLI::ExistingFile)
+      ->needs(map);
   command->add_flag("--start-from-truth", a.start_from_truth,
                     "begin with the first true state instead of the first marker");
   command

@@ -14,8 +14,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/output.h"
 #include "apps/plot_file.h"
@@ -54,8 +54,8 @@ Protocol protocol_of(const Arguments& arguments) {
     RevisitOptions revisit = arguments.revisit;
     revisit.min_age = arguments.min_age.value_or(revisit.min_age);
     protocol.truth = loop_truth_from_poses(read_trajectory(arguments.poses), revisit);
-    protocol.text =
-        fmt::format("poses within {:g} m and {:g} deg", revisit.radius_m, revisit.heading_deg);
+    protocol.text = fmt::format("poses within {:g} m and {:g} deg", revisit.same.radius_m,
+                                revisit.same.heading_deg);
   } else {
     LoopTruthFile file = read_loop_truth(arguments.gt);
     const bool ranges = file.format == LoopTruthFormat::kRanges;
@@ -234,9 +234,9 @@ void add_loops_command(CLI::App& app) {
       ->check(CLI::ExistingFile);
   command->add_option("--poses", a.poses, "ground truth: one true pose per image")
       ->check(CLI::ExistingFile);
-  command->add_option("--radius", a.revisit.radius_m, "with --poses: largest distance [m]")
+  command->add_option("--radius", a.revisit.same.radius_m, "with --poses: largest distance [m]")
       ->capture_default_str();
-  command->add_option("--heading", a.revisit.heading_deg, "with --poses: largest angle [deg]")
+  command->add_option("--heading", a.revisit.same.heading_deg, "with --poses: largest angle [deg]")
       ->capture_default_str();
   command
       ->add_option("--min-age", a.min_age,

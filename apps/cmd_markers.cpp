@@ -44,7 +44,7 @@ struct Found {
   MarkerPoses poses;
 };
 
-Camera read_camera(const Arguments& arguments) {
+Camera camera_of(const Arguments& arguments) {
   Camera camera = read_calib(arguments.camera);
   camera.cx -= arguments.shift_px();
   camera.cy -= arguments.shift_px();
@@ -54,6 +54,9 @@ Camera read_camera(const Arguments& arguments) {
 double side_of(const Arguments& arguments, const MarkerLayout& layout, int id) {
   for (const PlacedMarker& marker : layout.markers)
     if (marker.id == id) return marker.side_m;
+  if (const auto unplaced = layout.unplaced_sides_m.find(id);
+      unplaced != layout.unplaced_sides_m.end())
+    return unplaced->second;
   return arguments.side_m;
 }
 
@@ -164,7 +167,7 @@ void detect(Arguments arguments) {
     arguments.dictionary = layout.dictionary;
   }
   const MarkerDetector detector(arguments.options, arguments.dictionary);
-  const Camera camera = read_camera(arguments);
+  const Camera camera = camera_of(arguments);
   const Image grey = read_image(arguments.image).grey;
   require_size(arguments.image, grey, camera.width, camera.height);
 

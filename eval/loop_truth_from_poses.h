@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/options.h>
+#include <placegraph/eval/same_view.h>
 #include <placegraph/graph/core/trajectory.h>
 #include <placegraph/graph/loop_truth.h>
 
@@ -7,9 +7,8 @@ namespace placegraph {
 
 /// What counts as a revisit. The defaults are those of drives at 10 Hz.
 struct RevisitOptions {
-  double radius_m = 5;      ///< between the two positions, at most
-  double heading_deg = 30;  ///< angle of the rotation between the two poses, at most
-  int min_age = 300;        ///< images from the older to the younger, at least
+  SameView same;
+  int min_age = 300;  ///< images from the older to the younger, at least
   void check() const;
 };
 void visit(OptionVisitor& field, RevisitOptions& options);

@@ -10,13 +10,7 @@ namespace placegraph {
 namespace {
 
 /// Two frames are of different passes if more than so much was driven between them.
-constexpr double kWayBetweenPasses = 4;  // in reaches
-
-bool on_one_road(const SE3& T_world_a, const SE3& T_world_b, const RouteCheckOptions& options) {
-  if ((T_world_a.translation() - T_world_b.translation()).norm() > options.reach_m) return false;
-  const double turn = (T_world_a.rotation().inverse() * T_world_b.rotation()).log().norm();
-  return turn <= options.angle_deg * M_PI / 180;
-}
+constexpr double kWayBetweenPasses = 4;  // in radii of SameView
 
 void join(PlaceGraph& graph, std::int64_t from, std::int64_t to, ConstraintSource source) {
   RelativePoseConstraint edge;
@@ -55,9 +49,13 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::size_t count, int
 }  // namespace
 
 void RouteCheckOptions::check() const {
-  require(reach_m > 0, "reach_m: must be positive");
-  require(angle_deg > 0 && angle_deg <= 180, "angle_deg: must lie in (0, 180]");
-  require(max_pairs > 0, "max_pairs: must be positive");
+  check_ranges(*this);
+  same.check();
+}
+
+void visit(OptionVisitor& field, RouteCheckOptions& o) {
+  field.group("same", o.same, "which frames of different passes stand on one road");
+  field("max_pairs", o.max_pairs, "of places that are asked for", {1, 1e9});
 }
 
 PlaceGraph driven_roads(const Trajectory& truth, const RouteCheckOptions& options) {
@@ -77,6 +75,8 @@ PlaceGraph driven_roads(const Trajectory& truth, const RouteCheckOptions& option
     roads.places.push_back(std::move(place));
   }
   const auto& places = roads.places;
+  std::vector<Eigen::Isometry3d> T_world_place;
+  for (const Place& place : places) T_world_place.push_back(place.T_map_place.isometry());
   for (std::size_t i = 0; i < places.size(); ++i) {
     // Of each pass the nearest frame: passes are stretches of neighbours within reach.
     std::optional<std::size_t> nearest;
@@ -84,8 +84,8 @@ PlaceGraph driven_roads(const Trajectory& truth, const RouteCheckOptions& option
       return (places[i].T_map_place.translation() - places[j].T_map_place.translation()).norm();
     };
     for (std::size_t j = 0; j < i; ++j) {
-      const bool met = driven_m[i] - driven_m[j] > kWayBetweenPasses * options.reach_m &&
-                       on_one_road(places[i].T_map_place, places[j].T_map_place, options);
+      const bool met = driven_m[i] - driven_m[j] > kWayBetweenPasses * options.same.radius_m &&
+                       options.same.holds(T_world_place[i], T_world_place[j]);
       if (met && (!nearest || distance(j) < distance(*nearest))) nearest = j;
       if (!nearest || (met && j + 1 < i)) continue;
       join(roads, places[*nearest].id, places[i].id, ConstraintSource::kLoop);

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/eval/same_view.h>
 #include <placegraph/graph/core/trajectory.h>
 #include <placegraph/graph/place_graph.h>
 
@@ -6,13 +7,12 @@
 
 namespace placegraph {
 
-/// What counts as driven twice in the truth.
 struct RouteCheckOptions {
-  double reach_m = 5;     ///< frames as near as that, looking the same way, stand on one road
-  double angle_deg = 30;  ///< between where they look
-  int max_pairs = 500;    ///< pairs of places that are asked for, spread evenly over all
-  void check() const;     ///< throws ArgumentError naming the field
+  SameView same;        ///< frames of different passes for which it holds stand on one road
+  int max_pairs = 500;  ///< pairs of places that are asked for, spread evenly over all
+  void check() const;   ///< throws ArgumentError naming the field
 };
+void visit(OptionVisitor& field, RouteCheckOptions& options);
 
 /// Shortest ways over the places of a map against those of the truth.
 struct RouteCheck {

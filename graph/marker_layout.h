@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct MarkerLayout {
   std::string dictionary = "apriltag_36h11";  ///< one that MarkerDetector knows
   std::vector<PlacedMarker> markers;
   std::vector<Eigen::Vector3d> beacons_world;  ///< bright spots (LEDs), all alike [m]
+  /// Sides [m] by id of markers whose place is not known: no position is found by them, but where
+  /// they are can be mapped.
+  std::map<int, double> unplaced_sides_m;
 };
 
 }  // namespace placegraph

@@ -40,9 +40,9 @@ Eigen::Vector3d position(const YamlDocument& yaml, const YAML::Node& at, const Y
   return p;
 }
 
-PlacedMarker read_marker(const YamlDocument& yaml, const YAML::Node& node) {
+/// Whether its place is given; if not, that of `marker` means nothing.
+bool read_marker(const YamlDocument& yaml, const YAML::Node& node, PlacedMarker& marker) {
   refuse_unknown(yaml, node, {"id", "side_m", "position", "quaternion"});
-  PlacedMarker marker;
   const double id = yaml.number(node, "id");
   constexpr double kMaxId = 1e6;
   if (!(id >= 0 && id <= kMaxId && id == std::floor(id)))
@@ -52,6 +52,7 @@ PlacedMarker read_marker(const YamlDocument& yaml, const YAML::Node& node) {
   constexpr double kMaxSide_m = 1000;
   if (!(marker.side_m > 0 && marker.side_m <= kMaxSide_m))
     yaml.fail(node["side_m"], fmt::format("side_m: {} is no length of a side", marker.side_m));
+  if (!node["position"].IsDefined() && !node["quaternion"].IsDefined()) return false;
   const Eigen::Vector3d p =
       position(yaml, yaml.member(node, "position"), yaml.member(node, "position"));
   const std::vector<double> q = yaml.numbers(node, "quaternion", 4);
@@ -61,7 +62,7 @@ PlacedMarker read_marker(const YamlDocument& yaml, const YAML::Node& node) {
     yaml.fail(node["quaternion"],
               fmt::format("quaternion: has length {:.4f}, not 1", quaternion.norm()));
   marker.T_world_marker = SE3(SO3(quaternion), p);
-  return marker;
+  return true;
 }
 
 }  // namespace
@@ -74,13 +75,17 @@ MarkerLayout read_marker_layout(const std::string& path) {
   layout.dictionary = yaml.text(yaml.root(), "dictionary");
   std::set<int> ids;
   for (const YAML::Node& node : list(yaml, "markers")) {
-    layout.markers.push_back(read_marker(yaml, node));
-    if (!ids.insert(layout.markers.back().id).second)
-      yaml.fail(node["id"], fmt::format("id: {} comes twice", layout.markers.back().id));
+    PlacedMarker marker;
+    if (read_marker(yaml, node, marker))
+      layout.markers.push_back(marker);
+    else
+      layout.unplaced_sides_m[marker.id] = marker.side_m;
+    if (!ids.insert(marker.id).second)
+      yaml.fail(node["id"], fmt::format("id: {} comes twice", marker.id));
   }
   for (const YAML::Node& node : list(yaml, "beacons"))
     layout.beacons_world.push_back(position(yaml, node, node));
-  if (layout.markers.empty() && layout.beacons_world.empty())
+  if (ids.empty() && layout.beacons_world.empty())
     yaml.fail(yaml.root(), "neither markers nor beacons in it");
   return layout;
 }
@@ -90,8 +95,8 @@ void write_marker_layout(const std::string& path, const MarkerLayout& layout) {
   file.stream()
       << "# T_world_marker of square markers (x right, y up, z out of the face; quaternion "
          "w x y z) and places of beacons [m].\n"
-      << "dictionary: " << layout.dictionary
-      << "\nmarkers:" << (layout.markers.empty() ? " []\n" : "\n");
+      << "dictionary: " << layout.dictionary << "\nmarkers:"
+      << (layout.markers.empty() && layout.unplaced_sides_m.empty() ? " []\n" : "\n");
   for (const PlacedMarker& marker : layout.markers) {
     const Eigen::Vector3d& p = marker.T_world_marker.translation();
     const Eigen::Quaterniond& q = marker.T_world_marker.rotation().quaternion();
@@ -100,6 +105,8 @@ void write_marker_layout(const std::string& path, const MarkerLayout& layout) {
         "quaternion: [{:.12f}, {:.12f}, {:.12f}, {:.12f}]}}\n",
         marker.id, marker.side_m, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
   }
+  for (const auto& [id, side_m] : layout.unplaced_sides_m)
+    file.stream() << fmt::format("  - {{id: {}, side_m: {}}}\n", id, side_m);
   file.stream() << "beacons:" << (layout.beacons_world.empty() ? " []\n" : "\n");
   for (const Eigen::Vector3d& p : layout.beacons_world)
     file.stream() << fmt::format("  - [{:.9f}, {:.9f}, {:.9f}]\n", p.x(), p.y(), p.z());

@@ -20,6 +20,18 @@ double seconds(std::int64_t from_ns, std::int64_t to_ns) {
   return 1e-9 * static_cast<double>(to_ns - from_ns);
 }
 
+/// Of the state's pose, right tangent.
+Matrix6d pose_covariance(const BodyState& state) {
+  constexpr int kPart[] = {0, 6};  // position (world) and attitude in the state
+  Matrix6d covariance;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j)
+      covariance.block<3, 3>(3 * i, 3 * j) = state.covariance.block<3, 3>(kPart[i], kPart[j]);
+  Matrix6d J = Matrix6d::Identity();
+  J.topLeftCorner<3, 3>() = state.T_world_body.rotation().matrix().transpose();
+  return J * covariance * J.transpose();
+}
+
 }  // namespace
 
 void visit(OptionVisitor& field, HoverStartOptions& o) {
@@ -49,6 +61,9 @@ void visit(OptionVisitor& field, HoverOptions& o) {
   field.group("tracker", o.tracker, "corners of the floor that are followed");
   field.group("start", o.start, "what a body that begins does not know");
   field.group("filter", o.filter, "how the sensors err, and what is believed");
+  field("map_interval_s", o.map_interval_s,
+        "between images that are searched whole for markers to be mapped", {0, 60});
+  field.group("map", o.map, "markers whose place is not known");
 }
 
 void HoverOptions::check() const {
@@ -58,6 +73,7 @@ void HoverOptions::check() const {
   markers.check();
   tracker.check();
   filter.check();
+  map.check();
 }
 
 Hover::Hover(const HoverOptions& options, const Camera& camera, const SE3& T_body_cam,
@@ -205,16 +221,22 @@ bool Hover::beacons_in_view(const BodyState& state) const {
 }
 
 /// The largest of the squares that should be in view.
-std::vector<SquareCorners> Hover::largest_expected(const BodyState& state) const {
-  std::vector<SquareCorners> squares = markers_->expected_squares(state.T_world_body);
-  const auto diagonal2 = [](const SquareCorners& square) {
-    return (square[2] - square[0]).squaredNorm() + (square[3] - square[1]).squaredNorm();
+std::vector<ExpectedSquare> Hover::largest_expected(const BodyState& state) const {
+  std::vector<ExpectedSquare> squares =
+      markers_->expected_squares(state.T_world_body, pose_covariance(state));
+  const auto diagonal2 = [](const ExpectedSquare& square) {
+    const SquareCorners& px = square.corners_px;
+    return (px[2] - px[0]).squaredNorm() + (px[3] - px[1]).squaredNorm();
   };
-  std::stable_sort(
-      squares.begin(), squares.end(),
-      [&](const SquareCorners& a, const SquareCorners& b) { return diagonal2(a) > diagonal2(b); });
+  std::stable_sort(squares.begin(), squares.end(),
+                   [&](const ExpectedSquare& a, const ExpectedSquare& b) {
+                     return diagonal2(a) > diagonal2(b);
+                   });
   if (static_cast<int>(squares.size()) > options_.max_markers)
     squares.resize(static_cast<std::size_t>(options_.max_markers));
+  // What markers contradict is not as sure as it says.
+  if (contradicted_ > 0)
+    for (ExpectedSquare& square : squares) square.within_px.reset();
   return squares;
 }
 

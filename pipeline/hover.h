@@ -8,6 +8,7 @@
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/marker_layout.h>
+#include <placegraph/pipeline/marker_map.h>
 
 #include <deque>
 
@@ -45,6 +46,8 @@ struct HoverOptions {
   MarkerFilterOptions markers;
   HoverStartOptions start;
   PositionFilterOptions filter;
+  double map_interval_s = 0.2;  ///< of `map_hover_markers`, between images that are searched whole
+  MarkerMapOptions map;         ///< of the same
   void check() const;
 };
 void visit(OptionVisitor& field, HoverOptions& options);
@@ -103,7 +106,7 @@ class Hover {
   KnownRotation turn_between(std::int64_t from_ns, std::int64_t to_ns) const;
   std::vector<Eigen::Vector2f> predicted_tracks(const BodyState& next) const;
   std::vector<FlowVector> follow(const Frame& frame);
-  std::vector<SquareCorners> largest_expected(const BodyState& state) const;
+  std::vector<ExpectedSquare> largest_expected(const BodyState& state) const;
   void look_for_marks(const Frame& frame, HoverSights& sights);
   void take_marks(const HoverSights& sights, HoverFrame& result);
   Outcome deliver(std::int64_t now_ns);

@@ -102,6 +102,20 @@ class StrengthRows {
   Strengths xx_, xy_, yy_;
 };
 
+/// One row of strengths, and of every pixel the highest of three that lie side by side: the middle
+/// one among them, or only those `beside` it. The first and the last entry of these mean nothing.
+struct PeakRow {
+  Strengths strengths, beside, highest;
+  explicit PeakRow(Eigen::Index columns)
+      : strengths(columns), beside(Strengths::Zero(columns)), highest(Strengths::Zero(columns)) {}
+  void read(StrengthRows& rows) {
+    rows.read(strengths);
+    const Eigen::Index inner = strengths.size() - 2;
+    beside.segment(1, inner) = strengths.head(inner).max(strengths.tail(inner));
+    highest.segment(1, inner) = beside.segment(1, inner).max(strengths.segment(1, inner));
+  }
+};
+
 }  // namespace
 
 std::vector<Corner> find_corners(const Image& image, double min_strength, int border,
@@ -115,22 +129,21 @@ std::vector<Corner> find_corners(const Image& image, double min_strength, int bo
   if (image.cols <= 2 * border || image.rows <= 2 * border) return corners;
   const float threshold = static_cast<float>(min_strength);
   StrengthRows rows(image, border - 1);
-  std::array<Strengths, 3> of;  // the row above, this one and the one below
-  rows.read(of[0]);
-  rows.read(of[1]);
+  std::array<PeakRow, 3> of{PeakRow(image.cols), PeakRow(image.cols),
+                            PeakRow(image.cols)};  // the row above, this one and the one below
+  of[0].read(rows);
+  of[1].read(rows);
+  Strengths highest(image.cols);
   for (int v = border; v < image.rows - border; ++v) {
-    rows.read(of[2]);
-    const float *above = of[0].data(), *here = of[1].data(), *below = of[2].data();
+    of[2].read(rows);
+    // All neighbours at once: noise has a peak every few pixels, and no branch foresees it.
+    highest = of[0].highest.max(of[2].highest).max(of[1].beside).max(threshold);
+    const float *here = of[1].strengths.data(), *over = highest.data();
     const std::uint8_t* no = blocked.empty() ? nullptr : blocked.ptr(v);
     const std::uint8_t* yes = mask.empty() ? nullptr : mask.ptr(v);
     for (int u = border; u < image.cols - border; ++u) {
       const float s = here[u];
-      if (!(s > threshold) || s < here[u - 1] || s < here[u + 1] || (no && no[u]) ||
-          (yes && !yes[u]))
-        continue;
-      if (s < above[u - 1] || s < above[u] || s < above[u + 1] || s < below[u - 1] ||
-          s < below[u] || s < below[u + 1])
-        continue;
+      if (s < over[u] || !(s > threshold) || (no && no[u]) || (yes && !yes[u])) continue;
       corners.push_back({s, u, v});
     }
     std::swap(of[0], of[1]);

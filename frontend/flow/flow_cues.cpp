@@ -90,6 +90,17 @@ MatrixXd covariance_of(const Fit& fitted) {
   return fitted.information.inverse() * std::max(1.0, fitted.chi2_per_dof);
 }
 
+/// Of what was fitted, by the right tangent of the turn that was taken out: its error moves all
+/// points together.
+MatrixXd by_turn(const Fit& fitted, const std::vector<Row>& rows,
+                 const std::vector<const DerotatedFlow*>& flow) {
+  MatrixXd J = MatrixXd::Zero(fitted.x.size(), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    J += fitted.weights[static_cast<Eigen::Index>(i)] * rows[i].A.transpose() *
+         rows[i].information * flow[i]->J_end_rotation;
+  return fitted.information.ldlt().solve(J);
+}
+
 Outcome too_few(std::size_t count, std::size_t least) {
   return Outcome::failure(Code::kTooFewData, std::to_string(count) + " vectors of flow, " +
                                                  std::to_string(least) + " needed");
@@ -156,14 +167,8 @@ VentralMotion ventral_motion(const std::vector<DerotatedFlow>& flow, const Vecto
   }
   result.over_distance = fitted.x;
   result.chi2_per_dof = fitted.chi2_per_dof;
-  // An error of the turn moves all points together.
-  Matrix3d J = Matrix3d::Zero();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double weight = fitted.weights[static_cast<Eigen::Index>(i)];
-    result.inliers += weight > 0;
-    J += weight * rows[i].A.transpose() * rows[i].information * used[i]->J_end_rotation;
-  }
-  result.J_rotation = fitted.information.ldlt().solve(J);
+  result.inliers = static_cast<int>((fitted.weights.array() > 0).count());
+  result.J_rotation = by_turn(fitted, rows, used);
   result.covariance = covariance_of(fitted) +
                       result.J_rotation * rotation_covariance * result.J_rotation.transpose();
   constexpr double kLeastSupport = 0.4;
@@ -191,7 +196,8 @@ TimeToContact time_to_contact(const VentralMotion& motion, const Vector3d& norma
   return result;
 }
 
-AffineFlow affine_flow(const std::vector<DerotatedFlow>& flow) {
+AffineFlow affine_flow(const std::vector<DerotatedFlow>& flow,
+                       const Matrix3d& rotation_covariance) {
   AffineFlow result;
   constexpr std::size_t kLeast = 6;
   if (flow.size() < kLeast) {
@@ -212,45 +218,59 @@ AffineFlow affine_flow(const std::vector<DerotatedFlow>& flow) {
   }
   result.centre = {fitted.x[0], fitted.x[3]};
   result.gradient << fitted.x[1], fitted.x[2], fitted.x[4], fitted.x[5];
-  const MatrixXd covariance = covariance_of(fitted);
-  result.sigma_divergence = std::sqrt(covariance(1, 1) + covariance(5, 5) + 2 * covariance(1, 5));
+  std::vector<const DerotatedFlow*> used;
+  for (const DerotatedFlow& f : flow) used.push_back(&f);
+  const MatrixXd J = by_turn(fitted, rows, used);
+  result.covariance = covariance_of(fitted) + J * rotation_covariance * J.transpose();
   result.outcome = Outcome::ok();
   return result;
 }
 
-LateralBalance lateral_balance(const std::vector<DerotatedFlow>& flow) {
+LateralBalance lateral_balance(const std::vector<DerotatedFlow>& flow,
+                               const Matrix3d& rotation_covariance) {
   LateralBalance result;
-  double sums[2] = {}, variances[2] = {};
-  std::size_t counts[2] = {};
+  struct Side {
+    double sum = 0, variance = 0;
+    Eigen::RowVector3d J = Eigen::RowVector3d::Zero();  // of `sum` by the turn
+    std::size_t count = 0;
+  };
+  Side left, right;
   for (const DerotatedFlow& f : flow) {
-    const int side = f.start.x() > 0;
+    Side& side = f.start.x() > 0 ? right : left;
     const double length = f.flow().norm();
-    sums[side] += length;
-    if (length > 0) {
-      const Vector2d along = f.flow() / length;
-      variances[side] += along.dot(f.covariance * along);
-    }
-    ++counts[side];
+    side.sum += length;
+    ++side.count;
+    if (!(length > 0)) continue;
+    const Vector2d along = f.flow() / length;
+    side.variance += along.dot(f.covariance * along);
+    side.J += along.transpose() * f.J_end_rotation;
   }
   constexpr std::size_t kLeast = 3;
-  if (std::min(counts[0], counts[1]) < kLeast) {
-    result.outcome = too_few(std::min(counts[0], counts[1]), kLeast);
+  if (std::min(left.count, right.count) < kLeast) {
+    result.outcome = too_few(std::min(left.count, right.count), kLeast);
     return result;
   }
-  const auto n_left = static_cast<double>(counts[0]), n_right = static_cast<double>(counts[1]);
-  result.left = sums[0] / n_left;
-  result.right = sums[1] / n_right;
-  const double sum = result.left + result.right;
-  const double variance_left = variances[0] / (n_left * n_left);
-  const double variance_right = variances[1] / (n_right * n_right);
-  if (!(sum > 3 * std::sqrt(variance_left + variance_right))) {
+  for (Side* side : {&left, &right}) {
+    const auto n = static_cast<double>(side->count);
+    side->sum /= n;
+    side->variance /= n * n;
+    side->J /= n;
+  }
+  result.left = left.sum;
+  result.right = right.sum;
+  const double sum = left.sum + right.sum;
+  const auto by_rotation = [&](const Eigen::RowVector3d& J) {
+    return J.dot(rotation_covariance * J.transpose());
+  };
+  if (!(sum > 3 * std::sqrt(left.variance + right.variance + by_rotation(left.J + right.J)))) {
     result.outcome = Outcome::failure(Code::kDegenerate, "hardly anything moves");
     return result;
   }
-  result.balance = (result.right - result.left) / sum;
-  result.sigma = 2 / (sum * sum) *
-                 std::sqrt(result.left * result.left * variance_right +
-                           result.right * result.right * variance_left);
+  result.balance = (right.sum - left.sum) / sum;
+  const double half_slope = 2 / (sum * sum);  // d balance = half_slope (left dr - right dl)
+  result.sigma = half_slope * std::sqrt(left.sum * left.sum * right.variance +
+                                        right.sum * right.sum * left.variance +
+                                        by_rotation(left.sum * right.J - right.sum * left.J));
   result.outcome = Outcome::ok();
   return result;
 }

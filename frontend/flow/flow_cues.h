@@ -2,7 +2,7 @@
 #include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/graph/core/camera.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/core/so3.h>
+#include <placegraph/graph/core/se3.h>
 
 #include <Eigen/Core>
 #include <vector>
@@ -68,11 +68,19 @@ struct AffineFlow {
   Outcome outcome;
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();
-  double sigma_divergence = 0;
+  /// Of (centre x, gradient's first row, centre y, its second row), from the flow's and the turn's.
+  Matrix6d covariance = Matrix6d::Zero();
   /// Twice the share of the distance that is left behind, where a plane faces the camera.
   double divergence() const { return gradient.trace(); }
+  double divergence_variance() const {
+    return covariance(1, 1) + covariance(5, 5) + 2 * covariance(1, 5);
+  }
 };
-AffineFlow affine_flow(const std::vector<DerotatedFlow>& flow);
+
+/// `rotation_covariance` as for `ventral_motion`. Refuses fewer than six vectors and points in a
+/// line.
+AffineFlow affine_flow(const std::vector<DerotatedFlow>& flow,
+                       const Eigen::Matrix3d& rotation_covariance = Eigen::Matrix3d::Zero());
 
 /// How much faster the right half of the view passes than the left one: bees fly in the middle of a
 /// corridor by keeping it at zero (Srinivasan et al. 1991).
@@ -80,10 +88,13 @@ struct LateralBalance {
   Outcome outcome;
   double left = 0, right = 0;  ///< mean length of the derotated flow on either side of the axis
   double balance = 0;          ///< (right - left) / (right + left), in [-1, 1]
-  double sigma = 0;            ///< of `balance`
+  double sigma = 0;            ///< of `balance`, from the flow's and the turn's
 };
 
-/// Refuses a side with fewer than three vectors, and flow that is hardly there.
-LateralBalance lateral_balance(const std::vector<DerotatedFlow>& flow);
+/// `rotation_covariance` as for `ventral_motion`. Refuses a side with fewer than three vectors, and
+/// flow that is hardly there.
+LateralBalance lateral_balance(
+    const std::vector<DerotatedFlow>& flow,
+    const Eigen::Matrix3d& rotation_covariance = Eigen::Matrix3d::Zero());
 
 }  // namespace placegraph

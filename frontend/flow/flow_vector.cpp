@@ -80,4 +80,30 @@ Eigen::Matrix2d track_covariance(const Image& image, const Eigen::Vector2d& px, 
          eigen.eigenvectors().transpose();
 }
 
+std::vector<FlowVector> sampled_flow(const Image& from, const Image& flow, int cell_px) {
+  require(from.type() == CV_8UC1 && flow.type() == CV_32FC2 && from.size() == flow.size(),
+          "sampled_flow: a grey image and its flow are needed");
+  require(cell_px > 1, "sampled_flow: cells are of two pixels at least");
+  const double noise_grey = image_noise(from), middle = 0.5 * (cell_px - 1);
+  const int window_px = cell_px | 1;
+  std::vector<FlowVector> vectors;
+  for (int top = 0; top < flow.rows; top += cell_px)
+    for (int left = 0; left < flow.cols; left += cell_px) {
+      FlowVector nearest;
+      double least = std::numeric_limits<double>::infinity();
+      for (int v = top; v < std::min(top + cell_px, flow.rows); ++v)
+        for (int u = left; u < std::min(left + cell_px, flow.cols); ++u) {
+          const auto& d = flow.at<cv::Vec2f>(v, u);
+          const double away = std::hypot(u - left - middle, v - top - middle);
+          if (away >= least || !std::isfinite(d[0]) || !std::isfinite(d[1])) continue;
+          least = away;
+          nearest = {FlowVector::Kind::kFull, {u, v}, {d[0], d[1]}, {}};
+        }
+      if (nearest.kind == FlowVector::Kind::kNone) continue;
+      nearest.covariance = track_covariance(from, nearest.px, window_px, noise_grey);
+      if (nearest.covariance.trace() < 0.25 * cell_px * cell_px) vectors.push_back(nearest);
+    }
+  return vectors;
+}
+
 }  // namespace placegraph

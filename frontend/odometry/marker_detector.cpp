@@ -1,3 +1,4 @@
+#include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/frontend/odometry/marker_detector.h>
 #include <placegraph/frontend/odometry/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
@@ -41,6 +42,11 @@ void MarkerDetector::detect_in(const Image& grey, int left, int top, int right, 
   // Of outlines nearer to each other than that only the outermost is looked at: that of the sheet
   // must not hide the marker printed on it.
   parameters->minMarkerDistanceRate = 0.02;
+  // Dark is what is darker than its surroundings by so many grey levels: by more than what noise
+  // does, whose thousand specks all had to be followed around else.
+  constexpr double kSigmas = 3, kMost_grey = 20;
+  parameters->adaptiveThreshConstant = std::clamp(kSigmas * image_noise(grey(window)),
+                                                  parameters->adaptiveThreshConstant, kMost_grey);
   std::vector<std::vector<cv::Point2f>> squares;
   std::vector<int> ids;
   cv::aruco::detectMarkers(grey(window), family_->dictionary, squares, ids, parameters);
@@ -81,20 +87,23 @@ std::vector<MarkerSighting> MarkerDetector::detect(const Image& grey, const Came
   return found;
 }
 
-std::vector<MarkerSighting> MarkerDetector::detect_near(
-    const Image& grey, const std::vector<SquareCorners>& expected_px, const Camera* lens) const {
+std::vector<MarkerSighting> MarkerDetector::detect_near(const Image& grey,
+                                                        const std::vector<ExpectedSquare>& expected,
+                                                        const Camera* lens) const {
   require(!grey.empty() && grey.type() == CV_8UC1, "MarkerDetector: grey image needed");
   std::vector<MarkerSighting> found;
-  for (const SquareCorners& expected : expected_px) {
-    Eigen::Vector2d low = expected[0], high = expected[0];
-    for (const Eigen::Vector2d& corner : expected) {
+  for (const ExpectedSquare& square : expected) {
+    Eigen::Vector2d low = square.corners_px[0], high = low;
+    for (const Eigen::Vector2d& corner : square.corners_px) {
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
     }
     if (!low.allFinite() || !high.allFinite()) continue;
-    constexpr double kLeastMargin_px = 12;
-    const double margin =
-        std::max(kLeastMargin_px, options_.search_margin * (high - low).maxCoeff());
+    constexpr double kLeastMargin_px = 12, kPaper = 0.15;  // white around it, in its widths
+    const double width = (high - low).maxCoeff();
+    const double reach =
+        square.within_px ? kPaper * width + *square.within_px : options_.search_margin * width;
+    const double margin = std::max(kLeastMargin_px, reach);
     const auto inside = [](double value, int size) {
       return static_cast<int>(std::clamp(std::round(value), 0.0, static_cast<double>(size)));
     };

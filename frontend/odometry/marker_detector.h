@@ -2,6 +2,7 @@
 #include <placegraph/frontend/odometry/square_fit.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,13 @@ struct MarkerSighting {
   }
 };
 
+/// Where a marker should be in an image.
+struct ExpectedSquare {
+  SquareCorners corners_px;  ///< in any order
+  /// It may be so far from there; without, as far as MarkerDetectorOptions::search_margin says.
+  std::optional<double> within_px = std::nullopt;
+};
+
 /// Finds the square markers of a dictionary: quadrangles and their codes by OpenCV's aruco
 /// (Garrido-Jurado et al. 2014), corners by `fit_square`.
 class MarkerDetector {
@@ -41,10 +49,10 @@ class MarkerDetector {
   /// All markers of the image (CV_8UC1, else ArgumentError), in the order of their ids. `lens`: the
   /// camera if it bends straight lines.
   std::vector<MarkerSighting> detect(const Image& grey, const Camera* lens = nullptr) const;
-  /// The same, looked for only around where markers are expected (corners in any order): a tenth
-  /// of the work for a marker of a tenth of the image.
+  /// The same, looked for only around where markers are expected: a tenth of the work for a marker
+  /// of a tenth of the image.
   std::vector<MarkerSighting> detect_near(const Image& grey,
-                                          const std::vector<SquareCorners>& expected_px,
+                                          const std::vector<ExpectedSquare>& expected,
                                           const Camera* lens = nullptr) const;
 
   const std::string& dictionary() const { return dictionary_; }

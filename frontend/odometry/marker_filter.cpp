@@ -14,6 +14,7 @@ namespace placegraph {
 namespace {
 
 using Code = Outcome::Code;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kRad = std::numbers::pi / 180;
 
@@ -220,19 +221,34 @@ MarkerAnswer MarkerFilter::observe(const MarkerView& view, const PositionFilter*
   return answer;
 }
 
-std::vector<SquareCorners> MarkerFilter::expected_squares(const SE3& T_world_body) const {
-  const SE3 T_cam_world = (T_world_body * T_body_cam_).inverse();
-  std::vector<SquareCorners> squares;
+std::vector<ExpectedSquare> MarkerFilter::expected_squares(const SE3& T_world_body,
+                                                           const Matrix6d& covariance) const {
+  // A marker is hardly ever farther off than that, if the layout is right to a few pixels.
+  constexpr double kSigmas = 4, kLayout_px = 3;
+  const SE3 T_body_world = T_world_body.inverse(), T_cam_body = T_body_cam_.inverse();
+  std::vector<ExpectedSquare> squares;
   for (const PlacedMarker& marker : layout_.markers) {
-    SquareCorners corners;
-    int seen = 0, inside = 0;
+    ExpectedSquare square;
+    double variance_px2 = 0;
+    int seen = 0;
     for (const Vector3d& corner : marker.corners_marker()) {
-      const auto px = camera_.project(T_cam_world * marker.T_world_marker * corner);
+      const Vector3d p_body = T_body_world * (marker.T_world_marker * corner);
+      Eigen::Matrix<double, 2, 3> J_px_cam;
+      const auto px = camera_.project(T_cam_body * p_body, &J_px_cam);
       if (!px) break;
-      inside += camera_.contains(*px) ? 1 : 0;
-      corners[seen++] = *px;
+      Eigen::Matrix<double, 3, 6> J_body;
+      J_body << -Eigen::Matrix3d::Identity(), hat(p_body);
+      const Eigen::Matrix<double, 2, 6> J = J_px_cam * T_cam_body.rotation().matrix() * J_body;
+      variance_px2 = std::max(variance_px2, (J * covariance * J.transpose()).trace());
+      square.corners_px[seen++] = *px;
     }
-    if (seen == 4 && inside > 0) squares.push_back(corners);
+    if (seen < 4) continue;
+    square.within_px = kLayout_px + kSigmas * std::sqrt(variance_px2);
+    // One that is cut by the side of the image is not found.
+    const bool whole =
+        std::all_of(square.corners_px.begin(), square.corners_px.end(),
+                    [&](const Vector2d& px) { return camera_.contains(px, -*square.within_px); });
+    if (whole) squares.push_back(square);
   }
   return squares;
 }

@@ -69,8 +69,10 @@ class MarkerFilter {
   /// Views come in the order of their times. `expected`, if given, has begun and reaches to the
   /// view's time; without it the layout and the sensors decide.
   MarkerAnswer observe(const MarkerView& view, const PositionFilter* expected = nullptr);
-  /// Where a camera at this pose would see the layout's markers: for MarkerDetector::detect_near.
-  std::vector<SquareCorners> expected_squares(const SE3& T_world_body) const;
+  /// Where a camera at this pose would see the layout's markers, wholly or but for what the pose
+  /// leaves open (right tangent of T_world_body): for MarkerDetector::detect_near.
+  std::vector<ExpectedSquare> expected_squares(const SE3& T_world_body,
+                                               const Matrix6d& covariance) const;
   void forget() { hypotheses_.clear(); }
 
  private:

@@ -30,6 +30,20 @@ for flight in 1-standard 2-standard 3-standard 4-hard; do
     "$(digits "$drift" 3) of $(digits "$way" 1)" "$(digits "$ratio" 2)" "$(digits "$cpu" 2) (+ $(digits "$(number "$f" reading_ms_per_frame)" 2))" \
     "$(verdict "$position" "<=" 0.05), $(verdict "$velocity" "<=" 0.05), $(verdict "$drift" "<=" 2), $(verdict "$ratio" "<=" 1.5), $(verdict "$cpu" "<=" 6)"
 done
+printf '\nMarkers mapped (`--map-markers`): the layout gives the place of its first marker alone, of the other five their sides. Errors are those of the markers that\nwere mapped, in the world of the first; NEES a degree of freedom is one where they are as large as their covariances say. The last two columns: position RMSE of the flight by the\nfirst marker alone, and by the map that came of it.\n\n' >> "$rows"
+command_line "placegraph hover WORLD --out MAPPED --markers FIRST.yaml --map-markers --true-markers WORLD/markers.yaml"
+command_line "placegraph hover WORLD --out AGAIN --markers MAPPED/markers.yaml"
+columns flight "markers mapped" "worst error [m]" "worst error [deg]" "NEES a degree of freedom" "RMSE by one marker [m]" "RMSE by the map [m]"
+for flight in 1-standard 2-standard 3-standard 4-hard; do
+  world=$out/hover$flight-world
+  # The first keeps its place, the others lose theirs; no beacons.
+  awk '/side_m/ && n++ { sub(/, position.*/, "}") } /^beacons/ { print "beacons: []"; exit } { print }' "$world/markers.yaml" > "$out/first.yaml"
+  hover "hover$flight-mapped" "hover$flight" --markers "$out/first.yaml" --map-markers --true-markers "$world/markers.yaml"
+  hover "hover$flight-again" "hover$flight" --markers "$out/hover$flight-mapped/markers.yaml"
+  f=$out/hover$flight-mapped/result.json
+  cells "seed ${flight%-*}, ${flight#*-}" "$(number "$f" compared_markers) of 5" "$(digits "$(number "$f" worst_error_m)" 4)" "$(digits "$(number "$f" worst_error_deg)" 2)" \
+    "$(digits "$(number "$f" nees_per_dof)" 2)" "$(digits "$(number "$f" position_rmse_m)" 4)" "$(digits "$(number "$out/hover$flight-again/result.json" position_rmse_m)" 4)"
+done
 say "hover: $flights flights without images"
 build/release/tests/bench/bench_hover_study "$flights" > "$out/hover_study.tsv"
 printf '\nMean over %s flights of 120 s through the same pipeline without images: points of the floor, corners and beacons measured where they truly are with the\nnoise of rendered flights, so that many seeds are affordable.\n' "$flights" >> "$rows"

@@ -61,8 +61,8 @@ void study_apriltag_sim(const std::string& folder, Report& report) {
   report.target("apriltag_sim, position [%]", way_percent);
   report.target("apriltag_sim, attitude [deg]", turn_deg);
   const MarkerDetector detector({}, "apriltag_36h11");
-  std::vector<SquareCorners> near;
-  for (const MarkerSighting& sighting : found) near.push_back(sighting.corners_px);
+  std::vector<ExpectedSquare> near;
+  for (const MarkerSighting& sighting : found) near.push_back({sighting.corners_px});
   constexpr int kTimes = 50;
   double begin = cpu_ms();
   for (int i = 0; i < kTimes; ++i) (void)detector.detect(truth.image);

@@ -1,4 +1,5 @@
 // `placegraph flow`.
+#include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/support/cli_test.h"
@@ -54,6 +55,39 @@ TEST_F(FlowCli, RefusesWithOneLineAndWritesNothing) {
   dir.write("f.flo", "mine");
   expect_usage_error("flow a.png b.png -o f.flo", "f.flo");
   EXPECT_EQ(read_file(dir / "f.flo"), "mine");
+}
+
+TEST_F(FlowCli, TellsWhatFlowTellsAtOnce) {
+  // Straight towards a plane at 2 m by 0.1 m in 0.1 s: contact in 1.9 s; the camera turns by 0.002.
+  const Camera camera{.width = 320, .height = 240, .fx = 200, .fy = 200, .cx = 159.5, .cy = 119.5};
+  const test::TexturedPlane wall{SE3(SO3(), Eigen::Vector3d(0, 0, 2)),
+                                 1e3,
+                                 1e3,
+                                 {.seed = 4, .wavelength = 0.3, .octaves = 3, .contrast = 45}};
+  const SE3 T_1_2(SO3::exp({0, 0.002, 0}), Eigen::Vector3d(0, 0, 0.1));
+  cv::imwrite(dir / "far.png", test::render(camera, {}, {wall}).grey);
+  cv::imwrite(dir / "near.png", test::render(camera, T_1_2, {wall}).grey);
+  dir.write("K.txt", "200 200 159.5 119.5 320 240\n");
+  const std::string command = "flow far.png near.png --cues --calib K.txt ";
+  for (const char* method : {"interpolation", "lucas-kanade", "horn-schunck", "dis"}) {
+    const CommandResult result =
+        run(command + "--json --dt 0.1 --gyro 0 0.02 0 --turn-sigma 1e-4 --method " + method);
+    ASSERT_EQ(result.code, 0) << result.err;
+    const auto cues = nlohmann::json::parse(result.out)["cues"];
+    EXPECT_NEAR(cues["time_to_contact"]["time"].get<double>(), 1.9, 0.05 * 1.9) << method;
+    EXPECT_GT(cues["time_to_contact"]["variance"].get<double>(), 0);
+    // Twice what a point at the axis grows by in the image.
+    EXPECT_NEAR(cues["affine"]["divergence"].get<double>(), 2 * 0.1 / 1.9, 0.006) << method;
+    EXPECT_NEAR(cues["ventral"]["speed_over_distance"][2].get<double>(), 0.5, 0.025) << method;
+    EXPECT_NEAR(cues["ventral"]["speed_over_distance"][0].get<double>(), 0, 0.02) << method;
+    EXPECT_NEAR(cues["balance"]["balance"].get<double>(), 0, 0.05) << method;
+  }
+  const CommandResult lines = run(command + "--turn 0,0.002,0");
+  EXPECT_THAT(lines.out, HasSubstr("time to contact: 19."));  // in images
+  EXPECT_THAT(run(command + "--normal 0 0 -1").out, HasSubstr("time to contact: none: "));
+  expect_usage_error("flow far.png near.png --cues", "--calib");
+  expect_usage_error(command + "--gyro 0 0 0", "--dt");
+  expect_usage_error("flow a.png b.png --cues --calib K.txt", "a.png");
 }
 
 TEST_F(FlowCli, HasNoAnswerOfBlankImages) {

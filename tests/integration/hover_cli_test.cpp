@@ -1,3 +1,5 @@
+#include <placegraph/io/marker_layout_file.h>
+
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -88,6 +90,39 @@ TEST_F(HoverCli, TellsWhereItWillBe) {
   const json ahead = result("ahead");
   EXPECT_LT(ahead["error"]["position_rmse_m"].get<double>(), 0.03);
   EXPECT_EQ(ahead["error"]["compared"], 79);  // the truth ends before the last two
+}
+
+TEST_F(HoverCli, MapsMarkersWhosePlaceIsNotKnown) {
+  const MarkerLayout truth = read_marker_layout(flight() + "/markers.yaml");
+  MarkerLayout partly = truth;
+  partly.beacons_world.clear();
+  // The first ones keep their place, every other one loses it.
+  partly.markers.clear();
+  for (std::size_t i = 0; i < truth.markers.size(); ++i) {
+    const PlacedMarker& marker = truth.markers[i];
+    if (i % 2 == 0)
+      partly.markers.push_back(marker);
+    else
+      partly.unplaced_sides_m[marker.id] = marker.side_m;
+  }
+  write_marker_layout(dir / "partly.yaml", partly);
+  const std::string command = "hover " + flight() + " --markers partly.yaml --map-markers ";
+  const CommandResult ran =
+      run(command + "--out out --true-markers " + flight() + "/markers.yaml --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const json map = result("out")["marker_map"];
+  ASSERT_GT(map["compared_markers"].get<int>(), 0);
+  EXPECT_LT(map["worst_error_m"].get<double>(), 0.01);
+  EXPECT_LT(map["worst_error_deg"].get<double>(), 1);
+  // What it wrote is a layout to fly by, and to find markers of single images by.
+  const MarkerLayout mapped = read_marker_layout(dir / "out/markers.yaml");
+  EXPECT_EQ(mapped.markers.size() + mapped.unplaced_sides_m.size(), truth.markers.size());
+  EXPECT_EQ(mapped.markers.size(), partly.markers.size() + map["markers"].size());
+  ASSERT_EQ(run("hover " + flight() + " --out again --markers out/markers.yaml").code, 0);
+  EXPECT_LT(result("again")["error"]["position_rmse_m"].get<double>(), 0.02);
+  expect_usage_error("hover " + flight() + " --out x --map-markers",
+                     "gives every marker its place");
+  expect_usage_error(command + "--out x --predict-ahead-ms 50", "--map-markers");
 }
 
 TEST_F(HoverCli, SaysNothingWithoutAStart) {

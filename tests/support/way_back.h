@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/eval/same_view.h>
 #include <placegraph/graph/route.h>
 #include <placegraph/io/dataset.h>
 #include <placegraph/pipeline/loop_closer.h>
@@ -31,7 +32,7 @@ struct Recognition {
 /// Replays what was seen at places, by frames of the sequence that the map does not keep.
 class WayBack {
  public:
-  static constexpr double kReach_m = 5, kAngle_deg = 30;
+  static constexpr SameView kSame{};
   static constexpr std::int64_t kOtherPass = 40;  // frames apart at least
 
   /// Frames of another pass are taken from `other_from` on: the number of frames in the map, or 0.
@@ -50,11 +51,11 @@ class WayBack {
   /// nearest neighbour that is not kept.
   ViewOnTheWay view_at(std::int64_t place_frame) const {
     ViewOnTheWay best{place_frame, false};
-    double distance = kReach_m;
+    double distance = kSame.radius_m;
     for (std::int64_t i = other_from_; i < size(); ++i) {
       const auto [way, angle] = apart(place_frame, i);
       if (std::abs(i - place_frame) < kOtherPass || kept_.count(i) || way > distance ||
-          angle > kAngle_deg)
+          angle > kSame.heading_deg)
         continue;
       distance = way;
       best = {i, true};
@@ -73,7 +74,7 @@ class WayBack {
     if (!found) return recognition;
     const Keyframe& keyframe = *map_.find_keyframe(found->match);
     const auto [way, angle] = apart(keyframe.frame, view.frame);
-    const bool right = way <= kReach_m && angle <= kAngle_deg;
+    const bool right = way <= kSame.radius_m && angle <= kSame.heading_deg;
     recognition.result = right ? Recognition::Result::kRight : Recognition::Result::kWrong;
     const SE3 error =
         (T_world(keyframe.frame).inverse() * T_world(view.frame)).inverse() * found->T_match_query;

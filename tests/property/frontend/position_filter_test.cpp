@@ -3,12 +3,12 @@
 
 #include <Eigen/LU>
 
-#include "tests/support/hover_flight.h"
+#include "tests/support/swaying_body.h"
 
 namespace placegraph {
 namespace {
 
-using test::HoverFlight;
+using test::SwayingBody;
 
 /// Mean over seeded flights of the squared error in units of its covariance, per degree of freedom.
 TEST(PositionFilterConsistency, ErrsAsItsCovarianceSaysOverManyFlights) {
@@ -16,7 +16,7 @@ TEST(PositionFilterConsistency, ErrsAsItsCovarianceSaysOverManyFlights) {
   double position = 0, velocity = 0, attitude = 0, square_m2 = 0;
   int judged = 0;
   for (int k = 0; k < kFlights; ++k) {
-    const HoverFlight flight{.seed = 100 + static_cast<std::uint64_t>(k), .duration_s = 6};
+    const SwayingBody flight{.seed = 100 + static_cast<std::uint64_t>(k), .duration_s = 6};
     Random random(flight.seed);
     PositionFilter filter(flight.noise, flight.T_body_cam);
     filter.start(flight.start(random));
@@ -26,7 +26,7 @@ TEST(PositionFilterConsistency, ErrsAsItsCovarianceSaysOverManyFlights) {
       if (i % 10 == 0) (void)filter.add(flight.flow(t - 0.05, t, random));
       if (i % 40 == 0 && (t < 2 || t > 4)) (void)filter.add(flight.marker(t, random));
       if (i % 100 != 0 || t < 1) continue;
-      const BodyState state = filter.at(HoverFlight::stamp(t)).state;
+      const BodyState state = filter.at(SwayingBody::stamp(t)).state;
       const auto nees = [&](const Eigen::Vector3d& e, int at) {
         const Eigen::Matrix3d P = state.covariance.block<3, 3>(at, at);
         return e.dot(P.inverse() * e) / 3;

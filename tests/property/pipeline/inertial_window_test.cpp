@@ -5,19 +5,19 @@
 #include <Eigen/LU>
 #include <iostream>
 
-#include "tests/support/hover_flight.h"
+#include "tests/support/swaying_body.h"
 
 namespace placegraph {
 namespace {
 
-using test::HoverFlight;
+using test::SwayingBody;
 
 /// Squared errors, and those in units of their covariances per degree of freedom.
 struct Tally {
   double square_m2 = 0, position = 0, velocity = 0, attitude = 0;
   int judged = 0;
 
-  void judge(const HoverFlight& flight, const BodyState& state) {
+  void judge(const SwayingBody& flight, const BodyState& state) {
     const double t = 1e-9 * static_cast<double>(state.stamp_ns);
     const auto nees = [&](const Eigen::Vector3d& e, int at) {
       const Eigen::Matrix3d P = state.covariance.block<3, 3>(at, at);
@@ -39,7 +39,7 @@ TEST(InertialWindowConsistency, IsAsGoodAsTheFilterAtOnceAndBetterASecondLater) 
   constexpr int kFlights = 10;
   Tally filtered, newest, oldest;
   for (int k = 0; k < kFlights; ++k) {
-    const HoverFlight flight{.seed = 300 + static_cast<std::uint64_t>(k), .duration_s = 6};
+    const SwayingBody flight{.seed = 300 + static_cast<std::uint64_t>(k), .duration_s = 6};
     Random random(flight.seed);
     PositionFilter filter(flight.noise, flight.T_body_cam);
     const InertialWindowOptions options;
@@ -63,7 +63,7 @@ TEST(InertialWindowConsistency, IsAsGoodAsTheFilterAtOnceAndBetterASecondLater) 
         (void)window.add(marker);
       }
       if (i % 100 != 0 || t < 2) continue;
-      filtered.judge(flight, filter.at(HoverFlight::stamp(t)).state);
+      filtered.judge(flight, filter.at(SwayingBody::stamp(t)).state);
       const auto answer = window.solve();
       newest.judge(flight, answer.states.back());
       oldest.judge(flight, answer.states.front());

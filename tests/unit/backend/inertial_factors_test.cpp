@@ -1,17 +1,17 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/inertial_factors.h>
 
-#include "tests/support/hover_flight.h"
+#include "tests/support/swaying_body.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {
 
-using test::HoverFlight;
+using test::SwayingBody;
 
-BodyState truth(const HoverFlight& flight, double t) {
+BodyState truth(const SwayingBody& flight, double t) {
   BodyState state;
-  state.stamp_ns = HoverFlight::stamp(t);
+  state.stamp_ns = SwayingBody::stamp(t);
   state.T_world_body = flight.pose(t);
   state.velocity_world = flight.velocity(t);
   state.gyro_bias = flight.gyro_bias;
@@ -26,7 +26,7 @@ StateStep random_step(Random& random, double sigma) {
 }
 
 /// Samples of `flight` from `from` to `to`, in its own noise.
-ImuPreintegration integrate(const HoverFlight& flight, double from, double to,
+ImuPreintegration integrate(const SwayingBody& flight, double from, double to,
                             const ImuNoise& noise, Random& random,
                             const Eigen::Vector3d& bias_off = Eigen::Vector3d::Zero()) {
   ImuPreintegration motion(flight.gyro_bias + bias_off, flight.accel_bias + bias_off, noise);
@@ -42,8 +42,8 @@ ImuPreintegration integrate(const HoverFlight& flight, double from, double to,
   return motion;
 }
 
-HoverFlight still_sensors() {
-  HoverFlight flight;
+SwayingBody still_sensors() {
+  SwayingBody flight;
   flight.imu_hz = 1000;
   flight.noise.gyro_noise = flight.noise.accel_noise = 1e-9;
   return flight;
@@ -70,7 +70,7 @@ void expect_jacobians(const Error& error_at, const BodyState& first, const BodyS
 
 TEST(InertialFactors, DerivativesAreThoseOfFiniteDifferences) {
   Random random = test::seeded_random(1);
-  const HoverFlight flight;
+  const SwayingBody flight;
   const ImuPreintegration motion = integrate(flight, 1, 1.2, kNoise, random);
   const BodyState first = moved(truth(flight, 1), random_step(random, 0.05));
   const BodyState second = moved(truth(flight, 1.2), random_step(random, 0.05));
@@ -89,7 +89,7 @@ TEST(InertialFactors, DerivativesAreThoseOfFiniteDifferences) {
 }
 
 /// Flow from which a turn was taken out that is wrong by `wrong`.
-FlowSighting with_turn(const HoverFlight& flight, double from, double to,
+FlowSighting with_turn(const SwayingBody& flight, double from, double to,
                        const Eigen::Vector3d& wrong, Random& random) {
   FlowSighting flow = flight.flow(from, to, random);
   Eigen::Matrix3d J;
@@ -104,7 +104,7 @@ FlowSighting with_turn(const HoverFlight& flight, double from, double to,
 
 TEST(InertialFactors, TakeAWrongTurnOutOfTheFlowAgain) {
   Random random = test::seeded_random(5);
-  HoverFlight flight;
+  SwayingBody flight;
   flight.flow_sigma = 1e-12;
   const BodyState first = truth(flight, 2), second = truth(flight, 2.1);
   const FlowSighting flow = with_turn(flight, 2, 2.1, {0.02, -0.01, 0.015}, random);
@@ -120,7 +120,7 @@ TEST(InertialFactors, TakeAWrongTurnOutOfTheFlowAgain) {
 
 TEST(InertialFactors, VanishAtTheTruth) {
   Random random = test::seeded_random(2);
-  HoverFlight flight = still_sensors();
+  SwayingBody flight = still_sensors();
   flight.flow_sigma = 1e-12;
   const BodyState first = truth(flight, 2), second = truth(flight, 2.5);
   const ImuPreintegration motion = integrate(flight, 2, 2.5, kNoise, random);
@@ -136,7 +136,7 @@ TEST(InertialFactors, VanishAtTheTruth) {
 
 TEST(ImuPreintegration, TakesOtherBiasesInToFirstOrder) {
   Random random = test::seeded_random(3);
-  const HoverFlight flight = still_sensors();
+  const SwayingBody flight = still_sensors();
   const Eigen::Vector3d off(0.003, -0.002, 0.001);
   const ImuPreintegration here = integrate(flight, 1, 1.3, kNoise, random);
   const ImuPreintegration there = integrate(flight, 1, 1.3, kNoise, random, off);
@@ -149,7 +149,7 @@ TEST(ImuPreintegration, TakesOtherBiasesInToFirstOrder) {
 
 TEST(ImuPreintegration, CovarianceIsThatOfManyIntegrations) {
   Random random = test::seeded_random(4);
-  HoverFlight flight;
+  SwayingBody flight;
   flight.noise.gyro_noise = kNoise.gyro;
   flight.noise.accel_noise = kNoise.accel;
   const BodyState first = truth(flight, 1), second = truth(flight, 1.2);

@@ -2,17 +2,17 @@
 #include <placegraph/backend/inertial_window.h>
 #include <placegraph/graph/core/error.h>
 
-#include "tests/support/hover_flight.h"
+#include "tests/support/swaying_body.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {
 
-using test::HoverFlight;
+using test::SwayingBody;
 using Code = Outcome::Code;
 
 /// A window after two seconds of flight.
-InertialWindow after_two_seconds(const HoverFlight& flight, Random& random,
+InertialWindow after_two_seconds(const SwayingBody& flight, Random& random,
                                  const InertialWindowOptions& options = {}) {
   InertialWindow window(options, flight.T_body_cam);
   window.start(flight.start(random));
@@ -28,7 +28,7 @@ InertialWindow after_two_seconds(const HoverFlight& flight, Random& random,
 
 TEST(InertialWindow, HoldsThePosition) {
   Random random = test::seeded_random(1);
-  const HoverFlight flight;
+  const SwayingBody flight;
   InertialWindow window = after_two_seconds(flight, random);
   const auto answer = window.solve();
   ASSERT_TRUE(answer.outcome);
@@ -48,9 +48,9 @@ TEST(InertialWindow, TurnsFromItsStartAsTheFirstSampleSays) {
   start.covariance = 1e-4 * Eigen::Matrix<double, 15, 15>::Identity();
   window.start(start);
   for (const double t : {0.01, 0.02})
-    ASSERT_TRUE(window.add(ImuSample{HoverFlight::stamp(t), {0, 0, 1}, {0, 0, 9.80665}}));
+    ASSERT_TRUE(window.add(ImuSample{SwayingBody::stamp(t), {0, 0, 1}, {0, 0, 9.80665}}));
   PoseSighting vague;  // makes the state
-  vague.stamp_ns = HoverFlight::stamp(0.02);
+  vague.stamp_ns = SwayingBody::stamp(0.02);
   vague.covariance = 1e6 * Matrix6d::Identity();
   ASSERT_TRUE(window.add(vague));
   const auto answer = window.solve();
@@ -61,7 +61,7 @@ TEST(InertialWindow, TurnsFromItsStartAsTheFirstSampleSays) {
 
 TEST(InertialWindow, DoesNotBelieveWhatIsFarFromExpected) {
   Random random = test::seeded_random(2);
-  const HoverFlight flight;
+  const SwayingBody flight;
   InertialWindow window = after_two_seconds(flight, random);
   PoseSighting wrong = flight.marker(2, random);
   wrong.T_world_body =
@@ -78,7 +78,7 @@ TEST(InertialWindow, DoesNotBelieveWhatIsFarFromExpected) {
 
 TEST(InertialWindow, SaysWhatIsOutOfReach) {
   Random random = test::seeded_random(3);
-  const HoverFlight flight;
+  const SwayingBody flight;
   InertialWindow fresh({}, flight.T_body_cam);
   EXPECT_EQ(fresh.add(flight.marker(0, random)).code, Code::kNotAttempted);
   EXPECT_EQ(fresh.add(flight.flow(0, 0.1, random)).code, Code::kNotAttempted);
@@ -98,7 +98,7 @@ TEST(InertialWindow, SaysWhatIsOutOfReach) {
 }
 
 TEST(InertialWindow, MarginalizationChangesLittle) {
-  const HoverFlight flight;
+  const SwayingBody flight;
   Random random = test::seeded_random(4);
   Random again = random;
   InertialWindowOptions whole;

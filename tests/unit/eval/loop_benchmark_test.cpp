@@ -100,14 +100,14 @@ TEST(LoopTruthFromPoses, AsksForDistanceHeadingAndAge) {
   };
   add(0, 0), add(1, 0), add(20, 0), add(4, 40), add(5, 20);
   truth.poses.push_back({0, std::nullopt});
-  const LoopTruth revisits = loop_truth_from_poses(truth, {5, 30, 2});
+  const LoopTruth revisits = loop_truth_from_poses(truth, {{5, 30}, 2});
   EXPECT_EQ(revisits.min_age, 2);
   EXPECT_EQ(revisits.queries.size(), 5u);  // a lost image is not judged
   EXPECT_TRUE(revisits.queries.at(1).matches.empty());
   EXPECT_TRUE(revisits.queries.at(3).matches.empty());  // turned too far
   EXPECT_EQ(revisits.queries.at(4).matches, (std::vector<std::int64_t>{0, 1}));
   EXPECT_EQ(revisits.queries.at(4).last, 2);
-  EXPECT_THROW((void)loop_truth_from_poses(truth, {5, 30, 0}), ArgumentError);
+  EXPECT_THROW((void)loop_truth_from_poses(truth, {{5, 30}, 0}), ArgumentError);
 }
 
 struct Published {

@@ -112,7 +112,7 @@ TEST(RouteCheck, CountsPairsThatNothingJoinsAndRefusesPlacesWithoutTruth) {
   EXPECT_EQ(check.pairs, 380);
   truth.poses[25].T_world_body.reset();
   EXPECT_THROW((void)check_routes(graph, frames, truth), ArgumentError);
-  options.reach_m = 0;
+  options.same.heading_deg = 200;
   EXPECT_THROW((void)driven_roads(truth, options), ArgumentError);
 }
 

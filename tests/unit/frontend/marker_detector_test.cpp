@@ -74,14 +74,14 @@ TEST(MarkerDetector, FindsNearWhatIsExpectedTheSameAsInTheWholeImage) {
   ASSERT_EQ(whole.size(), 2u);
   SquareCorners expected = truth(scene, 1, T);
   for (Eigen::Vector2d& corner : expected) corner += Eigen::Vector2d(8, -5);
-  const auto near = detector.detect_near(image, {expected, expected});
+  const auto near = detector.detect_near(image, {{expected}, {expected}});
   ASSERT_EQ(near.size(), 1u);
   EXPECT_EQ(near[0].id, 2);
   for (int k = 0; k < 4; ++k)
     EXPECT_LT((near[0].corners_px[k] - whole[1].corners_px[k]).norm(), 0.05);
   EXPECT_TRUE(detector.detect_near(image, {}).empty());
   for (Eigen::Vector2d& corner : expected) corner += Eigen::Vector2d(5000, 0);
-  EXPECT_TRUE(detector.detect_near(image, {expected}).empty());
+  EXPECT_TRUE(detector.detect_near(image, {{expected}}).empty());
 }
 
 TEST(MarkerDetector, SeesNothingInNoise) {

@@ -195,10 +195,28 @@ TEST(MarkerFilter, ExpectsMarkersWhereTheyAreSeen) {
   Random random = seeded_random(10);
   const MarkerLayout layout = layout_of(3);
   const SE3 T = looking_at_origin(1, 0.1, 0, 0);
-  const auto squares = filter_for(layout).expected_squares(T * kBodyCam.inverse());
+  const SE3 T_world_body = T * kBodyCam.inverse();
+  constexpr double kSigma_m = 0.02, kSigma_rad = 0.01;
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(kSigma_m), Eigen::Vector3d::Constant(kSigma_rad);
+  const auto squares =
+      filter_for(layout).expected_squares(T_world_body, sigma.cwiseAbs2().asDiagonal());
   ASSERT_GE(squares.size(), 1u);
   const MarkerView view = view_from(layout, T, 1, random);
-  for (int k = 0; k < 4; ++k) EXPECT_LT((squares[0][k] - view.markers[0].corners_px[k]).norm(), 1);
+  const auto apart = [&](const ExpectedSquare& square, int corner) {
+    return (square.corners_px[corner] - view.markers[0].corners_px[corner]).norm();
+  };
+  for (int k = 0; k < 4; ++k) EXPECT_LT(apart(squares[0], k), 1);
+  // Poses as far off as they are said to be expect it no farther off than they say.
+  for (int trial = 0; trial < 50; ++trial) {
+    Vector6d error;
+    for (int i = 0; i < 6; ++i) error[i] = sigma[i] * random.normal();
+    const auto off = filter_for(layout).expected_squares(T_world_body.plus(error),
+                                                         sigma.cwiseAbs2().asDiagonal());
+    ASSERT_GE(off.size(), 1u);
+    for (int k = 0; k < 4; ++k) EXPECT_LT(apart(off[0], k), *off[0].within_px);
+  }
+  EXPECT_LT(*squares[0].within_px, 0.15 * kCamera.fx);  // at 1 m: four times 0.02 m and 0.01 rad
 }
 
 }  // namespace

@@ -5,13 +5,13 @@
 #include <limits>
 #include <variant>
 
-#include "tests/support/hover_flight.h"
+#include "tests/support/swaying_body.h"
 
 namespace placegraph {
 namespace {
 
 using Eigen::Vector3d;
-using test::HoverFlight;
+using test::SwayingBody;
 
 struct Flown {
   PositionFilter filter;
@@ -19,7 +19,7 @@ struct Flown {
 };
 
 /// With flow from image to image, and a marker every `marker_every_s` outside [outage, outage + 3).
-Flown fly(const HoverFlight& flight, double marker_every_s, double outage_s = 1e9) {
+Flown fly(const SwayingBody& flight, double marker_every_s, double outage_s = 1e9) {
   Random random(flight.seed);
   Flown flown{PositionFilter(flight.noise, flight.T_body_cam)};
   flown.filter.start(flight.start(random));
@@ -34,7 +34,7 @@ Flown fly(const HoverFlight& flight, double marker_every_s, double outage_s = 1e
     if (i % per_marker == 0 && !(t >= outage_s && t < outage_s + 3))
       (void)flown.filter.add(flight.marker(t, random));
     if (i % per_image != 0 || t < 1) continue;
-    const auto answer = flown.filter.at(HoverFlight::stamp(t));
+    const auto answer = flown.filter.at(SwayingBody::stamp(t));
     EXPECT_TRUE(answer.outcome) << answer.outcome.reason;
     const Vector3d e = answer.state.T_world_body.translation() - flight.position(t);
     flown.worst_m = std::max(flown.worst_m, e.norm());
@@ -57,14 +57,14 @@ TEST(PositionFilter, TurnsFromItsStartAsTheFirstSampleSays) {
   start.covariance = 1e-4 * Eigen::Matrix<double, 15, 15>::Identity();
   filter.start(start);
   for (const double t : {0.01, 0.02})
-    ASSERT_TRUE(filter.add(ImuSample{HoverFlight::stamp(t), {0, 0, 1}, {0, 0, 9.80665}}));
-  const auto answer = filter.at(HoverFlight::stamp(0.02));
+    ASSERT_TRUE(filter.add(ImuSample{SwayingBody::stamp(t), {0, 0, 1}, {0, 0, 9.80665}}));
+  const auto answer = filter.at(SwayingBody::stamp(0.02));
   ASSERT_TRUE(answer.outcome);
   EXPECT_NEAR(answer.state.T_world_body.rotation().log().z(), 0.02, 1e-9);
 }
 
 TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
-  const HoverFlight flight;
+  const SwayingBody flight;
   Random random(3);
   PositionFilter in_time(flight.noise, flight.T_body_cam), late(flight.noise, flight.T_body_cam);
   const BodyState start = flight.start(random);
@@ -85,7 +85,7 @@ TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
       for (; !waiting.empty(); waiting.pop_back()) ASSERT_TRUE(late.add(waiting.back()));
     }
   }
-  const auto a = in_time.at(HoverFlight::stamp(0.9)), b = late.at(HoverFlight::stamp(0.9));
+  const auto a = in_time.at(SwayingBody::stamp(0.9)), b = late.at(SwayingBody::stamp(0.9));
   ASSERT_TRUE(a.outcome && b.outcome);
   EXPECT_LT((a.state.T_world_body.inverse() * b.state.T_world_body).log().norm(), 1e-9);
   EXPECT_LT((a.state.covariance - b.state.covariance).norm(), 1e-12);
@@ -93,7 +93,7 @@ TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
 
 TEST(PositionFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    const HoverFlight flight;
+    const SwayingBody flight;
     Random random(seed), order(seed, 7);
     PositionFilter in_time(flight.noise, flight.T_body_cam), late(flight.noise, flight.T_body_cam);
     const BodyState start = flight.start(random);
@@ -119,7 +119,7 @@ TEST(PositionFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
         waiting.erase(next);
       }
     }
-    const auto a = in_time.at(HoverFlight::stamp(0.8)), b = late.at(HoverFlight::stamp(0.8));
+    const auto a = in_time.at(SwayingBody::stamp(0.8)), b = late.at(SwayingBody::stamp(0.8));
     ASSERT_TRUE(a.outcome && b.outcome);
     EXPECT_LT((a.state.T_world_body.inverse() * b.state.T_world_body).log().norm(), 1e-9);
     EXPECT_LT((a.state.velocity_world - b.state.velocity_world).norm(), 1e-9);
@@ -128,7 +128,7 @@ TEST(PositionFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
 }
 
 TEST(PositionFilter, DoesNotBelieveWhatIsFarFromExpected) {
-  const HoverFlight flight;
+  const SwayingBody flight;
   Random random(4);
   Flown flown = fly({.duration_s = 2}, 0.2);
   PoseSighting flipped = flight.marker(2.0, random);
@@ -136,14 +136,14 @@ TEST(PositionFilter, DoesNotBelieveWhatIsFarFromExpected) {
                              flipped.T_world_body.translation());
   EXPECT_GT(flown.filter.deviation2(flipped).value(), 50);
   EXPECT_LT(flown.filter.deviation2(flight.marker(2.0, random)).value(), 30);
-  const SE3 before = flown.filter.at(HoverFlight::stamp(2.0)).state.T_world_body;
+  const SE3 before = flown.filter.at(SwayingBody::stamp(2.0)).state.T_world_body;
   EXPECT_EQ(flown.filter.add(flipped).code, Outcome::Code::kInconsistent);
-  EXPECT_EQ(flown.filter.at(HoverFlight::stamp(2.0)).state.T_world_body.translation(),
+  EXPECT_EQ(flown.filter.at(SwayingBody::stamp(2.0)).state.T_world_body.translation(),
             before.translation());
 }
 
 TEST(PositionFilter, RefusesRatherThanGuessWhereItsInputsStop) {
-  const HoverFlight flight;
+  const SwayingBody flight;
   Random random(5);
   PositionFilter filter(flight.noise, flight.T_body_cam);
   EXPECT_EQ(filter.add(flight.imu(0.1, random)).code, Outcome::Code::kNotAttempted);
@@ -151,9 +151,9 @@ TEST(PositionFilter, RefusesRatherThanGuessWhereItsInputsStop) {
   EXPECT_EQ(filter.at(0).outcome.code, Outcome::Code::kNotAttempted);
   filter.start(flight.start(random));
   for (int i = 1; i <= 200; ++i) ASSERT_TRUE(filter.add(flight.imu(i / 200.0, random)));
-  EXPECT_TRUE(filter.at(HoverFlight::stamp(1.1)).outcome) << "a tenth of a second ahead";
-  EXPECT_EQ(filter.at(HoverFlight::stamp(1.5)).outcome.code, Outcome::Code::kTooFewData);
-  EXPECT_EQ(filter.at(HoverFlight::stamp(0.2)).outcome.code, Outcome::Code::kTooFewData);
+  EXPECT_TRUE(filter.at(SwayingBody::stamp(1.1)).outcome) << "a tenth of a second ahead";
+  EXPECT_EQ(filter.at(SwayingBody::stamp(1.5)).outcome.code, Outcome::Code::kTooFewData);
+  EXPECT_EQ(filter.at(SwayingBody::stamp(0.2)).outcome.code, Outcome::Code::kTooFewData);
   EXPECT_EQ(filter.add(flight.marker(0.2, random)).code, Outcome::Code::kTooFewData);
   EXPECT_EQ(filter.add(flight.marker(1.6, random)).code, Outcome::Code::kTooFewData);
   EXPECT_EQ(filter.add(flight.imu(0.9, random)).code, Outcome::Code::kInconsistent);
@@ -165,16 +165,16 @@ TEST(PositionFilter, RefusesRatherThanGuessWhereItsInputsStop) {
   EXPECT_EQ(filter.add(backwards).code, Outcome::Code::kInconsistent);
   // Nothing but inertial samples: the position is less and less known, until it is no answer.
   for (int i = 201; i <= 2400; ++i) ASSERT_TRUE(filter.add(flight.imu(i / 200.0, random)));
-  EXPECT_EQ(filter.at(HoverFlight::stamp(12.0)).outcome.code, Outcome::Code::kDegenerate);
+  EXPECT_EQ(filter.at(SwayingBody::stamp(12.0)).outcome.code, Outcome::Code::kDegenerate);
   BodyState nowhere;
   nowhere.velocity_world.x() = std::numeric_limits<double>::infinity();
   EXPECT_THROW(filter.start(nowhere), ArgumentError);
 }
 
 TEST(PositionFilter, LearnsTheBiasesOfItsSensors) {
-  const HoverFlight flight{.duration_s = 10};
+  const SwayingBody flight{.duration_s = 10};
   const Flown flown = fly(flight, 0.1);
-  const BodyState state = flown.filter.at(HoverFlight::stamp(10.0)).state;
+  const BodyState state = flown.filter.at(SwayingBody::stamp(10.0)).state;
   EXPECT_LT((state.gyro_bias - flight.gyro_bias).norm(), 0.002);
   EXPECT_LT((state.accel_bias - flight.accel_bias).norm(), 0.03);
 }

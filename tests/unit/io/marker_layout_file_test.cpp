@@ -42,6 +42,7 @@ TEST(MarkerLayoutFile, ReadsWhatItWrote) {
   layout.markers = {{3, 0.16, SE3(SO3::exp({0.1, 0.2, -2}), Eigen::Vector3d(1, -2, 3))},
                     {5, 0.2, SE3()}};
   layout.beacons_world = {{0.1, 0.2, 0.3}};
+  layout.unplaced_sides_m = {{8, 0.17}};
   for (const bool bare : {false, true}) {
     if (bare) layout.beacons_world.clear();
     write_marker_layout(folder / "markers.yaml", layout);
@@ -52,6 +53,7 @@ TEST(MarkerLayoutFile, ReadsWhatItWrote) {
         (again.markers[0].T_world_marker.inverse() * layout.markers[0].T_world_marker).log().norm(),
         1e-8);
     EXPECT_EQ(again.beacons_world, layout.beacons_world);
+    EXPECT_EQ(again.unplaced_sides_m, layout.unplaced_sides_m);
   }
 }
 
@@ -69,6 +71,12 @@ TEST(MarkerLayoutFile, NamesFileAndLineOfWhatIsWrong) {
               HasSubstr("a position is three numbers"));
   EXPECT_THAT(marker("id: 1, side_m: 0.1, position: [1, 0, 0], quaternion: [1, 1, 0, 0]"),
               HasSubstr("quaternion: has length 1.4142"));
+  EXPECT_THAT(marker("id: 1, side_m: 0.1, position: [1, 0, 0]"),
+              HasSubstr("quaternion: is missing"));
+  EXPECT_THAT(marker("id: 1, side_m: 0.1, quaternion: [1, 0, 0, 0]"),
+              HasSubstr("position: is missing"));
+  EXPECT_THAT(marker("id: 1, side_m: 1}\n  - {id: 1, side_m: 1, " + pose),
+              HasSubstr("markers.yaml:4: id: 1 comes twice"));
   EXPECT_THAT(marker("id: 1, side_m: 1, " + pose + "}\n  - {id: 1, side_m: 1, " + pose),
               HasSubstr("markers.yaml:4: id: 1 comes twice"));
   EXPECT_THAT(refused(kHead + "markers: 3\n"), HasSubstr("markers: is no list"));

@@ -9,7 +9,7 @@
 namespace placegraph::test {
 
 /// A body that sways over a level floor, and what its sensors say.
-struct HoverFlight {
+struct SwayingBody {
   std::uint64_t seed = 1;
   double duration_s = 10, imu_hz = 200, image_hz = 20;
   double height_m = 1.5;

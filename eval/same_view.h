@@ -1,0 +1,17 @@
+#pragma once
+#include <placegraph/graph/core/options.h>
+
+#include <Eigen/Geometry>
+
+namespace placegraph {
+
+/// When two poses see one place: near each other, looking the same way.
+struct SameView {
+  double radius_m = 5;      ///< between the two positions, at most
+  double heading_deg = 30;  ///< angle of the rotation between the two poses, at most
+  void check() const;       ///< throws ArgumentError naming the field
+  bool holds(const Eigen::Isometry3d& T_world_a, const Eigen::Isometry3d& T_world_b) const;
+};
+void visit(OptionVisitor& field, SameView& options);
+
+}  // namespace placegraph
