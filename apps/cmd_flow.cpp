@@ -143,11 +143,7 @@ void add_flow_command(CLI::App& app) {
   auto* cues = command->add_flag("--cues", a.cues,
                                  "also what the flow tells at once: divergence, speed over "
                                  "distance, time to contact, balance; see docs/flow.md");
-  command
-      ->add_option("--calib", a.camera,
-                   "one line fx fy cx cy width height [px], or a calibration.yaml")
-      ->check(CLI::ExistingFile)
-      ->needs(cues);
+  add_calib_option(*command, a.camera, kCalibFile)->needs(cues);
   command->add_option("--dt", a.dt_s, "time between the images [s]; without, images are counted")
       ->check(CLI::PositiveNumber)
       ->needs(cues);

@@ -101,7 +101,8 @@ std::vector<FlowVector> sampled_flow(const Image& from, const Image& flow, int c
         }
       if (nearest.kind == FlowVector::Kind::kNone) continue;
       nearest.covariance = track_covariance(from, nearest.px, window_px, noise_grey);
-      if (nearest.covariance.trace() < 0.25 * cell_px * cell_px) vectors.push_back(nearest);
+      constexpr double kMost_px2 = 0.25;
+      if (nearest.covariance.trace() < kMost_px2) vectors.push_back(nearest);
     }
   return vectors;
 }

@@ -2,7 +2,6 @@
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/aruco.hpp>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
 namespace placegraph {
@@ -54,18 +53,6 @@ MarkerFamily marker_family(const std::string& dictionary) {
     known += (known.empty() ? "" : ", ") + std::string(name);
   }
   throw ArgumentError("no marker dictionary '" + dictionary + "' (known: " + known + ")");
-}
-
-Image marker_picture(const std::string& dictionary, int id, int cell_px) {
-  const MarkerFamily family = marker_family(dictionary);
-  require(id >= 0 && id < family.count(),
-          "marker_picture: " + dictionary + " has no marker " + std::to_string(id));
-  require(cell_px >= 1 && cell_px <= 1000, "marker_picture: cells of 1 to 1000 px");
-  Image cells, picture;
-  aruco::Dictionary(family.codes, family.bits_per_side, family.correctable_bits)
-      .drawMarker(id, family.cells_per_side(), cells, 1);
-  cv::resize(cells, picture, cv::Size(), cell_px, cell_px, cv::INTER_NEAREST);
-  return picture;
 }
 
 }  // namespace placegraph

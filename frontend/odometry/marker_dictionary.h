@@ -23,8 +23,4 @@ struct MarkerFamily {
 /// Throws ArgumentError listing the known names.
 MarkerFamily marker_family(const std::string& dictionary);
 
-/// The picture of a marker as somebody reads it, without white around it: `cells_per_side` squares
-/// of `cell_px` pixels a side, 0 or 255. Throws ArgumentError if there is no such marker.
-Image marker_picture(const std::string& dictionary, int id, int cell_px);
-
 }  // namespace placegraph

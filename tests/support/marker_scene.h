@@ -6,10 +6,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/aruco.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
 namespace placegraph::test {
+
+/// The picture of a marker as somebody reads it, without white around it, 0 or 255.
+inline Image marker_picture(const std::string& dictionary, int id, int cell_px) {
+  const MarkerFamily family = marker_family(dictionary);
+  const cv::aruco::Dictionary codes(family.codes, family.bits_per_side, family.correctable_bits);
+  Image picture;
+  codes.drawMarker(id, family.cells_per_side() * cell_px, picture, 1);
+  return picture;
+}
 
 /// How a camera sees a layout of markers and beacons.
 struct MarkerScene {
