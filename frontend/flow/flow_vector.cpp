@@ -86,6 +86,8 @@ std::vector<FlowVector> sampled_flow(const Image& from, const Image& flow, int c
   require(cell_px > 1, "sampled_flow: cells are of two pixels at least");
   const double noise_grey = image_noise(from), middle = 0.5 * (cell_px - 1);
   const int window_px = cell_px | 1;
+  // What gradients as strong as those of the noise would leave, see track_covariance.
+  const double most_px2 = 2 * 64 / (12.0 * window_px * window_px);
   std::vector<FlowVector> vectors;
   for (int top = 0; top < flow.rows; top += cell_px)
     for (int left = 0; left < flow.cols; left += cell_px) {
@@ -101,8 +103,7 @@ std::vector<FlowVector> sampled_flow(const Image& from, const Image& flow, int c
         }
       if (nearest.kind == FlowVector::Kind::kNone) continue;
       nearest.covariance = track_covariance(from, nearest.px, window_px, noise_grey);
-      constexpr double kMost_px2 = 0.25;
-      if (nearest.covariance.trace() < kMost_px2) vectors.push_back(nearest);
+      if (nearest.covariance.trace() < most_px2) vectors.push_back(nearest);
     }
   return vectors;
 }

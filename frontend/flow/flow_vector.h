@@ -39,8 +39,8 @@ Eigen::Matrix2d track_covariance(const Image& image, const Eigen::Vector2d& px, 
 
 /// Full vectors of a flow image (CV_32FC2, NaN where nothing is known), of each cell of `cell_px`
 /// pixels a side the one nearest to its middle, with the covariance that the grey values around it
-/// in the first image (CV_8UC1, of its size, else ArgumentError) give it. Cells whose grey
-/// values do not tell it to half a pixel are left out: there is noise and no texture.
+/// in the first image (CV_8UC1, of its size, else ArgumentError) give it. Cells whose
+/// gradients do not outdo those of the noise are left out.
 std::vector<FlowVector> sampled_flow(const Image& from, const Image& flow, int cell_px);
 
 }  // namespace placegraph

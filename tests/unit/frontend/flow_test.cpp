@@ -251,5 +251,25 @@ TEST(FlowVector, FollowsTheGradientsOfASlope) {
   EXPECT_TRUE(track_covariance(image, {0, 0}, 15, 1).allFinite());
 }
 
+TEST(FlowVector, AreSampledWhereThereIsTextureAndNotWhereThereIsNoise) {
+  // Waves on the left, noise alone on the right; nothing is known in the lowest row of cells.
+  const Image image = picture(
+      [](int u, int v) { return 120 + (u < 240 ? 40 * std::sin(0.4 * u) * std::sin(0.5 * v) : 0); },
+      3);
+  Image flow(image.size(), CV_32FC2, cv::Scalar(1.5, -0.5));
+  flow.rowRange(344, 360).setTo(cv::Scalar::all(NAN));
+  const auto vectors = sampled_flow(image, flow, 16);
+  int right = 0;
+  for (const FlowVector& vector : vectors) {
+    EXPECT_EQ(vector.flow, Eigen::Vector2d(1.5, -0.5));
+    EXPECT_LT(vector.covariance.trace(), 0.2 * 0.2);
+    EXPECT_LT(vector.px.y(), 344);
+    right += vector.px.x() > 250;
+  }
+  EXPECT_EQ(right, 0);
+  EXPECT_GT(vectors.size(), 300u);  // of 15 x 22 cells
+  EXPECT_THROW((void)sampled_flow(image, Image(), 16), ArgumentError);
+}
+
 }  // namespace
 }  // namespace placegraph
