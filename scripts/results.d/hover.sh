@@ -30,10 +30,12 @@ for flight in 1-standard 2-standard 3-standard 4-hard; do
     "$(digits "$drift" 3) of $(digits "$way" 1)" "$(digits "$ratio" 2)" "$(digits "$cpu" 2) (+ $(digits "$(number "$f" reading_ms_per_frame)" 2))" \
     "$(verdict "$position" "<=" 0.05), $(verdict "$velocity" "<=" 0.05), $(verdict "$drift" "<=" 2), $(verdict "$ratio" "<=" 1.5), $(verdict "$cpu" "<=" 6)"
 done
+# The load of other work on the machine counts: caches are shared.
+printf '\nLoad of the machine when the flights were flown, over 15 minutes: %s.\n' "$(cut -d ' ' -f 3 /proc/loadavg)" >> "$rows"
 printf '\nMarkers mapped (`--map-markers`): the layout gives the place of its first marker alone, of the other five their sides. Errors are those of the markers that\nwere mapped, in the world of the first; NEES a degree of freedom is one where they are as large as their covariances say. The last two columns: position RMSE of the flight by the\nfirst marker alone, and by the map that came of it.\n\n' >> "$rows"
 command_line "placegraph hover WORLD --out MAPPED --markers FIRST.yaml --map-markers --true-markers WORLD/markers.yaml"
 command_line "placegraph hover WORLD --out AGAIN --markers MAPPED/markers.yaml"
-columns flight "markers mapped" "worst error [m]" "worst error [deg]" "NEES a degree of freedom" "RMSE by one marker [m]" "RMSE by the map [m]"
+columns flight "markers mapped" "worst error [mm]" "worst error [deg]" "NEES a degree of freedom" "RMSE by one marker [m]" "RMSE by the map [m]"
 for flight in 1-standard 2-standard 3-standard 4-hard; do
   world=$out/hover$flight-world
   # The first keeps its place, the others lose theirs; no beacons.
@@ -41,7 +43,7 @@ for flight in 1-standard 2-standard 3-standard 4-hard; do
   hover "hover$flight-mapped" "hover$flight" --markers "$out/first.yaml" --map-markers --true-markers "$world/markers.yaml"
   hover "hover$flight-again" "hover$flight" --markers "$out/hover$flight-mapped/markers.yaml"
   f=$out/hover$flight-mapped/result.json
-  cells "seed ${flight%-*}, ${flight#*-}" "$(number "$f" compared_markers) of 5" "$(digits "$(number "$f" worst_error_m)" 4)" "$(digits "$(number "$f" worst_error_deg)" 2)" \
+  cells "seed ${flight%-*}, ${flight#*-}" "$(number "$f" compared_markers) of 5" "$(computed %.2f "1000 * $(number "$f" worst_error_m)")" "$(digits "$(number "$f" worst_error_deg)" 3)" \
     "$(digits "$(number "$f" nees_per_dof)" 2)" "$(digits "$(number "$f" position_rmse_m)" 4)" "$(digits "$(number "$out/hover$flight-again/result.json" position_rmse_m)" 4)"
 done
 say "hover: $flights flights without images"
