@@ -1,0 +1,58 @@
+#pragma once
+#include <placegraph/pipeline/slam.h>
+
+namespace placegraph {
+
+/// The pose of a camera in the map: scale moves it, but it has none itself.
+inline SE3 camera_pose(const Sim3& S_map_cam) {
+  return SE3(S_map_cam.rotation(), S_map_cam.translation());
+}
+
+/// What Slam keeps; its steps stand in slam.cpp, what it does where tracking breaks off in
+/// slam_recovery.cpp.
+struct Slam::Impl {
+  Impl(const SlamOptions& o, const Calibration& c, LogSink l)
+      : options(o),
+        calibration(c),
+        log_sink(std::move(l)),
+        odometry(o.odometry, c, o.seed, log_sink, times),
+        closer(o.loops, c, o.seed),
+        mapper(o.places, o.pose_graph) {}
+
+  FrameResult add_frame(const Frame& frame);
+  void check_frame(const Frame& frame) const;
+  void recover(const Frame& frame, std::optional<Loop> located, OdometryUpdate& update);
+  std::optional<Loop> carried(const Frame& frame) const;
+  std::optional<Loop> turned(const OdometryUpdate& update) const;
+  void add_motion(std::int64_t keyframe);
+  void record_pose(std::int64_t keyframe, const SE3& T_keyframe_cam, FrameResult& result);
+  SE3 T_map_located(const Loop& located) const;
+  void add_keyframes(const OdometryUpdate& update, FrameResult& result);
+  void add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, FrameResult& result);
+  void refresh_links();
+  void close_loops(FrameResult& result);
+  void report(const IncrementalStep& step) const;
+  void apply(const OdometryUpdate::Rescale& rescale);
+  Map snapshot() const;
+
+  SlamOptions options;
+  Calibration calibration;
+  LogSink log_sink;
+  StageTimes times;
+  Odometry odometry;
+  LoopCloser closer;
+  PlaceMapper mapper;
+
+  std::vector<FrameRecord> records;
+  Trajectory online;
+  std::map<std::int64_t, std::int64_t> frame_of_keyframe, stamp_of_keyframe;
+  std::int64_t last_keyframe = -1;
+  std::optional<Loop> bridge;  // how the next run of tracking hangs on the last one
+  SE3 T_map_last;
+  int lost_in_a_row = 0;
+  std::shared_ptr<const MeasuredMotion> motion;  // of the camera, by other sensors
+  std::vector<std::size_t> origins;  // first views of a single eye, until the second comes
+  bool posed_once = false, finished = false;
+};
+
+}  // namespace placegraph
