@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/io/g2o.h>
+#include <placegraph/io/map_database.h>
 #include <placegraph/io/place_graph_export.h>
 #include <placegraph/io/trajectory_file.h>
 #include <placegraph/io/yaml_config.h>
@@ -31,7 +32,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct Arguments {
-  std::string sequence, out, config, odometry, draw;
+  std::string sequence, out, resume, config, odometry, draw;
   std::vector<std::string> settings;
   std::optional<std::string> sensor, cues;
   std::optional<double> camera_height_m;
@@ -40,9 +41,10 @@ struct Arguments {
   bool no_loops = false, as_json = false, force = false, verbose = false, profile = false;
 };
 
-/// Defaults < file < --set < explicit flags.
-RunOptions options_of(const Arguments& arguments) {
-  RunOptions options;
+std::string map_path(const std::string& folder) { return (fs::path(folder) / "map.db").string(); }
+
+/// Defaults (or what a run that goes on was begun with) < file < --set < explicit flags.
+RunOptions options_of(const Arguments& arguments, RunOptions options = {}) {
   if (!arguments.config.empty()) read_options(arguments.config, options);
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
@@ -138,9 +140,49 @@ void print_stages(const json& summary) {
   }
 }
 
-void run(const Arguments& arguments) {
+/// A run that was broken off goes on with the sequence and the options it was begun with; takes
+/// them into `arguments`. Throws ArgumentError where a flag says otherwise.
+RunOptions options_of_resumed(Arguments& arguments) {
+  require(arguments.out.empty() ||
+              fs::weakly_canonical(arguments.out) == fs::weakly_canonical(arguments.resume),
+          "--out: a run that goes on writes into the folder it is resumed from");
+  arguments.out = arguments.resume;
+  const std::string path = map_path(arguments.resume);
+  if (!fs::exists(path))
+    throw FileError(path, "is not there: nothing was saved that a run could go on from");
+  const MapOrigin origin = read_map_origin(path);
+  require(!origin.options.empty(), path + ": is no map of a run");
+  require(arguments.sequence.empty() ||
+              fs::weakly_canonical(arguments.sequence) == fs::weakly_canonical(origin.sequence),
+          "--resume: the run was begun on " + origin.sequence);
+  arguments.sequence = origin.sequence;
+  RunOptions begun;
+  read_options_text(path, origin.options, begun);
+  RunOptions asked = options_of(arguments, begun);
+  begun.threads = asked.threads;
+  const auto was = list_options(begun), is = list_options(asked);
+  for (std::size_t i = 0; i < was.size(); ++i)
+    require(was[i].value == is[i].value, "--resume: the run was begun with " + was[i].path + ": " +
+                                             was[i].value + ", not " + is[i].value);
+  return asked;
+}
+
+/// What the run is to do, its output folder checked.
+RunOptions prepare(Arguments& arguments) {
+  if (!arguments.resume.empty()) return options_of_resumed(arguments);
+  require(!arguments.sequence.empty() && !arguments.out.empty(),
+          "SEQUENCE and --out are needed, or --resume");
   const RunOptions options = options_of(arguments);
+  require(arguments.force || !is_unfinished_map(map_path(arguments.out)),
+          arguments.out +
+              ": holds a run that was broken off; --resume goes on with it, --force "
+              "begins anew");
   require_free_folder(arguments.out, arguments.force);
+  return options;
+}
+
+void run(Arguments arguments) {
+  const RunOptions options = prepare(arguments);
   if (!arguments.draw.empty()) {
     require_free_folder(arguments.draw, arguments.force);
     require(fs::weakly_canonical(arguments.draw) != fs::weakly_canonical(arguments.out),
@@ -173,7 +215,9 @@ void run(const Arguments& arguments) {
         [&](std::size_t done, std::size_t, const FrameResult&) {
           progress.update(static_cast<std::int64_t>(done));
         },
-        log, observer);
+        log, observer,
+        MapFile{map_path(arguments.out), fs::absolute(arguments.sequence).string(),
+                !arguments.resume.empty()});
   }
   getrusage(RUSAGE_SELF, &after);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
@@ -181,6 +225,7 @@ void run(const Arguments& arguments) {
   const Trajectory optimized = run.map.trajectory_optimized();
   json summary = describe_run(run, optimized);
   if (!options.motion.file.empty()) summary["motion"] = describe_motion(run.map.place_graph);
+  if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
   summary["sequence"] = dataset->name();
   summary["format"] = dataset->format();
   summary["seed"] = options.slam.seed;
@@ -209,9 +254,10 @@ void add_run_command(CLI::App& app) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("run", "Images in, trajectory and place graph out.");
   command->footer("placegraph run kitti/sequences/00 --camera-height 1.65 --out out/kitti00");
-  command->add_option("SEQUENCE", arguments->sequence, "folder or video; see docs/datasets.md")
-      ->required();
-  command->add_option("--out", arguments->out, "folder for the results")->required();
+  command->add_option("SEQUENCE", arguments->sequence, "folder or video; see docs/datasets.md");
+  command->add_option("--out", arguments->out, "folder for the results");
+  command->add_option("--resume", arguments->resume,
+                      "go on with the run in this folder that was broken off, as it was begun");
   command->add_option("--sensor", arguments->sensor, "what to run it as; default: the best it has")
       ->check(CLI::IsMember({"auto", "mono", "stereo", "rgbd"}));
   command->add_option("--cues", arguments->cues,

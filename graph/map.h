@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/trajectory.h>
 #include <placegraph/graph/place_graph.h>
+#include <placegraph/graph/place_view.h>
 
 namespace placegraph {
 
@@ -13,6 +14,7 @@ struct Keyframe {
   SE3 T_place_keyframe;
   std::vector<Feature> features;
   double scale = 1;  ///< length at the place of one unit of length at the keyframe
+  PlaceView view;    ///< how it looks in all cues; empty where that was not kept
 };
 
 /// Every input frame, relative to its keyframe; nothing where it is lost.

@@ -133,6 +133,9 @@ class AssigningVisitor : public OptionVisitor {
 class OptionsFile::Reader : public AssigningVisitor {
  public:
   explicit Reader(const std::string& path) : document_(path) { enter(document_.root()); }
+  Reader(const std::string& path, const std::string& text) : document_(path, text) {
+    enter(document_.root());
+  }
 
   void finish() {
     leave();
@@ -210,6 +213,8 @@ class OptionsFile::Reader : public AssigningVisitor {
 };
 
 OptionsFile::OptionsFile(const std::string& path) : reader_(std::make_unique<Reader>(path)) {}
+OptionsFile::OptionsFile(const std::string& path, const std::string& text)
+    : reader_(std::make_unique<Reader>(path, text)) {}
 OptionsFile::~OptionsFile() = default;
 OptionVisitor& OptionsFile::visitor() { return *reader_; }
 void OptionsFile::finish() { reader_->finish(); }

@@ -13,6 +13,7 @@ namespace internal {
 class OptionsFile {
  public:
   explicit OptionsFile(const std::string& path);
+  OptionsFile(const std::string& path, const std::string& text);
   ~OptionsFile();
   OptionVisitor& visitor();
   /// Throws FileError for the first key that nobody asked for.
@@ -46,6 +47,16 @@ class OptionAssignment {
 template <class Options>
 void read_options(const std::string& path, Options& options) {
   internal::OptionsFile file(path);
+  Options changed = options;
+  visit(file.visitor(), changed);
+  file.finish();
+  options = changed;
+}
+
+/// The same from a text that stands in the file at `path`, as dump_options made it.
+template <class Options>
+void read_options_text(const std::string& path, const std::string& text, Options& options) {
+  internal::OptionsFile file(path, text);
   Options changed = options;
   visit(file.visitor(), changed);
   file.finish();

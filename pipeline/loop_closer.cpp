@@ -54,6 +54,7 @@ LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibratio
     database_.add(keyframe.id, keyframe.features);
     views_.push_back({keyframe.id, keyframe.frame, keyframe.features});
   }
+  records_ = map.loops;
 }
 
 const LoopCloser::View* LoopCloser::find_view(std::int64_t keyframe) const {

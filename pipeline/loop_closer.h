@@ -4,7 +4,7 @@
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/loop.h>
+#include <placegraph/graph/loop.h>
 #include <placegraph/pipeline/tracked_motion.h>
 
 #include <deque>
@@ -60,9 +60,11 @@ class LoopCloser {
 
   const std::vector<View>& views() const { return views_; }
   const std::vector<LoopRecord>& records() const { return records_; }
-  Appearance describe(const std::vector<Feature>& features) const {
-    return database_.describe(features);
+  /// Of a view, by the vocabulary as it stands; it is another one after every training.
+  const Appearance& appearance(std::int64_t keyframe) const {
+    return database_.appearance(keyframe);
   }
+  std::size_t trained_views() const { return database_.trained_views(); }
   /// The scale of the map became known: depths of all features grow with it.
   void rescale(double factor, std::int64_t first_keyframe);
 

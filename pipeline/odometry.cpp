@@ -316,8 +316,11 @@ FrameView Odometry::view() const {
   return view;
 }
 
-std::vector<PointLandmark> Odometry::landmarks() const {
-  std::vector<PointLandmark> result = past_landmarks_;
+std::vector<PointLandmark> Odometry::landmarks(std::size_t first) const {
+  require(first <= past_landmarks_.size(),
+          "Odometry::landmarks: those of the window have no order");
+  std::vector<PointLandmark> result(past_landmarks_.begin() + static_cast<std::ptrdiff_t>(first),
+                                    past_landmarks_.end());
   for (const std::int64_t id : window_.landmarks())
     if (!window_.observations(id).empty()) result.push_back(describe_landmark(id));
   return result;

@@ -119,6 +119,16 @@ class Odometry {
   void restart(const SE3& T_odom_cam, bool in_known_map = false,
                const std::optional<double>& median_depth_m = {});
 
+  /// Takes up the run of another: its next keyframe's id, and how far away things were. To be
+  /// followed by restart().
+  void go_on_from(std::int64_t next_keyframe, double median_depth_m) {
+    next_keyframe_ = next_keyframe;
+    median_depth_m_ = median_depth_m;
+  }
+  /// How many of `landmarks()` have left the window: those stand first and stay as they are, but
+  /// for a change of the unit.
+  std::size_t settled_landmarks() const { return past_landmarks_.size(); }
+
   /// The camera's motion by other sensors, before the first frame: gives a single eye its unit.
   void set_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
   /// Whether a first frame has been taken since the last restart.
@@ -149,8 +159,9 @@ class Odometry {
   Matrix6d motion_information(std::int64_t from, std::int64_t to) const;
   /// The oldest keyframe of the window; -1 while there is none.
   std::int64_t window_begin() const;
-  /// All landmarks of all runs of tracking, each relative to the keyframe that first saw it.
-  std::vector<PointLandmark> landmarks() const;
+  /// All landmarks of all runs of tracking, each relative to the keyframe that first saw it; from
+  /// the `first`-th on.
+  std::vector<PointLandmark> landmarks(std::size_t first = 0) const;
   double median_depth_m() const { return median_depth_m_; }
   /// Of all runs of tracking; nothing is asked of two eyes.
   const LensEstimator& lens() const { return lens_; }

@@ -248,28 +248,35 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
               : Sim3(S.rotation(), S.translation(), S.scale() / factor);
   }
   follow_links(first);
+  untold_since_ = kFirst;
   begin_anew_ = true;
 }
 
-PlaceGraph PlaceMapper::place_graph() const {
-  PlaceGraph graph;
+std::vector<Place> PlaceMapper::places() const {
+  std::vector<Place> places;
   std::map<std::int64_t, std::size_t> index;
   for (const auto& [number, state] : places_) {
-    index[number] = graph.places.size();
+    index[number] = places.size();
     Place place;
     place.id = number;
     place.anchor_keyframe = state.anchor_keyframe;
     place.T_map_place = SE3(state.S_map_place.rotation(), state.S_map_place.translation());
     place.scale = state.S_map_place.scale();
     place.component = state.component;
-    graph.places.push_back(std::move(place));
+    places.push_back(std::move(place));
   }
   // An anchor is older than all that came to its place later.
   for (const auto& [id, node] : nodes_) {
     const Sim3 S = S_place_keyframe(node);
-    graph.places[index.at(place_of(id))].members.push_back(
+    places[index.at(place_of(id))].members.push_back(
         {id, SE3(S.rotation(), S.translation()), S.scale()});
   }
+  return places;
+}
+
+PlaceGraph PlaceMapper::place_graph() const {
+  PlaceGraph graph;
+  graph.places = places();
   for (const PlaceConstraint& constraint : constraints(0))
     if (constraint.measured) graph.constraints.push_back(*constraint.measured);
   return graph;

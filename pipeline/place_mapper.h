@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/place_graph.h>
-#include <placegraph/pipeline/loop.h>
 #include <placegraph/pipeline/place_optimizer.h>
 #include <placegraph/pipeline/tracked_motion.h>
 
@@ -32,17 +32,12 @@ void visit(OptionVisitor& field, PlaceOptions& options);
 class PlaceMapper {
  public:
   explicit PlaceMapper(const PlaceOptions& options, const IncrementalOptions& optimizer = {});
+  /// One that goes on from where another stood. Throws ArgumentError if the two contradict each
+  /// other.
+  PlaceMapper(const PlaceOptions& options, const IncrementalOptions& optimizer,
+              const std::vector<Place>& places, const PlaceHistory& history);
 
-  /// The motion from the previous keyframe of the same run of tracking, or from where the run
-  /// hangs on an earlier one.
-  struct Link {
-    std::int64_t from = 0;
-    SE3 T_from_this;  ///< in the unit of `from`
-    Matrix6d information = Matrix6d::Zero();
-    ConstraintSource source = ConstraintSource::kOdometry;
-    double sigma_log_scale = 0;  ///< how far the unit of length may have changed
-    double scale = 1;            ///< length at `from` of one unit at this keyframe
-  };
+  using Link = KeyframeLink;
   /// A new keyframe; without a link it begins a component of its own at `T_map_guess`. A keyframe
   /// without an odometry link begins a run of tracking, whose unit of length is measured or not.
   void add_keyframe(std::int64_t id, const std::optional<Link>& link, const SE3& T_map_guess,
@@ -93,6 +88,11 @@ class PlaceMapper {
   std::optional<PredictedMotion> predicted(std::int64_t from, std::int64_t to) const;
   /// The graph as it stands; appearances are empty.
   PlaceGraph place_graph() const;
+  std::vector<Place> places() const;  ///< of the graph
+  /// Constraints of the graph that have become others since the last call.
+  std::vector<MapChanges::ConstraintChange> take_constraint_changes();
+  /// All that another mapper needs to go on; its median depth is the caller's.
+  PlaceHistory history() const;
 
  private:
   struct Node {
@@ -130,7 +130,10 @@ class PlaceMapper {
   SE3 T_part_keyframe(const Node& node) const;
   Sim3 S_place_keyframe(const Node& node) const;
   void follow_links(std::int64_t first);
-  void changed(std::int64_t keyframe) { changed_since_ = std::min(changed_since_, keyframe); }
+  void changed(std::int64_t keyframe) {
+    changed_since_ = std::min(changed_since_, keyframe);
+    untold_since_ = std::min(untold_since_, keyframe);
+  }
   bool free_units() const;
   static Matrix7d covariance_of(const Link& link);
   std::vector<Edge> edges(std::int64_t since) const;
@@ -180,8 +183,11 @@ class PlaceMapper {
   std::size_t judged_loops_ = 0;  // how many the merged places have been judged with
   PlaceOptimizer optimizer_;
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  static constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min();
   std::int64_t changed_since_ = kNever;  // edges of earlier keyframes are as the optimizer has them
-  bool begin_anew_ = false;              // lengths are of another unit than the optimizer's
+  std::int64_t untold_since_ = kFirst;   // the same for take_constraint_changes
+  bool told_free_units_ = false;
+  bool begin_anew_ = false;  // lengths are of another unit than the optimizer's
 };
 
 }  // namespace placegraph

@@ -1,5 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/odometry_file.h>
+#include <placegraph/io/yaml_config.h>
 #include <placegraph/pipeline/lens_correction.h>
 #include <placegraph/pipeline/run.h>
 
@@ -129,51 +130,143 @@ void visit(OptionVisitor& field, MotionOptions& o) {
   field.group("noise", o.noise, "where the file tells none");
 }
 
-RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
-                       const RunProgress& progress, const LogSink& log,
-                       const FrameObserver& observer) {
-  options.check();
-  RunResult result;
-  result.sensor = choose_sensor(dataset, options.sensor);
-  result.calibration = dataset.calibration(result.sensor);
-  if (options.camera_height_m > 0) result.calibration.camera_height_m = options.camera_height_m;
-  const std::size_t begin = options.first_frame;
-  require(begin < dataset.size(),
-          "first_frame: the sequence has " + std::to_string(dataset.size()) + " frames");
-  const std::size_t end = options.max_frames > 0
-                              ? std::min(dataset.size(), begin + options.max_frames)
-                              : dataset.size();
+namespace {
 
-  LensCorrection lens(result.calibration);
-  for (int pass = 0;; ++pass) {
-    result.calibration = lens.calibration();
-    Slam slam(options.slam, result.calibration, log);
-    if (!options.motion.file.empty()) slam.set_motion(read_motion(dataset, options.motion));
-    StageTimes reading;
-    FrameReader reader(dataset, lens, result.sensor, end, options.threads > 1);
-    bool again = false;
-    for (std::size_t i = begin; i < end && !again; ++i) {
+/// A run over a sequence, and what it has written of itself.
+class SequenceRun {
+ public:
+  SequenceRun(const Dataset& dataset, const RunOptions& options, const RunProgress& progress,
+              const LogSink& log, const FrameObserver& observer,
+              const std::optional<MapFile>& map_file)
+      : dataset_(dataset),
+        options_(options),
+        progress_(progress),
+        log_(log),
+        observer_(observer),
+        map_file_(map_file) {
+    result_.sensor = choose_sensor(dataset, options.sensor);
+    result_.calibration = dataset.calibration(result_.sensor);
+    if (options.camera_height_m > 0) result_.calibration.camera_height_m = options.camera_height_m;
+    begin_ = options.first_frame;
+    require(begin_ < dataset.size(),
+            "first_frame: the sequence has " + std::to_string(dataset.size()) + " frames");
+    end_ = options.max_frames > 0 ? std::min(dataset.size(), begin_ + options.max_frames)
+                                  : dataset.size();
+  }
+
+  RunResult run() {
+    lens_ = LensCorrection(result_.calibration);
+    StoredMap stored;
+    if (map_file_ && map_file_->resume) {
+      stored = read_map(map_file_->path);
+      if (stored.origin.lens_k1 != 0) lens_.add(stored.origin.lens_k1);
+      pass_ = stored.origin.lens_pass;
+      if (stored.finished) return as_saved(std::move(stored));
+      database_ = MapDatabase::open(map_file_->path);
+    }
+    while (!pass(stored)) {
+      ++pass_;
+      stored = StoredMap();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// The map of a run that had come to its end already.
+  RunResult as_saved(StoredMap stored) {
+    result_.calibration = lens_.calibration();
+    result_.lens_k1 = lens_.k1();
+    result_.resumed_at = static_cast<std::int64_t>(begin_ + stored.map.frames.size());
+    result_.map = std::move(stored.map);
+    return std::move(result_);
+  }
+
+  MapOrigin origin() const {
+    MapOrigin origin;
+    origin.sequence = map_file_->sequence;
+    origin.sensor = result_.sensor;
+    origin.calibration = result_.calibration;
+    origin.options = dump_options(options_);
+    if (options_.slam.views.enabled) origin.view_options = dump_options(options_.slam.views.cues);
+    origin.lens_k1 = lens_.k1();
+    origin.lens_pass = pass_;
+    return origin;
+  }
+
+  /// Whether it came to the end; otherwise the images are to be corrected, and it begins anew.
+  bool pass(const StoredMap& stored) {
+    result_.calibration = lens_.calibration();
+    if (map_file_ && !database_) database_ = MapDatabase::create(map_file_->path, origin());
+    if (map_file_ && stored.map.keyframes.empty()) database_->clear(origin());
+    Slam slam(options_.slam, result_.calibration, log_);
+    if (!options_.motion.file.empty()) slam.set_motion(read_motion(dataset_, options_.motion));
+    const std::size_t first = go_on(stored, slam);
+    FrameReader reader(dataset_, lens_, result_.sensor, end_, options_.threads > 1);
+    for (std::size_t i = first; i < end_; ++i) {
       Frame frame;
       try {
-        const auto span = reading.measure("reading");
+        const auto span = times_.measure("reading");
         frame = reader.read(i);
       } catch (const FileError& error) {
-        if (i == begin) throw;
-        result.broken_off = error.what();
+        if (i == begin_) throw;
+        result_.broken_off = error.what();
         break;
       }
-      const FrameResult frame_result = slam.add_frame(frame);
-      if (observer) observer(frame, frame_result, slam.view());
-      if (progress) progress(i + 1 - begin, end - begin, frame_result);
-      again = learn_lens(slam.lens(), pass, options.lens, lens, log);
+      const FrameResult done = slam.add_frame(frame);
+      if (observer_) observer_(frame, done, slam.view());
+      if (progress_) progress_(i + 1 - begin_, end_ - begin_, done);
+      if (learn_lens(slam.lens(), pass_, options_.lens, lens_, log_)) return false;
+      if (database_ && done.new_place) commit(slam, false);
     }
-    if (again) continue;
-    result.lens_k1 = lens.k1();
-    result.map = slam.finish();
-    result.stages = reading.stages();
-    result.stages.insert(result.stages.end(), slam.stages().begin(), slam.stages().end());
-    return result;
+    result_.lens_k1 = lens_.k1();
+    result_.map = slam.finish();
+    if (database_) commit(slam, true);
+    result_.stages = times_.stages();
+    result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());
+    return true;
   }
+
+  /// Takes up what was saved; the index of the next frame.
+  std::size_t go_on(const StoredMap& stored, Slam& slam) {
+    if (stored.map.keyframes.empty()) return begin_;
+    const auto last = static_cast<std::size_t>(stored.map.keyframes.back().frame);
+    require(last >= begin_ && last < end_, map_file_->path + ": its last keyframe is frame " +
+                                               std::to_string(last) +
+                                               ", which is not of the sequence");
+    Frame frame = dataset_.frame(last, result_.sensor);
+    lens_.apply(frame);
+    slam.go_on_from(stored.map, stored.history, frame);
+    result_.resumed_at = static_cast<std::int64_t>(last) + 1;
+    return last + 1;
+  }
+
+  void commit(Slam& slam, bool last) {
+    const auto span = times_.measure("map database");
+    const MapChanges changes = slam.take_changes();
+    last ? database_->finish(changes) : database_->commit(changes);
+  }
+
+  const Dataset& dataset_;
+  const RunOptions& options_;
+  const RunProgress& progress_;
+  const LogSink& log_;
+  const FrameObserver& observer_;
+  const std::optional<MapFile>& map_file_;
+  std::size_t begin_ = 0, end_ = 0;
+  LensCorrection lens_{Calibration()};
+  int pass_ = 0;
+  std::optional<MapDatabase> database_;
+  StageTimes times_;
+  RunResult result_;
+};
+
+}  // namespace
+
+RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
+                       const RunProgress& progress, const LogSink& log,
+                       const FrameObserver& observer, const std::optional<MapFile>& map_file) {
+  options.check();
+  return SequenceRun(dataset, options, progress, log, observer, map_file).run();
 }
 
 }  // namespace placegraph

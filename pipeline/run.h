@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/io/dataset.h>
+#include <placegraph/io/map_database.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <functional>
@@ -42,9 +43,18 @@ struct RunResult {
   Map map;
   /// A frame could not be read: the map holds the frames before it. The message of its FileError.
   std::optional<std::string> broken_off;
+  /// The first frame that was worked on, where the run went on with one that had been broken off.
+  std::optional<std::int64_t> resumed_at;
   /// Reading and the stages of Slam. With more than one thread the next frame is read while the
   /// last is worked on, and counts for the stage that is open then.
   std::vector<StageTimes::Stage> stages;
+};
+
+/// Where a run saves its map as it goes (io/map_database.h): after every new place and at the end.
+struct MapFile {
+  std::string path;
+  std::string sequence;  ///< as it can be opened again
+  bool resume = false;   ///< go on with the run that was broken off there
 };
 
 /// Called after each frame with the number done and of all, and what became of it.
@@ -56,10 +66,12 @@ using FrameObserver =
 
 /// Runs the system over a sequence, every frame, never sleeping; once or twice from the beginning
 /// where the images of one eye prove to be distorted. Same result for any number of threads. Throws
-/// as Slam and the data set do; an unreadable frame that is not the first ends the run.
+/// as Slam and the data set do; an unreadable frame that is not the first ends the run. With a
+/// `map_file` to resume, the frames up to the last committed place are as they were.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                        const RunProgress& progress = {}, const LogSink& log = {},
-                       const FrameObserver& observer = {});
+                       const FrameObserver& observer = {},
+                       const std::optional<MapFile>& map_file = {});
 
 /// "mono", "stereo", "rgbd".
 const char* to_string(Sensor sensor);

@@ -11,6 +11,12 @@ void SlamOptions::check() const {
   loops.check();
   places.check();
   pose_graph.check();
+  views.cues.check();
+}
+
+void visit(OptionVisitor& field, KeyframeViewOptions& o) {
+  field("enabled", o.enabled, "keep how keyframes look");
+  field.group("cues", o.cues, "cues that views are compared by");
 }
 
 void visit(OptionVisitor& field, SlamOptions& o) {
@@ -19,6 +25,7 @@ void visit(OptionVisitor& field, SlamOptions& o) {
   field.group("loops", o.loops, "spatial memory: recognition of places");
   field.group("places", o.places, "topological places");
   field.group("pose_graph", o.pose_graph, "optimization of the place graph");
+  field.group("views", o.views, "how keyframes look, for placegraph localize");
   field("max_lost_frames", o.max_lost_frames, "then a new component of the map begins",
         {1, 1000000});
 }
@@ -48,6 +55,10 @@ void Slam::set_motion(const MeasuredMotion& motion_cam) {
 }
 
 FrameResult Slam::add_frame(const Frame& frame) { return impl_->add_frame(frame); }
+MapChanges Slam::take_changes() { return impl_->take_changes(); }
+void Slam::go_on_from(const Map& map, const PlaceHistory& history, const Frame& last) {
+  impl_->go_on_from(map, history, last);
+}
 Map Slam::snapshot() const { return impl_->snapshot(); }
 const LensEstimator& Slam::lens() const { return impl_->odometry.lens(); }
 FrameView Slam::view() const { return impl_->odometry.view(); }
@@ -121,7 +132,10 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
     // The first view is the origin while the second is waited for; if another takes its place, and
     // not by a turn alone, it has no pose after all.
     if (!update.turn) {
-      for (const std::size_t origin : origins) online.poses[origin].T_world_body.reset();
+      for (const std::size_t origin : origins) {
+        online.poses[origin].T_world_body.reset();
+        untold.record = std::min(untold.record, origin);
+      }
       origins.clear();
     }
     origins.push_back(records.size() - 1);
@@ -154,6 +168,7 @@ void Slam::Impl::apply(const OdometryUpdate::Rescale& rescale) {
   const std::int64_t first = odometry.first_keyframe();
   mapper.rescale(first, rescale.factor);
   closer.rescale(rescale.factor, first);
+  untold.record = untold.view = untold.landmark = 0;
   T_map_last = SE3(T_map_last.rotation(), rescale.factor * T_map_last.translation());
   for (FrameRecord& record : records)
     if (record.keyframe >= first && record.T_keyframe_frame)
@@ -168,11 +183,21 @@ void Slam::Impl::add_keyframes(const OdometryUpdate& update, FrameResult& result
   // Frames from before the initialization hang on its first keyframe, others where they did.
   const std::int64_t first = update.new_keyframes.front().id;
   for (const auto& [frame, T_odom_cam] : update.filled)
-    for (FrameRecord& record : records)
-      if (record.frame == frame) {
-        if (record.keyframe < odometry.first_keyframe()) record.keyframe = first;
-        record.T_keyframe_frame = odometry.keyframe_pose(record.keyframe).inverse() * T_odom_cam;
-      }
+    if (FrameRecord* record = record_of(frame)) {
+      if (record->keyframe < odometry.first_keyframe()) record->keyframe = first;
+      record->T_keyframe_frame = odometry.keyframe_pose(record->keyframe).inverse() * T_odom_cam;
+    }
+}
+
+/// To be changed; nothing for a frame that has none.
+FrameRecord* Slam::Impl::record_of(std::int64_t frame) {
+  const auto record =
+      std::lower_bound(records.begin(), records.end(), frame,
+                       [](const FrameRecord& r, std::int64_t id) { return r.frame < id; });
+  if (record == records.end() || record->frame != frame) return nullptr;
+  untold.record =
+      std::min(untold.record, static_cast<std::size_t>(std::distance(records.begin(), record)));
+  return &*record;
 }
 
 void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, FrameResult& result) {
@@ -188,12 +213,13 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
     const double sigma_log_scale = odometry.scale_known()    ? 0
                                    : odometry.guesses_unit() ? kSigmaLogScaleOfTurn
                                                              : kSigmaLogScaleOfBridge;
+    const bool same_run = taken_up && odometry.scale_known();
     link = PlaceMapper::Link{bridge->match,
                              bridge->T_match_query,
                              bridge->information.topLeftCorner<6, 6>(),
-                             ConstraintSource::kOther,
+                             same_run ? ConstraintSource::kOdometry : ConstraintSource::kOther,
                              sigma_log_scale,
-                             1 / mapper.S_map_keyframe(bridge->match).scale()};
+                             same_run ? 1 : 1 / mapper.S_map_keyframe(bridge->match).scale()};
     bridge.reset();
   }
   const auto span = times.measure("place graph");
@@ -206,17 +232,20 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
   }
   frame_of_keyframe[keyframe.id] = keyframe.frame.id;
   stamp_of_keyframe[keyframe.id] = keyframe.frame.stamp_ns;
-  for (FrameRecord& record : records)
-    if (record.frame == keyframe.frame.id) {
-      record.keyframe = keyframe.id;
-      record.T_keyframe_frame = SE3();
-    }
+  if (FrameRecord* record = record_of(keyframe.frame.id)) {
+    record->keyframe = keyframe.id;
+    record->T_keyframe_frame = SE3();
+  }
   if (motion) add_motion(keyframe.id);
-  if (mapper.is_anchor(keyframe.id)) report(mapper.optimize(odometry.window_begin()));
+  if (mapper.is_anchor(keyframe.id)) {
+    result.new_place = true;
+    report(mapper.optimize(odometry.window_begin()));
+  }
   {
     const auto inner = times.measure("described features");
     closer.add_view(keyframe.id, keyframe.frame, T_previous_this);
   }
+  if (options.views.enabled) keep_view(keyframe.id, keyframe.frame);
   if (options.loops.enabled) close_loops(result);
 }
 
@@ -271,34 +300,6 @@ void Slam::Impl::close_loops(FrameResult& result) {
 void Slam::Impl::report(const IncrementalStep& step) const {
   if (!step.outcome)
     log(log_sink, LogLevel::kWarning, "place graph not optimized: " + step.outcome.reason);
-}
-
-Map Slam::Impl::snapshot() const {
-  Map map;
-  map.place_graph = mapper.place_graph();
-  for (Place& place : map.place_graph.places)
-    for (const auto& view : closer.views())
-      if (view.keyframe == place.anchor_keyframe) place.appearance = closer.describe(view.features);
-  std::map<std::int64_t, PlaceMember> members;
-  for (const Place& place : map.place_graph.places)
-    for (const PlaceMember& member : place.members) members[member.keyframe] = member;
-  for (const auto& view : closer.views()) {
-    Keyframe keyframe;
-    keyframe.id = view.keyframe;
-    keyframe.frame = view.frame;
-    keyframe.stamp_ns = stamp_of_keyframe.at(view.keyframe);
-    keyframe.place = mapper.place_of(view.keyframe);
-    keyframe.T_place_keyframe = members.at(view.keyframe).T_place_keyframe;
-    keyframe.scale = members.at(view.keyframe).scale;
-    keyframe.features = view.features;
-    map.keyframes.push_back(std::move(keyframe));
-  }
-  map.landmarks = odometry.landmarks();
-  map.frames = records;
-  map.loops = closer.records();
-  map.metric = mapper.metric();
-  map.trajectory_online = online;
-  return map;
 }
 
 }  // namespace placegraph

@@ -1,10 +1,18 @@
 #pragma once
-#include <placegraph/graph/map.h>
+#include <placegraph/frontend/places/place_view.h>
+#include <placegraph/graph/map_changes.h>
 #include <placegraph/pipeline/loop_closer.h>
 #include <placegraph/pipeline/odometry.h>
 #include <placegraph/pipeline/place_mapper.h>
 
 namespace placegraph {
+
+/// How keyframes look in all cues: kept in the map, so that images can be placed in it later.
+struct KeyframeViewOptions {
+  bool enabled = true;
+  PlaceCueOptions cues;
+};
+void visit(OptionVisitor& field, KeyframeViewOptions& options);
 
 struct SlamOptions {
   std::uint64_t seed = 0;  ///< of every random stream
@@ -12,6 +20,7 @@ struct SlamOptions {
   LoopOptions loops;
   PlaceOptions places;
   IncrementalOptions pose_graph;
+  KeyframeViewOptions views;
   int max_lost_frames = 10;  ///< then a new component of the map begins
   void check() const;
 };
@@ -24,6 +33,7 @@ struct FrameResult {
       TrackingState::kWaiting;   ///< waiting for the second view, tracking, or lost
   std::optional<SE3> T_map_cam;  ///< in the frame of `component`; nothing while unknown
   bool keyframe = false;
+  bool new_place = false;
   int inliers = 0;
   int component = 0;
   int loops_accepted = 0;  ///< with this frame
@@ -50,7 +60,15 @@ class Slam {
   /// those of the frames; to be given before the first frame. It gives a single eye its unit, bears
   /// on the place graph as robust constraints, and carries on where nothing is seen.
   void set_motion(const MeasuredMotion& motion_cam);
+  /// Takes up a run that was broken off, before the first frame: its map and history, and the
+  /// frame of its last keyframe, which is seen again; tracking begins there as after a loss.
+  /// Records of frames after that one are dropped: they come next. Throws ArgumentError if map and
+  /// history contradict each other or the frame is another.
+  void go_on_from(const Map& map, const PlaceHistory& history, const Frame& last);
   FrameResult add_frame(const Frame& frame);
+  /// What the map has gained since the last call, at the cost of what it is. The views of keyframes
+  /// that it tells are kept no longer.
+  MapChanges take_changes();
   /// Map and trajectories as they stand; may be called between frames.
   Map snapshot() const;
   /// Optimizes once more and returns the map; neither it nor add_frame may be called afterwards.

@@ -33,6 +33,12 @@ struct Slam::Impl {
   void close_loops(FrameResult& result);
   void report(const IncrementalStep& step) const;
   void apply(const OdometryUpdate::Rescale& rescale);
+  FrameRecord* record_of(std::int64_t frame);
+  void keep_view(std::int64_t keyframe, const Frame& frame);
+  void go_on_from(const Map& map, const PlaceHistory& history, const Frame& last);
+  Keyframe keyframe_of(const LoopCloser::View& view) const;
+  std::vector<PointLandmark> landmarks(std::size_t first) const;
+  MapChanges take_changes();
   Map snapshot() const;
 
   SlamOptions options;
@@ -53,6 +59,16 @@ struct Slam::Impl {
   std::shared_ptr<const MeasuredMotion> motion;  // of the camera, by other sensors
   std::vector<std::size_t> origins;  // first views of a single eye, until the second comes
   bool posed_once = false, finished = false;
+
+  std::map<std::int64_t, PlaceView> views;       // of keyframes, until take_changes tells them
+  std::optional<bool> views_in_colour;           // as the first
+  std::vector<PointLandmark> earlier_landmarks;  // of a run that was taken up
+  std::int64_t first_landmark_id = 0;            // after theirs
+  bool taken_up = false;                         // while the frame of its last keyframe is seen again
+  struct {                                       // from here on, take_changes has not told
+    std::size_t record = 0, view = 0, landmark = 0, training = 0;
+    std::int64_t anchor = -1;
+  } untold;
 };
 
 }  // namespace placegraph

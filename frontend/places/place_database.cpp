@@ -31,6 +31,7 @@ PlaceDatabase::PlaceDatabase(const PlaceDatabaseOptions& options, std::uint64_t 
 }
 
 void PlaceDatabase::add(std::int64_t id, const std::vector<Feature>& features) {
+  index_of_[id] = views_.size();
   views_.push_back({id, descriptors_of(features), {}});
   const bool first =
       trained_views_ == 0 && static_cast<int>(views_.size()) >= options_.first_training;
@@ -112,10 +113,16 @@ std::vector<PlaceCandidate> PlaceDatabase::query(
   return candidates;
 }
 
+const Appearance& PlaceDatabase::appearance(std::int64_t id) const {
+  const auto index = index_of_.find(id);
+  require(index != index_of_.end(), "PlaceDatabase: unknown view " + std::to_string(id));
+  return views_[index->second].appearance;
+}
+
 double PlaceDatabase::similarity(const std::vector<Feature>& features, std::int64_t id) const {
-  const auto view =
-      std::find_if(views_.begin(), views_.end(), [id](const View& v) { return v.id == id; });
-  if (view == views_.end()) return 0;
+  const auto index = index_of_.find(id);
+  if (index == index_of_.end()) return 0;
+  const View* view = &views_[index->second];
   const Appearance a = describe(features);
   double score = 0;
   auto b = view->appearance.words.begin();

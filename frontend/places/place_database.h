@@ -3,6 +3,7 @@
 #include <placegraph/graph/place_graph.h>
 
 #include <functional>
+#include <unordered_map>
 #include <vector>
 
 namespace placegraph {
@@ -36,6 +37,10 @@ class PlaceDatabase {
   double similarity(const std::vector<Feature>& features, std::int64_t id) const;
   /// tf-idf weights, L1-normalized; empty before the first training.
   Appearance describe(const std::vector<Feature>& features) const;
+  /// The same of a stored view. Throws ArgumentError for an unknown one.
+  const Appearance& appearance(std::int64_t id) const;
+  /// Views of the last training, which describes all views anew; 0 before the first.
+  std::size_t trained_views() const { return trained_views_; }
   std::size_t size() const { return views_.size(); }
 
  private:
@@ -52,6 +57,7 @@ class PlaceDatabase {
   std::uint64_t seed_;
   Vocabulary vocabulary_;
   std::vector<View> views_;
+  std::unordered_map<std::int64_t, std::size_t> index_of_;  // in views_, by id
   std::vector<float> idf_;
   std::vector<std::vector<std::pair<int, float>>> inverted_;  // word -> (view, weight)
   std::size_t trained_views_ = 0;

@@ -3,6 +3,7 @@
 #include <placegraph/frontend/places/cues/cue_grid.h>
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
+#include <placegraph/graph/place_view.h>
 
 #include <vector>
 
@@ -24,18 +25,6 @@ struct PlaceCueOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceCueOptions& options);
-
-/// An image in all cues.
-struct PlaceView {
-  /// At scale 1 and, of a query, at 1 / zoom and zoom.
-  std::vector<CueGrid> tiny, gradients;
-  CueGrid colour;  ///< empty for a grey image: there is no colour cue
-  CueGrid coarse;  ///< the tiny image at half its columns, for a second look
-  /// All grids pooled to a few cells, of unit length each and rounded to whole numbers: a first
-  /// look at tens of thousands of views is a dot product.
-  std::vector<std::int16_t> glance;
-  std::vector<Feature> corners;
-};
 
 /// `image`: grey or BGR, 8 bits (ArgumentError otherwise). A `query` costs three scales instead of
 /// one; cues of weight 0 stay empty.

@@ -4,6 +4,7 @@
 
 #include <Eigen/SVD>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace placegraph {
@@ -12,7 +13,9 @@ SO3::SO3(const Eigen::Quaterniond& q) : q_(q) {
   const double squared_norm = q.squaredNorm();
   require(squared_norm > 0 && std::isfinite(squared_norm),
           "rotation: the quaternion is zero or not finite");
-  q_.coeffs() /= std::sqrt(squared_norm);
+  // One of unit length to rounding stays as it is: what was written down is read back.
+  constexpr double kRounding = 8 * std::numeric_limits<double>::epsilon();
+  if (std::abs(squared_norm - 1) > kRounding) q_.coeffs() /= std::sqrt(squared_norm);
 }
 
 SO3 SO3::from_matrix(const Eigen::Matrix3d& R) {

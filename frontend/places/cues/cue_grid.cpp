@@ -68,16 +68,7 @@ CueGrid make_cue_grid(int columns, int rows, int channels, const std::vector<flo
   const float scale = largest > 0 ? kLargest / largest : 0;
   for (const float value : values)
     grid.values.push_back(static_cast<std::int16_t>(std::lround(value * scale)));
-  const int stride = columns + 1;
-  grid.energy.assign(static_cast<std::size_t>(stride) * (rows + 1), 0);
-  for (int y = 0; y < rows; ++y) {
-    std::int64_t row = 0;
-    for (int x = 0; x < columns; ++x) {
-      row += dot(cell(grid, x, y), cell(grid, x, y), channels);
-      grid.energy[static_cast<std::size_t>((y + 1) * stride + x + 1)] =
-          grid.energy[static_cast<std::size_t>(y * stride + x + 1)] + row;
-    }
-  }
+  grid.energy = cell_energy(columns, rows, channels, grid.values);
   return grid;
 }
 

@@ -1,18 +1,9 @@
 #pragma once
-#include <cstdint>
+#include <placegraph/graph/place_view.h>
+
 #include <vector>
 
 namespace placegraph {
-
-/// What a cue says of an image: one vector per cell of a grid laid over it, in whole numbers, so
-/// that comparing is quick and memory small; their common scale means nothing.
-struct CueGrid {
-  int columns = 0, rows = 0, channels = 0;
-  std::vector<std::int16_t> values;  ///< row after row, a cell's channels together
-  /// Sum of the squared lengths of all cells above and left, (columns + 1) x (rows + 1).
-  std::vector<std::int64_t> energy;
-  bool empty() const { return values.empty(); }
-};
 
 /// The grid of `values` (columns * rows * channels), rounded to 11 bits of the largest. Throws
 /// ArgumentError if their number is another or one is not finite.

@@ -1,0 +1,58 @@
+#pragma once
+#include <placegraph/graph/constraint.h>
+#include <placegraph/graph/loop.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// The motion to a keyframe from the one before it in the same run of tracking, or from where the
+/// run hangs on an earlier one.
+struct KeyframeLink {
+  std::int64_t from = 0;
+  SE3 T_from_this;  ///< in the unit of `from`
+  Matrix6d information = Matrix6d::Zero();
+  ConstraintSource source = ConstraintSource::kOdometry;
+  double sigma_log_scale = 0;  ///< how far the unit of length may have changed
+  double scale = 1;            ///< length at `from` of one unit at this keyframe
+};
+
+/// How the places of a map came about, beyond what its PlaceGraph says of the outcome: what a run
+/// that goes on has to know.
+struct PlaceHistory {
+  struct Keyframe {
+    std::int64_t id = 0;
+    std::int64_t part = 0;  ///< anchor of the stretch of keyframes that it belongs to
+    int run = 0;            ///< of tracking
+    std::optional<KeyframeLink> link;
+  };
+  /// A stretch of keyframes within reach of its first one, the anchor.
+  struct Part {
+    std::int64_t anchor = 0, place = 0;
+    Sim3 S_place_part;
+    Matrix7d covariance = Matrix7d::Zero();     ///< of that, in its right tangent
+    std::optional<Matrix6d> motion_covariance;  ///< of the motion from the previous anchor
+  };
+  struct Place {
+    std::int64_t id = 0;
+    double reach = 0;  ///< in its own unit
+    std::int64_t last_keyframe = 0;
+  };
+  /// Between two anchors, by other sensors.
+  struct Motion {
+    std::int64_t from = 0, to = 0;
+    SE3 T_from_to;
+    Matrix6d covariance = Matrix6d::Zero();
+  };
+
+  std::vector<Keyframe> keyframes;  ///< by ascending id, as the next two
+  std::vector<Part> parts;
+  std::vector<Place> places;
+  std::vector<Motion> motions;
+  std::vector<Loop> loops;
+  std::vector<bool> unit_measured;  ///< of every run of tracking
+  double median_depth_m = 10;       ///< of the scene at the last keyframe
+};
+
+}  // namespace placegraph

@@ -1,0 +1,392 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/map_blobs.h>
+#include <placegraph/io/map_database.h>
+#include <placegraph/io/map_schema.h>
+#include <placegraph/io/map_table.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace placegraph {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLandmarksARow = 1000;
+
+void remove_with_journal(const std::string& path) {
+  for (const char* ending : {"", "-wal", "-shm", "-journal"}) fs::remove(path + ending);
+}
+
+void insert_camera(SqliteDatabase& database, std::int64_t id, const Camera& camera) {
+  SqliteStatement put(database,
+                      "INSERT INTO camera VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  put << id << std::int64_t{camera.width} << std::int64_t{camera.height} << camera.fx << camera.fy
+      << camera.cx << camera.cy << static_cast<std::int64_t>(camera.distortion);
+  for (const double coefficient : camera.coefficients) put << coefficient;
+  put.run();
+}
+
+/// Origin and cameras, in place of those that are there.
+void write_origin(SqliteDatabase& database, const MapOrigin& origin) {
+  database.execute("DELETE FROM origin");
+  database.execute("DELETE FROM camera");
+  SqliteStatement put(database,
+                      "INSERT INTO origin VALUES (1, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 0, 10, 0)");
+  put.text(origin.sequence) << static_cast<std::int64_t>(origin.sensor);
+  put.text(origin.options).text(origin.view_options);
+  put << origin.lens_k1 << std::int64_t{origin.lens_pass};
+  const auto& calibration = origin.calibration;
+  std::string T_cam_depth;
+  calibration ? put << calibration->baseline_m : put.null();
+  calibration && calibration->camera_height_m ? put << *calibration->camera_height_m : put.null();
+  if (calibration && calibration->depth) {
+    BlobWriter(T_cam_depth).pose(calibration->depth->T_cam_depth);
+    put.blob(T_cam_depth) << calibration->depth->sigma_at_1m;
+  } else {
+    put.null().null();
+  }
+  put.run();
+  if (!calibration) return;
+  insert_camera(database, 1, calibration->camera);
+  if (calibration->depth) insert_camera(database, 2, calibration->depth->camera);
+}
+
+}  // namespace
+
+struct MapDatabase::Impl {
+  explicit Impl(const std::string& path)
+      : database(path, SqliteDatabase::Access::kWrite),
+        places(prepared(), "place", "id", 7),
+        labels(database, "label", "place", 3),
+        appearances(database, "appearance", "place", 3),
+        keyframes(database, "keyframe", "id", 6),
+        features(database, "features", "keyframe", 3),
+        views(database, "view", "keyframe", 2),
+        frames(database, "frame", "number", 5),
+        online(database, "online", "number", 3),
+        loops(database, "loop", "number", 7),
+        landmarks(database, "landmarks", "number", 3),
+        links(database, "link", "keyframe", 9),
+        parts(database, "part", "anchor", 5),
+        motions(database, "motion", "number", 5),
+        revisits(database, "revisit", "number", 5),
+        runs(database, "run", "number", 2),
+        put_edge(database, "INSERT OR REPLACE INTO edge VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+        erase_edge(database, "DELETE FROM edge WHERE kind = ? AND number = ?") {
+    places.take_keys(database, "id place");
+    SqliteRows known(database, "keyframe", "id, frame, stamp_ns");
+    while (known.next()) keyframe_times[known.integer(0)] = {known.integer(1), known.integer(2)};
+  }
+
+  /// The file belongs to this connection alone. A write-ahead log: a commit appends to it without
+  /// waiting for the disk; when a program is killed, all that it committed is there.
+  SqliteDatabase& prepared() {
+    check_map_schema(database);
+    database.execute("PRAGMA locking_mode = EXCLUSIVE");
+    database.text("PRAGMA journal_mode = WAL");
+    database.execute("PRAGMA synchronous = NORMAL");
+    return database;
+  }
+
+  void commit(const MapChanges& changes, bool finished);
+  void put_places(const MapChanges& changes);
+  void put_keyframes(const MapChanges& changes);
+  void put_frames(const MapChanges& changes);
+  void put_constraints(const MapChanges& changes);
+  void put_landmarks(const MapChanges& changes);
+  void put_history(const PlaceHistory& history);
+  void put_runs(const PlaceHistory& history);
+
+  SqliteDatabase database;
+  MapTable places, labels, appearances, keyframes, features, views, frames, online, loops,
+      landmarks, links, parts, motions, revisits, runs;
+  SqliteStatement put_edge, erase_edge;
+  std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> keyframe_times;  // frame, stamp
+  std::map<std::int64_t, std::vector<std::string>> written_labels;
+};
+
+void MapDatabase::Impl::put_places(const MapChanges& changes) {
+  std::map<std::int64_t, const PlaceHistory::Place*> grown;
+  for (const PlaceHistory::Place& place : changes.history.places) grown[place.id] = &place;
+  std::set<std::int64_t> ids;
+  for (const Place& place : changes.places) {
+    ids.insert(place.id);
+    MapRow row;
+    row.integer(place.anchor_keyframe).integer(place.component).pose(place.T_map_place);
+    row.real(place.scale);
+    if (const auto found = grown.find(place.id); found != grown.end())
+      row.real(found->second->reach).integer(found->second->last_keyframe);
+    else
+      row.null().null();
+    places.put(place.id, row);
+    if (place.labels == written_labels[place.id]) continue;
+    labels.erase(place.id);
+    for (std::size_t i = 0; i < place.labels.size(); ++i)
+      labels.write(place.id, MapRow().integer(static_cast<std::int64_t>(i)).text(place.labels[i]));
+    written_labels[place.id] = place.labels;
+  }
+  for (const std::int64_t id : places.keep(ids)) {
+    labels.erase(id);
+    appearances.erase(id);
+    written_labels.erase(id);
+  }
+  for (const auto& [place, appearance] : changes.appearances) {
+    if (!ids.count(place)) continue;
+    std::string bytes;
+    BlobWriter(bytes).words(appearance);
+    appearances.write(
+        place, MapRow().integer(static_cast<std::int64_t>(appearance.words.size())).blob(bytes));
+  }
+}
+
+void MapDatabase::Impl::put_keyframes(const MapChanges& changes) {
+  for (const Keyframe& keyframe : changes.keyframes) {
+    keyframe_times[keyframe.id] = {keyframe.frame, keyframe.stamp_ns};
+    std::string bytes;
+    BlobWriter(bytes).features(keyframe.features);
+    features.write(
+        keyframe.id,
+        MapRow().integer(static_cast<std::int64_t>(keyframe.features.size())).blob(bytes));
+    if (keyframe.view.empty()) continue;
+    bytes.clear();
+    BlobWriter(bytes).view(keyframe.view);
+    views.write(keyframe.id, MapRow().blob(bytes));
+  }
+  for (const Place& place : changes.places)
+    for (const PlaceMember& member : place.members) {
+      const auto times = keyframe_times.find(member.keyframe);
+      require(times != keyframe_times.end(),
+              "map: place " + std::to_string(place.id) + " has keyframe " +
+                  std::to_string(member.keyframe) + ", which is not there");
+      keyframes.put(member.keyframe, MapRow()
+                                         .integer(times->second.first)
+                                         .integer(times->second.second)
+                                         .integer(place.id)
+                                         .pose(member.T_place_keyframe)
+                                         .real(member.scale));
+    }
+}
+
+void MapDatabase::Impl::put_frames(const MapChanges& changes) {
+  auto number = static_cast<std::int64_t>(changes.first_frame);
+  for (const FrameRecord& record : changes.frames) {
+    MapRow row;
+    row.integer(record.frame).integer(record.stamp_ns).integer(record.keyframe);
+    record.T_keyframe_frame ? row.pose(*record.T_keyframe_frame) : row.null();
+    frames.write(number++, row);
+  }
+  number = static_cast<std::int64_t>(changes.first_frame);
+  for (const StampedPose& pose : changes.online) {
+    MapRow row;
+    row.integer(pose.stamp_ns);
+    std::string bytes;
+    if (pose.T_world_body) BlobWriter(bytes).matrix12(*pose.T_world_body);
+    pose.T_world_body ? row.blob(bytes) : row.null();
+    online.write(number++, row);
+  }
+  number = 0;
+  for (const LoopRecord& loop : changes.loops)
+    loops.put(number++, MapRow()
+                            .integer(loop.query_frame)
+                            .integer(loop.match_frame)
+                            .integer(loop.inliers)
+                            .integer(loop.accepted)
+                            .text(loop.stage)
+                            .pose(loop.T_match_query));
+}
+
+void MapDatabase::Impl::put_constraints(const MapChanges& changes) {
+  for (const auto& [kind, number, constraint] : changes.constraints) {
+    if (!constraint) {
+      erase_edge << std::int64_t{kind} << number;
+      erase_edge.run();
+      continue;
+    }
+    std::string motion, information;
+    require(kind_of(constraint->T_from_to) != PoseKind::kSE2, "map: a constraint in the plane");
+    if (const auto* S_from_to = std::get_if<Sim3>(&constraint->T_from_to))
+      BlobWriter(motion).similarity(*S_from_to);
+    else
+      BlobWriter(motion).pose(std::get<SE3>(constraint->T_from_to));
+    BlobWriter(information).symmetric(constraint->information);
+    put_edge << std::int64_t{kind} << number << constraint->from << constraint->to
+             << static_cast<std::int64_t>(constraint->source)
+             << static_cast<std::int64_t>(constraint->kernel.kind) << constraint->kernel.width;
+    put_edge.blob(motion).blob(information).run();
+  }
+}
+
+/// In rows of a thousand: single ones would cost more to find than to write.
+void MapDatabase::Impl::put_landmarks(const MapChanges& changes) {
+  const std::size_t first = changes.first_landmark;
+  require(first % kLandmarksARow == 0, "map: landmarks begin within a row");
+  for (std::size_t i = 0; i < changes.landmarks.size(); i += kLandmarksARow) {
+    const std::size_t count = std::min(kLandmarksARow, changes.landmarks.size() - i);
+    std::string bytes;
+    BlobWriter(bytes).landmarks(changes.landmarks.data() + i, count);
+    landmarks.write(static_cast<std::int64_t>((first + i) / kLandmarksARow),
+                    MapRow().integer(static_cast<std::int64_t>(count)).blob(bytes));
+  }
+  const std::size_t end = first + changes.landmarks.size();
+  const auto rows = static_cast<std::int64_t>((end + kLandmarksARow - 1) / kLandmarksARow);
+  database.execute("DELETE FROM landmarks WHERE number >= " + std::to_string(rows));
+}
+
+void MapDatabase::Impl::put_history(const PlaceHistory& history) {
+  for (const PlaceHistory::Keyframe& keyframe : history.keyframes) {
+    MapRow row;
+    row.integer(keyframe.part).integer(keyframe.run);
+    if (const auto& link = keyframe.link)
+      row.integer(link->from)
+          .pose(link->T_from_this)
+          .symmetric(link->information)
+          .integer(static_cast<std::int64_t>(link->source))
+          .real(link->sigma_log_scale)
+          .real(link->scale);
+    else
+      row.null().null().null().null().null().null();
+    links.put(keyframe.id, row);
+  }
+  for (const PlaceHistory::Part& part : history.parts) {
+    std::string S_place_part;
+    BlobWriter(S_place_part).similarity(part.S_place_part);
+    MapRow row;
+    row.integer(part.place).blob(S_place_part).symmetric(part.covariance);
+    part.motion_covariance ? row.symmetric(*part.motion_covariance) : row.null();
+    parts.put(part.anchor, row);
+  }
+  put_runs(history);
+}
+
+void MapDatabase::Impl::put_runs(const PlaceHistory& history) {
+  std::int64_t number = 0;
+  for (const PlaceHistory::Motion& motion : history.motions)
+    motions.put(number++, MapRow()
+                              .integer(motion.from)
+                              .integer(motion.to)
+                              .pose(motion.T_from_to)
+                              .symmetric(motion.covariance));
+  number = 0;
+  for (const Loop& loop : history.loops) {
+    std::string S_match_query;
+    BlobWriter(S_match_query).similarity(loop.S_match_query());
+    revisits.put(number++, MapRow()
+                               .integer(loop.query)
+                               .integer(loop.match)
+                               .blob(S_match_query)
+                               .symmetric(loop.information));
+  }
+  number = 0;
+  for (const bool measured : history.unit_measured) runs.put(number++, MapRow().integer(measured));
+}
+
+void MapDatabase::Impl::commit(const MapChanges& changes, bool finished) {
+  database.execute("BEGIN IMMEDIATE");
+  try {
+    put_keyframes(changes);
+    put_places(changes);
+    put_frames(changes);
+    put_constraints(changes);
+    put_landmarks(changes);
+    put_history(changes.history);
+    SqliteStatement origin(database,
+                           "UPDATE origin SET metric = ?, median_depth_m = ?, finished = ?");
+    origin << std::int64_t{changes.metric} << changes.history.median_depth_m
+           << std::int64_t{finished};
+    origin.run();
+    database.execute("COMMIT");
+  } catch (...) {
+    try {
+      database.execute("ROLLBACK");
+    } catch (const Error&) {  // the first fault is the one to tell
+    }
+    throw;
+  }
+}
+
+MapDatabase::MapDatabase(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+MapDatabase::MapDatabase(MapDatabase&&) noexcept = default;
+MapDatabase& MapDatabase::operator=(MapDatabase&&) noexcept = default;
+MapDatabase::~MapDatabase() = default;
+
+MapDatabase MapDatabase::create(const std::string& path, const MapOrigin& origin) {
+  // A file of that name has its tables and its origin, or there is none.
+  const std::string fresh = path + ".new";
+  remove_with_journal(fresh);
+  {
+    SqliteDatabase database(fresh, SqliteDatabase::Access::kCreate);
+    create_map_tables(database);
+    database.execute("BEGIN");
+    write_origin(database, origin);
+    database.execute("COMMIT");
+  }
+  remove_with_journal(path);
+  std::error_code code;
+  fs::rename(fresh, path, code);
+  if (code) throw FileError(path, "cannot be written: " + code.message());
+  return MapDatabase(std::make_unique<Impl>(path));
+}
+
+MapDatabase MapDatabase::open(const std::string& path) {
+  return MapDatabase(std::make_unique<Impl>(path));
+}
+
+void MapDatabase::commit(const MapChanges& changes) { impl_->commit(changes, false); }
+
+void MapDatabase::clear(const MapOrigin& origin) {
+  SqliteDatabase& database = impl_->database;
+  database.execute("BEGIN IMMEDIATE");
+  for (const char* table : kMapTables) database.execute(std::string("DELETE FROM ") + table);
+  write_origin(database, origin);
+  database.execute("COMMIT");
+  const std::string path = database.path();
+  impl_.reset();
+  impl_ = std::make_unique<Impl>(path);
+}
+
+void MapDatabase::finish(const MapChanges& changes) {
+  impl_->commit(changes, true);
+  impl_->database.text("PRAGMA journal_mode = DELETE");  // everything into the one file
+  impl_.reset();
+}
+
+void MapDatabase::close() { impl_.reset(); }
+
+void write_map(const std::string& path, const StoredMap& stored) {
+  const Map& map = stored.map;
+  MapChanges changes;
+  changes.places = map.place_graph.places;
+  for (const Place& place : map.place_graph.places)
+    if (!place.appearance.words.empty())
+      changes.appearances.emplace_back(place.id, place.appearance);
+  std::int64_t number = 0;
+  for (const RelativePoseConstraint& constraint : map.place_graph.constraints)
+    changes.constraints.push_back({0, number++, constraint});
+  changes.keyframes = map.keyframes;
+  changes.frames = map.frames;
+  changes.online = map.trajectory_online.poses;
+  changes.landmarks = map.landmarks;
+  changes.loops = map.loops;
+  changes.history = stored.history;
+  changes.metric = map.metric;
+  const std::string fresh = path + ".part";
+  try {
+    MapDatabase database = MapDatabase::create(fresh, stored.origin);
+    if (stored.finished) {
+      database.finish(changes);
+    } else {
+      database.commit(changes);
+      database.close();
+    }
+  } catch (...) {
+    remove_with_journal(fresh);
+    throw;
+  }
+  remove_with_journal(path);
+  fs::rename(fresh, path);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,15 @@
+#pragma once
+#include <placegraph/io/sqlite.h>
+
+namespace placegraph {
+
+/// Makes the tables of a saved map (docs/map.md).
+void create_map_tables(SqliteDatabase& database);
+/// Throws FileError unless the database is a saved map of a schema this program knows.
+void check_map_schema(SqliteDatabase& database);
+/// Names of all tables but `origin` and `camera`.
+constexpr const char* kMapTables[] = {
+    "place",  "label", "appearance", "keyframe", "features", "view",   "edge",    "frame",
+    "online", "loop",  "landmarks",  "link",     "part",     "motion", "revisit", "run"};
+
+}  // namespace placegraph

@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include "tests/support/map_bits.h"
+#include "tests/support/random_map.h"
+#include "tests/support/seed.h"
+#include "tests/support/temporary_folder.h"
+
+namespace placegraph {
+namespace {
+
+using test::random_map;
+
+TEST(MapDatabaseProperty, ReadAfterWriteIsIdentity) {
+  Random random = test::seeded_random(5);
+  for (int round = 0; round < 20; ++round) {
+    const test::TemporaryFolder dir;
+    StoredMap stored = random_map(random, 2 + random.index(5), round % 2 == 1);
+    stored.finished = round % 3 != 0;
+    write_map(dir / "a.db", stored);
+    const StoredMap read = read_map(dir / "a.db");
+    EXPECT_EQ(test::map_bits(read.map), test::map_bits(stored.map));
+    EXPECT_EQ(read.finished, stored.finished);
+    // What map_bits does not look at: the file of what was read has the same bytes.
+    write_map(dir / "b.db", read);
+    EXPECT_EQ(test::read_file(dir / "a.db"), test::read_file(dir / "b.db"));
+    ASSERT_EQ(read.map.landmarks.size(), stored.map.landmarks.size());
+    EXPECT_EQ(read.map.landmarks[1234].point_cam, stored.map.landmarks[1234].point_cam);
+    for (std::size_t i = 0; i < stored.map.keyframes.size(); ++i) {
+      EXPECT_EQ(read.map.keyframes[i].view.glance, stored.map.keyframes[i].view.glance);
+      EXPECT_EQ(read.map.keyframes[i].view.colour.energy,
+                stored.map.keyframes[i].view.colour.energy);
+    }
+    EXPECT_EQ(read.history.parts.back().covariance, stored.history.parts.back().covariance);
+    EXPECT_EQ(read.history.loops.front().information, stored.history.loops.front().information);
+  }
+}
+
+// What a run commits in steps is what it would have written at once.
+TEST(MapDatabaseProperty, CommitsAddUpToTheWholeMap) {
+  Random random = test::seeded_random(6);
+  for (int round = 0; round < 5; ++round) {
+    const test::TemporaryFolder dir;
+    const StoredMap whole = random_map(random, 5);
+    {
+      MapDatabase database = MapDatabase::create(dir / "steps.db", whole.origin);
+      MapChanges changes;
+      for (std::size_t step = 1; step <= whole.map.place_graph.places.size(); ++step) {
+        const bool last = step == whole.map.place_graph.places.size();
+        changes = MapChanges();
+        changes.places.assign(
+            whole.map.place_graph.places.begin(),
+            whole.map.place_graph.places.begin() + static_cast<std::ptrdiff_t>(step));
+        const Place& place = changes.places.back();
+        changes.appearances.emplace_back(place.id, place.appearance);
+        for (const PlaceMember& member : place.members)
+          changes.keyframes.push_back(*whole.map.find_keyframe(member.keyframe));
+        if (last) {
+          for (std::size_t i = 0; i < whole.map.place_graph.constraints.size(); ++i)
+            changes.constraints.push_back(
+                {0, static_cast<std::int64_t>(i), whole.map.place_graph.constraints[i]});
+          changes.frames = whole.map.frames;
+          changes.online = whole.map.trajectory_online.poses;
+          changes.first_landmark = 1000;
+          changes.landmarks.assign(whole.map.landmarks.begin() + 1000, whole.map.landmarks.end());
+          changes.loops = whole.map.loops;
+          changes.history = whole.history;
+          changes.metric = whole.map.metric;
+          database.finish(changes);
+          break;
+        }
+        changes.landmarks.assign(whole.map.landmarks.begin(), whole.map.landmarks.begin() + 1200);
+        database.commit(changes);
+      }
+    }
+    const StoredMap read = read_map(dir / "steps.db");
+    EXPECT_EQ(test::map_bits(read.map), test::map_bits(whole.map));
+    EXPECT_EQ(read.map.landmarks.size(), whole.map.landmarks.size());
+    EXPECT_FALSE(std::filesystem::exists(dir / "steps.db-wal"));
+  }
+}
+
+}  // namespace
+}  // namespace placegraph

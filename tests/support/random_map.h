@@ -1,0 +1,140 @@
+#pragma once
+#include <placegraph/graph/core/random.h>
+#include <placegraph/io/map_database.h>
+
+namespace placegraph::test {
+
+inline SE3 random_pose(Random& random) {
+  Vector6d xi;
+  for (int i = 0; i < 6; ++i) xi[i] = random.uniform(-2, 2);
+  return SE3::exp(xi);
+}
+
+template <int N>
+Eigen::Matrix<double, N, N> random_information(Random& random) {
+  Eigen::Matrix<double, N, N> A;
+  for (int i = 0; i < A.size(); ++i) A.data()[i] = random.normal();
+  Eigen::Matrix<double, N, N> information = A * A.transpose();
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < i; ++j) information(i, j) = information(j, i);
+  return information;
+}
+
+inline std::vector<Feature> random_features(Random& random, int count) {
+  std::vector<Feature> features(static_cast<std::size_t>(count));
+  for (Feature& feature : features) {
+    feature.px = {static_cast<float>(random.uniform(0, 640)),
+                  static_cast<float>(random.uniform(0, 480))};
+    feature.angle_rad = static_cast<float>(random.uniform(-3, 3));
+    feature.octave = random.index(8);
+    for (auto& bits : feature.descriptor)
+      bits = static_cast<std::uint64_t>(random.next()) << 32 | random.next();
+    if (random.index(2) == 0)
+      feature.point_cam = Eigen::Vector3f::Constant(static_cast<float>(random.uniform(1, 9)));
+  }
+  return features;
+}
+
+inline CueGrid random_grid(Random& random, int columns, int rows, int channels) {
+  CueGrid grid{columns, rows, channels, {}, {}};
+  for (int i = 0; i < columns * rows * channels; ++i)
+    grid.values.push_back(static_cast<std::int16_t>(random.index(2000) - 1000));
+  grid.energy = cell_energy(columns, rows, channels, grid.values);
+  return grid;
+}
+
+inline PlaceView random_view(Random& random) {
+  PlaceView view;
+  view.tiny = {random_grid(random, 6, 4, 3)};
+  view.gradients = {random_grid(random, 4, 3, 9)};
+  view.colour = random_grid(random, 2, 2, 8);
+  view.coarse = random_grid(random, 3, 2, 3);
+  for (int i = 0; i < 12; ++i) view.glance.push_back(static_cast<std::int16_t>(random.index(99)));
+  view.corners = random_features(random, 5);
+  for (Feature& corner : view.corners) corner.point_cam.reset();
+  return view;
+}
+
+/// A map such as a run leaves behind, of random numbers: places with their keyframes, of one scale
+/// or each of its own.
+inline StoredMap random_map(Random& random, int places = 4, bool scaled = false) {
+  StoredMap stored;
+  stored.origin.sequence = "/data/somewhere";
+  Calibration& calibration = stored.origin.calibration.emplace();
+  calibration.camera = {640, 480, 500, 501, 320, 240, Distortion::kNone, {}};
+  calibration.baseline_m = 0.5;
+  stored.origin.options = "seed: 7\n";
+  stored.origin.lens_k1 = random.normal();
+  stored.history.median_depth_m = 4;
+  stored.history.unit_measured = {true, !scaled};
+  Map& map = stored.map;
+  map.metric = !scaled;
+  std::int64_t id = 0;
+  for (int p = 0; p < places; ++p) {
+    Place place{p,
+                id,
+                random_pose(random),
+                p == 3 ? 1 : 0,
+                {},
+                {},
+                {},
+                scaled ? random.uniform(0.5, 2) : 1};
+    place.labels.assign(static_cast<std::size_t>(random.index(3)), "a 'kitchen'");
+    for (std::uint32_t word = 0; word < 5; ++word)
+      place.appearance.words.emplace_back(3 * word, static_cast<float>(random.uniform()));
+    const std::int64_t anchor = id;
+    for (int k = 0; k <= random.index(3); ++k, ++id) {
+      Keyframe keyframe{id,
+                        3 * id + 1,
+                        1000 * id,
+                        p,
+                        k == 0 ? SE3() : random_pose(random),
+                        random_features(random, random.index(20)),
+                        1,
+                        random_view(random)};
+      place.members.push_back({id, keyframe.T_place_keyframe, keyframe.scale});
+      PlaceHistory::Keyframe link{id, anchor, p == 3 ? 1 : 0, {}};
+      if (k > 0 || (p > 0 && p != 3))
+        link.link = KeyframeLink{id - 1, random_pose(random), random_information<6>(random)};
+      stored.history.keyframes.push_back(link);
+      map.keyframes.push_back(std::move(keyframe));
+    }
+    PlaceHistory::Part part{
+        anchor, p, Sim3(random_pose(random)), random_information<7>(random), {}};
+    if (p % 2 == 1) part.motion_covariance = random_information<6>(random);
+    stored.history.parts.push_back(part);
+    stored.history.places.push_back({p, random.uniform(1, 2), id - 1});
+    map.place_graph.places.push_back(std::move(place));
+  }
+  for (int p = 1; p < places; ++p) {
+    RelativePoseConstraint edge{p - 1, p, random_pose(random), random_information<6>(random)};
+    if (scaled) {
+      const SE3 T = random_pose(random);
+      edge.T_from_to = Sim3(T.rotation(), T.translation(), random.uniform(0.5, 2));
+      edge.information = random_information<7>(random);
+    }
+    if (p == 2) edge.source = ConstraintSource::kLoop;
+    edge.kernel = {RobustKernel::Kind::kCauchy, 3};
+    map.place_graph.constraints.push_back(edge);
+  }
+  for (std::int64_t f = 0; f < 3 * id; ++f) {
+    FrameRecord record{f, 100 * f, f / 3, random_pose(random)};
+    if (f % 7 == 5) record = {f, 100 * f, -1, std::nullopt};
+    map.frames.push_back(record);
+    StampedPose& online = map.trajectory_online.poses.emplace_back();
+    online.stamp_ns = 100 * f;
+    if (record.T_keyframe_frame) online.T_world_body = random_pose(random).isometry();
+  }
+  for (int l = 0; l < 2500; ++l)
+    map.landmarks.push_back(
+        {l, random.index(static_cast<int>(id)), Eigen::Vector3d::Random(), random.index(9)});
+  map.loops.push_back({9, 1, 33, true, "accepted", random_pose(random)});
+  map.loops.push_back({10, 2, 0, false, "geometry", {}});
+  stored.history.loops.push_back(
+      {id - 1, 0, random_pose(random), random_information<7>(random), 1});
+  stored.history.motions.push_back(
+      {0, stored.history.parts[1].anchor, random_pose(random), random_information<6>(random)});
+  return stored;
+}
+
+}  // namespace placegraph::test
