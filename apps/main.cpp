@@ -18,7 +18,9 @@
 #include "apps/cmd_georeference.h"
 #include "apps/cmd_hover.h"
 #include "apps/cmd_lines.h"
+#include "apps/cmd_localize.h"
 #include "apps/cmd_loops.h"
+#include "apps/cmd_map.h"
 #include "apps/cmd_markers.h"
 #include "apps/cmd_match.h"
 #include "apps/cmd_motion.h"
@@ -79,7 +81,9 @@ int main(int argc, char** argv) {
     add_georeference_command(app);
     add_hover_command(app);
     add_lines_command(app);
+    add_localize_command(app);
     add_loops_command(app);
+    add_map_command(app);
     add_markers_command(app);
     add_match_command(app);
     add_motion_command(app);

@@ -255,12 +255,17 @@ std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double media
 }
 
 std::optional<Loop> LoopCloser::relocalize(const Frame& frame, std::size_t last_views) const {
-  if (views_.empty()) return std::nullopt;
-  std::vector<Feature> features = detect_features(frame.image, options_.detector, frame.mask);
-  lift_features(frame, features);
   std::vector<std::int64_t> tries;
   for (std::size_t back = 1; back <= last_views && back <= views_.size(); ++back)
     tries.push_back(views_[views_.size() - back].keyframe);
+  return relocalize(frame, std::move(tries));
+}
+
+std::optional<Loop> LoopCloser::relocalize(const Frame& frame,
+                                           std::vector<std::int64_t> tries) const {
+  if (views_.empty()) return std::nullopt;
+  std::vector<Feature> features = detect_features(frame.image, options_.detector, frame.mask);
+  lift_features(frame, features);
   for (const PlaceCandidate& c :
        database_.query(features, options_.candidates, [](std::int64_t) { return true; }))
     if (std::find(tries.begin(), tries.end(), c.id) == tries.end()) tries.push_back(c.id);

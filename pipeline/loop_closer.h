@@ -3,8 +3,8 @@
 #include <placegraph/frontend/places/loop_verifier.h>
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/graph/frame.h>
-#include <placegraph/graph/map.h>
 #include <placegraph/graph/loop.h>
+#include <placegraph/graph/map.h>
 #include <placegraph/pipeline/tracked_motion.h>
 
 #include <deque>
@@ -57,6 +57,8 @@ class LoopCloser {
   /// Where a frame stands relative to a known keyframe: T_match_query of the frame; `query` is -1,
   /// as the frame is no keyframe. The last views are tried first: most losses are short.
   std::optional<Loop> relocalize(const Frame& frame, std::size_t last_views = 3) const;
+  /// The same with these keyframes tried first.
+  std::optional<Loop> relocalize(const Frame& frame, std::vector<std::int64_t> tries) const;
 
   const std::vector<View>& views() const { return views_; }
   const std::vector<LoopRecord>& records() const { return records_; }

@@ -34,6 +34,7 @@ class PlaceRecognizer {
   int add(PlaceView view);
   /// The short list among the views first..last (cut to those there are), best first.
   std::vector<PlaceLikeness> query(const PlaceView& query, int first, int last) const;
+  const PlaceView& view(int index) const { return views_.at(static_cast<std::size_t>(index)); }
   int size() const { return static_cast<int>(views_.size()); }
   const PlaceRecognizerOptions& options() const { return options_; }
 

@@ -107,7 +107,11 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
     map.place_graph.places.push_back(std::move(place));
   }
   for (int p = 1; p < places; ++p) {
-    RelativePoseConstraint edge{p - 1, p, random_pose(random), random_information<6>(random)};
+    RelativePoseConstraint edge;
+    edge.from = p - 1;
+    edge.to = p;
+    edge.T_from_to = random_pose(random);
+    edge.information = random_information<6>(random);
     if (scaled) {
       const SE3 T = random_pose(random);
       edge.T_from_to = Sim3(T.rotation(), T.translation(), random.uniform(0.5, 2));

@@ -1,0 +1,10 @@
+#pragma once
+#include <CLI/App.hpp>
+
+namespace placegraph::apps {
+
+/// `placegraph map`: what a saved map holds, whether it is whole, and its parts as files; maps
+/// learned from images alone.
+void add_map_command(CLI::App& app);
+
+}  // namespace placegraph::apps
