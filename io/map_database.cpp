@@ -57,9 +57,9 @@ void write_origin(SqliteDatabase& database, const MapOrigin& origin) {
 }  // namespace
 
 struct MapDatabase::Impl {
-  explicit Impl(const std::string& path)
+  Impl(const std::string& path, bool synchronized)
       : database(path, SqliteDatabase::Access::kWrite),
-        places(prepared(), "place", "id", 7),
+        places(prepared(synchronized), "place", "id", 7),
         labels(database, "label", "place", 3),
         appearances(database, "appearance", "place", 3),
         keyframes(database, "keyframe", "id", 6),
@@ -83,11 +83,12 @@ struct MapDatabase::Impl {
 
   /// The file belongs to this connection alone. A write-ahead log: a commit appends to it without
   /// waiting for the disk; when a program is killed, all that it committed is there.
-  SqliteDatabase& prepared() {
+  SqliteDatabase& prepared(bool synchronized) {
     check_map_schema(database);
     database.execute("PRAGMA locking_mode = EXCLUSIVE");
     database.text("PRAGMA journal_mode = WAL");
-    database.execute("PRAGMA synchronous = NORMAL");
+    // A power cut, unlike a kill, may take the last commits along, but leaves the file whole.
+    database.execute(synchronized ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = OFF");
     return database;
   }
 
@@ -312,12 +313,14 @@ MapDatabase::MapDatabase(MapDatabase&&) noexcept = default;
 MapDatabase& MapDatabase::operator=(MapDatabase&&) noexcept = default;
 MapDatabase::~MapDatabase() = default;
 
-MapDatabase MapDatabase::create(const std::string& path, const MapOrigin& origin) {
+std::unique_ptr<MapDatabase::Impl> MapDatabase::made(const std::string& path,
+                                                     const MapOrigin& origin, bool synchronized) {
   // A file of that name has its tables and its origin, or there is none.
   const std::string fresh = path + ".new";
   remove_with_journal(fresh);
   {
     SqliteDatabase database(fresh, SqliteDatabase::Access::kCreate);
+    database.execute("PRAGMA synchronous = OFF");
     create_map_tables(database);
     database.execute("BEGIN");
     write_origin(database, origin);
@@ -327,11 +330,15 @@ MapDatabase MapDatabase::create(const std::string& path, const MapOrigin& origin
   std::error_code code;
   fs::rename(fresh, path, code);
   if (code) throw FileError(path, "cannot be written: " + code.message());
-  return MapDatabase(std::make_unique<Impl>(path));
+  return std::make_unique<Impl>(path, synchronized);
+}
+
+MapDatabase MapDatabase::create(const std::string& path, const MapOrigin& origin) {
+  return MapDatabase(made(path, origin, true));
 }
 
 MapDatabase MapDatabase::open(const std::string& path) {
-  return MapDatabase(std::make_unique<Impl>(path));
+  return MapDatabase(std::make_unique<Impl>(path, true));
 }
 
 void MapDatabase::commit(const MapChanges& changes) { impl_->commit(changes, false); }
@@ -344,7 +351,7 @@ void MapDatabase::clear(const MapOrigin& origin) {
   database.execute("COMMIT");
   const std::string path = database.path();
   impl_.reset();
-  impl_ = std::make_unique<Impl>(path);
+  impl_ = std::make_unique<Impl>(path, true);
 }
 
 void MapDatabase::finish(const MapChanges& changes) {
@@ -374,7 +381,8 @@ void write_map(const std::string& path, const StoredMap& stored) {
   changes.metric = map.metric;
   const std::string fresh = path + ".part";
   try {
-    MapDatabase database = MapDatabase::create(fresh, stored.origin);
+    // Nobody sees it before it is whole.
+    MapDatabase database(MapDatabase::made(fresh, stored.origin, false));
     if (stored.finished) {
       database.finish(changes);
     } else {

@@ -8,6 +8,8 @@
 
 namespace placegraph {
 
+struct StoredMap;
+
 /// Version of the tables (`PRAGMA user_version`): one that is newer is refused.
 constexpr int kMapSchema = 1;
 
@@ -54,8 +56,11 @@ class MapDatabase {
   void close();
 
  private:
+  friend void write_map(const std::string& path, const StoredMap& stored);
   struct Impl;
   explicit MapDatabase(std::unique_ptr<Impl> impl);
+  static std::unique_ptr<Impl> made(const std::string& path, const MapOrigin& origin,
+                                    bool synchronized);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -33,7 +33,7 @@ class MapDatabaseFaults : public ::testing::Test {
 };
 
 TEST_F(MapDatabaseFaults, APoseThatIsNotFiniteIsNamedWithTableAndRow) {
-  change("UPDATE keyframe SET T_place_keyframe = x'" + std::string(14 * 7, '0') +
+  change("UPDATE keyframe SET T_place_keyframe = x'" + std::string(96, '0') +
          "000000000000f87f' WHERE id = 2");
   EXPECT_THAT(refusal(), AllOf(HasSubstr("map.db: table keyframe, row 2: T_place_keyframe"),
                                HasSubstr("not finite")));
