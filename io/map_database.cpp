@@ -84,8 +84,8 @@ struct MapDatabase::Impl {
   /// The file belongs to this connection alone. A write-ahead log: a commit appends to it without
   /// waiting for the disk; when a program is killed, all that it committed is there.
   SqliteDatabase& prepared(bool synchronized) {
-    check_map_schema(database);
     database.execute("PRAGMA locking_mode = EXCLUSIVE");
+    check_map_schema(database);
     database.text("PRAGMA journal_mode = WAL");
     // A power cut, unlike a kill, may take the last commits along, but leaves the file whole.
     database.execute(synchronized ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = OFF");

@@ -1,8 +1,8 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/map_localizer.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace placegraph {
 
@@ -101,52 +101,59 @@ bool MapLocalizer::near(int a, int b) const {
   return at == other || adjacent_.count({at, other}) > 0;
 }
 
+std::vector<ViewEvidence> MapLocalizer::evidence(
+    const std::vector<std::vector<PlaceLikeness>>& lists, bool sequence) const {
+  const int views = recognizer_.size();
+  return sequence ? sequence_evidence(lists, views, options_.sequence)
+                  : lone_evidence(lists, views);
+}
+
 /// What the map's own views are answered: kept from all that is near them, or from themselves.
 RecognitionOdds MapLocalizer::odds(bool sequence) const {
   const int views = recognizer_.size();
-  const int count = std::min(views, options_.calibration_views);
-  // Three stretches, as a sequence needs neighbours.
-  constexpr int kStretches = 3;
-  std::vector<double> wrong, right;
+  // Some stretches of a long map, as a sequence needs neighbours.
+  const int stretches = views <= options_.calibration_views ? 1 : 3;
+  const int length = std::min(views, options_.calibration_views) / stretches;
   const NearViews near = [this](int a, int b) { return this->near(a, b); };
-  for (int s = 0; s < kStretches; ++s) {
-    const int begin = s * views / kStretches;
-    const int end = std::min((s + 1) * views / kStretches, begin + count / kStretches + 1);
-    std::vector<std::vector<PlaceLikeness>> others, neighbours;
-    for (int view = begin; view < end; ++view) {
-      auto& far = others.emplace_back();
-      auto& but_itself = neighbours.emplace_back();
+  std::vector<ViewAnswer> wrong, right;
+  for (int s = 0; s < stretches; ++s) {
+    const int begin = s * views / stretches;
+    std::vector<std::vector<PlaceLikeness>> far, but_itself;
+    for (int view = begin; view < begin + length; ++view) {
+      far.emplace_back();
+      but_itself.emplace_back();
       for (const PlaceLikeness& likeness : likenesses(recognizer_.view(view))) {
-        if (likeness.view != view) but_itself.push_back(likeness);
-        if (!near(likeness.view, view)) far.push_back(likeness);
+        if (likeness.view != view) but_itself.back().push_back(likeness);
+        if (!near(likeness.view, view)) far.back().push_back(likeness);
       }
     }
-    if (sequence) {
-      others = join_sequence(others, views, options_.sequence);
-      neighbours = join_sequence(neighbours, views, options_.sequence);
-    }
-    for (int view = begin; view < end; ++view) {
-      auto far = others[static_cast<std::size_t>(view - begin)];
-      std::erase_if(far, [&](const PlaceLikeness& l) { return near(l.view, view); });
-      if (const StandingOut best = standing_out(far, near); best.view >= 0)
-        wrong.push_back(best.margin);
-      const StandingOut best =
-          standing_out(neighbours[static_cast<std::size_t>(view - begin)], near);
-      if (best.view >= 0 && near(best.view, view)) right.push_back(best.margin);
+    const auto of_far = evidence(far, sequence), of_others = evidence(but_itself, sequence);
+    for (int i = 0; i < length; ++i) {
+      const int view = begin + i;
+      const auto index = static_cast<std::size_t>(i);
+      const ViewAnswer not_near =
+          answer_of(of_far[index], near, [&](int other) { return !near(other, view); });
+      if (not_near.view >= 0) wrong.push_back(not_near);
+      const ViewAnswer other =
+          answer_of(of_others[index], near, [&](int candidate) { return candidate != view; });
+      if (other.view >= 0) right.push_back(other);
     }
   }
-  return {wrong, std::move(right)};
+  require(!wrong.empty(),
+          "map: all its views look alike, or are of one place: nothing tells how "
+          "wrong answers look");
+  return {wrong, right};
 }
 
-Localization MapLocalizer::answer(const StandingOut& best, const RecognitionOdds& odds) const {
+Localization MapLocalizer::described(const ViewAnswer& answer, double probability) const {
   Localization result;
   result.stage = "blank";
-  if (best.view < 0) return result;
-  const Keyframe& keyframe = keyframe_of(best.view);
+  if (answer.view < 0) return result;
+  const Keyframe& keyframe = keyframe_of(answer.view);
   result.place = keyframe.place;
   result.keyframe = keyframe.id;
   result.frame = keyframe.frame;
-  result.probability = odds.probability(best.margin);
+  result.probability = probability;
   result.placed = result.probability >= options_.min_probability;
   result.stage = "appearance";
   return result;
@@ -164,16 +171,20 @@ std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames
         describe_place(in_colour_ ? frame.colour : frame.image, options_.recognizer.cues, true)));
     verified.push_back(has_geometry(frame.image) ? verify(frame, lists.back()) : std::nullopt);
   }
-  const int views = recognizer_.size();
-  if (sequence) lists = join_sequence(lists, views, options_.sequence);
-  const RecognitionOdds odds = this->odds(sequence);
-  std::vector<Localization> answers;
+  const NearViews near = [this](int a, int b) { return this->near(a, b); };
+  std::vector<ViewAnswer> answers;
+  for (const ViewEvidence& of_image : evidence(lists, sequence))
+    answers.push_back(answer_of(of_image, near, [](int) { return true; }));
+  // As far as the filter looks.
+  const int reach =
+      sequence ? static_cast<int>(std::lround(1 / (1 - options_.sequence.memory))) : 0;
+  const std::vector<double> probabilities = odds(sequence).probabilities(answers, near, reach);
+  std::vector<Localization> result;
   for (std::size_t i = 0; i < count; ++i) {
-    Localization& result = answers.emplace_back(
-        answer(standing_out(lists[i], [this](int a, int b) { return near(a, b); }), odds));
-    if (verified[i]) take_geometry(*verified[i], result);
+    result.push_back(described(answers[i], probabilities[i]));
+    if (verified[i]) take_geometry(*verified[i], result.back());
   }
-  return answers;
+  return result;
 }
 
 std::optional<Loop> MapLocalizer::verify(const Frame& frame,

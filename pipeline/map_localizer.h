@@ -9,7 +9,9 @@ namespace placegraph {
 
 struct LocalizerOptions {
   PlaceRecognizerOptions recognizer;  ///< its cues are those of the map
-  SequenceFilterOptions sequence;
+  /// Images behind and ahead count, and none hurries: evidence is gathered over a longer way than
+  /// where only the past is known.
+  SequenceFilterOptions sequence{.memory = 0.97};
   double min_probability = 0.95;  ///< of an answer
   int calibration_views = 300;    ///< of the map, that tell how wrong answers look, at most
   bool geometry = true;           ///< verify by features where the map has their depth
@@ -51,7 +53,9 @@ class MapLocalizer {
   int lag_of_likeness() const;
   bool near(int a, int b) const;
   RecognitionOdds odds(bool sequence) const;
-  Localization answer(const StandingOut& best, const RecognitionOdds& odds) const;
+  std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
+                                     bool sequence) const;
+  Localization described(const ViewAnswer& answer, double probability) const;
   std::optional<Loop> verify(const Frame& frame, const std::vector<PlaceLikeness>& list) const;
   void take_geometry(const Loop& loop, Localization& result) const;
   const Keyframe& keyframe_of(int view) const;

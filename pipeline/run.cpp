@@ -196,8 +196,8 @@ class SequenceRun {
   /// Whether it came to the end; otherwise the images are to be corrected, and it begins anew.
   bool pass(const StoredMap& stored) {
     result_.calibration = lens_.calibration();
+    if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
     if (map_file_ && !database_) database_ = MapDatabase::create(map_file_->path, origin());
-    if (map_file_ && stored.map.keyframes.empty()) database_->clear(origin());
     Slam slam(options_.slam, result_.calibration, log_);
     if (!options_.motion.file.empty()) slam.set_motion(read_motion(dataset_, options_.motion));
     const std::size_t first = go_on(stored, slam);

@@ -6,41 +6,54 @@
 
 namespace placegraph {
 
-/// The answer of a list of likenesses, and how far it stands out: its score less the best score of
-/// a view that is not near it.
-struct StandingOut {
-  int view = -1;  ///< nothing for an empty list
-  double margin = 0;
+/// What is known of one image: scores of all views, with the evidence of the images before it and
+/// of those after it. Empty for an image with nothing to compare.
+struct ViewEvidence {
+  std::vector<double> forwards, backwards;
 };
+
+/// The lists of images by themselves: both are the list, what is not listed counts as its least.
+std::vector<ViewEvidence> lone_evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
+                                        int views);
+/// The lists of consecutive images: a SequenceFilter in either direction.
+std::vector<ViewEvidence> sequence_evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
+                                            int views, const SequenceFilterOptions& options);
 
 /// Whether two stored views show about the same.
 using NearViews = std::function<bool(int, int)>;
 
-/// Where no listed view is far from the best, the least listed takes its part.
-StandingOut standing_out(const std::vector<PlaceLikeness>& list, const NearViews& near);
+/// The view that the evidence of both sides together is for.
+struct ViewAnswer {
+  int view = -1;        ///< -1: there is none
+  double margin = 0;    ///< by how much it stands out above all views that are not near it
+  bool agreed = false;  ///< either side alone is for a view near it
+};
+/// Among the views that `allowed` admits.
+ViewAnswer answer_of(const ViewEvidence& evidence, const NearViews& near,
+                     const std::function<bool(int)>& allowed);
 
-/// The lists of consecutive images, each with the evidence of those before and after it: the mean
-/// of a SequenceFilter's scores in both directions. Every result holds all of `views`.
-std::vector<std::vector<PlaceLikeness>> join_sequence(
-    const std::vector<std::vector<PlaceLikeness>>& lists, int views,
-    const SequenceFilterOptions& options);
-
-/// How sure an answer is by how far it stands out. Of two hypotheses, equally likely before: the
-/// answer is wrong, and its margin one that wrong answers have; the distance of the first to the
-/// second of many independent scores is exponential (Renyi 1953), its mean is that of the answers
-/// that stored views get when whatever is near them is kept from them. Or it is right, and its
-/// margin anything up to what stored views get when they are kept from themselves alone: how like
-/// itself a place remains in other light nobody knows beforehand.
+/// How sure answers are. A map calibrates it with answers that its own views get: wrong ones, when
+/// all that is near them is kept from them; right ones, when they are kept from themselves alone.
+/// By Bayes' rule, with even odds before:
+///
+/// - margins of wrong answers are exponential with their mean, as the distance of the first of many
+///   independent scores to the second is (Renyi 1953). How like itself a place remains in another
+///   light nobody knows: margins of right answers are anything up to the largest (all but a tenth);
+/// - both sides agree on right and on wrong answers as often as they did there;
+/// - answers of consecutive images that lie near each other are right together or wrong together:
+///   they share the mean of their log odds over `reach` images to either side.
 class RecognitionOdds {
  public:
-  /// Margins of wrong answers and of right ones. Throws ArgumentError without either.
-  RecognitionOdds(const std::vector<double>& wrong, std::vector<double> right);
-  double probability(double margin) const;
-  double mean_wrong() const { return mean_wrong_; }
-  double largest_right() const { return largest_right_; }
+  /// Throws ArgumentError without answers of either kind.
+  RecognitionOdds(const std::vector<ViewAnswer>& wrong, const std::vector<ViewAnswer>& right);
+  double log_odds(const ViewAnswer& answer) const;
+  /// Of each answer being right; 0 where there is none.
+  std::vector<double> probabilities(const std::vector<ViewAnswer>& answers, const NearViews& near,
+                                    int reach) const;
 
  private:
   double mean_wrong_ = 0, largest_right_ = 0;
+  double agreed_wrong_ = 0, agreed_right_ = 0;  ///< shares
 };
 
 }  // namespace placegraph
