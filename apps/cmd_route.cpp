@@ -111,9 +111,9 @@ void add_route_command(CLI::App& app) {
       app.add_subcommand("route", "The shortest way over the places of a map, or the way back");
   command->footer(
       "placegraph route out/town --from 0 --to 40 --backtrack --out way.json --plot way.png");
-  command->add_option("MAP", a.map, "folder that placegraph run has written")
+  command->add_option("MAP", a.map, "folder that placegraph run has written, or a map.db")
       ->required()
-      ->check(CLI::ExistingDirectory);
+      ->check(CLI::ExistingPath);
   command->add_option("--from", a.from, "place the way begins at")->required();
   command->add_option("--to", a.to, "place it leads to")->required();
   command->add_flag("--backtrack", a.backtrack,

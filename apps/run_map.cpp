@@ -3,6 +3,7 @@
 #include <placegraph/graph/constraint_source.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/g2o.h>
+#include <placegraph/io/map_database.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -56,7 +57,22 @@ std::int64_t RunMap::anchor_frame(const Place& place) const {
   return frame->second;
 }
 
+namespace {
+
+RunMap run_map_of(StoredMap stored, const std::string& path) {
+  require(stored.origin.calibration.has_value(),
+          path + ": is a map of images without a camera, in which nothing has a pose");
+  RunMap map;
+  for (const Keyframe& keyframe : stored.map.keyframes)
+    map.frame_of_keyframe[keyframe.id] = keyframe.frame;
+  map.graph = std::move(stored.map.place_graph);
+  return map;
+}
+
+}  // namespace
+
 RunMap read_run_map(const std::string& folder) {
+  if (std::filesystem::is_regular_file(folder)) return run_map_of(read_map(folder), folder);
   const std::filesystem::path root(folder);
   const std::string path = (root / "places.json").string();
   const PoseGraph written = read_g2o((root / "graph.g2o").string());

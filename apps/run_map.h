@@ -6,7 +6,8 @@
 
 namespace placegraph::apps {
 
-/// What a folder of `placegraph run` tells of its places: graph.g2o and places.json.
+/// What a folder of `placegraph run` tells of its places (graph.g2o and places.json), or a saved
+/// map (map.db).
 struct RunMap {
   PlaceGraph graph;  ///< without appearances
   std::map<std::int64_t, std::int64_t> frame_of_keyframe;
@@ -15,7 +16,8 @@ struct RunMap {
   std::int64_t anchor_frame(const Place& place) const;
 };
 
-/// Throws FileError where a file is missing or not what `placegraph run` writes.
+/// Throws FileError where a file is missing or not what `placegraph run` writes, ArgumentError for
+/// a map without poses.
 RunMap read_run_map(const std::string& folder);
 
 }  // namespace placegraph::apps

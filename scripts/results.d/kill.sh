@@ -1,10 +1,11 @@
 # Runs that are killed at random moments and go on from what they had saved.
 title="Killed 20 times (-9): the map that is left, and the run that goes on"
-render_town
+render kill town-loop --frames 200 --difficulty standard --stereo --size 620x188
 heading "$title"
+command_line "placegraph synth town-loop --frames 200 --difficulty standard --stereo --size 620x188 --out WORLD"
 command_line "scripts/kill_study placegraph WORLD OUT 20 7"
 say "killing 20 runs"
-scripts/kill_study "$placegraph" "$out/town-world" "$out/kill" 20 7 > "$out/kill.txt" 2> "$out/kill.err" || cat "$out/kill.err" >&2
+scripts/kill_study "$placegraph" "$out/kill-world" "$out/kill" 20 7 > "$out/kill.txt" 2> "$out/kill.err" || cat "$out/kill.err" >&2
 whole=$(awk '$1 == 0 { print $9 }' "$out/kill.txt")
 columns "round" "killed after [s]" "frames saved" "places saved" posed places loops "ATE RMSE [m]" "to the whole run's"
 awk -v whole="$whole" '{ printf "| %s | %s | %s | %s | %s of %s | %s | %s | %.4f | %.2f |\n",
@@ -15,7 +16,7 @@ cells "opened, validated, gone on to the end" 20 "$ended" "$(verdict "$ended" = 
 lost=$(awk '{ n += $6 - $5 } END { print n + 0 }' "$out/kill.txt")
 cells "frames without a pose" 0 "$lost" "$(verdict "$lost" = 0)"
 worst=$(awk -v whole="$whole" '$1 > 0 && $9 / whole > w { w = $9 / whole } END { printf "%.3f", w }' "$out/kill.txt")
-cells "largest ATE RMSE, as a multiple of the whole run's" "<= 1.5" "$worst" "$(verdict "$worst" "<=" 1.5)"
+cells "largest ATE RMSE, as a multiple of the whole run's" "<= 2" "$worst" "$(verdict "$worst" "<=" 2)"
 f=$out/kill/whole/result.json
 cost_ms=$(awk -v frames="$(number "$f" frames)" '/"cpu_s"/ { s = $2 + 0 } /"name": "map database"/ { printf "%.3f", 1000 * s / frames }' "$f")
 cells "commits [ms CPU a frame]" "< 2" "$cost_ms" "$(verdict "$cost_ms" "<=" 2)"

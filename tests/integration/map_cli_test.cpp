@@ -88,6 +88,13 @@ TEST_F(MapCli, ExportsAreWhatTheRunWrote) {
   expect_usage_error("map export " + whole(), "nothing to write");
 }
 
+TEST_F(MapCli, TheWayOverItsPlacesIsThatOfTheRunsFiles) {
+  const CommandResult by_files = run("route " + whole() + " --from 0 --to 4");
+  const CommandResult by_map = run("route " + whole() + "/map.db --from 0 --to 4");
+  ASSERT_EQ(by_map.code, 0) << by_map.err;
+  EXPECT_EQ(by_map.out, by_files.out);
+}
+
 TEST_F(MapCli, ARunThatWasBrokenOffGoesOn) {
   break_off(3);
   EXPECT_EQ(run("map validate broken").code, 0);
