@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+
+#include "tests/support/place_links.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+/// A square with a loop that merges its two ends.
+PlaceMapper looped_square() {
+  PlaceMapper mapper = square(true);
+  mapper.add_loop(loop(5, 0, kShort, 0.001, 0.0001));
+  (void)mapper.optimize(100);
+  return mapper;
+}
+
+void expect_same(const PlaceGraph& a, const PlaceGraph& b, double tolerance) {
+  ASSERT_EQ(a.places.size(), b.places.size());
+  for (std::size_t i = 0; i < a.places.size(); ++i) {
+    EXPECT_EQ(a.places[i].id, b.places[i].id);
+    EXPECT_EQ(a.places[i].members.size(), b.places[i].members.size());
+    EXPECT_LT(distance_m(a.places[i].T_map_place, b.places[i].T_map_place), tolerance);
+  }
+  ASSERT_EQ(a.constraints.size(), b.constraints.size());
+  for (std::size_t i = 0; i < a.constraints.size(); ++i)
+    EXPECT_LT((a.constraints[i].information - b.constraints[i].information).norm(),
+              1e-9 * a.constraints[i].information.norm());
+}
+
+TEST(PlaceHistory, AMapperGoesOnWhereAnotherStood) {
+  PlaceMapper first = looped_square();
+  PlaceOptions options;
+  PlaceMapper second(options, {}, first.places(), first.history());
+  expect_same(first.place_graph(), second.place_graph(), 1e-12);
+  for (PlaceMapper* mapper : {&first, &second}) {
+    mapper->add_keyframe(6, link(5, kLong), {}, kDepth_m);
+    mapper->add_keyframe(7, link(6, kLong), {}, kDepth_m);
+    mapper->add_loop(loop(7, 1, SE3(), 0.3, 0.05));
+  }
+  EXPECT_NEAR(first.odometry(1, 7)->way, second.odometry(1, 7)->way, 1e-9);
+  // Both iterate to the end of the same graph: to the optimizer's tolerance.
+  expect_same(optimized(first), optimized(second), 1e-4);
+}
+
+TEST(PlaceHistory, ConstraintsAreToldOnceAndWhenTheyChange) {
+  PlaceMapper mapper = square(false);
+  EXPECT_EQ(mapper.take_constraint_changes().size(), 4u);
+  EXPECT_TRUE(mapper.take_constraint_changes().empty());
+  mapper.add_loop(loop(5, 0, kShort, 0.01, 0.001));
+  const auto changes = mapper.take_constraint_changes();
+  ASSERT_FALSE(changes.empty());
+  EXPECT_EQ(changes.back().constraint->source, ConstraintSource::kLoop);
+  // All that is told adds up to the graph, also after a merger has taken constraints away.
+  PlaceMapper merging = square(true);
+  std::map<std::pair<int, std::int64_t>, RelativePoseConstraint> known;
+  const auto hear = [&] {
+    for (const auto& change : merging.take_constraint_changes()) {
+      known.erase({change.kind, change.number});
+      if (change.constraint) known[{change.kind, change.number}] = *change.constraint;
+    }
+  };
+  hear();
+  merging.add_loop(loop(5, 0, kShort, 0.001, 0.0001));
+  (void)merging.optimize(100);
+  hear();
+  const PlaceGraph graph = merging.place_graph();
+  ASSERT_EQ(known.size(), graph.constraints.size());
+  std::size_t i = 0;
+  for (const auto& [key, constraint] : known) {
+    EXPECT_EQ(constraint.from, graph.constraints[i].from);
+    EXPECT_EQ(constraint.to, graph.constraints[i].to);
+    EXPECT_EQ(constraint.information, graph.constraints[i++].information);
+  }
+}
+
+TEST(PlaceHistory, WhatContradictsItselfIsRefused) {
+  PlaceMapper mapper = looped_square();
+  const std::vector<Place> places = mapper.places();
+  const auto refused = [&](PlaceHistory history) {
+    EXPECT_THROW(PlaceMapper({}, {}, places, history), ArgumentError);
+  };
+  PlaceHistory history = mapper.history();
+  history.places.pop_back();
+  refused(history);
+  history = mapper.history();
+  history.parts.front().place = 99;
+  refused(history);
+  history = mapper.history();
+  history.keyframes.back().part = 99;
+  refused(history);
+  history = mapper.history();
+  history.loops.front().query = 99;
+  refused(history);
+}
+
+}  // namespace
+}  // namespace placegraph
