@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/place_transitions.h>
 #include <placegraph/io/g2o.h>
+#include <placegraph/io/place_graph_export.h>
 #include <placegraph/io/trajectory_file.h>
 #include <placegraph/pipeline/place_mapper.h>
 #include <placegraph/pipeline/run.h>
@@ -53,6 +55,14 @@ std::vector<ExportForm> export_forms() {
           {"--kitti", "the optimized trajectory, KITTI's form", true,
            [](const std::string& path, const StoredMap& stored) {
              write_trajectory(path, stored.map.trajectory_optimized(), TrajectoryFormat::kKitti);
+           }},
+          {"--graphml", "places and transitions, GraphML", true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_file(path, to_graphml(stored.map.place_graph, place_transitions(stored.map)));
+           }},
+          {"--dot", "the same for Graphviz", true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_file(path, to_dot(stored.map.place_graph, place_transitions(stored.map)));
            }}};
 }
 

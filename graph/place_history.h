@@ -2,7 +2,9 @@
 #include <placegraph/graph/constraint.h>
 #include <placegraph/graph/loop.h>
 
+#include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace placegraph {
@@ -46,13 +48,23 @@ struct PlaceHistory {
     Matrix6d covariance = Matrix6d::Zero();
   };
 
+  /// Parts that came into a place with a younger one, and what they knew of each other there.
+  struct Merged {
+    std::int64_t anchor = 0;  ///< of the younger place
+    std::map<std::int64_t, Matrix7d> covariance_of_part;
+  };
+
   std::vector<Keyframe> keyframes;  ///< by ascending id, as the next two
   std::vector<Part> parts;
   std::vector<Place> places;
   std::vector<Motion> motions;
   std::vector<Loop> loops;
-  std::vector<bool> unit_measured;  ///< of every run of tracking
-  double median_depth_m = 10;       ///< of the scene at the last keyframe
+  std::vector<Merged> merged;                              ///< in the order it was done
+  std::set<std::pair<std::int64_t, std::int64_t>> parted;  ///< anchors that are not one place
+  std::int64_t founded = 0;                                ///< places so far, with those gone
+  std::size_t judged_loops = 0;                            ///< that mergers were judged with
+  std::vector<bool> unit_measured;                         ///< of every run of tracking
+  double median_depth_m = 10;                              ///< of the scene at the last keyframe
 };
 
 }  // namespace placegraph

@@ -1,8 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/map_blobs.h>
-#include <placegraph/io/map_database.h>
-#include <placegraph/io/map_schema.h>
-#include <placegraph/io/map_table.h>
+#include <placegraph/io/map_writer.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -33,8 +30,8 @@ void insert_camera(SqliteDatabase& database, std::int64_t id, const Camera& came
 void write_origin(SqliteDatabase& database, const MapOrigin& origin) {
   database.execute("DELETE FROM origin");
   database.execute("DELETE FROM camera");
-  SqliteStatement put(database,
-                      "INSERT INTO origin VALUES (1, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 0, 10, 0)");
+  SqliteStatement put(
+      database, "INSERT INTO origin VALUES (1, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 0, 10, 0, 0, 0)");
   put.text(origin.sequence) << static_cast<std::int64_t>(origin.sensor);
   put.text(origin.options).text(origin.view_options);
   put << origin.lens_k1 << std::int64_t{origin.lens_pass};
@@ -55,59 +52,6 @@ void write_origin(SqliteDatabase& database, const MapOrigin& origin) {
 }
 
 }  // namespace
-
-struct MapDatabase::Impl {
-  Impl(const std::string& path, bool synchronized)
-      : database(path, SqliteDatabase::Access::kWrite),
-        places(prepared(synchronized), "place", "id", 7),
-        labels(database, "label", "place", 3),
-        appearances(database, "appearance", "place", 3),
-        keyframes(database, "keyframe", "id", 6),
-        features(database, "features", "keyframe", 3),
-        views(database, "view", "keyframe", 2),
-        frames(database, "frame", "number", 5),
-        online(database, "online", "number", 3),
-        loops(database, "loop", "number", 7),
-        landmarks(database, "landmarks", "number", 3),
-        links(database, "link", "keyframe", 9),
-        parts(database, "part", "anchor", 5),
-        motions(database, "motion", "number", 5),
-        revisits(database, "revisit", "number", 5),
-        runs(database, "run", "number", 2),
-        put_edge(database, "INSERT OR REPLACE INTO edge VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"),
-        erase_edge(database, "DELETE FROM edge WHERE kind = ? AND number = ?") {
-    places.take_keys(database, "id place");
-    SqliteRows known(database, "keyframe", "id, frame, stamp_ns");
-    while (known.next()) keyframe_times[known.integer(0)] = {known.integer(1), known.integer(2)};
-  }
-
-  /// The file belongs to this connection alone. A write-ahead log: a commit appends to it without
-  /// waiting for the disk; when a program is killed, all that it committed is there.
-  SqliteDatabase& prepared(bool synchronized) {
-    database.execute("PRAGMA locking_mode = EXCLUSIVE");
-    check_map_schema(database);
-    database.text("PRAGMA journal_mode = WAL");
-    // A power cut, unlike a kill, may take the last commits along, but leaves the file whole.
-    database.execute(synchronized ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = OFF");
-    return database;
-  }
-
-  void commit(const MapChanges& changes, bool finished);
-  void put_places(const MapChanges& changes);
-  void put_keyframes(const MapChanges& changes);
-  void put_frames(const MapChanges& changes);
-  void put_constraints(const MapChanges& changes);
-  void put_landmarks(const MapChanges& changes);
-  void put_history(const PlaceHistory& history);
-  void put_runs(const PlaceHistory& history);
-
-  SqliteDatabase database;
-  MapTable places, labels, appearances, keyframes, features, views, frames, online, loops,
-      landmarks, links, parts, motions, revisits, runs;
-  SqliteStatement put_edge, erase_edge;
-  std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> keyframe_times;  // frame, stamp
-  std::map<std::int64_t, std::vector<std::string>> written_labels;
-};
 
 void MapDatabase::Impl::put_places(const MapChanges& changes) {
   std::map<std::int64_t, const PlaceHistory::Place*> grown;
@@ -236,54 +180,6 @@ void MapDatabase::Impl::put_landmarks(const MapChanges& changes) {
   database.execute("DELETE FROM landmarks WHERE number >= " + std::to_string(rows));
 }
 
-void MapDatabase::Impl::put_history(const PlaceHistory& history) {
-  for (const PlaceHistory::Keyframe& keyframe : history.keyframes) {
-    MapRow row;
-    row.integer(keyframe.part).integer(keyframe.run);
-    if (const auto& link = keyframe.link)
-      row.integer(link->from)
-          .pose(link->T_from_this)
-          .symmetric(link->information)
-          .integer(static_cast<std::int64_t>(link->source))
-          .real(link->sigma_log_scale)
-          .real(link->scale);
-    else
-      row.null().null().null().null().null().null();
-    links.put(keyframe.id, row);
-  }
-  for (const PlaceHistory::Part& part : history.parts) {
-    std::string S_place_part;
-    BlobWriter(S_place_part).similarity(part.S_place_part);
-    MapRow row;
-    row.integer(part.place).blob(S_place_part).symmetric(part.covariance);
-    part.motion_covariance ? row.symmetric(*part.motion_covariance) : row.null();
-    parts.put(part.anchor, row);
-  }
-  put_runs(history);
-}
-
-void MapDatabase::Impl::put_runs(const PlaceHistory& history) {
-  std::int64_t number = 0;
-  for (const PlaceHistory::Motion& motion : history.motions)
-    motions.put(number++, MapRow()
-                              .integer(motion.from)
-                              .integer(motion.to)
-                              .pose(motion.T_from_to)
-                              .symmetric(motion.covariance));
-  number = 0;
-  for (const Loop& loop : history.loops) {
-    std::string S_match_query;
-    BlobWriter(S_match_query).similarity(loop.S_match_query());
-    revisits.put(number++, MapRow()
-                               .integer(loop.query)
-                               .integer(loop.match)
-                               .blob(S_match_query)
-                               .symmetric(loop.information));
-  }
-  number = 0;
-  for (const bool measured : history.unit_measured) runs.put(number++, MapRow().integer(measured));
-}
-
 void MapDatabase::Impl::commit(const MapChanges& changes, bool finished) {
   database.execute("BEGIN IMMEDIATE");
   try {
@@ -294,8 +190,10 @@ void MapDatabase::Impl::commit(const MapChanges& changes, bool finished) {
     put_landmarks(changes);
     put_history(changes.history);
     SqliteStatement origin(database,
-                           "UPDATE origin SET metric = ?, median_depth_m = ?, finished = ?");
+                           "UPDATE origin SET metric = ?, median_depth_m = ?, founded = ?, "
+                           "judged_loops = ?, finished = ?");
     origin << std::int64_t{changes.metric} << changes.history.median_depth_m
+           << changes.history.founded << static_cast<std::int64_t>(changes.history.judged_loops)
            << std::int64_t{finished};
     origin.run();
     database.execute("COMMIT");

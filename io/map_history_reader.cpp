@@ -83,4 +83,28 @@ void MapReader::read_history() {
   }
 }
 
+void MapReader::read_mergers() {
+  PlaceHistory& history = stored_.history;
+  {
+    SqliteRows rows(database_, "merged", "number, anchor");
+    while (rows.next()) {
+      require_next(rows, history.merged.size());
+      history.merged.push_back({rows.integer(1), {}});
+      if (!parts_.count(rows.integer(1))) rows.refuse("anchor is no part of the map");
+    }
+  }
+  const auto mergers = static_cast<std::int64_t>(history.merged.size());
+  SqliteRows rows(database_, "merged_part", "number, merged, part, covariance");
+  while (rows.next()) {
+    const std::int64_t part = rows.integer(2);
+    if (!parts_.count(part)) rows.refuse("part " + std::to_string(part) + " is none of the map");
+    history.merged[static_cast<std::size_t>(rows.integer(1, 0, mergers - 1))]
+        .covariance_of_part[part] = symmetric(rows, 3, "covariance", 7);
+  }
+  SqliteRows parted(database_, "parted", "number, one, other");
+  while (parted.next())
+    history.parted.emplace(keyframe_of(parted, parted.integer(1), "one").id,
+                           keyframe_of(parted, parted.integer(2), "other").id);
+}
+
 }  // namespace placegraph

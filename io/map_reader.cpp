@@ -64,7 +64,7 @@ void MapReader::read_origin() {
   SqliteRows rows(database_, "origin",
                   "id, sequence, sensor, options, view_options, lens_k1, lens_pass, baseline_m, "
                   "camera_height_m, T_cam_depth, depth_sigma_at_1m, metric, median_depth_m, "
-                  "finished");
+                  "finished, founded, judged_loops");
   if (!rows.next()) throw FileError(database_.path(), "table origin: its row is missing");
   MapOrigin& origin = stored_.origin;
   origin.sequence = rows.text(1);
@@ -76,6 +76,8 @@ void MapReader::read_origin() {
   stored_.map.metric = rows.integer(11, 0, 1) == 1;
   stored_.history.median_depth_m = rows.positive(12);
   stored_.finished = rows.integer(13, 0, 1) == 1;
+  stored_.history.founded = rows.integer(14, 0);
+  stored_.history.judged_loops = static_cast<std::size_t>(rows.integer(15, 0));
   if (rows.is_null(7)) return;
   Calibration& calibration = origin.calibration.emplace();
   calibration.baseline_m = rows.real(7);

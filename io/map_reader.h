@@ -29,6 +29,7 @@ class MapReader {
     read_links();
     read_parts();
     read_history();
+    read_mergers();
     return std::move(stored_);
   }
   MapOrigin origin() {
@@ -52,6 +53,7 @@ class MapReader {
   void read_links();
   void read_parts();
   void read_history();
+  void read_mergers();
   template <class Read>
   static auto decoded(const SqliteRows& rows, std::string_view bytes, const char* column,
                       Read read);

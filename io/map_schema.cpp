@@ -13,7 +13,7 @@ CREATE TABLE origin (
   options TEXT NOT NULL, view_options TEXT NOT NULL, lens_k1 REAL NOT NULL,
   lens_pass INTEGER NOT NULL, baseline_m REAL, camera_height_m REAL, T_cam_depth BLOB,
   depth_sigma_at_1m REAL, metric INTEGER NOT NULL, median_depth_m REAL NOT NULL,
-  finished INTEGER NOT NULL);
+  founded INTEGER NOT NULL, judged_loops INTEGER NOT NULL, finished INTEGER NOT NULL);
 CREATE TABLE camera (
   id INTEGER PRIMARY KEY, width INTEGER NOT NULL, height INTEGER NOT NULL, fx REAL NOT NULL,
   fy REAL NOT NULL, cx REAL NOT NULL, cy REAL NOT NULL, distortion INTEGER NOT NULL,
@@ -66,6 +66,14 @@ CREATE TABLE revisit (
   number INTEGER PRIMARY KEY, query INTEGER NOT NULL REFERENCES keyframe (id),
   match INTEGER NOT NULL REFERENCES keyframe (id), S_match_query BLOB NOT NULL,
   information BLOB NOT NULL);
+CREATE TABLE merged (
+  number INTEGER PRIMARY KEY, anchor INTEGER NOT NULL REFERENCES part (anchor));
+CREATE TABLE merged_part (
+  number INTEGER PRIMARY KEY, merged INTEGER NOT NULL REFERENCES merged (number),
+  part INTEGER NOT NULL REFERENCES part (anchor), covariance BLOB NOT NULL);
+CREATE TABLE parted (
+  number INTEGER PRIMARY KEY, one INTEGER NOT NULL REFERENCES keyframe (id),
+  other INTEGER NOT NULL REFERENCES keyframe (id));
 CREATE TABLE run (number INTEGER PRIMARY KEY, unit_measured INTEGER NOT NULL);
 )";
 

@@ -9,7 +9,8 @@ void create_map_tables(SqliteDatabase& database);
 void check_map_schema(SqliteDatabase& database);
 /// Names of all tables but `origin` and `camera`.
 constexpr const char* kMapTables[] = {
-    "place",  "label", "appearance", "keyframe", "features", "view",   "edge",    "frame",
-    "online", "loop",  "landmarks",  "link",     "part",     "motion", "revisit", "run"};
+    "place",   "label",  "appearance",  "keyframe",  "features", "view", "edge",
+    "frame",   "online", "loop",        "landmarks", "link",     "part", "motion",
+    "revisit", "merged", "merged_part", "parted",    "run"};
 
 }  // namespace placegraph

@@ -152,11 +152,7 @@ class PlaceMapper {
     Matrix7d covariance;  // of S_older_younger in its right tangent
   };
   bool agrees(const Loop& loop) const;
-  /// Parts that came into a place with a younger one, and what they knew of each other there.
-  struct Merged {
-    std::int64_t anchor;  // of the younger place
-    std::map<std::int64_t, Matrix7d> covariance_of_part;
-  };
+  using Merged = PlaceHistory::Merged;
   std::vector<Merger> find_mergers(std::int64_t first_open) const;
   std::optional<std::int64_t> known_ground(const Sim3& S_map_here, std::int64_t keyframe,
                                            double reach) const;

@@ -17,6 +17,10 @@ PlaceHistory PlaceMapper::history() const {
                                SE3(motion.S_from_to.rotation(), motion.S_from_to.translation()),
                                motion.covariance.topLeftCorner<6, 6>()});
   history.loops = loops_;
+  history.merged = merged_;
+  history.parted = parted_;
+  history.founded = founded_;
+  history.judged_loops = judged_loops_;
   history.unit_measured = scale_known_;
   return history;
 }
@@ -57,6 +61,18 @@ PlaceMapper::PlaceMapper(const PlaceOptions& options, const IncrementalOptions& 
             "PlaceMapper: a loop between unknown keyframes");
     loops_.push_back(loop);
   }
+  for (const PlaceHistory::Merged& merged : history.merged) {
+    bool known = parts_.count(merged.anchor) == 1;
+    for (const auto& [anchor, covariance] : merged.covariance_of_part)
+      known &= parts_.count(anchor) == 1;
+    require(known, "PlaceMapper: an unknown part was merged");
+    merged_.push_back(merged);
+  }
+  parted_ = history.parted;
+  founded_ = history.founded;
+  judged_loops_ = history.judged_loops;
+  require(places_.empty() || founded_ > places_.rbegin()->first,
+          "PlaceMapper: fewer places were founded than there are");
   follow_links(kFirst);
   begin_anew_ = true;
 }

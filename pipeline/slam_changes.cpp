@@ -65,7 +65,7 @@ MapChanges Slam::Impl::take_changes() {
   changes.places = mapper.places();
   const bool described_anew = closer.trained_views() != untold.training;
   for (const Place& place : changes.places)
-    if (described_anew || place.anchor_keyframe > untold.anchor)
+    if (described_places.insert(place.id).second || described_anew)
       changes.appearances.emplace_back(place.id, closer.appearance(place.anchor_keyframe));
   changes.constraints = mapper.take_constraint_changes();
   const auto& all = closer.views();
@@ -85,7 +85,6 @@ MapChanges Slam::Impl::take_changes() {
   changes.metric = mapper.metric();
 
   untold.training = closer.trained_views();
-  untold.anchor = last_keyframe;
   untold.view = all.empty() ? 0 : all.size() - 1;  // its successor gives depth to its features
   untold.record = records.size();
   untold.landmark = earlier_landmarks.size() + odometry.settled_landmarks();
@@ -108,6 +107,7 @@ void Slam::Impl::go_on_from(const Map& map, const PlaceHistory& history, const F
     records.push_back(map.frames[i]);
     online.poses.push_back(map.trajectory_online.poses.at(i));
   }
+  for (const Place& place : map.place_graph.places) described_places.insert(place.id);
   earlier_landmarks = map.landmarks;
   for (const PointLandmark& landmark : map.landmarks)
     first_landmark_id = std::max(first_landmark_id, landmark.id + 1);
@@ -118,7 +118,6 @@ void Slam::Impl::go_on_from(const Map& map, const PlaceHistory& history, const F
   untold.view = map.keyframes.size();
   untold.landmark = earlier_landmarks.size();
   untold.training = closer.trained_views();
-  untold.anchor = last_keyframe;
 
   // Its pose is known but for rounding.
   constexpr double kSigmaDepths = 1e-5, kSigmaRad = 1e-5;

@@ -64,11 +64,11 @@ struct Slam::Impl {
   std::optional<bool> views_in_colour;           // as the first
   std::vector<PointLandmark> earlier_landmarks;  // of a run that was taken up
   std::int64_t first_landmark_id = 0;            // after theirs
-  bool taken_up = false;                         // while the frame of its last keyframe is seen again
-  struct {                                       // from here on, take_changes has not told
+  bool taken_up = false;  // while the frame of its last keyframe is seen again
+  struct {                // from here on, take_changes has not told
     std::size_t record = 0, view = 0, landmark = 0, training = 0;
-    std::int64_t anchor = -1;
   } untold;
+  std::set<std::int64_t> described_places;  // whose appearance take_changes has told
 };
 
 }  // namespace placegraph

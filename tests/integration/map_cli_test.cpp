@@ -55,6 +55,7 @@ class MapCli : public test::CliTest {
     std::erase_if(history.parts, [&](const auto& p) { return p.anchor > last; });
     history.places.resize(places);
     history.places.back().last_keyframe = last;
+    history.merged.clear();
     std::erase_if(history.loops, [&](const Loop& l) { return l.query > last; });
     stored.finished = false;
     write_map(dir / "broken/map.db", stored);
@@ -78,13 +79,16 @@ TEST_F(MapCli, ARunLeavesOneFileThatHoldsItsMap) {
 }
 
 TEST_F(MapCli, ExportsAreWhatTheRunWrote) {
-  const CommandResult result =
-      run("map export " + whole() + " --g2o g.g2o --places p.json --tum t.tum --kitti k.kitti");
+  const CommandResult result = run(
+      "map export " + whole() +
+      " --g2o g.g2o --places p.json --tum t.tum --kitti k.kitti --graphml p.graphml --dot p.dot");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(read_file(dir / "g.g2o"), read_file(whole() + "/graph.g2o"));
   EXPECT_EQ(read_file(dir / "p.json"), read_file(whole() + "/places.json"));
   EXPECT_EQ(read_file(dir / "t.tum"), read_file(whole() + "/trajectory_optimized.tum"));
   EXPECT_EQ(read_file(dir / "k.kitti"), read_file(whole() + "/trajectory_optimized.kitti"));
+  EXPECT_EQ(read_file(dir / "p.graphml"), read_file(whole() + "/places.graphml"));
+  EXPECT_EQ(read_file(dir / "p.dot"), read_file(whole() + "/places.dot"));
   expect_usage_error("map export " + whole(), "nothing to write");
 }
 
