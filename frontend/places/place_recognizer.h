@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/places/place_likeness.h>
 #include <placegraph/frontend/places/place_view.h>
 
 #include <vector>
@@ -14,12 +15,6 @@ struct PlaceRecognizerOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceRecognizerOptions& options);
-
-/// How much a stored view looks like the query: comparable over queries, no probability.
-struct PlaceLikeness {
-  int view = 0;
-  double score = 0;
-};
 
 /// Views in the order they were added, and which of them an image resembles. Nothing is learned:
 /// every score depends on two images alone. All cues are joined by a weighted sum; two coarse

@@ -15,7 +15,9 @@
 #include <placegraph/frontend/odometry/pose_3d2d.h>
 #include <placegraph/frontend/odometry/pose_3d3d.h>
 #include <placegraph/frontend/odometry/pose_gravity.h>
+#include <placegraph/frontend/places/code_memory.h>
 #include <placegraph/frontend/places/loop_verifier.h>
+#include <placegraph/frontend/places/place_classifier.h>
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/frontend/planes/ground_plane.h>
@@ -37,7 +39,8 @@ using All = testing::Types<
     PlaneTrackerOptions, GravityPoseOptions, CircularMotionOptions, Pose3d3dOptions,
     InverseDepthPlaneOptions, DominantSurfaceOptions, LineTrackerOptions, LineStereoOptions,
     LineTriangulationOptions, PoseFromLinesOptions, PositionFilterOptions, SquareFitOptions,
-    MarkerDetectorOptions, MarkerFilterOptions, BeaconDetectorOptions, BeaconPoseOptions>;
+    MarkerDetectorOptions, MarkerFilterOptions, BeaconDetectorOptions, BeaconPoseOptions,
+    PlaceCodeOptions, PlaceClassifierOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.
