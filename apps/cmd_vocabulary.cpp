@@ -27,7 +27,7 @@ const std::vector<std::string> kKinds = {"binary", "float"};
 struct Arguments {
   std::vector<std::string> folders;
   std::string out, kind = "binary";
-  int words = 10000, descriptors = 1'000'000;
+  int words = 10000, descriptors = 200'000;
   std::uint64_t seed = 1;
   bool force = false;
 };
@@ -56,6 +56,15 @@ std::vector<std::string> images_of(const Arguments& arguments) {
     for (std::string& image : list_images(image_folder_of(folder)))
       images.push_back(std::move(image));
   return images;
+}
+
+// Images one after the other show much the same: rather many descriptors of some than few of all.
+std::vector<std::string> thinned(std::vector<std::string> images, int descriptors) {
+  constexpr std::size_t kOfAnImage = 150;
+  const std::size_t stride = images.size() * kOfAnImage / static_cast<std::size_t>(descriptors) + 1;
+  std::vector<std::string> kept;
+  for (std::size_t i = 0; i < images.size(); i += stride) kept.push_back(std::move(images[i]));
+  return kept;
 }
 
 /// log((1 + images) / (1 + images with the word)).
@@ -136,7 +145,7 @@ WordTree train_float(const Arguments& arguments, const std::vector<std::string>&
 void train(const Arguments& arguments) {
   require_free(arguments.out, arguments.force);
   cv::setNumThreads(1);
-  const std::vector<std::string> images = images_of(arguments);
+  const std::vector<std::string> images = thinned(images_of(arguments), arguments.descriptors);
   const std::size_t share =
       std::max<std::size_t>(2, static_cast<std::size_t>(arguments.descriptors) / images.size());
   const WordTree tree = arguments.kind == "binary" ? train_binary(arguments, images, share)

@@ -141,7 +141,8 @@ class LandmarkMemory final : public CodeMemory {
       list = index_.query(span_of(whole), options_.listed, among->first, among->last);
       for (PlaceLikeness& likeness : list)
         likeness.score =
-            landmark_likeness(landmarks, views_[static_cast<std::size_t>(likeness.view)]);
+            landmark_likeness(landmarks, views_[static_cast<std::size_t>(likeness.view)],
+                              options_.landmarks.max_shift);
       keep_best(list, options_.listed);
     }
     index_.add(span_of(whole));

@@ -35,6 +35,7 @@ void LandmarkOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, LandmarkOptions& o) {
   field("bandwidth", o.bandwidth, "of the width, of one landmark", {0.005, 1});
   field("min_features", o.min_features, "of a landmark", {1, 1000});
+  field("max_shift", o.max_shift, "of the width, between two views of a landmark", {0, 10});
   field("max_landmarks", o.max_landmarks, "of a view", {1, 1000});
 }
 
@@ -83,11 +84,13 @@ std::vector<ImageLandmark> find_landmarks(const FloatFeatures& features,
 }
 
 double landmark_likeness(const std::vector<ImageLandmark>& query,
-                         const std::vector<ImageLandmark>& stored) {
+                         const std::vector<ImageLandmark>& stored, double max_shift) {
+  const auto limit = static_cast<float>(max_shift * max_shift);
   double sum = 0, weights = 0;
   for (const ImageLandmark& a : query) {
     float best = 0;
-    for (const ImageLandmark& b : stored) best = std::max(best, a.code.dot(b.code));
+    for (const ImageLandmark& b : stored)
+      if ((a.centre - b.centre).squaredNorm() <= limit) best = std::max(best, a.code.dot(b.code));
     const double weight = std::sqrt(static_cast<double>(a.features));
     sum += weight * static_cast<double>(best);
     weights += weight;

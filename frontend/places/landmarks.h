@@ -6,6 +6,7 @@ namespace placegraph {
 struct LandmarkOptions {
   double bandwidth = 0.08;  ///< of the width, about which key-points are of one landmark
   int min_features = 3;     ///< of a landmark
+  double max_shift = 0.25;  ///< of the width, between two views of a landmark
   int max_landmarks = 40;   ///< of a view, those of most key-points
   void check() const;
 };
@@ -29,8 +30,9 @@ std::vector<ImageLandmark> find_landmarks(const FloatFeatures& features,
                                           const LandmarkOptions& options);
 
 /// How alike two views' landmarks are, in [0, 1]: the mean over those of the query, weighed by the
-/// roots of their key-points, of the largest inner product with one of the other view.
+/// roots of their key-points, of the largest inner product with one of the other view at most
+/// `max_shift` away.
 double landmark_likeness(const std::vector<ImageLandmark>& query,
-                         const std::vector<ImageLandmark>& stored);
+                         const std::vector<ImageLandmark>& stored, double max_shift);
 
 }  // namespace placegraph

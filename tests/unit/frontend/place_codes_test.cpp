@@ -103,15 +103,16 @@ TEST(Landmarks, GroupKeyPointsThatStandTogether) {
   EXPECT_THROW((void)group_positions(positions, 0), ArgumentError);
 }
 
-TEST(Landmarks, AreAlikeWhereverTheyStand) {
-  const auto landmark = [](int word, int features) {
-    return ImageLandmark{Eigen::VectorXf::Unit(4, word), Eigen::Vector2f::Zero(), features};
+TEST(Landmarks, AreAlikeWhereTheyStandNearEnough) {
+  const auto landmark = [](int word, int features, float x) {
+    return ImageLandmark{Eigen::VectorXf::Unit(4, word), Eigen::Vector2f(x, 0), features};
   };
-  const std::vector<ImageLandmark> query = {landmark(0, 9), landmark(1, 4)};
-  EXPECT_DOUBLE_EQ(landmark_likeness(query, {landmark(1, 3), landmark(0, 3)}), 1);
-  EXPECT_DOUBLE_EQ(landmark_likeness(query, {landmark(0, 3), landmark(2, 3)}), 3.0 / 5);
-  EXPECT_DOUBLE_EQ(landmark_likeness(query, {}), 0);
-  EXPECT_DOUBLE_EQ(landmark_likeness({}, query), 0);
+  const std::vector<ImageLandmark> query = {landmark(0, 9, 0), landmark(1, 4, 0)};
+  EXPECT_DOUBLE_EQ(landmark_likeness(query, {landmark(1, 3, 0.2f), landmark(0, 3, 0)}, 0.25), 1);
+  EXPECT_DOUBLE_EQ(landmark_likeness(query, {landmark(0, 3, 0), landmark(1, 3, 0.3f)}, 0.25),
+                   3.0 / 5);
+  EXPECT_DOUBLE_EQ(landmark_likeness(query, {}, 1), 0);
+  EXPECT_DOUBLE_EQ(landmark_likeness({}, query, 1), 0);
 }
 
 TEST(WordIndex, WeighsWordsByHowFewViewsHaveThem) {
