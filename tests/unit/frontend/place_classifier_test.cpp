@@ -48,7 +48,7 @@ TEST(PlaceClassifier, FindsTheCueThatTellsPlacesApart) {
   for (int place = 0; place < kPlaces; ++place) {
     const Eigen::VectorXd p = classifier.classify(view_of(place, random));
     EXPECT_NEAR(p.sum(), 1, 1e-12);
-    EXPECT_GT(p[place], 0.9);
+    EXPECT_GT(p[place], 0.8);  // eight views a place: targets of 0.9
   }
 }
 
