@@ -36,8 +36,6 @@ void nominate(std::vector<Candidate>& candidates, const PlaceRecognizerOptions& 
   mark([](const Candidate& c) { return c.grids.tiny; }, options.nominated);
   mark([](const Candidate& c) { return c.grids.colour; }, options.nominated);
   mark([](const Candidate& c) { return c.grids.gradients; }, options.nominated);
-  if (options.cues.gabor > 0)
-    mark([](const Candidate& c) { return c.grids.gabor; }, options.nominated);
   mark([](const Candidate& c) { return c.score(); }, options.verified);
 }
 

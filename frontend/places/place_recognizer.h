@@ -13,7 +13,7 @@ struct PlaceRecognizerOptions {
   int glanced = 300;    ///< views that pass a first look at all, at pooled cues
   int short_list = 60;  ///< of those, the views that are compared in full, after a second look
   int verified = 12;    ///< of those, the first by all cues, whose corners are compared
-  int nominated = 4;    ///< and the first by each cue alone
+  int nominated = 8;    ///< and the first by each cue alone
   /// From so many views on, the first look follows a graph of neighbours instead of all views.
   int indexed_from = 20000;
   void check() const;

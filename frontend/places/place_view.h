@@ -16,7 +16,7 @@ struct PlaceCueOptions {
   double colour = 1.5;      ///< histograms of hue, saturation and value
   double gradients = 2;     ///< histograms of gradient orientation
   double corners = 0.25;    ///< per e-fold of corners in one similarity beyond corner_floor
-  double gabor = 0.5;       ///< statistics of a Gabor filter bank
+  double gabor = 0.15;      ///< statistics of a Gabor filter bank
   int corner_floor = 12;    ///< as many agree by chance
   int tiny_columns = 24;    ///< cells of the shrunk image
   double zoom = 1.25;       ///< a query is also looked at larger and smaller by this
