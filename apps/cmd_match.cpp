@@ -223,7 +223,7 @@ void add_match_command(CLI::App& app) {
                    "compare every image with those at least so many older, whatever gt.txt says; "
                    "300 without one")
       ->check(CLI::Range(1, 1'000'000'000));
-  command->add_option("--cues", a.cues, "tiny, colour, gradients, corners: those that count")
+  command->add_option("--cues", a.cues, "tiny, colour, gradients, gabor, corners: those that count")
       ->delimiter(',')
       ->check(CLI::IsMember(kCues))
       ->default_str("all");
