@@ -7,6 +7,8 @@ set(BLA_VENDOR OpenBLAS)
 find_package(BLAS REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)  # faiss names its target without looking for it
 find_package(faiss REQUIRED)
+# It names the machine's libblas and liblapack by file; OpenBLAS is both.
+set_target_properties(faiss PROPERTIES INTERFACE_LINK_LIBRARIES "$<LINK_ONLY:OpenMP::OpenMP_CXX>;BLAS::BLAS")
 find_package(CHOLMOD REQUIRED)
 find_package(spectra REQUIRED)
 find_package(Ceres 2.1 REQUIRED)
