@@ -87,10 +87,6 @@ class FloatBow final : public Bow {
   FloatVocabulary vocabulary_;
 };
 
-int pyramid_length(const FloatVocabulary& vocabulary, const LlcOptions& options) {
-  return vocabulary.words() * (1 + options.pyramid_rows * options.pyramid_rows);
-}
-
 std::span<const float> span_of(const Eigen::VectorXf& vector) {
   return {vector.data(), static_cast<std::size_t>(vector.size())};
 }
@@ -99,8 +95,9 @@ class LlcMemory final : public CodeMemory {
  public:
   LlcMemory(const PlaceCodeOptions& options, const FloatVocabulary& vocabulary)
       : options_(options),
-        words_(vocabulary.centres()),
-        index_(pyramid_length(vocabulary, options.llc)) {}
+        words_(vocabulary.centres(options.llc.most_words)),
+        index_(static_cast<int>(words_.rows()) *
+               (1 + options.llc.pyramid_rows * options.llc.pyramid_rows)) {}
 
   std::vector<PlaceLikeness> look_up_and_add(const Image& grey,
                                              std::optional<ViewRange> among) override {
@@ -125,7 +122,9 @@ class LlcMemory final : public CodeMemory {
 class LandmarkMemory final : public CodeMemory {
  public:
   LandmarkMemory(const PlaceCodeOptions& options, const FloatVocabulary& vocabulary)
-      : options_(options), words_(vocabulary.centres()), index_(vocabulary.words()) {}
+      : options_(options),
+        words_(vocabulary.centres(options.llc.most_words)),
+        index_(static_cast<int>(words_.rows())) {}
 
   std::vector<PlaceLikeness> look_up_and_add(const Image& grey,
                                              std::optional<ViewRange> among) override {

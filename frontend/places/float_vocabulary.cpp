@@ -126,12 +126,27 @@ std::uint32_t FloatVocabulary::word(const Eigen::Ref<const Eigen::RowVectorXf>& 
   return static_cast<std::uint32_t>(node->word);
 }
 
-FloatDescriptors FloatVocabulary::centres() const {
-  FloatDescriptors result(words(), dimension());
-  for (std::size_t i = 0; i < tree_.nodes.size(); ++i)
-    if (tree_.nodes[i].word >= 0)
-      result.row(tree_.nodes[i].word) = Eigen::Map<const Eigen::RowVectorXf>(
-          tree_.centres.data() + i * static_cast<std::size_t>(dimension()), dimension());
+FloatDescriptors FloatVocabulary::centres(int most) const {
+  require(!empty(), "FloatVocabulary: not trained");
+  std::vector<std::size_t> level = {0};
+  for (;;) {
+    std::vector<std::size_t> below;
+    bool deeper = false;
+    for (const std::size_t i : level) {
+      const WordTree::Node& node = tree_.nodes[i];
+      deeper = deeper || node.children > 0;
+      if (node.children == 0) below.push_back(i);
+      for (int child = 0; child < node.children; ++child)
+        below.push_back(static_cast<std::size_t>(node.first_child + child));
+    }
+    const bool first = level.size() == 1 && level.front() == 0;
+    if (!deeper || (!first && below.size() > static_cast<std::size_t>(most))) break;
+    level = std::move(below);
+  }
+  FloatDescriptors result(static_cast<Eigen::Index>(level.size()), dimension());
+  for (std::size_t row = 0; row < level.size(); ++row)
+    result.row(static_cast<Eigen::Index>(row)) = Eigen::Map<const Eigen::RowVectorXf>(
+        tree_.centres.data() + level[row] * static_cast<std::size_t>(dimension()), dimension());
   return result;
 }
 

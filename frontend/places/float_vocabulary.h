@@ -20,8 +20,9 @@ class FloatVocabulary {
   int dimension() const { return tree_.dimension; }
   /// The word [0, words()) at the end of the descent. ArgumentError for another dimension.
   std::uint32_t word(const Eigen::Ref<const Eigen::RowVectorXf>& descriptor) const;
-  /// The centres of all words, by rows.
-  FloatDescriptors centres() const;
+  /// The centres of the deepest level of the tree that has at most `most` of them, by rows; words
+  /// that end above it stand for themselves. At least the root's children.
+  FloatDescriptors centres(int most) const;
   /// What is to be saved; idf is 1 until it is set.
   const WordTree& tree() const { return tree_; }
   void set_idf(std::vector<float> idf);

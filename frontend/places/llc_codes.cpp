@@ -25,6 +25,7 @@ Eigen::VectorXf of_unit_length(const Eigen::VectorXf& vector) {
 void LlcOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LlcOptions& o) {
+  field("most_words", o.most_words, "of the level of the vocabulary that is taken", {2, 100000});
   field("neighbours", o.neighbours, "words a descriptor is made of", {1, 100});
   field("ridge", o.ridge, "of the trace of the local covariance", {1e-9, 1});
   field("pyramid_rows", o.pyramid_rows, "cells of the finer level of the spatial pyramid", {1, 16});

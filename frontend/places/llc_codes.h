@@ -6,9 +6,10 @@
 namespace placegraph {
 
 struct LlcOptions {
-  int neighbours = 5;    ///< words a descriptor is made of
-  double ridge = 1e-4;   ///< of the trace of the local covariance
-  int pyramid_rows = 2;  ///< cells of the finer level of the spatial pyramid, across and down
+  int most_words = 1000;  ///< the deepest level of the vocabulary that has no more is taken
+  int neighbours = 5;     ///< words a descriptor is made of
+  double ridge = 1e-4;    ///< of the trace of the local covariance
+  int pyramid_rows = 2;   ///< cells of the finer level of the spatial pyramid, across and down
   void check() const;
 };
 void visit(OptionVisitor& field, LlcOptions& options);

@@ -5,7 +5,7 @@ house=$data/places/vtm_virtual_house
 heading "$title"
 command_line "placegraph places classify \$DATA/places/vtm_virtual_house --out told.txt --classifier CLASSIFIER --cues CUES"
 . scripts/results.d/place_sets.sh
-printf 'Accuracy on the parts of the training half that were left out (which alone decides about weights and costs) / on the other half.\n\n' >> "$rows"
+printf '\nAccuracy on the parts of the training half that were left out (which alone decides about weights and costs) / on the other half.\n\n' >> "$rows"
 columns cues kernel svm adaboost
 for cues in colours quarters edges tiny gabor colours,quarters,edges,tiny,gabor; do
   set --

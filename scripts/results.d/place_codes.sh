@@ -3,8 +3,7 @@ title="Places by visual words"
 [ -d "$data/places" ] || { absent "$title"; return 0; }
 heading "$title"
 command_line "placegraph vocabulary train OTHER SETS --out words.pgw --kind binary --words 10000 --descriptors 60000    # bow"
-command_line "placegraph vocabulary train OTHER SETS --out words.pgw --kind float --words 10000 --descriptors 60000     # bow_float"
-command_line "placegraph vocabulary train OTHER SETS --out words.pgw --kind float --words 512 --descriptors 60000       # llc, landmarks"
+command_line "placegraph vocabulary train OTHER SETS --out words.pgw --kind float --words 10000 --descriptors 60000     # the others"
 command_line "placegraph match SET --codes CODES --vocabulary words.pgw --out found.txt"
 . scripts/results.d/place_sets.sh
 vocabularies=$out/place-vocabularies
@@ -23,9 +22,8 @@ learned() {
 for s in $sets vtm_virtual_house; do
   learned "$s" binary --kind binary --words 10000
   learned "$s" float --kind float --words 10000
-  learned "$s" few --kind float --words 512
 done
-printf 'Every vocabulary is learned from the three sets other than the one it is judged on; without one, `bow` learns its words from the images it\nhas seen. R@1 / AP / recall at full precision of single images; of vtm_virtual_house the share of images whose most alike training image is\nof their place. CPU is that of one image, all told.\n\n' >> "$rows"
+printf '\nEvery vocabulary is learned from the three sets other than the one it is judged on; without one, `bow` learns its words from the images it\nhas seen. R@1 / AP / recall at full precision of single images; of vtm_virtual_house the share of images whose most alike training image is\nof their place. CPU is that of one image, all told.\n\n' >> "$rows"
 columns codes $sets vtm_virtual_house "ms CPU, kitchen"
 for codes in cues "bow online" bow bow_float llc landmarks; do
   set --
@@ -33,8 +31,7 @@ for codes in cues "bow online" bow bow_float llc landmarks; do
     case $codes in
       cues | "bow online") words= ;;
       bow) words="--vocabulary $vocabularies/binary-$s.pgw" ;;
-      bow_float) words="--vocabulary $vocabularies/float-$s.pgw" ;;
-      *) words="--vocabulary $vocabularies/few-$s.pgw" ;;
+      *) words="--vocabulary $vocabularies/float-$s.pgw" ;;
     esac
     # shellcheck disable=SC2086
     found place-codes "$s" --codes "${codes% online}" $words

@@ -188,7 +188,9 @@ TEST(FloatVocabulary, SendsAlikeDescriptorsToOneWord) {
       EXPECT_NE(words.word(descriptors.row(i)), words.word(descriptors.row(k)));
     }
   EXPECT_FALSE(words.tree().problem());
-  EXPECT_EQ(words.centres().rows(), words.words());
+  EXPECT_EQ(words.centres(1000).rows(), words.words());
+  EXPECT_EQ(words.centres(4).rows(), 3);
+  EXPECT_EQ(words.centres(1).rows(), 3);
   EXPECT_THROW((void)words.word(Eigen::RowVectorXf::Zero(5)), ArgumentError);
   EXPECT_THROW((void)FloatVocabulary::train(FloatDescriptors(0, 6), {}, random), ArgumentError);
   EXPECT_THROW(Vocabulary(words.tree()), ArgumentError);
