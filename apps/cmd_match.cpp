@@ -1,22 +1,26 @@
 #include "apps/cmd_match.h"
 
 #include <fmt/format.h>
+#include <placegraph/frontend/places/code_memory.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/image_list.h>
 #include <placegraph/io/loop_file.h>
+#include <placegraph/io/vocabulary_file.h>
 #include <placegraph/io/yaml_config.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <opencv2/core/utility.hpp>
+#include <optional>
 
+#include "apps/image_folder_of.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/usage.h"
@@ -25,12 +29,14 @@ namespace placegraph::apps {
 
 struct MatchOptions {
   PlaceRecognizerOptions recognizer;
+  PlaceCodeOptions codes;
   SequenceFilterOptions sequence;
   void check() const;
 };
 
 void visit(OptionVisitor& field, MatchOptions& o) {
   field.group("recognizer", o.recognizer, "likeness of two views");
+  field.group("codes", o.codes, "visual words");
   field.group("sequence", o.sequence, "evidence of past images");
 }
 
@@ -40,10 +46,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kCues = {"tiny", "colour", "gradients", "corners"};
+const std::vector<std::string> kCues = {"tiny", "colour", "gradients", "gabor", "corners"};
+
+/// In the order of PlaceCode.
+const std::vector<std::string> kCodes = {"bow", "bow_float", "llc", "landmarks"};
+const char* const kMultiCue = "cues";
 
 struct Arguments {
-  std::string folder, out;
+  std::string folder, out, codes = kMultiCue, vocabulary;
   std::vector<std::string> cues = kCues;
   std::optional<int> min_age;
   bool sequence = false, force = false;
@@ -55,12 +65,6 @@ struct Arguments {
 struct Query {
   int image = 0, first = 0, last = 0;
 };
-
-std::string image_folder_of(const std::string& folder) {
-  for (const char* name : {"images", "image_0"})
-    if (fs::is_directory(fs::path(folder) / name)) return (fs::path(folder) / name).string();
-  return folder;
-}
 
 // Of the ground truth only who is compared with whom is taken.
 std::vector<Query> listed_queries(const std::string& path, int images) {
@@ -99,31 +103,63 @@ Image view_of(const std::string& path, bool colour) {
   return image.colour;
 }
 
+/// Answers which stored views an image resembles (the views `among`, if any), and stores it.
+using LookUp =
+    std::function<std::vector<PlaceLikeness>(const Image&, const std::optional<ViewRange>& among)>;
+
+LookUp by_cues(const PlaceRecognizerOptions& options) {
+  auto recognizer = std::make_shared<PlaceRecognizer>(options);
+  return [recognizer](const Image& image, const std::optional<ViewRange>& among) {
+    PlaceView view = describe_place(image, recognizer->options().cues, among.has_value());
+    std::vector<PlaceLikeness> list;
+    if (among) list = recognizer->query(view, among->first, among->last);
+    recognizer->add(std::move(view));
+    return list;
+  };
+}
+
+LookUp by_codes(const Arguments& arguments) {
+  const auto code = static_cast<PlaceCode>(
+      std::find(kCodes.begin(), kCodes.end(), arguments.codes) - kCodes.begin());
+  std::optional<WordTree> words;
+  if (!arguments.vocabulary.empty()) words = read_vocabulary(arguments.vocabulary);
+  require(words || code == PlaceCode::kBow,
+          fmt::format("--codes {} needs a --vocabulary of --kind float", arguments.codes));
+  const bool binary = code == PlaceCode::kBow;
+  require(!words || (words->kind == WordTree::Kind::kBinary) == binary,
+          fmt::format("{}: --codes {} needs a vocabulary of --kind {}", arguments.vocabulary,
+                      arguments.codes, binary ? "binary" : "float"));
+  constexpr std::uint64_t kSeed = 1;
+  const std::shared_ptr<CodeMemory> memory =
+      make_code_memory(code, arguments.options.codes, std::move(words), kSeed);
+  return [memory](const Image& image, const std::optional<ViewRange>& among) {
+    return memory->look_up_and_add(image, among);
+  };
+}
+
 std::vector<LoopPrediction> match(const Arguments& arguments,
                                   const std::vector<std::string>& images,
-                                  const std::vector<Query>& queries, bool colour) {
-  const PlaceCueOptions& cues = arguments.options.recognizer.cues;
-  PlaceRecognizer recognizer(arguments.options.recognizer);
+                                  const std::vector<Query>& queries, bool colour,
+                                  const LookUp& look_up) {
   SequenceFilter filter(arguments.options.sequence);
   std::vector<LoopPrediction> found;
   Progress progress("matching", static_cast<std::int64_t>(images.size()), "images");
   int before = -1;
   auto query = queries.begin();
   for (int i = 0; i < static_cast<int>(images.size()); ++i) {
-    const bool asked = query != queries.end() && query->image == i;
-    PlaceView view =
-        describe_place(view_of(images[static_cast<std::size_t>(i)], colour), cues, asked);
-    if (asked) {
-      std::vector<PlaceLikeness> list = recognizer.query(view, query->first, query->last);
+    std::optional<ViewRange> among;
+    if (query != queries.end() && query->image == i) among = {query->first, query->last};
+    std::vector<PlaceLikeness> list =
+        look_up(view_of(images[static_cast<std::size_t>(i)], colour), among);
+    if (among) {
       if (arguments.sequence) {
         if (i != before + 1) filter.restart();
-        list = filter.update(list, query->first, std::min(query->last, recognizer.size() - 1));
+        list = filter.update(list, among->first, std::min(among->last, i - 1));
         before = i;
       }
       if (!list.empty()) found.push_back({i, list.front().view, list.front().score, {}, 0});
       ++query;
     }
-    recognizer.add(std::move(view));
     progress.update(i + 1);
   }
   return found;
@@ -138,6 +174,7 @@ void select_cues(Arguments& arguments) {
   keep("tiny", cues.tiny);
   keep("colour", cues.colour);
   keep("gradients", cues.gradients);
+  keep("gabor", cues.gabor);
   keep("corners", cues.corners);
 }
 
@@ -149,10 +186,13 @@ void run(Arguments arguments) {
   cv::setNumThreads(1);
   const std::vector<std::string> images = list_images(image_folder_of(arguments.folder));
   const std::vector<Query> queries = queries_of(arguments, static_cast<int>(images.size()));
-  const bool colour = !read_image(images.front()).colour.empty();
-  if (!colour) warn(arguments.folder + ": grey images; places are told without the colour cue");
+  const bool by_words = arguments.codes != kMultiCue;
+  const bool colour = !by_words && !read_image(images.front()).colour.empty();
+  const LookUp look_up = by_words ? by_codes(arguments) : by_cues(arguments.options.recognizer);
+  if (!colour && !by_words)
+    warn(arguments.folder + ": grey images; places are told without the colour cue");
   const Stopwatch watch;
-  const std::vector<LoopPrediction> found = match(arguments, images, queries, colour);
+  const std::vector<LoopPrediction> found = match(arguments, images, queries, colour, look_up);
   if (found.empty())
     throw NoAnswer(arguments.folder + ": no image has an older one to compare with");
   write_loop_predictions(arguments.out, found);
@@ -183,10 +223,22 @@ void add_match_command(CLI::App& app) {
                    "compare every image with those at least so many older, whatever gt.txt says; "
                    "300 without one")
       ->check(CLI::Range(1, 1'000'000'000));
-  command->add_option("--cues", a.cues, "tiny, colour, gradients, corners: those that count")
+  command->add_option("--cues", a.cues, "tiny, colour, gradients, gabor, corners: those that count")
       ->delimiter(',')
       ->check(CLI::IsMember(kCues))
       ->default_str("all");
+  std::vector<std::string> codes = kCodes;
+  codes.insert(codes.begin(), kMultiCue);
+  command
+      ->add_option("--codes", a.codes,
+                   "what is compared: all cues, or visual words as bag (binary, SIFT), LLC, or "
+                   "LLC of landmarks")
+      ->check(CLI::IsMember(codes))
+      ->capture_default_str();
+  command
+      ->add_option("--vocabulary", a.vocabulary,
+                   "words made by `vocabulary train`; bow learns its own without one")
+      ->check(CLI::ExistingFile);
   command->add_option("--set", a.settings, "one option, key=value; may be repeated")
       ->type_size(1)
       ->allow_extra_args(false);

@@ -24,12 +24,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// In the order of PlaceMachineKind, and of PlaceCueVectors.
+const std::vector<std::string> kMachines = {"kernel", "svm", "adaboost"};
+const std::vector<std::string> kCues = {"colours", "quarters", "edges", "tiny", "gabor"};
+
 struct Arguments {
   std::string folder, out;
   std::optional<int> train;
-  double reject = 0;
+  double reject = 0, max_entropy = 1;
+  std::string classifier = kMachines.front();
+  std::vector<std::string> cues = kCues;
   bool sequence = false, force = false;
-  PlaceClassifierOptions options;
 };
 
 struct Halves {
@@ -63,9 +68,23 @@ Halves halves_of(const Arguments& arguments, int images) {
   return halves;
 }
 
-PlaceCueVectors read_view(const std::string& path) {
+PlaceCueVectors read_view(const std::string& path, const std::vector<std::string>& cues) {
   const GreyAndColour image = read_image(path);
-  return describe_for_classes(image.colour.empty() ? image.grey : image.colour);
+  PlaceCueVectors view = describe_for_classes(image.colour.empty() ? image.grey : image.colour);
+  for (std::size_t m = 0; m < view.size(); ++m)
+    if (std::find(cues.begin(), cues.end(), kCues[m]) == cues.end()) view[m].resize(0);
+  return view;
+}
+
+void require_some_cue(const Arguments& arguments, const PlaceCueVectors& view) {
+  const auto known = [](const Eigen::VectorXf& cue) { return cue.size() > 0; };
+  require(std::any_of(view.begin(), view.end(), known),
+          arguments.folder + ": grey images, and --cues asks for colours alone");
+  const bool asked =
+      std::find(arguments.cues.begin(), arguments.cues.end(), "colours") != arguments.cues.end() ||
+      std::find(arguments.cues.begin(), arguments.cues.end(), "quarters") != arguments.cues.end();
+  if (asked && !known(view[0]) && !known(view[1]))
+    warn(arguments.folder + ": grey images; places are told without the colour cues");
 }
 
 void classify(const Arguments& arguments) {
@@ -87,31 +106,37 @@ void classify(const Arguments& arguments) {
       throw FileError(label_path,
                       fmt::format("label {}: at most {} places", label->second, kMostPlaces));
     labels.push_back(label->second);
-    views.push_back(read_view(images[static_cast<std::size_t>(image)]));
+    views.push_back(read_view(images[static_cast<std::size_t>(image)], arguments.cues));
   }
-  const PlaceClassifier classifier =
-      PlaceClassifier::train(std::move(views), labels, arguments.options);
+  require_some_cue(arguments, views.front());
+  PlaceClassifierOptions options;
+  options.machine = static_cast<PlaceMachineKind>(
+      std::find(kMachines.begin(), kMachines.end(), arguments.classifier) - kMachines.begin());
+  const PlaceClassifier classifier = PlaceClassifier::train(std::move(views), labels, options);
   LabelFilter filter(labels);
   std::string lines;
   int refused = 0;
   for (const std::int64_t image : halves.asked) {
     Eigen::VectorXd probabilities =
-        classifier.classify(read_view(images[static_cast<std::size_t>(image)]));
+        classifier.classify(read_view(images[static_cast<std::size_t>(image)], arguments.cues));
     if (arguments.sequence) probabilities = filter.update(probabilities);
     Eigen::Index best = 0;
     const double probability = probabilities.maxCoeff(&best);
-    const bool accepted = probability >= arguments.reject;
+    const bool accepted =
+        probability >= arguments.reject && entropy_share(probabilities) <= arguments.max_entropy;
     refused += !accepted;
     lines +=
         fmt::format("{} {} {:.6f}\n", image, accepted ? static_cast<int>(best) : -1, probability);
   }
   write_file(arguments.out, lines);
-  const auto& w = classifier.weights();
+  std::string weights;
+  for (std::size_t m = 0; m < kCues.size(); ++m)
+    weights += fmt::format("{}{} {:.2g}", m == 0 ? "" : ", ", kCues[m], classifier.weights()[m]);
   fmt::print(
-      "{} views learned, {} told, {} refused; weights of colours {:g}, colours of quarters {:g}, "
-      "edges {:g}, tiny image {:g}; accuracy on left out parts {:.3f}; written to {}\n",
-      labels.size(), halves.asked.size(), refused, w[0], w[1], w[2], w[3],
-      classifier.cross_validated_accuracy(), arguments.out);
+      "{} views learned, {} told, {} refused; weights of {}; on left out parts accuracy {:.3f}, "
+      "log loss {:.3f}; written to {}\n",
+      labels.size(), halves.asked.size(), refused, weights, classifier.cross_validated_accuracy(),
+      classifier.cross_validated_log_loss(), arguments.out);
 }
 
 }  // namespace
@@ -141,6 +166,18 @@ void add_places_command(CLI::App& app) {
   command->add_option("--reject", a.reject, "refuse to tell below this probability")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  command
+      ->add_option("--max-entropy", a.max_entropy,
+                   "refuse to tell above this entropy, as a share of that of knowing nothing")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--classifier", a.classifier, "what learns the places")
+      ->check(CLI::IsMember(kMachines))
+      ->capture_default_str();
+  command->add_option("--cues", a.cues, "colours, quarters, edges, tiny, gabor: those that count")
+      ->delimiter(',')
+      ->check(CLI::IsMember(kCues))
+      ->default_str("all");
   command->add_flag("--sequence", a.sequence, "add the evidence of the images before each");
   command->add_flag("--force", a.force, "overwrite files");
   command->callback([arguments] { classify(*arguments); });

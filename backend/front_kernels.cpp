@@ -1,5 +1,5 @@
 #include <placegraph/backend/front_kernels.h>
-#include <placegraph/backend/function_clones.h>
+#include <placegraph/graph/core/function_clones.h>
 
 #include <cmath>
 #include <cstddef>

@@ -1,12 +1,7 @@
+#include <placegraph/graph/core/function_clones.h>
 #include <placegraph/graph/landmark.h>
 
 #include <bit>
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define PLACEGRAPH_COUNTS_BITS __attribute__((target_clones("popcnt", "default")))
-#else
-#define PLACEGRAPH_COUNTS_BITS
-#endif
 
 namespace placegraph {
 
@@ -23,8 +18,7 @@ void hamming_distances(const BinaryDescriptor& from, const std::vector<BinaryDes
   distances.resize(to.size());
   for (std::size_t j = 0; j < to.size(); ++j) {
     int bits = 0;
-    for (std::size_t i = 0; i < from.size(); ++i)
-      bits += std::popcount(from[i] ^ to[j][i]);
+    for (std::size_t i = 0; i < from.size(); ++i) bits += std::popcount(from[i] ^ to[j][i]);
     distances[j] = bits;
   }
 }

@@ -25,6 +25,7 @@ struct PlaceView {
   /// At scale 1 and, of a query, at 1 / zoom and zoom.
   std::vector<CueGrid> tiny, gradients;
   CueGrid colour;  ///< empty for a grey image: there is no colour cue
+  CueGrid gabor;   ///< texture; empty unless it counts
   CueGrid coarse;  ///< the tiny image at half its columns, for a second look
   /// All grids pooled to a few cells, of unit length each and rounded to whole numbers: a first
   /// look at tens of thousands of views is a dot product.

@@ -64,6 +64,7 @@ void BlobWriter::view(const PlaceView& view) {
   grid(view.tiny.empty() ? CueGrid() : view.tiny.front());
   grid(view.gradients.empty() ? CueGrid() : view.gradients.front());
   grid(view.colour);
+  grid(view.gabor);
   grid(view.coarse);
   number(static_cast<std::uint32_t>(view.glance.size()));
   for (const std::int16_t value : view.glance) number(value);
@@ -191,6 +192,7 @@ PlaceView BlobReader::view() {
   if (CueGrid gradients = grid(); !gradients.empty())
     view.gradients.push_back(std::move(gradients));
   view.colour = grid();
+  view.gabor = grid();
   view.coarse = grid();
   const auto glance = number<std::uint32_t>();
   require_left(glance, sizeof(std::int16_t));

@@ -1,6 +1,7 @@
 #pragma once
+#include <placegraph/frontend/places/place_machine.h>
+#include <placegraph/frontend/places/platt_scaling.h>
 #include <placegraph/graph/core/image.h>
-#include <placegraph/graph/core/options.h>
 
 #include <Eigen/Core>
 #include <array>
@@ -9,26 +10,19 @@
 namespace placegraph {
 
 /// An image as a classifier of places sees it: one vector of unit length per cue, colours of the
-/// whole image, colours of its quarters, the layout of edges, the tiny image. Those of colour are
-/// empty for grey images.
-constexpr int kClassifierCues = 4;
+/// whole image, colours of its quarters, the layout of edges, the tiny image, texture. Those of
+/// colour are empty for grey images; whoever leaves a cue out empties it in all views.
 using PlaceCueVectors = std::array<Eigen::VectorXf, kClassifierCues>;
 
 /// `image`: grey or BGR, 8 bits (ArgumentError otherwise).
 PlaceCueVectors describe_for_classes(const Image& image);
 
-struct PlaceClassifierOptions {
-  double ridge = 0.01;  ///< of the kernel matrix
-  int folds = 4;        ///< parts that every visit to a place is cut into, each left out once
-  void check() const;
-};
-void visit(OptionVisitor& field, PlaceClassifierOptions& options);
-
-/// Which of the labelled places an image shows. One-vs-rest least-squares support vector machines
-/// (Suykens & Vandewalle 1999) over one kernel of all cues, exp(-sum_m w_m d_m^2 / mean of w),
-/// d_m^2 the squared distance in cue m over its median. The weights w are those of {0, 1/2, 1} with
-/// the least squared error on parts of visits left out of the training; what the machines say there
-/// also calibrates the probabilities (softmax of one temperature).
+/// Which of the labelled places an image shows. One-vs-rest machines (place_machine.h) over
+/// squared distances in every cue: support vector machines, least-squares (Suykens & Vandewalle
+/// 1999) or of maximal margin, over one kernel exp(-sum_m w_m d_m^2 / sum_m w_m), d_m^2 over its
+/// median, the weights those of {0, 1/2, 1} with the least squared error on parts of visits left
+/// out of the training; or boosted stumps over what a machine of each cue says. What the machines
+/// say of the parts left out also calibrates the probabilities (Platt's sigmoid per place).
 class PlaceClassifier {
  public:
   /// `labels`: of the views, from 0, in the order the views were taken. Throws ArgumentError unless
@@ -38,16 +32,24 @@ class PlaceClassifier {
 
   /// P(place | image), by label; they sum to one.
   Eigen::VectorXd classify(const PlaceCueVectors& view) const;
-  const std::array<double, kClassifierCues>& weights() const { return weights_; }
-  /// Share of views left out of the training that were given their label.
+  const PerCue& weights() const { return weights_; }
+  /// Share of views left out of the training that were given their label, and the mean of minus
+  /// the logarithm of the probability it was given.
   double cross_validated_accuracy() const { return accuracy_; }
+  double cross_validated_log_loss() const { return log_loss_; }
 
  private:
+  Eigen::VectorXd calibrated(const Eigen::VectorXd& outputs) const;
+
   std::vector<PlaceCueVectors> views_;
-  std::array<double, kClassifierCues> weights_ = {}, median_ = {};
-  Eigen::MatrixXd coefficients_;  ///< views x labels
-  double temperature_ = 1, accuracy_ = 0;
+  PerCue weights_ = {}, median_ = {};
+  std::shared_ptr<const PlaceMachine> machine_;
+  std::vector<PlattScaling> scaling_;  ///< by place
+  double accuracy_ = 0, log_loss_ = 0;
 };
+
+/// The entropy of probabilities as a share of what it is where all are alike: 0 sure, 1 unknown.
+double entropy_share(const Eigen::VectorXd& probabilities);
 
 /// Forward Bayes filter over the labels of consecutive images: from one place to itself and to
 /// those that followed it in the training.

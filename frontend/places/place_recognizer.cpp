@@ -1,7 +1,9 @@
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/function_clones.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace placegraph {
 namespace {
@@ -37,6 +39,28 @@ void nominate(std::vector<Candidate>& candidates, const PlaceRecognizerOptions& 
   mark([](const Candidate& c) { return c.score(); }, options.verified);
 }
 
+/// Inner products of unit vectors, three at most: far below 2^31.
+PLACEGRAPH_CLONES
+void inner_products(const std::int16_t* query, const std::int16_t* stored, std::ptrdiff_t length,
+                    int count, std::int32_t* products) {
+  for (int view = 0; view < count; ++view) {
+    const std::int16_t* other = stored + view * length;
+    std::int32_t sum = 0;
+    for (std::ptrdiff_t i = 0; i < length; ++i)
+      sum += static_cast<std::int32_t>(query[i]) * other[i];
+    products[view] = sum;
+  }
+}
+
+std::vector<float> unit_vector(const std::int16_t* glance, std::size_t length) {
+  std::vector<float> vector(glance, glance + length);
+  float squares = 0;
+  for (const float value : vector) squares += value * value;
+  const float scale = squares > 0 ? 1 / std::sqrt(squares) : 0;
+  for (float& value : vector) value *= scale;
+  return vector;
+}
+
 }  // namespace
 
 void PlaceRecognizerOptions::check() const { check_ranges(*this); }
@@ -46,6 +70,7 @@ void visit(OptionVisitor& field, PlaceRecognizerOptions& o) {
   field("glanced", o.glanced, "views that pass the first look", {1, 1e6});
   field("short_list", o.short_list, "of those, views compared in full", {1, 1e6});
   field("verified", o.verified, "first views by all grids whose corners are compared", {0, 1e6});
+  field("indexed_from", o.indexed_from, "views from which a graph serves the first look", {1, 1e9});
   field("nominated", o.nominated, "first views by each cue whose corners are compared", {0, 1e6});
 }
 
@@ -62,19 +87,42 @@ int PlaceRecognizer::add(PlaceView view) {
           "PlaceRecognizer: views of different cues");
   glances_.insert(glances_.end(), view.glance.begin(), view.glance.end());
   views_.push_back(std::move(view));
+  grow_graph();
   return size() - 1;
 }
 
+// From half of the number on two views are entered for each that comes, so that none waits long.
+void PlaceRecognizer::grow_graph() {
+  const std::size_t length = views_.back().glance.size();
+  if (length == 0 || size() < options_.indexed_from / 2) return;
+  if (!graph_) graph_.emplace(static_cast<int>(length), 0);
+  for (int i = 0; i < 2 && graph_->size() < size(); ++i)
+    graph_->add(
+        unit_vector(glances_.data() + static_cast<std::size_t>(graph_->size()) * length, length));
+}
+
+std::vector<int> PlaceRecognizer::glance_along_graph(const PlaceView& query, int first,
+                                                     int last) const {
+  std::vector<int> views;
+  for (const PlaceLikeness& likeness : graph_->query(
+           unit_vector(query.glance.data(), query.glance.size()), options_.glanced, first, last))
+    views.push_back(likeness.view);
+  std::sort(views.begin(), views.end());
+  return views;
+}
+
 std::vector<int> PlaceRecognizer::glance(const PlaceView& query, int first, int last) const {
+  if (first > last) return {};
+  if (graph_ && graph_->size() == size() && last - first + 1 >= options_.indexed_from)
+    return glance_along_graph(query, first, last);
   const auto length = static_cast<std::ptrdiff_t>(query.glance.size());
+  std::vector<std::int32_t> likeness(static_cast<std::size_t>(last - first + 1));
+  inner_products(query.glance.data(), glances_.data() + first * length, length, last - first + 1,
+                 likeness.data());
   std::vector<std::pair<std::int32_t, int>> order;  // minus the likeness, view
-  for (int view = first; view <= last; ++view) {
-    const std::int16_t* stored = glances_.data() + view * length;
-    std::int32_t likeness = 0;  // of three unit vectors: at most 3 * 2^26
-    for (std::ptrdiff_t i = 0; i < length; ++i)
-      likeness += static_cast<std::int32_t>(query.glance[static_cast<std::size_t>(i)]) * stored[i];
-    order.emplace_back(-likeness, view);
-  }
+  order.reserve(likeness.size());
+  for (int view = first; view <= last; ++view)
+    order.emplace_back(-likeness[static_cast<std::size_t>(view - first)], view);
   const auto count = std::min(order.size(), static_cast<std::size_t>(options_.glanced));
   if (count < order.size())
     std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/places/cues/colour_histogram.h>
+#include <placegraph/frontend/places/cues/gabor_statistics.h>
 #include <placegraph/frontend/places/cues/gradient_layout.h>
 #include <placegraph/frontend/places/cues/tiny_image.h>
 #include <placegraph/frontend/places/place_view.h>
@@ -62,6 +63,7 @@ void visit(OptionVisitor& field, PlaceCueOptions& o) {
   field("colour", o.colour, "weight of the colour histograms", {0, 100});
   field("gradients", o.gradients, "weight of the gradient histograms", {0, 100});
   field("corners", o.corners, "weight of agreeing corners, per e-fold", {0, 100});
+  field("gabor", o.gabor, "weight of the answers of a Gabor filter bank", {0, 100});
   field("corner_floor", o.corner_floor, "corners that agree by chance", {1, 1000});
   field("tiny_columns", o.tiny_columns, "cells of the shrunk image", {8, 128});
   field("zoom", o.zoom, "a query is also looked at larger and smaller by this", {1, 2});
@@ -91,6 +93,7 @@ PlaceView describe_place(const Image& image, const PlaceCueOptions& options, boo
   }
   view.coarse = tiny_image_cue(sized, options.tiny_columns / 2);
   if (options.colour > 0 && image.channels() == 3) view.colour = colour_histogram_cue(sized);
+  if (options.gabor > 0) view.gabor = gabor_cue(sized_grey);
   if (options.corners > 0) view.corners = corners_of_view(grey, options.corner_agreement);
   view.glance = glance_of(view);
   return view;
@@ -116,6 +119,10 @@ GridLikeness grid_likeness(const PlaceView& query, const PlaceView& stored,
         best_over_scales(
             query.gradients, stored.gradients.front(),
             {.shift_x = kGradientShiftX, .shift_y = kGradientShiftY, .loss = options.shift_loss});
+  if (options.gabor > 0)
+    likeness.gabor =
+        options.gabor * best_alignment(query.gabor, stored.gabor,
+                                       {.shift_x = 1, .shift_y = 1, .loss = options.shift_loss});
   return likeness;
 }
 

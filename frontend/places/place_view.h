@@ -17,6 +17,7 @@ struct PlaceCueOptions {
   double colour = 1.5;      ///< histograms of hue, saturation and value
   double gradients = 2;     ///< histograms of gradient orientation
   double corners = 0.25;    ///< per e-fold of corners in one similarity beyond corner_floor
+  double gabor = 0.15;      ///< statistics of a Gabor filter bank
   int corner_floor = 12;    ///< as many agree by chance
   int tiny_columns = 24;    ///< cells of the shrunk image
   double zoom = 1.25;       ///< a query is also looked at larger and smaller by this
@@ -32,8 +33,8 @@ PlaceView describe_place(const Image& image, const PlaceCueOptions& options, boo
 
 /// What the grids of two views have in common: weighted cosines, 0 for a cue that is left out.
 struct GridLikeness {
-  double tiny = 0, colour = 0, gradients = 0;
-  double sum() const { return tiny + colour + gradients; }
+  double tiny = 0, colour = 0, gradients = 0, gabor = 0;
+  double sum() const { return tiny + colour + gradients + gabor; }
 };
 
 /// Both views grey or both in colour (ArgumentError otherwise).

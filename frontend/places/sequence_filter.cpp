@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/median.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 

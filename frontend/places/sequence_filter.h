@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/places/place_recognizer.h>
+#include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/graph/core/options.h>
 
-#include <array>
 #include <vector>
 
 namespace placegraph {

@@ -77,12 +77,23 @@ void visit(OptionVisitor& field, VocabularyOptions& o) {
   field("iterations", o.iterations, "k-majority rounds per node", {1, 100});
 }
 
+Vocabulary::Vocabulary(WordTree tree) : tree_(std::move(tree)) {
+  require(tree_.kind == WordTree::Kind::kBinary, "Vocabulary: not of binary words");
+  const auto problem = tree_.problem();
+  require(!problem, "Vocabulary: " + problem.value_or(""));
+}
+
 Vocabulary Vocabulary::train(const std::vector<BinaryDescriptor>& descriptors,
                              const VocabularyOptions& options, Random& random) {
   options.check();
   require(!descriptors.empty(), "Vocabulary::train: no descriptors");
   Vocabulary vocabulary;
-  vocabulary.nodes_.emplace_back();
+  WordTree& tree = vocabulary.tree_;
+  const auto add_node = [&](const BinaryDescriptor& centre) {
+    tree.nodes.emplace_back();
+    tree.bit_centres.push_back(centre);
+  };
+  add_node({});
   Indices all(descriptors.size());
   std::iota(all.begin(), all.end(), 0);
   struct Work {
@@ -93,34 +104,39 @@ Vocabulary Vocabulary::train(const std::vector<BinaryDescriptor>& descriptors,
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const Work work = std::move(queue[next]);
     if (work.depth == options.depth || work.members.size() < 2) {
-      vocabulary.nodes_[work.node].word = vocabulary.words_++;
+      tree.nodes[work.node].word = tree.words++;
       continue;
     }
     auto clusters =
         cluster(descriptors, work.members, options.branching, options.iterations, random);
     if (clusters.size() == 1) {  // all alike
-      vocabulary.nodes_[work.node].word = vocabulary.words_++;
+      tree.nodes[work.node].word = tree.words++;
       continue;
     }
-    vocabulary.nodes_[work.node].first_child = static_cast<int>(vocabulary.nodes_.size());
-    vocabulary.nodes_[work.node].children = static_cast<int>(clusters.size());
+    tree.nodes[work.node].first_child = static_cast<int>(tree.nodes.size());
+    tree.nodes[work.node].children = static_cast<int>(clusters.size());
     for (auto& [centre, members] : clusters) {
-      queue.push_back(
-          {static_cast<int>(vocabulary.nodes_.size()), work.depth + 1, std::move(members)});
-      vocabulary.nodes_.emplace_back().centre = centre;
+      queue.push_back({static_cast<int>(tree.nodes.size()), work.depth + 1, std::move(members)});
+      add_node(centre);
     }
   }
+  tree.idf.assign(static_cast<std::size_t>(tree.words), 1);
   return vocabulary;
 }
 
+void Vocabulary::set_idf(std::vector<float> idf) {
+  require(idf.size() == static_cast<std::size_t>(words()), "Vocabulary::set_idf: one per word");
+  tree_.idf = std::move(idf);
+}
+
 std::uint32_t Vocabulary::word(const BinaryDescriptor& descriptor) const {
-  require(!nodes_.empty(), "Vocabulary::word: not trained");
+  require(!empty(), "Vocabulary::word: not trained");
   int node = 0;
-  while (nodes_[node].word < 0) {
-    const int first = nodes_[node].first_child;
+  while (tree_.nodes[node].word < 0) {
+    const int first = tree_.nodes[node].first_child;
     int best = first, best_distance = 257;
-    for (int child = first; child < first + nodes_[node].children; ++child) {
-      const int distance = hamming_distance(nodes_[child].centre, descriptor);
+    for (int child = first; child < first + tree_.nodes[node].children; ++child) {
+      const int distance = hamming_distance(tree_.bit_centres[child], descriptor);
       if (distance < best_distance) {
         best_distance = distance;
         best = child;
@@ -128,7 +144,7 @@ std::uint32_t Vocabulary::word(const BinaryDescriptor& descriptor) const {
     }
     node = best;
   }
-  return static_cast<std::uint32_t>(nodes_[node].word);
+  return static_cast<std::uint32_t>(tree_.nodes[node].word);
 }
 
 }  // namespace placegraph

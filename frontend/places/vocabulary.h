@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/graph/landmark.h>
+#include <placegraph/graph/word_tree.h>
 
 #include <cstdint>
 #include <vector>
@@ -24,19 +24,20 @@ class Vocabulary {
   static Vocabulary train(const std::vector<BinaryDescriptor>& descriptors,
                           const VocabularyOptions& options, Random& random);
 
-  bool empty() const { return nodes_.empty(); }
-  int words() const { return words_; }
+  Vocabulary() = default;
+  /// One that was saved. Throws ArgumentError if it is not of binary words or has a problem().
+  explicit Vocabulary(WordTree tree);
+
+  bool empty() const { return tree_.nodes.empty(); }
+  int words() const { return tree_.words; }
   /// The word [0, words()) of a descriptor.
   std::uint32_t word(const BinaryDescriptor& descriptor) const;
+  /// What is to be saved; idf is 1 until it is set.
+  const WordTree& tree() const { return tree_; }
+  void set_idf(std::vector<float> idf);
 
  private:
-  struct Node {
-    BinaryDescriptor centre{};
-    int first_child = -1, children = 0;
-    std::int32_t word = -1;  // of a leaf
-  };
-  std::vector<Node> nodes_;  // [0] is the root
-  int words_ = 0;
+  WordTree tree_;
 };
 
 }  // namespace placegraph

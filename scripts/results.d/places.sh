@@ -6,25 +6,12 @@ command_line "placegraph match FOLDER --out found.txt [--sequence] [--cues CUES]
 command_line "placegraph loops --predictions found.txt --gt FOLDER/gt.txt --json"
 command_line "placegraph places classify \$DATA/places/vtm_virtual_house --out told.txt [--sequence]"
 command_line "placegraph loops --predictions found.txt --poses poses.txt --radius 0.5 --heading 30 --min-age 34 --json    # kitchen"
-# found NAME SET ARGUMENTS...: matches and judges a set into $out/NAME.json
-found() {
-  name=$1; set_name=$2; shift 2
-  case "$set_name" in
-    kitchen) folder=$data/sequences/sevenscenes_rgbd334; age="--min-age 34"
-      truth="--poses $folder/poses.txt --radius 0.5 --heading 30 --min-age 34" ;;
-    *) folder=$data/places/$set_name; age=""; truth="--gt $folder/gt.txt" ;;
-  esac
-  say "matching $name"
-  $placegraph match "$folder" $age --out "$out/$name.txt" --force "$@" > "$out/$name.log" 2>&1
-  $placegraph loops --predictions "$out/$name.txt" $truth --json > "$out/$name.json"
-}
+. scripts/results.d/place_sets.sh
 # target NAME KEY LIMIT WHAT: a row
 target() {
   value=$(number "$out/$1.json" "$2")
   cells "$4" "$2" ">= $3" "$(digits "$value")" "$(verdict "$value" ">=" "$3")"
 }
-sets="corridor_milford gardens_day_thumb"
-[ ! -d "$data/sequences/sevenscenes_rgbd334" ] || sets="$sets kitchen"
 for s in $sets; do
   found "places-$s" "$s"
   found "places-$s-sequence" "$s" --sequence
@@ -64,19 +51,18 @@ house=$data/places/vtm_virtual_house
 if [ -d "$house" ]; then
   for mode in "|single image" "--sequence|sequence"; do
     $placegraph places classify "$house" --out "$out/places-told.txt" --force ${mode%|*} > "$out/places-told.log"
-    value=$(awk 'NR == FNR { label[$1] = $2; next } { n++; right += $2 == label[$1] } END { print right / n }' "$house/labels.txt" "$out/places-told.txt")
+    value=$(told_right "$out/places-told.txt")
     cells "vtm_virtual_house, places classify, ${mode#*|}" accuracy ">= 0.985" "$(digits "$value")" "$(verdict "$value" ">=" 0.985)"
   done
 fi
 
 printf '\nEach cue alone, all but one, and all, on single images: R@1 / AP / recall at full precision.\n' >> "$rows"
 columns cues $sets
-figures() { echo "$(digits "$(number "$1" r_at_1)") / $(digits "$(number "$1" ap)") / $(digits "$(number "$1" recall_at_100p)")"; }
-for cues in tiny colour gradients corners colour,gradients,corners tiny,gradients,corners tiny,colour,corners tiny,colour,gradients tiny,colour,gradients,corners; do
+for cues in tiny colour gradients gabor corners colour,gradients,gabor,corners tiny,gradients,gabor,corners tiny,colour,gabor,corners tiny,colour,gradients,corners tiny,colour,gradients,gabor tiny,colour,gradients,gabor,corners; do
   set --
   for s in $sets; do
     found places-cues "$s" --cues "$cues"
-    set -- "$@" "$(figures "$out/places-cues.json")"
+    set -- "$@" "$(figures places-cues "$s")"
   done
   cells "$cues" "$@"
 done
@@ -87,10 +73,25 @@ cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
 cmake --build --preset release -j2 --target bench_place_study > "$out/places-build.log"
 cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
 printf '\nCPU time of an image of 640x480, medians (target: 12 ms with 10,000 views), and memory.\n\n' >> "$rows"
-command_line "bench_place_study \$DATA/sequences/sevenscenes_rgbd334/image_0 1000 3000 10000 30000"
+command_line "bench_place_study \$DATA/sequences/sevenscenes_rgbd334/image_0 1000 3000 10000 30000 100000"
 echo >> "$rows"
-build/release/tests/bench/bench_place_study "$frames" 1000 3000 10000 30000 > "$out/places-cost.txt"
+build/release/tests/bench/bench_place_study "$frames" 1000 3000 10000 30000 100000 > "$out/places-cost.txt"
 sed 's/^/    /' "$out/places-cost.txt" >> "$rows"
 cost=$(sed -n 's/^ *10000 views: .* all \([0-9.]*\) ms$/\1/p' "$out/places-cost.txt")
 columns figure target measured met
 cells "whole place pipeline, 10,000 views [ms CPU an image]" "<= 12" "$cost" "$(verdict "$cost" "<=" 12)"
+
+# The tiny image alone, among windows of 0.7 of the width; queries are larger, smaller or beside.
+printf '\nRecall of the tiny image by its pyramid of scales and shifts / where it stands, against zoom and shift (share of the width).\n\n' >> "$rows"
+command_line "bench_place_study FOLDER --robustness"
+set --
+for s in $sets; do
+  case $s in kitchen) images=$frames ;; *) images=$data/places/$s/images ;; esac
+  build/release/tests/bench/bench_place_study "$images" --robustness |
+    sed 's/^\(.*\): pyramid \(.*\), where it stands \(.*\)/\1|\2 \/ \3/' > "$out/robust-$s.txt"
+  set -- "$@" "$out/robust-$s.txt"
+done
+columns query $sets
+paste -d'|' "$@" | while IFS='|' read -r what one x two y three; do
+  if [ -n "${three:-}" ]; then cells "$what" "$one" "$two" "$three"; else cells "$what" "$one" "$two"; fi
+done

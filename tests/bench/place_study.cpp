@@ -1,17 +1,21 @@
 // What recognizing a place costs: describing an image, finding it among N stored views, and the
 // filter over past images; and the memory of a view. bench_place_study FOLDER [N...]
+// How the tiny image stands zoom and shift: bench_place_study FOLDER --robustness
 #include <fmt/format.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/image_list.h>
 
 #include <malloc.h>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <opencv2/core/utility.hpp>
+#include <string>
 
 namespace placegraph {
 namespace {
@@ -44,19 +48,84 @@ std::size_t bytes_of(const CueGrid& grid) {
 std::size_t bytes_of(const PlaceView& view) {
   std::size_t bytes = bytes_of(view.tiny.front()) + bytes_of(view.gradients.front()) +
                       bytes_of(view.colour) + bytes_of(view.coarse);
+  bytes += bytes_of(view.gabor);
   return bytes + 2 * view.glance.size() * sizeof(std::int16_t) +
          view.corners.size() * sizeof(Feature);
 }
 
-void study(const std::string& folder, const std::vector<int>& sizes) {
-  const PlaceRecognizerOptions options;
+// A view like this one, not the same: a graph of copies would be no graph.
+PlaceView another(PlaceView view, std::uint64_t number) {
+  Random random(7, number);
+  for (std::int16_t& value : view.glance)
+    value = static_cast<std::int16_t>(value + random.normal(0, 100));
+  return view;
+}
+
+std::vector<Image> read_images(const std::string& folder, std::size_t most) {
   std::vector<Image> images;
   const std::vector<std::string> paths = list_images(folder);
-  const std::size_t stride = std::max<std::size_t>(1, paths.size() / kImages);
-  for (std::size_t i = 0; i < paths.size() && images.size() < kImages; i += stride) {
+  const std::size_t stride = std::max<std::size_t>(1, paths.size() / most);
+  for (std::size_t i = 0; i < paths.size() && images.size() < most; i += stride) {
     const GreyAndColour image = read_image(paths[i]);
     images.push_back(image.colour.empty() ? image.grey : image.colour);
   }
+  return images;
+}
+
+// A window of the image, `share` of its width and height, from `left` on (shares of what is left).
+Image window(const Image& image, double share, double left, double top) {
+  const int width = static_cast<int>(std::lround(share * image.cols));
+  const int height = static_cast<int>(std::lround(share * image.rows));
+  return image(cv::Rect(static_cast<int>(std::lround(left * (image.cols - width))),
+                        static_cast<int>(std::lround(top * (image.rows - height))), width, height))
+      .clone();
+}
+
+// Windows of 0.7 of the width are stored; queries are windows that are larger, smaller or beside,
+// all of them of real pixels. Right is the same image or its neighbour in the folder.
+void robustness(const std::string& folder) {
+  constexpr double kShare = 0.7;
+  const std::vector<Image> images = read_images(folder, 100);
+  PlaceRecognizerOptions searching;
+  searching.cues.colour = searching.cues.gradients = searching.cues.corners = 0;
+  searching.cues.gabor = 0;
+  const auto recall = [&](double left, double share, double query_left, bool search) {
+    PlaceCueOptions cues = searching.cues;
+    if (!search) cues.zoom = 1;
+    std::vector<PlaceView> stored;
+    for (const Image& image : images)
+      stored.push_back(describe_place(window(image, kShare, left, 0.5), cues, false));
+    int right = 0;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const PlaceView query = describe_place(window(images[i], share, query_left, 0.5), cues, true);
+      double most = -2;
+      std::size_t best = 0;
+      for (std::size_t k = 0; k < stored.size(); ++k) {
+        const double likeness =
+            search ? grid_likeness(query, stored[k], cues).tiny
+                   : best_alignment(query.tiny.front(), stored[k].tiny.front(), {});
+        if (likeness > most) {
+          most = likeness;
+          best = k;
+        }
+      }
+      right += best + 1 >= i && best <= i + 1;
+    }
+    return static_cast<double>(right) / static_cast<double>(images.size());
+  };
+  for (const double zoom : {0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.4})
+    fmt::print("zoom {:.1f}: pyramid {:.3f}, where it stands {:.3f}\n", zoom,
+               recall(0.5, kShare / zoom, 0.5, true), recall(0.5, kShare / zoom, 0.5, false));
+  for (const double shift : {0.0, 0.1, 0.2, 0.3, 0.4}) {
+    const double left = shift * kShare / (1 - kShare);
+    fmt::print("shift {:.0f} %: pyramid {:.3f}, where it stands {:.3f}\n", 100 * shift,
+               recall(0, kShare, left, true), recall(0, kShare, left, false));
+  }
+}
+
+void study(const std::string& folder, const std::vector<int>& sizes) {
+  const PlaceRecognizerOptions options;
+  const std::vector<Image> images = read_images(folder, kImages);
   const int count = static_cast<int>(images.size());
   std::vector<PlaceView> views(images.size());
   const double describing = cost_ms(
@@ -67,15 +136,20 @@ void study(const std::string& folder, const std::vector<int>& sizes) {
   PlaceRecognizer recognizer(options);
   for (const int size : sizes) {
     while (recognizer.size() < size)
-      recognizer.add(views[static_cast<std::size_t>(recognizer.size()) % views.size()]);
+      recognizer.add(another(views[static_cast<std::size_t>(recognizer.size()) % views.size()],
+                             static_cast<std::uint64_t>(recognizer.size())));
     std::vector<PlaceLikeness> list;
     const double query =
         cost_ms(count, [&](std::size_t i) { list = recognizer.query(views[i], 0, size - 1); });
+    // The views that come next, which the graph takes in; the size is the next one's begin.
+    const double adding = cost_ms(count, [&](std::size_t i) {
+      recognizer.add(another(views[i], static_cast<std::uint64_t>(recognizer.size())));
+    });
     SequenceFilter filter{SequenceFilterOptions{}};
     const double filtering =
         cost_ms(count, [&](std::size_t) { (void)filter.update(list, 0, size - 1); });
-    fmt::print("{:>7} views: query {:.2f} ms, filter {:.2f} ms, all {:.2f} ms\n", size, query,
-               filtering, describing + query + filtering);
+    fmt::print("{:>7} views: query {:.2f} ms, filter {:.2f} ms, adding {:.2f} ms, all {:.2f} ms\n",
+               size, query, filtering, adding, describing + query + filtering + adding);
   }
 }
 
@@ -90,9 +164,13 @@ int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 64 << 20);  // as the program does
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
   cv::setNumThreads(1);
+  if (argc == 3 && std::string(argv[2]) == "--robustness") {
+    placegraph::robustness(argv[1]);
+    return 0;
+  }
   std::vector<int> sizes;
   for (int i = 2; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
-  if (sizes.empty()) sizes = {1000, 10000};
+  if (sizes.empty()) sizes = {1000, 10000, 100000};
   placegraph::study(argv[1], sizes);
   return 0;
 }

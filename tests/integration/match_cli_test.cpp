@@ -96,6 +96,49 @@ TEST_F(Match, LearnsLabelsOfTheTrainingHalfOnly) {
   expect_usage_error("places classify . --out no.txt --train 12", "there are 12 images");
 }
 
+TEST_F(Match, TellsPlacesByWordsOfAVocabulary) {
+  const auto trained = run("vocabulary train images --kind float --words 30 --out words.pgw");
+  ASSERT_EQ(trained.code, 0) << trained.err;
+  EXPECT_THAT(trained.out, HasSubstr("float words learned from 12 images"));
+  EXPECT_THAT(run("vocabulary info words.pgw").out, HasSubstr("float words, "));
+  for (const std::string codes : {"bow_float", "llc", "landmarks"}) {
+    const auto matched =
+        run("match . --out found.txt --force --vocabulary words.pgw --codes " + codes);
+    ASSERT_EQ(matched.code, 0) << codes << matched.err;
+    EXPECT_THAT(matched.out, HasSubstr("12 images, "));
+  }
+  ASSERT_EQ(run("match . --out found.txt --force --vocabulary words.pgw --codes llc").code, 0);
+  const auto judged = run("loops --predictions found.txt --gt gt.txt --json");
+  EXPECT_GE(nlohmann::json::parse(judged.out).at("r_at_1").get<double>(), 0.8);
+}
+
+TEST_F(Match, RefusesVocabulariesThatDoNotServe) {
+  ASSERT_EQ(run("vocabulary train images --kind binary --words 20 --out words.pgw").code, 0);
+  expect_usage_error("vocabulary train images --out words.pgw", "words.pgw");
+  expect_usage_error("match . --out no.txt --codes llc", "needs a --vocabulary of --kind float");
+  expect_usage_error("match . --out no.txt --codes llc --vocabulary words.pgw", "--kind float");
+  const std::string bytes = test::read_file(dir / "words.pgw");
+  write_file(dir / "cut.pgw", bytes.substr(0, bytes.size() - 1));
+  expect_usage_error("match . --out no.txt --codes bow --vocabulary cut.pgw",
+                     "cut.pgw: byte " + std::to_string(bytes.size() - 1) + ": truncated");
+  expect_usage_error("vocabulary info gt.txt", "gt.txt: byte 0: no vocabulary");
+}
+
+TEST_F(Match, TellsLabelsByEveryClassifierAndRefusesTheUnsure) {
+  std::string labels;
+  for (int i = 0; i < 6; ++i) labels += std::to_string(i) + " " + std::to_string(i / 3) + "\n";
+  write_file(dir / "labels.txt", labels);
+  for (const std::string classifier : {"svm", "adaboost"}) {
+    const auto told = run(
+        "places classify . --out told.txt --force --cues colours,tiny --classifier " + classifier);
+    ASSERT_EQ(told.code, 0) << told.err;
+    EXPECT_THAT(told.out, HasSubstr("6 views learned, 6 told"));
+  }
+  ASSERT_EQ(run("places classify . --out told.txt --force --max-entropy 0").code, 0);
+  EXPECT_THAT(test::read_file(dir / "told.txt"), HasSubstr("6 -1 "));
+  expect_usage_error("places classify . --out no.txt --classifier oracle", "oracle");
+}
+
 TEST_F(Match, KeepsItsTargetsOnARealCorridor) {
   PLACEGRAPH_DATA_OR_SKIP(folder, "places/corridor_milford");
   const auto matched = run("match " + folder + " --sequence --out found.txt");

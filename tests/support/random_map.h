@@ -48,6 +48,7 @@ inline PlaceView random_view(Random& random) {
   view.tiny = {random_grid(random, 6, 4, 3)};
   view.gradients = {random_grid(random, 4, 3, 9)};
   view.colour = random_grid(random, 2, 2, 8);
+  view.gabor = random_grid(random, 3, 2, 5);
   view.coarse = random_grid(random, 3, 2, 3);
   for (int i = 0; i < 12; ++i) view.glance.push_back(static_cast<std::int16_t>(random.index(99)));
   view.corners = random_features(random, 5);

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/features/matcher.h>
 #include <placegraph/frontend/places/cues/corner_agreement.h>
+#include <placegraph/graph/core/function_clones.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,31 @@ namespace placegraph {
 namespace {
 
 constexpr float kOctave = 1.2f;
+
+/// Matched points of two views side by side, so that several are judged at once.
+struct MatchedPoints {
+  std::vector<float> ax, ay, bx, by;
+};
+
+/// x_b = shift + [c -s; s c] x_a.
+struct PlaneSimilarity {
+  float c = 1, s = 0, x = 0, y = 0;
+};
+
+PLACEGRAPH_CLONES
+int count_agreeing(const MatchedPoints& points, const PlaneSimilarity& similarity, float limit) {
+  const std::size_t count = points.ax.size();
+  const float *ax = points.ax.data(), *ay = points.ay.data();
+  const float *bx = points.bx.data(), *by = points.by.data();
+  const auto [c, s, x, y] = similarity;
+  int agreeing = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float u = bx[i] - (x + c * ax[i] - s * ay[i]);
+    const float v = by[i] - (y + s * ax[i] + c * ay[i]);
+    agreeing += u * u + v * v < limit * limit;
+  }
+  return agreeing;
+}
 
 }  // namespace
 
@@ -56,6 +82,15 @@ int corner_agreement(const std::vector<Feature>& a, const std::vector<Feature>& 
   const std::vector<FeatureMatch> matches =
       match_features(a, b, {.max_distance = options.max_distance, .max_ratio = options.max_ratio});
   const auto limit = static_cast<float>(options.tolerance * options.width_px);
+  MatchedPoints points;
+  for (const FeatureMatch& match : matches) {
+    const Eigen::Vector2f& in_a = a[static_cast<std::size_t>(match.a)].px;
+    const Eigen::Vector2f& in_b = b[static_cast<std::size_t>(match.b)].px;
+    points.ax.push_back(in_a.x());
+    points.ay.push_back(in_a.y());
+    points.bx.push_back(in_b.x());
+    points.by.push_back(in_b.y());
+  }
   int most = 0;
   for (const FeatureMatch& proposal : matches) {
     const Feature& from = a[static_cast<std::size_t>(proposal.a)];
@@ -63,15 +98,10 @@ int corner_agreement(const std::vector<Feature>& a, const std::vector<Feature>& 
     const float scale = std::pow(kOctave, static_cast<float>(to.octave - from.octave));
     const float turn = to.angle_rad - from.angle_rad;
     const float c = scale * std::cos(turn), s = scale * std::sin(turn);
-    int agreeing = 0;
-    for (const FeatureMatch& match : matches) {
-      const Eigen::Vector2f d = a[static_cast<std::size_t>(match.a)].px - from.px;
-      const Eigen::Vector2f expected(to.px.x() + c * d.x() - s * d.y(),
-                                     to.px.y() + s * d.x() + c * d.y());
-      agreeing +=
-          (b[static_cast<std::size_t>(match.b)].px - expected).squaredNorm() < limit * limit;
-    }
-    most = std::max(most, agreeing);
+    most = std::max(most, count_agreeing(points,
+                                         {c, s, to.px.x() - c * from.px.x() + s * from.px.y(),
+                                          to.px.y() - s * from.px.x() - c * from.px.y()},
+                                         limit));
   }
   return most;
 }

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/places/cues/cue_grid.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/function_clones.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +8,18 @@
 namespace placegraph {
 namespace {
 
-std::int64_t dot(const std::int16_t* a, const std::int16_t* b, int count) {
-  std::int32_t sum = 0;  // a row of unit cells stays far below 2^31
+PLACEGRAPH_INLINE std::int32_t dot(const std::int16_t* a, const std::int16_t* b, int count) {
+  std::int32_t sum = 0;  // 11 bits each: a row of up to 2048 stays below 2^31
   for (int i = 0; i < count; ++i) sum += static_cast<std::int32_t>(a[i]) * b[i];
+  return sum;
+}
+
+/// The sum over rows that lie `stride` apart.
+PLACEGRAPH_CLONES
+std::int64_t window_product(const std::int16_t* a, std::ptrdiff_t stride_a, const std::int16_t* b,
+                            std::ptrdiff_t stride_b, int rows, int count) {
+  std::int64_t sum = 0;
+  for (int row = 0; row < rows; ++row) sum += dot(a + row * stride_a, b + row * stride_b, count);
   return sum;
 }
 
@@ -40,10 +50,12 @@ double similarity_at(const CueGrid& query, const CueGrid& candidate, int x, int 
   if (columns <= 0 || rows <= 0) return -1;
   const double share = static_cast<double>(columns * rows) / (candidate.columns * candidate.rows);
   if (share < search.min_overlap) return -1;
-  std::int64_t product = 0;
-  for (int row = 0; row < rows; ++row)
-    product += dot(cell(query, in_query.x, in_query.y + row),
-                   cell(candidate, in_candidate.x, in_candidate.y + row), columns * query.channels);
+  const auto stride_of = [](const CueGrid& grid) {
+    return static_cast<std::ptrdiff_t>(grid.columns) * grid.channels;
+  };
+  const std::int64_t product = window_product(cell(query, in_query.x, in_query.y), stride_of(query),
+                                              cell(candidate, in_candidate.x, in_candidate.y),
+                                              stride_of(candidate), rows, columns * query.channels);
   const double lengths =
       std::sqrt(static_cast<double>(energy_of(query, in_query, columns, rows)) *
                 static_cast<double>(energy_of(candidate, in_candidate, columns, rows)));

@@ -16,7 +16,9 @@
 #include <placegraph/frontend/odometry/pose_3d3d.h>
 #include <placegraph/frontend/odometry/pose_gravity.h>
 #include <placegraph/frontend/odometry/relative_pose.h>
+#include <placegraph/frontend/places/code_memory.h>
 #include <placegraph/frontend/places/loop_verifier.h>
+#include <placegraph/frontend/places/place_classifier.h>
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/frontend/planes/ground_plane.h>
@@ -30,17 +32,16 @@ namespace {
 
 template <class Options>
 class FrontendOptions : public testing::Test {};
-using All =
-    testing::Types<DetectorOptions, MatcherOptions, StereoMatcherOptions, PointTrackerOptions,
-                   MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
-                   PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions,
-                   PlanarRegionsOptions, MotionFromPlanesOptions, SegmentDetectorOptions,
-                   SegmentMatcherOptions, SceneDirectionOptions, PlaneTrackerOptions,
-                   GravityPoseOptions, RelativePoseOptions, CircularMotionOptions, Pose3d3dOptions,
-                   InverseDepthPlaneOptions, DominantSurfaceOptions, LineTrackerOptions,
-                   LineStereoOptions, LineTriangulationOptions, PoseFromLinesOptions,
-                   PositionFilterOptions, SquareFitOptions, MarkerDetectorOptions,
-                   MarkerFilterOptions, BeaconDetectorOptions, BeaconPoseOptions>;
+using All = testing::Types<
+    DetectorOptions, MatcherOptions, StereoMatcherOptions, PointTrackerOptions,
+    MonoInitializerOptions, Pose2d2dOptions, Pose3d2dOptions, LoopVerifierOptions,
+    PlaceDatabaseOptions, VocabularyOptions, GroundPlaneOptions, AlignOptions, PlanarRegionsOptions,
+    MotionFromPlanesOptions, SegmentDetectorOptions, SegmentMatcherOptions, SceneDirectionOptions,
+    PlaneTrackerOptions, GravityPoseOptions, RelativePoseOptions, CircularMotionOptions,
+    Pose3d3dOptions, InverseDepthPlaneOptions, DominantSurfaceOptions, LineTrackerOptions,
+    LineStereoOptions, LineTriangulationOptions, PoseFromLinesOptions, PositionFilterOptions,
+    SquareFitOptions, MarkerDetectorOptions, MarkerFilterOptions, BeaconDetectorOptions,
+    BeaconPoseOptions, PlaceCodeOptions, PlaceClassifierOptions>;
 TYPED_TEST_SUITE(FrontendOptions, All);
 
 /// Puts the n-th number among the fields far below its range.

@@ -2,11 +2,13 @@
 #include <placegraph/frontend/places/cues/colour_histogram.h>
 #include <placegraph/frontend/places/cues/corner_agreement.h>
 #include <placegraph/frontend/places/cues/cue_grid.h>
+#include <placegraph/frontend/places/cues/gabor_statistics.h>
 #include <placegraph/frontend/places/cues/gradient_layout.h>
 #include <placegraph/frontend/places/cues/tiny_image.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -157,6 +159,34 @@ TEST(CornerAgreement, IsNoneWithoutCorners) {
       corners_of_view(Image(48, 64, CV_8UC1, cv::Scalar(90)), options);
   EXPECT_TRUE(none.empty());
   EXPECT_EQ(corner_agreement(none, none, options), 0);
+}
+
+TEST(GaborCue, AnswersAtTheOrientationAndScaleOfAGrating) {
+  cv::Mat grating(120, 160, CV_8UC1);
+  // Stripes across x of 8 px, 4 px at 80 columns: the finest scale.
+  for (int y = 0; y < grating.rows; ++y)
+    for (int x = 0; x < grating.cols; ++x)
+      grating.at<uchar>(y, x) = static_cast<uchar>(128 + 80 * std::cos(2 * 3.14159265 * x / 8));
+  const GaborOptions options;
+  const CueGrid grid = gabor_cue(grating);
+  EXPECT_EQ(grid.channels, 2 * options.scales * options.orientations);
+  for (int cell = 0; cell < 16; ++cell) {
+    const auto first = grid.values.begin() + cell * grid.channels;
+    EXPECT_EQ(std::max_element(first, first + options.orientations) - first, 0) << cell;
+  }
+}
+
+TEST(GaborCue, IsTheSameInOtherLightAndOtherForAnotherTexture) {
+  const Image image = random_image(160, 120, 1, 31);
+  Image darker;
+  image.convertTo(darker, -1, 0.5, 20);
+  const double same = best_alignment(gabor_cue(image), gabor_cue(darker), {});
+  EXPECT_GT(same, 0.98);
+  EXPECT_LT(best_alignment(gabor_cue(image), gabor_cue(random_image(160, 120, 1, 32)), {}),
+            same - 0.3);
+  EXPECT_THROW((void)gabor_cue(Image(10, 10, CV_8UC3)), ArgumentError);
+  const CueGrid blank = gabor_cue(Image(60, 80, CV_8UC1, cv::Scalar(77)));
+  EXPECT_EQ(best_alignment(blank, gabor_cue(image), {}), 0);
 }
 
 }  // namespace

@@ -62,6 +62,23 @@ TEST(PlaceRecognizer, FindsThePlaceOnAShortListToo) {
   EXPECT_EQ(list.front().view, 6);
 }
 
+TEST(PlaceRecognizer, FindsAlongTheGraphWhatTheFirstLookFindsAmongAll) {
+  PlaceRecognizerOptions options;
+  options.cues.corners = 0;
+  PlaceRecognizerOptions indexed = options;
+  indexed.indexed_from = 4;
+  const PlaceRecognizer all = with_places(options, 6), graph = with_places(indexed, 6);
+  for (int place = 0; place < 6; ++place) {
+    const PlaceView query = describe_place(picture(place, 8), options.cues, true);
+    const auto expected = all.query(query, 0, 5), found = graph.query(query, 0, 5);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(found[i].view, expected[i].view);
+      EXPECT_EQ(found[i].score, expected[i].score);
+    }
+  }
+}
+
 TEST(PlaceRecognizer, DoesWithoutColourWhereImagesAreGrey) {
   const PlaceRecognizerOptions options;
   PlaceRecognizer recognizer = with_places(options, 6, 1);

@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace placegraph::apps {
+
+/// Where the images of a folder are: in images/ or image_0/ if it has one, or in itself.
+inline std::string image_folder_of(const std::string& folder) {
+  for (const char* name : {"images", "image_0"}) {
+    const std::filesystem::path inside = std::filesystem::path(folder) / name;
+    if (std::filesystem::is_directory(inside)) return inside.string();
+  }
+  return folder;
+}
+
+}  // namespace placegraph::apps

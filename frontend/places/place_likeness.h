@@ -1,0 +1,24 @@
+#pragma once
+#include <algorithm>
+#include <vector>
+
+namespace placegraph {
+
+/// How much a stored view looks like the query: comparable over queries, no probability.
+struct PlaceLikeness {
+  int view = 0;
+  double score = 0;
+};
+
+/// Sorts by score, best first, equal ones by view, and keeps the first `count`.
+inline void keep_best(std::vector<PlaceLikeness>& list, int count) {
+  const auto kept = std::min(list.size(), static_cast<std::size_t>(std::max(count, 0)));
+  const auto better = [](const PlaceLikeness& a, const PlaceLikeness& b) {
+    return a.score != b.score ? a.score > b.score : a.view < b.view;
+  };
+  std::partial_sort(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(kept), list.end(),
+                    better);
+  list.resize(kept);
+}
+
+}  // namespace placegraph
