@@ -18,6 +18,7 @@
 #include <set>
 
 #include "apps/map_file.h"
+#include "apps/map_label.h"
 #include "apps/map_learn.h"
 #include "apps/output.h"
 #include "apps/run_files.h"
@@ -47,6 +48,14 @@ std::vector<ExportForm> export_forms() {
           {"--places", "places, members, edges and loops as JSON", false,
            [](const std::string& path, const StoredMap& stored) {
              write_file(path, places_json(stored.map));
+           }},
+          {"--graphml", "the topological map as GraphML", true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_file(path, to_graphml(stored.map.place_graph, place_transitions(stored.map)));
+           }},
+          {"--dot", "the topological map for Graphviz", true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_file(path, to_dot(stored.map.place_graph, place_transitions(stored.map)));
            }},
           {"--tum", "the optimized trajectory, TUM's form", true,
            [](const std::string& path, const StoredMap& stored) {
@@ -237,12 +246,13 @@ void add_export_command(CLI::App& map) {
 }  // namespace
 
 void add_map_command(CLI::App& app) {
-  CLI::App* map = app.add_subcommand("map", "Saved maps: learn, look at, check, export.");
+  CLI::App* map = app.add_subcommand("map", "Saved maps: learn, label, look at, check, export.");
   map->footer("placegraph map info out/town");
   map->require_subcommand(1);
   add_info_commands(*map);
   add_export_command(*map);
   add_map_learn_command(*map);
+  add_map_label_command(*map);
 }
 
 }  // namespace placegraph::apps

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "apps/image_folder_of.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 
@@ -54,11 +55,7 @@ void learn(Arguments arguments) {
 }  // namespace
 
 ImageRange images_of(const std::string& folder, const std::vector<int>& range) {
-  std::string inside = folder;
-  for (const char* name : {"images", "image_0"})
-    if (inside == folder && fs::is_directory(fs::path(folder) / name))
-      inside = (fs::path(folder) / name).string();
-  ImageRange images{list_images(inside), 0};
+  ImageRange images{list_images(image_folder_of(folder)), 0};
   if (range.empty()) return images;
   const int last = static_cast<int>(images.paths.size()) - 1;
   require(range.size() == 2 && range[0] >= 0 && range[0] <= range[1] && range[1] <= last,
