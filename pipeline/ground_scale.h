@@ -8,10 +8,12 @@ namespace placegraph {
 
 struct GroundScaleOptions {
   GroundPlaneOptions plane;
-  bool enabled = true;            ///< use the ground plane where the camera height is known
-  double sigma_relative = 0.01;   ///< of a single scale: unevenness of the road, added to its noise
-  double max_log_jump = 0.12;     ///< from the median of the last scales; more is not believed
-  double mounting_sigma_deg = 3;  ///< pitch and roll of the camera before anything was seen
+  bool enabled = true;  ///< use the ground plane where the camera height is known
+  /// Of a single scale, added to its noise: the road is uneven, and pairs of views that overlap see
+  /// the same of it, so that they err together.
+  double sigma_relative = 0.02;
+  double max_log_jump = 0.12;         ///< from the median of the last scales; more is not believed
+  double mounting_sigma_deg = 3;      ///< pitch and roll of the camera before anything was seen
   double pitching_sigma_deg = 0.5;    ///< of a single view about the mean: the vehicle nods
   double mounting_drift_deg = 0.03;   ///< of the mean, from one measurement to the next
   double min_baseline_heights = 0.6;  ///< motion between the two views; a shorter one tells little
