@@ -28,7 +28,7 @@ cat >> "$rows" <<EOF
 
 The offset [px] up to which at least 90 % of the trials end within a pixel (photographs: three), in steps of 4 to 40, of searches (swarm, genetic, swarm and ESM) in steps of 8; every corner of a
 template of 80x80 px starts that far off, each into a direction of its own, on three levels. "Wrong but ok": trials that ended elsewhere
-and were not told so by the outcome. Trials an offset: $trials.
+and were not told so by the outcome. 0: fewer than 90 % from the smallest offset already. Trials an offset: $trials.
 
 Rendered templates:
 
