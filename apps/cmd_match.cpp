@@ -194,7 +194,9 @@ void run(Arguments arguments) {
   const Stopwatch watch;
   const std::vector<LoopPrediction> found = match(arguments, images, queries, colour, look_up);
   if (found.empty())
-    throw NoAnswer(arguments.folder + ": no image has an older one to compare with");
+    throw NoAnswer(arguments.folder + (by_words
+                                           ? ": no image has a word in common with an older one"
+                                           : ": no image has an older one to compare with"));
   write_loop_predictions(arguments.out, found);
   fmt::print("{} images, {} queries, {:.1f} ms CPU an image, written to {}\n", images.size(),
              found.size(), watch.cpu_ms() / static_cast<double>(images.size()), arguments.out);
