@@ -48,8 +48,8 @@ json judge_places(const Trajectory& truth, const RunResult& run) {
   const PlaceCheck check = check_places(run.map, truth, options);
   return {{"max_distance_m", options.max_distance_m},
           {"max_angle_deg", options.max_angle_deg},
-          {"revisit_radius_m", options.revisit.radius_m},
-          {"revisit_heading_deg", options.revisit.heading_deg},
+          {"revisit_radius_m", options.revisit.same.radius_m},
+          {"revisit_heading_deg", options.revisit.same.heading_deg},
           {"revisit_min_age", options.revisit.min_age},
           {"purity", check.purity()},
           {"revisited_places", check.revisited_places},

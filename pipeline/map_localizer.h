@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/recognition_odds.h>
 #include <placegraph/io/map_database.h>
 #include <placegraph/pipeline/loop_closer.h>
