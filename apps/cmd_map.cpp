@@ -49,14 +49,6 @@ std::vector<ExportForm> export_forms() {
            [](const std::string& path, const StoredMap& stored) {
              write_file(path, places_json(stored.map));
            }},
-          {"--graphml", "the topological map as GraphML", true,
-           [](const std::string& path, const StoredMap& stored) {
-             write_file(path, to_graphml(stored.map.place_graph, place_transitions(stored.map)));
-           }},
-          {"--dot", "the topological map for Graphviz", true,
-           [](const std::string& path, const StoredMap& stored) {
-             write_file(path, to_dot(stored.map.place_graph, place_transitions(stored.map)));
-           }},
           {"--tum", "the optimized trajectory, TUM's form", true,
            [](const std::string& path, const StoredMap& stored) {
              write_trajectory(path, stored.map.trajectory_optimized(), TrajectoryFormat::kTum);
@@ -65,7 +57,7 @@ std::vector<ExportForm> export_forms() {
            [](const std::string& path, const StoredMap& stored) {
              write_trajectory(path, stored.map.trajectory_optimized(), TrajectoryFormat::kKitti);
            }},
-          {"--graphml", "places and transitions, GraphML", true,
+          {"--graphml", "the topological map: places, transitions, loops; GraphML", true,
            [](const std::string& path, const StoredMap& stored) {
              write_file(path, to_graphml(stored.map.place_graph, place_transitions(stored.map)));
            }},
