@@ -197,7 +197,6 @@ class SequenceRun {
   bool pass(const StoredMap& stored) {
     result_.calibration = lens_.calibration();
     if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
-    if (map_file_ && !database_) database_ = MapDatabase::create(map_file_->path, origin());
     Slam slam(options_.slam, result_.calibration, log_);
     if (!options_.motion.file.empty()) slam.set_motion(read_motion(dataset_, options_.motion));
     const std::size_t first = go_on(stored, slam);
@@ -216,11 +215,11 @@ class SequenceRun {
       if (observer_) observer_(frame, done, slam.view());
       if (progress_) progress_(i + 1 - begin_, end_ - begin_, done);
       if (learn_lens(slam.lens(), pass_, options_.lens, lens_, log_)) return false;
-      if (database_ && done.new_place) commit(slam, false);
+      if (map_file_ && done.new_place) commit(slam, false);
     }
     result_.lens_k1 = lens_.k1();
     result_.map = slam.finish();
-    if (database_) commit(slam, true);
+    if (map_file_) commit(slam, true);
     result_.stages = times_.stages();
     result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());
     return true;
@@ -240,7 +239,9 @@ class SequenceRun {
     return last + 1;
   }
 
+  /// The file begins with the first place: what fails before leaves none.
   void commit(Slam& slam, bool last) {
+    if (!database_) database_ = MapDatabase::create(map_file_->path, origin());
     const auto span = times_.measure("map database");
     const MapChanges changes = slam.take_changes();
     last ? database_->finish(changes) : database_->commit(changes);

@@ -76,8 +76,10 @@ TEST(Drive, BrokenPoseFilesAreNamedWithTheLine) {
 }
 
 TEST(Drive, UnknownWorldsAndBadOptionsAreRefused) {
-  EXPECT_THAT(message_of<ArgumentError>([] { open("no-such-town"); }),
-              HasSubstr("neither a pose file nor one of town-loop, corridor-loop, warehouse"));
+  EXPECT_THAT(
+      message_of<ArgumentError>([] { open("no-such-town"); }),
+      HasSubstr(
+          "neither a pose file nor one of town-loop, repeated-blocks, corridor-loop, warehouse"));
   SyntheticOptions options;
   options.frames = -1;
   EXPECT_THAT(message_of<ArgumentError>([&] { SyntheticWorld world(options); }),
