@@ -184,7 +184,11 @@ void detect(Arguments arguments) {
   MarkerAnswer answer;
   if (!arguments.layout.empty()) {
     if (!layout.beacons_world.empty()) view.beacons = detect_beacons(grey);
-    answer = MarkerFilter({}, layout, camera, SE3()).observe(view);
+    if (!layout.markers.empty() || !layout.beacons_world.empty())
+      answer = MarkerFilter({}, layout, camera, SE3()).observe(view);
+    else
+      answer.outcome = Outcome::failure(Outcome::Code::kTooFewData,
+                                        "the layout gives no marker or beacon its place");
   }
   const double cpu_ms = watch.cpu_ms();
   if (markers.empty() && !answer.outcome)
