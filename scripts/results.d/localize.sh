@@ -69,7 +69,7 @@ if [ -f "$out/localize-gardens_day_thumb.db" ] && [ -d "$data/places/corridor_mi
   for mode in "|single images" "--sequence|sequence"; do
     name=localize-elsewhere${mode%|*}
     place "$name" "$out/localize-gardens_day_thumb.db" "$data/places/corridor_milford" ${mode%|*}
-    awk '{ print $2 < 0 ? "refused" : "wrong" }' "$out/$name.txt" > "$out/$name.judged"
+    awk '{ print ($2 < 0 ? "refused" : "wrong") }' "$out/$name.txt" > "$out/$name.judged"
     cells "the corridor's images in the map of the gardens, ${mode#*|}" "$(awk 'END { print NR }' "$out/$name.judged")" - - \
       "$(judged "$name" wrong)" "$(verdict "$(judged "$name" wrong)" "<=" 1)" "$(grep -c refused "$out/$name.judged")" -
   done
