@@ -42,6 +42,9 @@ Eigen::Vector3d vector_of(const char* option, const std::vector<double>& values)
 CueSetting cue_setting(const Arguments& arguments) {
   require(!arguments.camera.empty(), "--cues: need the camera, --calib");
   require(arguments.gyro.empty() || arguments.dt_s > 0, "--gyro: needs --dt");
+  require(arguments.dt_s == 0 || (arguments.dt_s >= 1e-6 && arguments.dt_s <= 1e4),
+          "--dt: between 1e-6 and 1e4 s");
+  require(std::isfinite(arguments.turn_sigma), "--turn-sigma: is not finite");
   CueSetting setting;
   setting.camera = read_calib(arguments.camera);
   if (arguments.dt_s > 0) setting.dt_s = arguments.dt_s;

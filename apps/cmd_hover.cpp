@@ -371,6 +371,7 @@ void add_hover_command(CLI::App& app) {
   auto* map = command->add_flag("--map-markers", a.map_markers,
                                 "find where the markers are whose place the layout does not give; "
                                 "OUT/markers.yaml has them all");
+  map->excludes(none);
   command->add_option("--true-markers", a.true_markers, "layout that the mapped ones are judged by")
       ->check(CLI::ExistingFile)
       ->needs(map);

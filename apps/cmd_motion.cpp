@@ -12,9 +12,12 @@
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Dense>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "apps/calib_option.h"
 #include "apps/output.h"
@@ -66,6 +69,17 @@ Matrix6d covariance_of(const Matrix6d& information) {
 struct Verticals {
   Eigen::Vector3d ref, cur;  ///< of unit length, downwards
 };
+
+/// A match told often tells no more than once.
+constexpr int kFewestDistinct = 8;
+int distinct_matches(const MatchFile& file) {
+  std::set<std::array<std::int64_t, 4>> seen;
+  const auto rounded = [](double px) { return std::llround(px * 1000); };
+  for (std::size_t i = 0; i < file.px_a.size(); ++i)
+    seen.insert({rounded(file.px_a[i].x()), rounded(file.px_a[i].y()), rounded(file.px_b[i].x()),
+                 rounded(file.px_b[i].y())});
+  return static_cast<int>(seen.size());
+}
 
 /// "x,y,z", the same in both cameras, or "x,y,z,x,y,z".
 Verticals verticals_of(const std::string& text) {
@@ -291,7 +305,13 @@ void run(const Arguments& arguments) {
   Answer answer;
   const auto of_pixels = [&](const auto& estimate) {
     const MatchFile file = read_matches(arguments.in);
-    answer = estimate(file);
+    const int distinct = distinct_matches(file);
+    if (distinct < kFewestDistinct)
+      answer.outcome = Outcome::failure(
+          Outcome::Code::kTooFewData,
+          fmt::format("{} distinct matches, {} needed", distinct, kFewestDistinct));
+    else
+      answer = estimate(file);
     answer.matches = static_cast<int>(file.px_a.size());
   };
   if (model == "3d3d") {

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "apps/map_file.h"
 #include "apps/map_learn.h"
@@ -35,6 +36,24 @@ const Image& picture(const Frame& frame, bool colour) {
   return colour ? frame.colour : frame.image;
 }
 
+/// Views are compared part by part: all must be of one shape.
+Image sized(const Image& image, const cv::Size& size) {
+  Image result;
+  cv::resize(image, result, size, 0, 0, cv::INTER_AREA);
+  return result;
+}
+
+/// Whether it is UTF-8 without control characters.
+bool is_text(const std::string& line) {
+  try {
+    (void)json(line).dump();
+  } catch (const json::exception&) {
+    return false;
+  }
+  return std::none_of(line.begin(), line.end(),
+                      [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+}
+
 /// One name a line, the first of label 0.
 std::vector<std::string> read_names(const std::string& path) {
   std::ifstream file(path);
@@ -42,8 +61,9 @@ std::vector<std::string> read_names(const std::string& path) {
   std::vector<std::string> names;
   for (std::string line; std::getline(file, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty())
-      throw FileError(path, static_cast<int>(names.size()) + 1, "an empty line names nothing");
+    const int number = static_cast<int>(names.size()) + 1;
+    if (line.empty()) throw FileError(path, number, "an empty line names nothing");
+    if (!is_text(line)) throw FileError(path, number, "is no UTF-8 text");
     names.push_back(line);
   }
   return names;
@@ -53,6 +73,12 @@ std::vector<std::string> read_names(const std::string& path) {
 std::function<Frame(const Keyframe&)> frames_of(const StoredMap& stored) {
   if (!stored.origin.calibration) {
     const ImageRange images = images_of(stored.origin.sequence, {});
+    const std::int64_t count = static_cast<std::int64_t>(images.paths.size());
+    for (const Keyframe& keyframe : stored.map.keyframes)
+      if (keyframe.frame >= count)
+        throw FileError(stored.origin.sequence,
+                        fmt::format("has {} images, and keyframe {} of the map is of image {}",
+                                    count, keyframe.id, keyframe.frame));
     return [images](const Keyframe& keyframe) {
       return read_frame(images, static_cast<std::size_t>(keyframe.frame));
     };
@@ -63,7 +89,7 @@ std::function<Frame(const Keyframe&)> frames_of(const StoredMap& stored) {
   };
 }
 
-PlaceClassifier learn(const Arguments& arguments, bool colour, int& places) {
+PlaceClassifier learn(const Arguments& arguments, bool colour, int& places, cv::Size& size) {
   const std::string path = (fs::path(arguments.house) / "labels.txt").string();
   const ImageRange images = images_of(arguments.house, arguments.range);
   const auto known = read_labels(path);
@@ -75,7 +101,8 @@ PlaceClassifier learn(const Arguments& arguments, bool colour, int& places) {
     const Frame frame = read_frame(images, i);
     if (colour && frame.colour.empty())
       throw FileError(images.paths[i], "is grey, and the map's images have colour");
-    views.push_back(describe_for_classes(picture(frame, colour)));
+    if (size.empty()) size = frame.image.size();
+    views.push_back(describe_for_classes(sized(picture(frame, colour), size)));
     labels.push_back(label->second);
   }
   if (labels.empty()) throw FileError(path, "labels none of the images");
@@ -90,18 +117,21 @@ void label(const Arguments& arguments) {
   arguments.options.check();
   StoredMap stored = read_stored_map(arguments.map);
   Map& map = stored.map;
+  if (!stored.finished)
+    throw NoAnswer(arguments.map + ": its run was broken off; run --resume goes on with it first");
   if (map.keyframes.empty()) throw NoAnswer(arguments.map + ": has no keyframes");
   const auto frame_of = frames_of(stored);
   const bool colour = !frame_of(map.keyframes.front()).colour.empty();
   int places = 0;
-  const PlaceClassifier classifier = learn(arguments, colour, places);
+  cv::Size size;
+  const PlaceClassifier classifier = learn(arguments, colour, places, size);
   std::vector<std::string> names;
   if (!arguments.names.empty()) names = read_names(arguments.names);
   require(names.empty() || static_cast<int>(names.size()) >= places,
           fmt::format("--names: {} names for {} labels", names.size(), places));
   const std::vector<PlaceLabel> labels = label_places(
       map, classifier,
-      [&](const Keyframe& keyframe) { return picture(frame_of(keyframe), colour).clone(); },
+      [&](const Keyframe& keyframe) { return sized(picture(frame_of(keyframe), colour), size); },
       arguments.options);
   json list = json::array();
   int labelled = 0;

@@ -17,6 +17,24 @@ void remove_with_journal(const std::string& path) {
   for (const char* ending : {"", "-wal", "-shm", "-journal"}) fs::remove(path + ending);
 }
 
+/// Where a map of that name is written: what a link names, never what is no plain file.
+std::string target_of(const std::string& path) {
+  std::error_code ignored;
+  const std::string target =
+      fs::is_symlink(path, ignored) ? fs::weakly_canonical(path).string() : path;
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
+    throw FileError(path, "cannot be written: is no plain file");
+  return target;
+}
+
+/// Puts `fresh` in the place of `path`, at no time without either; the log of the old one goes.
+void replace(const std::string& fresh, const std::string& path) {
+  for (const char* ending : {"-wal", "-shm", "-journal"}) fs::remove(path + ending);
+  std::error_code code;
+  fs::rename(fresh, path, code);
+  if (code) throw FileError(path, "cannot be written: " + code.message());
+}
+
 void insert_camera(SqliteDatabase& database, std::int64_t id, const Camera& camera) {
   SqliteStatement put(database,
                       "INSERT INTO camera VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
@@ -224,15 +242,12 @@ std::unique_ptr<MapDatabase::Impl> MapDatabase::made(const std::string& path,
     write_origin(database, origin);
     database.execute("COMMIT");
   }
-  remove_with_journal(path);
-  std::error_code code;
-  fs::rename(fresh, path, code);
-  if (code) throw FileError(path, "cannot be written: " + code.message());
+  replace(fresh, path);
   return std::make_unique<Impl>(path, synchronized);
 }
 
 MapDatabase MapDatabase::create(const std::string& path, const MapOrigin& origin) {
-  return MapDatabase(made(path, origin, true));
+  return MapDatabase(made(target_of(path), origin, true));
 }
 
 MapDatabase MapDatabase::open(const std::string& path) {
@@ -277,10 +292,10 @@ void write_map(const std::string& path, const StoredMap& stored) {
   changes.loops = map.loops;
   changes.history = stored.history;
   changes.metric = map.metric;
-  const std::string fresh = path + ".part";
+  const std::string target = target_of(path), fresh = target + ".part";
   try {
     // Nobody sees it before it is whole.
-    MapDatabase database(MapDatabase::made(fresh, stored.origin, false));
+    MapDatabase database(MapDatabase::made(fresh, stored.origin, true));
     if (stored.finished) {
       database.finish(changes);
     } else {
@@ -291,8 +306,7 @@ void write_map(const std::string& path, const StoredMap& stored) {
     remove_with_journal(fresh);
     throw;
   }
-  remove_with_journal(path);
-  fs::rename(fresh, path);
+  replace(fresh, target);
 }
 
 }  // namespace placegraph

@@ -164,6 +164,7 @@ class PlaceMapper {
   void merge(const Merger& merger);
   std::vector<bool> strained() const;
   bool part_strained();
+  bool have_parted(std::int64_t one, std::int64_t other) const;
   void separate(const Merged& merged);
 
   PlaceOptions options_;

@@ -95,6 +95,14 @@ std::vector<std::pair<std::int64_t, std::int64_t>> PlaceMapper::pairs_on_known_g
   return pairs;
 }
 
+/// Whether the two hold parts that were merged once by mistake.
+bool PlaceMapper::have_parted(std::int64_t one, std::int64_t other) const {
+  return std::any_of(parted_.begin(), parted_.end(), [&](const auto& anchors) {
+    return std::minmax(parts_.at(anchors.first).place, parts_.at(anchors.second).place) ==
+           std::minmax(one, other);
+  });
+}
+
 /// The merger of two places, if they are within reach of each other, look the same way, are well
 /// enough known to each other, and all their keyframes are older than `first_open`.
 std::optional<PlaceMapper::Merger> PlaceMapper::merger_of(std::int64_t one, std::int64_t other,
@@ -104,8 +112,7 @@ std::optional<PlaceMapper::Merger> PlaceMapper::merger_of(std::int64_t one, std:
   });
   const std::int64_t older = by_age.first, younger = by_age.second;
   const PlaceState &a = places_.at(older), &b = places_.at(younger);
-  if (b.last_keyframe >= first_open || a.anchor_keyframe >= first_open ||
-      parted_.count({a.anchor_keyframe, b.anchor_keyframe}))
+  if (b.last_keyframe >= first_open || a.anchor_keyframe >= first_open || have_parted(one, other))
     return std::nullopt;
   const Sim3 S_a_b = a.S_map_place.inverse() * b.S_map_place;
   if (S_a_b.translation().norm() >= a.reach ||
@@ -227,6 +234,9 @@ void PlaceMapper::separate(const Merged& merged) {
     part.covariance = covariance;
     changed(anchor);
   }
+  place.last_keyframe = merged.anchor;
+  for (const auto& [id, node] : nodes_)
+    if (parts_.at(node.part).place == number) place.last_keyframe = id;
   places_[number] = place;
 }
 

@@ -219,7 +219,7 @@ class SequenceRun {
     }
     result_.lens_k1 = lens_.k1();
     result_.map = slam.finish();
-    if (map_file_) commit(slam, true);
+    if (map_file_) commit(slam, !result_.broken_off);
     result_.stages = times_.stages();
     result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());
     return true;
