@@ -16,7 +16,7 @@ command_line "placegraph loops --predictions found.txt --poses WORLD/poses.txt -
 half() {
   render "half$1" "$2" --difficulty standard --mono --size 620x188
   run "half$1" "$out/half$1-world" --sensor mono --camera-height 1.65
-  case $1 in 00 06)
+  case $1 in 00|06)
     say "matching half$1"
     $placegraph match "$out/half$1-world" --sequence --min-age 300 --out "$out/half$1.txt" --force > "$out/half$1-match.log" 2>&1
     $placegraph loops --predictions "$out/half$1.txt" --poses "$out/half$1-world/poses.txt" --min-age 300 --json > "$out/half$1-loops.json" ;;
