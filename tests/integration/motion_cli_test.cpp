@@ -120,7 +120,11 @@ TEST_F(MotionCli, SaysWhatIsWrong) {
   expect_usage_error("motion matches.txt --model 3d3d", "matches.txt:1: 5 columns, at least 6");
   expect_usage_error("motion pairs.txt --model 3d3d --noise 0", "--noise");
   dir.write("few.txt", "1 2 3 4\n5 6 7 8\n");
-  expect_failure("motion few.txt --calib K.txt", 1, "few.txt: 2 measurements");
+  expect_failure("motion few.txt --calib K.txt", 1, "few.txt: 2 distinct matches, 8 needed");
+  std::string repeated;
+  for (int i = 0; i < 50; ++i) repeated += i % 2 ? "1 2 3 4\n" : "5 6 7 8\n";
+  dir.write("repeated.txt", repeated);
+  expect_failure("motion repeated.txt --calib K.txt", 1, "2 distinct matches");
   // To those who read JSON the evidence is told all the same.
   const CommandResult result = run("motion few.txt --calib K.txt --json");
   EXPECT_EQ(result.code, 1);
