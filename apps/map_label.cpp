@@ -115,7 +115,7 @@ PlaceClassifier learn(const Arguments& arguments, bool colour, int& places, cv::
 
 void label(const Arguments& arguments) {
   arguments.options.check();
-  StoredMap stored = read_stored_map(arguments.map);
+  StoredMap stored = read_map(map_path_of(arguments.map));
   Map& map = stored.map;
   if (!stored.finished)
     throw NoAnswer(arguments.map + ": its run was broken off; run --resume goes on with it first");

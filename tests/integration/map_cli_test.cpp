@@ -119,6 +119,22 @@ TEST_F(MapCli, ARunThatWasBrokenOffGoesOn) {
   EXPECT_FALSE(fs::exists(dir / "broken/map.db-wal"));
 }
 
+TEST_F(MapCli, ARunThatABrokenImageEndedGoesOnWhenItIsMended) {
+  fs::copy(drive(), dir / "damaged", fs::copy_options::recursive);
+  const fs::path image = dir / "damaged/image_0/000025.png";
+  fs::resize_file(image, fs::file_size(image) / 2);
+  const CommandResult stopped = run("run damaged --out stopped");
+  EXPECT_EQ(stopped.code, 2);
+  EXPECT_THAT(stopped.err, HasSubstr("000025.png"));
+  EXPECT_EQ(json::parse(run("map info stopped --json").out)["finished"], false);
+  expect_failure("map label stopped damaged", 1, "--resume");
+  fs::copy(drive() + "/image_0/000025.png", image, fs::copy_options::overwrite_existing);
+  const CommandResult resumed = run("run --resume stopped --json");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(json::parse(resumed.out)["frames"], 40);
+  EXPECT_EQ(json::parse(resumed.out)["posed"], 40);
+}
+
 TEST_F(MapCli, ARunThatHadEndedIsWrittenAgain) {
   fs::create_directory(dir / "ended");
   fs::copy(whole() + "/map.db", dir / "ended/map.db");
