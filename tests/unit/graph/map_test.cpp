@@ -14,8 +14,9 @@ Map make_map(int component) {
   const SE3 T_place_101(SO3(), {0, 0, 1});
   map.place_graph.places = {{0, 100, SE3(), 0, {{100, SE3()}, {101, T_place_101}}, {}, {}},
                             {1, 200, SE3(SO3(), {50, 0, 0}), component, {{200, SE3()}}, {}, {}}};
-  map.keyframes = {
-      {100, 0, 0, 0, SE3(), {}}, {101, 1, 100, 0, T_place_101, {}}, {200, 3, 300, 1, SE3(), {}}};
+  map.keyframes = {{100, 0, 0, 0, SE3(), {}, {}},
+                   {101, 1, 100, 0, T_place_101, {}, {}},
+                   {200, 3, 300, 1, SE3(), {}, {}}};
   map.frames = {{0, 0, 100, SE3()},
                 {1, 100, 101, SE3(SO3(), {0.5, 0, 0})},
                 {2, 200, -1, std::nullopt},
