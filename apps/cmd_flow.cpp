@@ -123,6 +123,7 @@ void flow(const Arguments& arguments) {
     line += "\n" + cue_lines(figures["cues"]);
   }
   fmt::print("{}\n", arguments.as_json ? figures.dump(2) : line);
+  if (cues && !any_cue(figures["cues"])) throw NoAnswer("--cues: the flow tells none");
 }
 
 }  // namespace

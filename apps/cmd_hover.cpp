@@ -258,6 +258,13 @@ Flight open_flight(const Arguments& arguments) {
           "--map-markers: the layout gives every marker its place");
   require(!arguments.map_markers || arguments.predict_ahead_ms == 0,
           "--map-markers: what is told ahead is not where an image was");
+  const double length_s =
+      1e-9 * static_cast<double>(flight.body.images->stamp_ns(flight.body.images->size() - 1) -
+                                 flight.body.images->stamp_ns(0));
+  for (const std::string& text : arguments.blind)
+    require(
+        parse_span(text).from_s <= length_s,
+        fmt::format("--blind: {} begins after the flight, which lasts {:.3f} s", text, length_s));
   if (!arguments.true_markers.empty())
     flight.true_layout = read_marker_layout(arguments.true_markers);
   const std::string truth = flight.body.mav_folder + "/state_groundtruth_estimate0/data.csv";
@@ -317,7 +324,8 @@ Flown fly(const Arguments& arguments, const Flight& flight) {
 
 void write_results(const std::string& folder, const Flown& flown, const MarkerLayout& layout) {
   const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
-  fs::remove(path("result.json"));  // written last: it vouches for the others
+  for (const char* name : {"result.json", "smoothed.csv", "markers.yaml"})
+    fs::remove(path(name));  // result.json is written last: it vouches for the others
   write_trajectory(path("trajectory.tum"), trajectory_of(flown.run), TrajectoryFormat::kTum);
   write_body_states(path("states.csv"), answers_of(flown.run));
   if (!flown.smoothed.empty()) write_body_states(path("smoothed.csv"), flown.smoothed);

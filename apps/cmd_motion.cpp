@@ -251,7 +251,8 @@ ordered_json answer_json(const Arguments& arguments, const Answer& answer, doubl
     json["covariance"] = rows_json(Eigen::Matrix3d(answer.covariance.bottomRightCorner<3, 3>()));
   json["inliers"] = answer.inliers.size();
   json["inlier_matches"] = answer.inliers;
-  json.update(answer.evidence);
+  for (const auto& [key, value] : answer.evidence.items())
+    json[key] = answer.R_ref_cur ? value : ordered_json(nullptr);
   if (!answer.rivals.empty()) {
     json["rivals"] = ordered_json::array();
     for (const SE3& rival : answer.rivals) json["rivals"].push_back(rows_json(rival.matrix()));
@@ -284,8 +285,9 @@ void print(const Arguments& arguments, const Answer& answer, double cpu_ms) {
       fmt::print(", known to {:.3f} deg", kDeg * sigma);
     fmt::print("\n");
   }
-  for (const auto& [key, value] : answer.evidence.items())
-    fmt::print("  {} {:.4g}\n", key, value.get<double>());
+  if (answer.R_ref_cur)
+    for (const auto& [key, value] : answer.evidence.items())
+      fmt::print("  {} {:.4g}\n", key, value.get<double>());
   fmt::print("  {:.1f} ms CPU\n", cpu_ms);
 }
 

@@ -17,6 +17,7 @@
 #include "apps/frame_source.h"
 #include "apps/output.h"
 #include "apps/plane_track_files.h"
+#include "apps/progress.h"
 #include "apps/usage.h"
 
 namespace placegraph::apps {
@@ -166,7 +167,13 @@ void run(Arguments& arguments) {
   PlaneTracker tracker(image_ref, corners, options, camera, normal);
   if (!tracker.outcome()) throw NoAnswer("--template: " + tracker.outcome().reason);
   std::vector<PlaneTrack> tracks;
-  for (std::size_t i = 0; i < source.size(); ++i) tracks.push_back(tracker.track(source.image(i)));
+  {
+    Progress progress("tracking", static_cast<std::int64_t>(source.size()));
+    for (std::size_t i = 0; i < source.size(); ++i) {
+      tracks.push_back(tracker.track(source.image(i)));
+      progress.update(static_cast<std::int64_t>(i) + 1);
+    }
+  }
   const double cpu_ms = watch.cpu_ms();
   if (std::none_of(tracks.begin(), tracks.end(),
                    [](const PlaneTrack& track) { return static_cast<bool>(track.outcome); }))

@@ -91,6 +91,11 @@ ordered_json describe_cues(const std::vector<FlowVector>& flow, const CueSetting
   return cues;
 }
 
+bool any_cue(const ordered_json& cues) {
+  const auto told = [&](const char* cue) { return cues[cue]["outcome"] == "ok"; };
+  return told("affine") || told("ventral") || told("time_to_contact") || told("balance");
+}
+
 std::string cue_lines(const ordered_json& cues) {
   const std::string unit = cues["time_unit"];
   const auto sigma = [](const ordered_json& cue, const char* key) {

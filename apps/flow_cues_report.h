@@ -20,6 +20,9 @@ struct CueSetting {
 nlohmann::ordered_json describe_cues(const std::vector<FlowVector>& flow,
                                      const CueSetting& setting);
 
+/// Whether any of them is there.
+bool any_cue(const nlohmann::ordered_json& cues);
+
 /// The same in lines for people.
 std::string cue_lines(const nlohmann::ordered_json& cues);
 

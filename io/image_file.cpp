@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/image_file.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
@@ -11,6 +12,7 @@ namespace placegraph {
 namespace {
 
 constexpr std::uintmax_t kMaxImageBytes = std::uintmax_t{1} << 30;
+constexpr int kLeastSide = 16;  ///< of a picture [px]: less is a mistake, or a single line
 
 std::string read_bytes(const std::string& path) {
   std::error_code error;
@@ -59,6 +61,9 @@ cv::Mat decode(const std::string& path, int flags) {
 GreyAndColour read_image(const std::string& path) {
   GreyAndColour result;
   const cv::Mat image = decode(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (std::min(image.cols, image.rows) < kLeastSide)
+    throw FileError(path, fmt::format("image is {}x{}: no picture is under {} px high or wide",
+                                      image.cols, image.rows, kLeastSide));
   if (image.channels() == 3) result.colour = image;
   result.grey = to_grey(image);
   return result;

@@ -109,7 +109,8 @@ std::vector<ViewEvidence> MapLocalizer::evidence(
 }
 
 /// What the map's own views are answered: kept from all that is near them, or from themselves.
-RecognitionOdds MapLocalizer::odds(bool sequence) const {
+/// Nothing if they all look alike, or are of one place: that tells not how wrong answers look.
+std::optional<RecognitionOdds> MapLocalizer::odds(bool sequence) const {
   const int views = recognizer_.size();
   // Some stretches of a long map, as a sequence needs neighbours.
   const int stretches = views <= options_.calibration_views ? 1 : 3;
@@ -139,10 +140,8 @@ RecognitionOdds MapLocalizer::odds(bool sequence) const {
       if (other.view >= 0) right.push_back(other);
     }
   }
-  require(!wrong.empty(),
-          "map: all its views look alike, or are of one place: nothing tells how "
-          "wrong answers look");
-  return {wrong, right};
+  if (wrong.empty() || right.empty()) return std::nullopt;
+  return RecognitionOdds(wrong, right);
 }
 
 Localization MapLocalizer::described(const ViewAnswer& answer, double probability) const {
@@ -178,10 +177,14 @@ std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames
   // As far as the filter looks.
   const int reach =
       sequence ? static_cast<int>(std::lround(1 / (1 - options_.sequence.memory))) : 0;
-  const std::vector<double> probabilities = odds(sequence).probabilities(answers, near, reach);
+  const auto calibration = odds(sequence);
+  const std::vector<double> probabilities = calibration
+                                                ? calibration->probabilities(answers, near, reach)
+                                                : std::vector<double>(count, 0.5);
   std::vector<Localization> result;
   for (std::size_t i = 0; i < count; ++i) {
     result.push_back(described(answers[i], probabilities[i]));
+    if (!calibration && answers[i].view >= 0) result.back().stage = "calibration";
     if (verified[i]) take_geometry(*verified[i], result.back());
   }
   return result;

@@ -27,7 +27,8 @@ struct Localization {
   std::int64_t place = -1, keyframe = -1, frame = -1;  ///< of the map; the best guess if refused
   double probability = 0;
   /// The test that decided: "geometry" and "appearance" of placed ones; of others "blank" (there is
-  /// nothing to compare), "appearance" (not sure enough), "geometry" (the features contradict).
+  /// nothing to compare), "calibration" (the map's views do not tell how wrong answers look),
+  /// "appearance" (not sure enough), "geometry" (the features contradict).
   std::string stage;
   std::optional<SE3> T_map_cam;  ///< if geometry verified it
 };
@@ -53,7 +54,7 @@ class MapLocalizer {
   void learn_near();
   int lag_of_likeness() const;
   bool near(int a, int b) const;
-  RecognitionOdds odds(bool sequence) const;
+  std::optional<RecognitionOdds> odds(bool sequence) const;
   std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
                                      bool sequence) const;
   Localization described(const ViewAnswer& answer, double probability) const;

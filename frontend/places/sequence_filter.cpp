@@ -1,5 +1,6 @@
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/function_clones.h>
 #include <placegraph/graph/core/median.h>
 
 #include <algorithm>
@@ -11,6 +12,22 @@ namespace placegraph {
 namespace {
 
 constexpr std::array kPaces = {1.0, -1.0, 0.5, -0.5, 2.0, -2.0};
+
+// best[i] = max(best[i], before[i] - penalty)
+PLACEGRAPH_CLONES
+void raise(double* best, const double* before, std::size_t count, double penalty) {
+  for (std::size_t i = 0; i < count; ++i) best[i] = std::max(best[i], before[i] - penalty);
+}
+
+// Of many scores every few are asked: the map may be large.
+double middle_of(const std::vector<double>& scores) {
+  constexpr std::size_t kMost = 2000;
+  const std::size_t stride = 1 + (scores.size() - 1) / kMost;
+  if (stride == 1) return median_of(scores);
+  std::vector<double> some;
+  for (std::size_t i = 0; i < scores.size(); i += stride) some.push_back(scores[i]);
+  return median_of(std::move(some));
+}
 
 }  // namespace
 
@@ -29,20 +46,24 @@ SequenceFilter::SequenceFilter(const SequenceFilterOptions& options) : options_(
 std::vector<double> SequenceFilter::predict(const State& state, int first, int last) const {
   const auto count = static_cast<int>(state.score.size());
   // A path may begin at a view that was none before: as likely as the middle one.
-  const double begin = median_of(state.score);
-  std::vector<double> best(static_cast<std::size_t>(last - first + 1),
+  const double begin = middle_of(state.score);
+  const int size = last - first + 1;
+  std::vector<double> best(static_cast<std::size_t>(size),
                            -std::numeric_limits<double>::infinity());
   const int direction = state.pace < 0 ? -1 : 1;
   for (int step = 0; step <= options_.max_step; ++step) {
     const double off = step - std::abs(state.pace);
     const double penalty = options_.pace_penalty * off * off;
-    for (int view = first; view <= last; ++view) {
-      const int from = view - direction * step - first_;
-      const double before =
-          from >= 0 && from < count ? state.score[static_cast<std::size_t>(from)] : begin;
-      double& score = best[static_cast<std::size_t>(view - first)];
-      score = std::max(score, before - penalty);
-    }
+    // Of first..last, those that a view known before leads to; a path begins at the others.
+    const int shift = direction * step + first_ - first;
+    const int known = std::clamp(shift, 0, size), end = std::clamp(count + shift, known, size);
+    if (known < end)
+      raise(&best[static_cast<std::size_t>(known)],
+            &state.score[static_cast<std::size_t>(known - shift)],
+            static_cast<std::size_t>(end - known), penalty);
+    const auto begin_at = [&](double& score) { score = std::max(score, begin - penalty); };
+    std::for_each(best.begin(), best.begin() + known, begin_at);
+    std::for_each(best.begin() + end, best.end(), begin_at);
   }
   return best;
 }

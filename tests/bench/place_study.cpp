@@ -1,12 +1,14 @@
 // What recognizing a place costs: describing an image, finding it among N stored views, and the
-// filter over past images; and the memory of a view. bench_place_study FOLDER [N...]
+// filter over past images; and the memory of a view. bench_place_study FOLDER [--plot FILE] [N...]
 // How the tiny image stands zoom and shift: bench_place_study FOLDER --robustness
 #include <fmt/format.h>
+#include <placegraph/eval/growth_plot.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/image_list.h>
+#include <placegraph/io/text_file.h>
 
 #include <malloc.h>
 #include <algorithm>
@@ -123,7 +125,7 @@ void robustness(const std::string& folder) {
   }
 }
 
-void study(const std::string& folder, const std::vector<int>& sizes) {
+void study(const std::string& folder, const std::vector<int>& sizes, const std::string& plot) {
   const PlaceRecognizerOptions options;
   const std::vector<Image> images = read_images(folder, kImages);
   const int count = static_cast<int>(images.size());
@@ -134,6 +136,7 @@ void study(const std::string& folder, const std::vector<int>& sizes) {
              images.front().cols, images.front().rows, describing,
              1e-3 * static_cast<double>(bytes_of(views.front())));
   PlaceRecognizer recognizer(options);
+  GrowthCurve all{"all", {}, {}}, looking{"query", {}, {}}, past{"filter", {}, {}};
   for (const int size : sizes) {
     while (recognizer.size() < size)
       recognizer.add(another(views[static_cast<std::size_t>(recognizer.size()) % views.size()],
@@ -150,7 +153,15 @@ void study(const std::string& folder, const std::vector<int>& sizes) {
         cost_ms(count, [&](std::size_t) { (void)filter.update(list, 0, size - 1); });
     fmt::print("{:>7} views: query {:.2f} ms, filter {:.2f} ms, adding {:.2f} ms, all {:.2f} ms\n",
                size, query, filtering, adding, describing + query + filtering + adding);
+    for (GrowthCurve* curve : {&all, &looking, &past}) curve->sizes.push_back(size);
+    all.values.push_back(describing + query + filtering + adding);
+    looking.values.push_back(query);
+    past.values.push_back(filtering);
   }
+  if (!plot.empty())
+    write_file(plot, to_png({"What recognizing a place costs",
+                             "stored views",
+                             {{"CPU time of an image [ms]", {all, looking, past}}}}));
 }
 
 }  // namespace
@@ -169,8 +180,13 @@ int main(int argc, char** argv) {
     return 0;
   }
   std::vector<int> sizes;
-  for (int i = 2; i < argc; ++i) sizes.push_back(std::atoi(argv[i]));
+  std::string plot;
+  for (int i = 2; i < argc; ++i)
+    if (std::string(argv[i]) == "--plot" && i + 1 < argc)
+      plot = argv[++i];
+    else
+      sizes.push_back(std::atoi(argv[i]));
   if (sizes.empty()) sizes = {1000, 10000, 100000};
-  placegraph::study(argv[1], sizes);
+  placegraph::study(argv[1], sizes, plot);
   return 0;
 }

@@ -95,5 +95,10 @@ TEST_F(FlowCli, HasNoAnswerOfBlankImages) {
   expect_failure("flow blank.png blank.png --method lucas-kanade", 1, "no displacement");
 }
 
+TEST_F(FlowCli, RefusesWhatIsNoPicture) {
+  cv::imwrite(dir / "line.png", cv::Mat(1, 400, CV_8UC1, cv::Scalar(90)));
+  expect_usage_error("flow line.png line.png", "line.png: image is 400x1");
+}
+
 }  // namespace
 }  // namespace placegraph

@@ -158,6 +158,7 @@ TEST_F(HoverCli, RefusesOptionsThatMakeNoSense) {
   const std::string command = "hover " + flight() + " --out out ";
   expect_usage_error(command + "--blind 3", "FROM:TO");
   expect_usage_error(command + "--blind 3:2", "FROM:TO");
+  expect_usage_error(command + "--blind 3000:3001", "begins after the flight");
   expect_usage_error(command + "--predict-ahead-ms 900", "filter.max_prediction_s");
   expect_usage_error(command + "--markers-until 0", "--markers-until");
   expect_usage_error(command + "--set filter.gat=1", "unknown key");
