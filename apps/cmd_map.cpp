@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/map_revisits.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/io/g2o.h>
+#include <placegraph/io/loop_file.h>
 #include <placegraph/io/place_graph_export.h>
 #include <placegraph/io/trajectory_file.h>
 #include <placegraph/pipeline/place_mapper.h>
@@ -64,6 +66,10 @@ std::vector<ExportForm> export_forms() {
           {"--dot", "the same for Graphviz", true,
            [](const std::string& path, const StoredMap& stored) {
              write_file(path, to_dot(stored.map.place_graph, place_transitions(stored.map)));
+           }},
+          {"--revisits", "which older frame every frame is nearest to, for placegraph loops", true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_loop_predictions(path, map_revisits(stored.map));
            }}};
 }
 

@@ -81,7 +81,7 @@ TEST_F(MapCli, ARunLeavesOneFileThatHoldsItsMap) {
 TEST_F(MapCli, ExportsAreWhatTheRunWrote) {
   const CommandResult result = run(
       "map export " + whole() +
-      " --g2o g.g2o --places p.json --tum t.tum --kitti k.kitti --graphml p.graphml --dot p.dot");
+      " --g2o g.g2o --places p.json --tum t.tum --kitti k.kitti --graphml p.graphml --dot p.dot --revisits r.txt");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(read_file(dir / "g.g2o"), read_file(whole() + "/graph.g2o"));
   EXPECT_EQ(read_file(dir / "p.json"), read_file(whole() + "/places.json"));
