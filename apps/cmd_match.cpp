@@ -149,15 +149,21 @@ std::vector<LoopPrediction> match(const Arguments& arguments,
   for (int i = 0; i < static_cast<int>(images.size()); ++i) {
     std::optional<ViewRange> among;
     if (query != queries.end() && query->image == i) among = {query->first, query->last};
-    std::vector<PlaceLikeness> list =
+    const std::vector<PlaceLikeness> list =
         look_up(view_of(images[static_cast<std::size_t>(i)], colour), among);
     if (among) {
+      std::optional<PlaceLikeness> answer;
+      if (!list.empty()) answer = list.front();
       if (arguments.sequence) {
         if (i != before + 1) filter.restart();
-        list = filter.update(list, among->first, std::min(among->last, i - 1));
+        const auto paths = filter.update(list, among->first, std::min(among->last, i - 1));
+        if (answer) {
+          answer = paths.front();
+          answer->score = filter.confidence(*answer, list);
+        }
         before = i;
       }
-      if (!list.empty()) found.push_back({i, list.front().view, list.front().score, {}, 0});
+      if (answer) found.push_back({i, answer->view, answer->score, {}, 0});
       ++query;
     }
     progress.update(i + 1);

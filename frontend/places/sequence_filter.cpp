@@ -37,6 +37,7 @@ void visit(OptionVisitor& field, SequenceFilterOptions& o) {
   field("memory", o.memory, "weight of the past against the present image", {0, 0.999});
   field("pace_penalty", o.pace_penalty, "per squared view a step is off the pace", {0, 1e3});
   field("max_step", o.max_step, "views between the answers of two images", {1, 100});
+  field("present", o.present, "weight of the present image in how sure an answer is", {0, 1e3});
 }
 
 SequenceFilter::SequenceFilter(const SequenceFilterOptions& options) : options_(options) {
@@ -107,6 +108,17 @@ std::vector<PlaceLikeness> SequenceFilter::update(const std::vector<PlaceLikenes
       result.begin(), result.end(),
       [](const PlaceLikeness& a, const PlaceLikeness& b) { return a.score > b.score; });
   return result;
+}
+
+double SequenceFilter::confidence(const PlaceLikeness& answer,
+                                  const std::vector<PlaceLikeness>& list) const {
+  double present = std::numeric_limits<double>::infinity();
+  for (const PlaceLikeness& likeness : list) {
+    present = likeness.view == answer.view ? likeness.score : std::min(present, likeness.score);
+    if (likeness.view == answer.view) break;
+  }
+  if (list.empty()) return answer.score;
+  return (answer.score + options_.present * present) / (1 + options_.present);
 }
 
 }  // namespace placegraph

@@ -10,6 +10,7 @@ struct SequenceFilterOptions {
   double memory = 0.9;        ///< weight of the past against the present image
   double pace_penalty = 0.4;  ///< of the score, per squared view a step is off the pace
   int max_step = 3;           ///< views between the answers of two images, at most
+  double present = 0.5;       ///< weight of the present image in how sure an answer is
   void check() const;
 };
 void visit(OptionVisitor& field, SequenceFilterOptions& options);
@@ -27,6 +28,10 @@ class SequenceFilter {
   /// listed), turned into scores with the past's evidence, best first; as many as views. None for
   /// an empty list, which ends the sequence.
   std::vector<PlaceLikeness> update(const std::vector<PlaceLikeness>& list, int first, int last);
+  /// How sure an answer of `update` is, comparable over images: its score, and how like the present
+  /// image alone is to that view by `list`, as it was given. A path goes on for a while where its
+  /// street has been left; which view it leads to is not changed by that.
+  double confidence(const PlaceLikeness& answer, const std::vector<PlaceLikeness>& list) const;
   /// Forgets the past, but not how much scores vary.
   void restart() { states_.clear(); }
 

@@ -129,6 +129,20 @@ TEST(SequenceFilter, GivesTheScoreItselfWithoutAPast) {
   EXPECT_DOUBLE_EQ(filter.update(seen(3, 5), 0, 4).front().score, 2.0);
 }
 
+TEST(SequenceFilter, IsLessSureOfAPathThatThePresentImageHasLeft) {
+  SequenceFilter filter{SequenceFilterOptions{}};
+  filter.update(seen(1, 6), 0, 5);
+  filter.update(seen(2, 6), 0, 5);
+  const auto on_the_way = filter.update(seen(3, 6), 0, 5).front();
+  const double sure = filter.confidence(on_the_way, seen(3, 6));
+  EXPECT_DOUBLE_EQ(sure, 2.0);  // past and present say so alike
+  const auto list = seen(0, 6);
+  const auto left = filter.update(list, 0, 5).front();
+  EXPECT_EQ(left.view, 4);
+  EXPECT_LT(filter.confidence(left, list), left.score);
+  EXPECT_DOUBLE_EQ(filter.confidence(left, {}), left.score);
+}
+
 TEST(SequenceFilter, TakesRangesThatGrowAndEndsAtAnEmptyList) {
   SequenceFilter filter{SequenceFilterOptions{}};
   EXPECT_EQ(filter.update(seen(2, 3), 0, 2).size(), 3u);
