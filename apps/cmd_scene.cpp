@@ -1,0 +1,22 @@
+#include "apps/cmd_scene.h"
+
+#include <CLI/CLI.hpp>
+
+#include "apps/cmd_scene_check.h"
+#include "apps/cmd_scene_label.h"
+#include "apps/cmd_scene_popup.h"
+#include "apps/cmd_scene_surfaces.h"
+
+namespace placegraph::apps {
+
+void add_scene_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("scene", "What a picture shows: surfaces and classes");
+  command->footer("placegraph scene label camvid/val --out labels");
+  command->require_subcommand(1);
+  add_scene_check_command(*command);
+  add_scene_label_command(*command);
+  add_scene_popup_command(*command);
+  add_scene_surfaces_command(*command);
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,18 @@
+#include "apps/cmd_train.h"
+
+#include <CLI/CLI.hpp>
+
+#include "apps/cmd_train_surfaces.h"
+#include "apps/cmd_train_urban.h"
+
+namespace placegraph::apps {
+
+void add_train_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("train", "Learn models from labelled data");
+  command->footer("placegraph train urban camvid --out urban.pgscene");
+  command->require_subcommand(1);
+  add_train_surfaces_command(*command);
+  add_train_urban_command(*command);
+}
+
+}  // namespace placegraph::apps

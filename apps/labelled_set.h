@@ -1,0 +1,32 @@
+#pragma once
+#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/scene_model.h>
+
+#include <string>
+#include <vector>
+
+namespace placegraph::apps {
+
+/// A picture whose pixels people labelled.
+struct LabelledPicture {
+  std::string image, labels;  ///< paths
+  std::string sequence;       ///< of the drive it is from: its name up to the first '_'
+};
+
+/// A folder DATA with images/ and labels/ (of the same names), or with them in train/, and in val/
+/// if there is one; and CLASSES.txt.
+struct LabelledSet {
+  std::vector<SceneClass> classes;
+  std::vector<LabelledPicture> train, val;
+};
+
+/// Throws FileError: no CLASSES.txt, no images, an image without labels.
+LabelledSet read_labelled_set(const std::string& folder);
+
+/// The labels of a picture as numbers into `names`, 255 where they are void. `surfaces`: by what
+/// surface a class is, else by its name. Throws FileError if the image is no label image or holds a
+/// number that is no class of the set.
+Image read_class_image(const std::string& path, const std::vector<SceneClass>& classes,
+                       const std::vector<std::string>& names, bool surfaces);
+
+}  // namespace placegraph::apps

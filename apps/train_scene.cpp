@@ -1,0 +1,275 @@
+#include "apps/train_scene.h"
+
+#include <fmt/format.h>
+#include <placegraph/eval/label_check.h>
+#include <placegraph/frontend/scene/scene_training.h>
+#include <placegraph/frontend/scene/scene_variants.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
+#include <placegraph/io/image_file.h>
+#include <placegraph/io/scene_model_file.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/utility.hpp>
+#include <optional>
+
+#include "apps/labelled_set.h"
+#include "apps/output.h"
+#include "apps/progress.h"
+#include "apps/scene_models.h"
+#include "apps/usage.h"
+
+namespace placegraph::apps {
+namespace {
+
+struct Arguments {
+  std::string data, out, holdout, update;
+  int threads = 2, every = 1;
+  bool force = false, json = false, ablation = false;
+  SceneTrainingOptions options;
+};
+
+Image colour_of(const std::string& path) {
+  const GreyAndColour read = read_image(path);
+  return read.colour.empty() ? read.grey : read.colour;
+}
+
+/// The classes of the model: those of `base` first, then new ones of the set.
+SceneModel blank_model(SceneModel::Kind kind, const std::vector<SceneClass>& classes,
+                       const SceneModel* base) {
+  SceneModel model;
+  model.kind = kind;
+  if (base) model.classes = base->classes, model.surfaces = base->surfaces;
+  const auto add = [&](const std::string& name, Surface surface) {
+    if (std::find(model.classes.begin(), model.classes.end(), name) != model.classes.end()) return;
+    model.classes.push_back(name);
+    model.surfaces.push_back(surface);
+  };
+  if (kind == SceneModel::Kind::kSurfaces)
+    for (int s = 0; s < kSurfaceCount; ++s)
+      add(surface_name(static_cast<Surface>(s)), static_cast<Surface>(s));
+  else
+    for (const SceneClass& c : classes)
+      if (c.surface) add(c.name, *c.surface);
+  return model;
+}
+
+/// Cuts up every picture as often as there are variants; those of one variant follow each other.
+std::vector<SceneExample> make_examples(const LabelledSet& set,
+                                        const std::vector<LabelledPicture>& pictures,
+                                        const SceneModel& model, const Arguments& a) {
+  const int count = static_cast<int>(pictures.size()), variants = a.options.variants;
+  std::vector<int> block;
+  int in_block = 0;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const bool same = i > 0 && pictures[i].sequence == pictures[i - 1].sequence;
+    const bool full = ++in_block > std::max(1, a.options.block / a.every);
+    if (!same || full) in_block = 1;
+    block.push_back(i == 0 ? 0 : block.back() + (!same || full ? 1 : 0));
+  }
+  const bool surfaces = model.kind == SceneModel::Kind::kSurfaces;
+  std::vector<SceneExample> examples(static_cast<std::size_t>(count * variants));
+  Progress progress("looking", count * variants, "pictures");
+  constexpr int kPart = 16;  // between two lines of progress
+  for (int begin = 0; begin < count * variants; begin += kPart) {
+    parallel_for(std::min(kPart, count * variants - begin), a.threads, [&](int k) {
+      const auto at = static_cast<std::size_t>(begin + k), which = at % pictures.size();
+      const std::size_t variant = at / pictures.size();
+      Image bgr = scene_picture(colour_of(pictures[which].image));
+      Image labels = fit_labels(
+          read_class_image(pictures[which].labels, set.classes, model.classes, surfaces), bgr);
+      if (variant > 0) {
+        Random random(a.options.forest.seed, at);
+        SceneVariant drawn = vary_scene(bgr, labels, 255, variant % 2 == 1, random);
+        bgr = drawn.bgr, labels = drawn.labels;
+      }
+      examples[at] = make_example(bgr, labels, model.class_count(), block[which]);
+    });
+    progress.update(std::min(begin + kPart, count * variants));
+  }
+  return examples;
+}
+
+LabelCheck judge(const SceneModel& model, const LabelledSet& set,
+                 const std::vector<LabelledPicture>& pictures, int threads,
+                 const LabellerOptions& options = {}) {
+  const int classes = model.class_count();
+  std::vector<SceneLabels> found(pictures.size());
+  std::vector<Image> truth(pictures.size());
+  parallel_for(static_cast<int>(pictures.size()), threads, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    const SceneView view = view_scene(colour_of(pictures[at].image));
+    found[at] = most_probable(classify_superpixels(model, view, options), classes, view);
+    truth[at] = read_class_image(pictures[at].labels, set.classes, model.classes,
+                                 model.kind == SceneModel::Kind::kSurfaces);
+  });
+  LabelCheck check(classes);
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    check.add(truth[i], found[i].labels, found[i].confidence);
+  return check;
+}
+
+std::string figures(const LabelCheck& check) {
+  return fmt::format(
+      "pixel accuracy {:.4f}, class accuracy {:.4f}, mean IoU {:.4f}, calibration error {:.4f}",
+      check.pixel_accuracy(), check.class_accuracy(), check.mean_iou(), check.calibration_error());
+}
+
+nlohmann::json json_of(const LabelCheck& check, const SceneModel& model) {
+  nlohmann::json report = {{"pixel_accuracy", check.pixel_accuracy()},
+                           {"class_accuracy", check.class_accuracy()},
+                           {"mean_iou", check.mean_iou()},
+                           {"calibration_error", check.calibration_error()}};
+  for (int c = 0; c < model.class_count(); ++c)
+    if (!std::isnan(check.iou(c)))
+      report["iou"][model.classes[static_cast<std::size_t>(c)]] = check.iou(c);
+  return report;
+}
+
+/// What each part brings, a part more a line.
+nlohmann::json ablation(const SceneModel& model, const LabelledSet& set,
+                        const std::vector<LabelledPicture>& pictures, const Arguments& a) {
+  struct Step {
+    const char* name;
+    LabellerOptions options;
+  };
+  nlohmann::json rows;
+  for (const Step& step : {Step{"superpixels alone", {false, false, false, 1}},
+                           Step{"with context", {true, false, false, 1}},
+                           Step{"with two rounds of it", {true, false, false, 2}},
+                           Step{"with the random field", {true, true, false, 2}},
+                           Step{"with its relations", {true, true, true, 2}}}) {
+    const LabelCheck check = judge(model, set, pictures, a.threads, step.options);
+    if (!a.json) fmt::print("  {}: {}\n", step.name, figures(check));
+    rows[step.name] = json_of(check, model);
+  }
+  return rows;
+}
+
+std::string origin_of(const Arguments& a, std::size_t pictures, const SceneModel* base) {
+  std::string origin =
+      fmt::format("{} pictures, {} variants, {} trees, seed {}", pictures, a.options.variants,
+                  a.options.forest.trees, a.options.forest.seed);
+  if (!a.holdout.empty()) origin += ", without " + a.holdout;
+  return base ? base->origin + "; then " + origin : origin;
+}
+
+/// What the classes of an old model lose by new data, on the pictures held out.
+void print_losses(const LabelCheck& before, const LabelCheck& after, const SceneModel& base) {
+  for (int c = 0; c < base.class_count(); ++c)
+    if (!std::isnan(before.accuracy(c)))
+      fmt::print("  {}: {:.4f} of its pixels found before, {:.4f} now\n",
+                 base.classes[static_cast<std::size_t>(c)], before.accuracy(c), after.accuracy(c));
+}
+
+void write_card(const Arguments& a, const SceneModel& model, const std::string& result) {
+  std::string classes;
+  for (const std::string& name : model.classes) classes += " " + name;
+  write_file(a.out + ".md",
+             fmt::format("# {}\n\nData: {}.\nClasses:{}.\nHeld out: {}.\n\n    placegraph train {} "
+                         "DATA --out MODEL{}{}\n",
+                         name_of(model.kind), model.origin, classes, result, name_of(model.kind),
+                         a.holdout.empty() ? "" : " --holdout " + a.holdout,
+                         fmt::format(" --variants {} --trees {}", a.options.variants,
+                                     a.options.forest.trees)));
+}
+
+void train(const Arguments& a, SceneModel::Kind kind) {
+  require_free(a.out, a.force);
+  cv::setNumThreads(1);
+  LabelledSet set = read_labelled_set(a.data);
+  std::vector<LabelledPicture> learned, held;
+  for (std::size_t i = 0; i < set.train.size(); ++i) {
+    if (!a.holdout.empty() && set.train[i].sequence == a.holdout)
+      held.push_back(set.train[i]);
+    else if (i % static_cast<std::size_t>(a.every) == 0)
+      learned.push_back(set.train[i]);
+  }
+  require(a.holdout.empty() || !held.empty(),
+          "--holdout: no picture is of the sequence " + a.holdout);
+  require(!learned.empty(), "--holdout: nothing is left to learn from");
+  if (a.holdout.empty()) held = set.val;
+  std::optional<SceneModel> base;
+  if (!a.update.empty()) base = load_scene_model(kind, a.update);
+  SceneModel model = blank_model(kind, set.classes, base ? &*base : nullptr);
+  model.origin = origin_of(a, learned.size(), base ? &*base : nullptr);
+  const Stopwatch watch;
+  std::vector<SceneExample> examples = make_examples(set, learned, model, a);
+  model = train_scene_model(
+      std::move(model), std::move(examples), a.options, a.threads,
+      [](const std::string& doing) { fmt::print(stderr, "{}\n", doing); }, base ? &*base : nullptr);
+  write_scene_model(a.out, model);
+  std::string result = "nothing";
+  nlohmann::json report = {
+      {"out", a.out}, {"pictures", learned.size()}, {"seconds", watch.wall_ms() / 1e3}};
+  if (!a.json)
+    fmt::print(
+        "{}: learned from {} pictures in {:.0f} s; smoothness {}, relations {}, sharpness {}\n",
+        a.out, learned.size(), watch.wall_ms() / 1e3, model.smoothness, model.relation_weight,
+        model.sharpness);
+  if (!held.empty()) {
+    const LabelCheck check = judge(model, set, held, a.threads);
+    result = fmt::format("{} pictures of {}: {}", held.size(),
+                         a.holdout.empty() ? "val" : a.holdout, figures(check));
+    report["held_out"] = json_of(check, model);
+    if (!a.json) fmt::print("{}\n", result);
+    if (a.ablation) report["ablation"] = ablation(model, set, held, a);
+    if (base && !a.json) print_losses(judge(*base, set, held, a.threads), check, *base);
+  }
+  write_card(a, model, result);
+  if (a.json) fmt::print("{}\n", report.dump(2));
+}
+
+}  // namespace
+
+void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, const char* about) {
+  const std::string name = name_of(kind);
+  CLI::App* command = train_command.add_subcommand(name, about);
+  command->footer("placegraph train " + name + " camvid --out " + name +
+                  ".pgscene --holdout 0001TP");
+  auto arguments = std::make_shared<Arguments>();
+  Arguments& a = *arguments;
+  command
+      ->add_option(
+          "DATA", a.data,
+          "folder with CLASSES.txt and train/ of images/ and labels/, val/ beside it judges")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--out", a.out, "write the model, and its card beside it")->required();
+  command->add_option("--holdout", a.holdout,
+                      "a sequence (names up to the first '_') that judges instead of teaching");
+  command->add_option("--update", a.update,
+                      "a model to add these data to, with classes it does not know yet");
+  command
+      ->add_option("--variants", a.options.variants,
+                   "of each picture, as another day might show it")
+      ->capture_default_str();
+  command->add_option("--trees", a.options.forest.trees, "of each forest")->capture_default_str();
+  command->add_option("--min-leaf", a.options.forest.min_leaf, "superpixels a leaf holds at least")
+      ->capture_default_str();
+  command->add_option("--tries", a.options.forest.tries, "features looked at for a split")
+      ->capture_default_str();
+  command
+      ->add_option("--share-rows", a.options.forest.share_rows,
+                   "of the superpixels, taken by a tree")
+      ->capture_default_str();
+  command->add_option("--class-power", a.options.class_power, "rare classes weigh as share^-power")
+      ->capture_default_str();
+  command->add_option("--every", a.every, "learn from every n-th picture only")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seed", a.options.forest.seed, "of what is drawn")->capture_default_str();
+  command->add_option("--threads", a.threads, "do not change the result")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_flag("--ablation", a.ablation, "judge each part of the model too");
+  command->add_flag("--json", a.json, "a report for machines");
+  command->add_flag("--force", a.force, "overwrite files");
+  command->callback([arguments, kind] { train(*arguments, kind); });
+}
+
+}  // namespace placegraph::apps

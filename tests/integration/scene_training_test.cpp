@@ -1,0 +1,87 @@
+// Models of scenes, learned from drawn streets.
+#include <gtest/gtest.h>
+#include <placegraph/frontend/scene/scene_training.h>
+#include <placegraph/frontend/scene/surface_classifier.h>
+#include <placegraph/frontend/scene/urban_labels.h>
+#include <placegraph/graph/core/error.h>
+
+#include <opencv2/core.hpp>
+
+#include "tests/support/scene_pictures.h"
+
+namespace placegraph {
+namespace {
+
+TEST(SceneView, TakesAnySizeAndGreyPicturesAndRefusesTinyOnes) {
+  for (const cv::Size size : {cv::Size(240, 180), {641, 479}, {97, 333}}) {
+    const SceneView view = view_scene(test::draw_street(3, size).bgr);
+    EXPECT_EQ(view.rows, size.height);
+    EXPECT_EQ(view.features.count, view.superpixels.count);
+    EXPECT_EQ(view.features.dimension, kSuperpixelFeatures);
+  }
+  EXPECT_GT(view_scene(Image(100, 120, CV_8UC1, cv::Scalar(9))).superpixels.count, 0);
+  EXPECT_THROW((void)view_scene(Image(20, 400, CV_8UC3)), ArgumentError);
+  EXPECT_THROW((void)view_scene(Image()), ArgumentError);
+}
+
+SceneModel street_model(SceneModel::Kind kind, int threads, const SceneModel* base = nullptr) {
+  SceneModel model;
+  model.kind = kind;
+  model.classes = {"sky", "ground", "vertical", "object"};
+  model.surfaces = {Surface::kSky, Surface::kGround, Surface::kVertical, Surface::kObject};
+  std::vector<SceneExample> examples;
+  for (int i = 0; i < 6; ++i) {
+    const test::DrawnStreet street = test::draw_street(static_cast<std::uint64_t>(100 + i));
+    examples.push_back(make_example(street.bgr, street.labels, 4, i));
+  }
+  SceneTrainingOptions options;
+  options.forest.min_leaf = 4;
+  options.forest.share_rows = 0.8;
+  options.forest.trees = 6;
+  options.forest.tries = 60;
+  return train_scene_model(
+      model, std::move(examples), options, threads, [](const std::string&) {}, base);
+}
+
+double share_right(const Image& labels, const Image& truth) {
+  return 1 - cv::countNonZero(labels != truth) / static_cast<double>(truth.total());
+}
+
+TEST(SceneTraining, AModelOfDrawnStreetsLabelsOneItHasNotSeen) {
+  const SceneModel model = street_model(SceneModel::Kind::kSurfaces, 1);
+  ASSERT_FALSE(model.problem());
+  const test::DrawnStreet street = test::draw_street(7);
+  const SceneView view = view_scene(street.bgr);
+  const SurfaceLayout layout = classify_surfaces(model, view);
+  EXPECT_GT(share_right(layout.surfaces.labels, street.labels), 0.93);
+  EXPECT_EQ(cv::norm(layout.ground, layout.surfaces.labels == 1, cv::NORM_INF), 0);
+  // Nothing is surer than 1.1: all of it is unknown.
+  EXPECT_EQ(cv::countNonZero(classify_surfaces(model, view, 1.1).surfaces.labels != kSurfaceCount),
+            0);
+
+  SceneModel urban = model;
+  urban.kind = SceneModel::Kind::kUrban;
+  const UrbanLabels joint = label_urban(urban, model, view);
+  const SceneLabels classes = most_probable(joint.classes, 4, view);
+  EXPECT_GT(share_right(classes.labels, street.labels), 0.93);
+  EXPECT_THROW((void)label_urban(model, urban, view), ArgumentError);
+  EXPECT_THROW((void)classify_surfaces(urban, view), ArgumentError);
+}
+
+TEST(SceneTraining, GivesTheSameModelForAnyNumberOfThreads) {
+  const SceneModel one = street_model(SceneModel::Kind::kUrban, 1),
+                   two = street_model(SceneModel::Kind::kUrban, 2);
+  EXPECT_EQ(one.second.leaves, two.second.leaves);
+  EXPECT_EQ(one.smoothness, two.smoothness);
+  EXPECT_EQ(one.sharpness, two.sharpness);
+}
+
+TEST(SceneTraining, KeepsTheTreesOfAModelThatLearnsMore) {
+  const SceneModel old = street_model(SceneModel::Kind::kUrban, 1);
+  const SceneModel grown = street_model(SceneModel::Kind::kUrban, 1, &old);
+  EXPECT_EQ(grown.first.roots.size(), 2 * old.first.roots.size());
+  EXPECT_FALSE(grown.problem());
+}
+
+}  // namespace
+}  // namespace placegraph
