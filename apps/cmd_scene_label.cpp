@@ -14,9 +14,11 @@ namespace {
 void label(const ScenePictureArguments& a) {
   const SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, a.model);
   const SceneModel surfaces = load_scene_model(SceneModel::Kind::kSurfaces, a.surfaces_model);
+  LabellerOptions options;
+  options.relations = a.relations;
   label_pictures(a, urban.classes, [&](const SceneView& view) {
-    return most_probable(label_urban(urban, surfaces, view).classes, urban.class_count(), view,
-                         a.unknown_below);
+    return most_probable(label_urban(urban, surfaces, view, options).classes, urban.class_count(),
+                         view, a.unknown_below);
   });
 }
 

@@ -13,8 +13,10 @@ namespace {
 
 void find_surfaces(const ScenePictureArguments& a) {
   const SceneModel model = load_scene_model(SceneModel::Kind::kSurfaces, a.model);
+  LabellerOptions options;
+  options.relations = a.relations;
   label_pictures(a, model.classes, [&](const SceneView& view) {
-    return classify_surfaces(model, view, a.unknown_below).surfaces;
+    return classify_surfaces(model, view, a.unknown_below, options).surfaces;
   });
 }
 

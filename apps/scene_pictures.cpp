@@ -38,21 +38,20 @@ void write_png(const fs::path& path, const Image& image) {
 
 struct Tally {
   std::vector<std::int64_t> pixels;  ///< of each class, then unknown ones
-  double ms = 0;
+  double ms = 0;                     ///< of the processor
 };
 
 Tally label_picture(const std::string& path, const ScenePictureArguments& a, std::size_t classes,
                     const std::function<SceneLabels(const SceneView&)>& label) {
   const GreyAndColour read = read_image(path);
   const Image picture = read.colour.empty() ? read.grey : read.colour;
-  const Stopwatch watch;
   SceneLabels found;
   try {
     found = label(view_scene(picture));
   } catch (const ArgumentError& error) {
     throw FileError(path, error.what());
   }
-  Tally tally{std::vector<std::int64_t>(classes + 1, 0), watch.wall_ms()};
+  Tally tally{std::vector<std::int64_t>(classes + 1, 0), 0};
   for (int v = 0; v < found.labels.rows; ++v)
     for (int u = 0; u < found.labels.cols; ++u) ++tally.pixels[found.labels.at<std::uint8_t>(v, u)];
   const fs::path out = fs::path(a.out) / fs::path(path).stem();
@@ -77,8 +76,8 @@ void print_tally(const Tally& all, const ScenePictureArguments& a,
   for (const std::int64_t pixels : all.pixels) sum += static_cast<double>(pixels);
   nlohmann::json report = {{"pictures", pictures},
                            {"ms_per_picture", all.ms / static_cast<double>(pictures)}};
-  std::string text =
-      fmt::format("{} pictures, {:.0f} ms each:", pictures, all.ms / static_cast<double>(pictures));
+  std::string text = fmt::format("{} pictures, {:.0f} ms of the processor each:", pictures,
+                                 all.ms / static_cast<double>(pictures));
   for (std::size_t c = 0; c <= classes.size(); ++c) {
     const std::string name = c < classes.size() ? classes[c] : "unknown";
     const double share = static_cast<double>(all.pixels[c]) / sum;
@@ -117,6 +116,8 @@ void add_scene_picture_options(CLI::App& command, ScenePictureArguments& a) {
                   "less sure pixels get the number after the last class")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+  command.add_flag("--relations", a.relations,
+                   "let the table of what lies above and beside what count too");
   command.add_flag("--confidence", a.confidence, "write NAME.confidence.png too, 255 = certain");
   command.add_flag("--draw", a.draw, "write NAME.drawn.png too, the classes in colours");
   command.add_option("--threads", a.threads, "pictures at a time")
@@ -136,6 +137,7 @@ void label_pictures(const ScenePictureArguments& a, const std::vector<std::strin
       throw FileError(path, "another picture has the same name");
   require_free_folder(a.out, a.force);
   const OutputFolder folder(a.out);
+  const Stopwatch watch;
   std::vector<Tally> tallies(pictures.size());
   Progress progress("labelling", static_cast<std::int64_t>(pictures.size()), "pictures");
   const auto part = static_cast<std::size_t>(4 * a.threads);
@@ -148,10 +150,9 @@ void label_pictures(const ScenePictureArguments& a, const std::vector<std::strin
     progress.update(static_cast<std::int64_t>(begin + count));
   }
   Tally all{std::vector<std::int64_t>(classes.size() + 1, 0), 0};
-  for (const Tally& tally : tallies) {
+  for (const Tally& tally : tallies)
     for (std::size_t c = 0; c < all.pixels.size(); ++c) all.pixels[c] += tally.pixels[c];
-    all.ms += tally.ms;
-  }
+  all.ms = watch.cpu_ms();
   print_tally(all, a, classes, pictures.size());
 }
 

@@ -14,7 +14,7 @@ struct ScenePictureArguments {
   std::string input, out, model, surfaces_model;
   double unknown_below = 0;
   int threads = 1;
-  bool confidence = false, draw = false, force = false, json = false;
+  bool relations = false, confidence = false, draw = false, force = false, json = false;
 };
 
 void add_scene_picture_options(CLI::App& command, ScenePictureArguments& arguments);

@@ -23,10 +23,12 @@ Image scene_picture(const Image& picture);
 
 /// How much of a model is used: for measuring what each part brings.
 struct LabellerOptions {
-  bool context = true;    ///< the second forest
-  bool field = true;      ///< the random field
-  bool relations = true;  ///< its table
-  int rounds = 2;         ///< of the second forest
+  bool context = true;  ///< the second forest
+  bool field = true;    ///< the random field
+  /// Its table of relations: off, for the second forest sees who lies where already, and on a day
+  /// that was not learned from the table counts the same evidence twice.
+  bool relations = false;
+  int rounds = 2;  ///< of the second forest
   void check() const;
 };
 void visit(OptionVisitor& field, LabellerOptions& options);

@@ -34,7 +34,7 @@ for kind in surfaces urban; do
 
 $([ $kind = surfaces ] && echo "Sky, ground, vertical, object" || echo "The eleven classes, both models asked"); \`val\` by the models that come with the program:
 NOTE
-  columns held-out "pixel accuracy" "class accuracy" "mean IoU" "calibration error" "ms a picture"
+  columns held-out "pixel accuracy" "class accuracy" "mean IoU" "calibration error" "ms of CPU a picture"
   for part in 0001TP 0006R0 0016E5 val; do
     f=$out/camvid-$part-$kind.check.json
     cells "$part" "$(digits "$(number "$f" pixel_accuracy)")" "$(digits "$(number "$f" class_accuracy)")" "$(digits "$(number "$f" mean_iou)")" \
