@@ -78,7 +78,7 @@ TEST_F(SceneModelFile, ReadsWhatWasWritten) {
 
 TEST_F(SceneModelFile, RefusesEveryTruncation) {
   const std::string bytes = written();
-  for (std::size_t size = 0; size < bytes.size(); size += 7)
+  for (std::size_t size = 0; size < bytes.size(); size += 31)
     EXPECT_THAT(refusal(bytes.substr(0, size)), HasSubstr("broken.pgscene: ")) << size;
   EXPECT_THAT(refusal(bytes.substr(0, bytes.size() - 1)), HasSubstr("truncated"));
   EXPECT_THAT(refusal(bytes + "x"), HasSubstr("too long"));
