@@ -67,15 +67,30 @@ std::vector<Part> halves(const Part& part, double max_cut, std::vector<int>& num
   return two;
 }
 
-/// What one plane for all costs these points beyond their own plane, and whether that is little:
-/// chance, a shift by a part of the noise, and bending.
-bool suits(const PlaneSums& sums, double own_chi2, const FittedPlane& joint,
-           const FitModel& model) {
-  constexpr double kChance = 16, kNoiseShare = 0.1;
-  constexpr double kBending = 2;
-  const double rise = sums.misfit(joint, model) - own_chi2;
-  const double bending = sums.inflation(joint, model) - 1;
-  return rise <= kChance + sums.count() * (kNoiseShare + kBending * bending);
+/// What another plane costs points beyond their own.
+double rise_of(const PlanarSegment& segment, const FittedPlane& plane, const FitModel& model) {
+  return segment.sums.misfit(plane, model) - segment.plane.chi2;
+}
+
+/// Whether two segments are one plane: a common one costs either no more than chance and a part of
+/// the noise, or the smaller one goes on in the larger one's plane but for what that may bend. (A
+/// common plane tilts over a step between them; the larger one's does not.)
+bool are_coplanar(const PlanarSegment& large, const PlanarSegment& small, const FitModel& model) {
+  constexpr double kChance = 16, kNoiseShare = 0.1, kBending = 4;
+  if (std::abs(small.plane.plane.normal.dot(large.plane.plane.normal)) < kMaxTurnCos) return false;
+  const auto chance = [&](const PlanarSegment& segment) {
+    return kChance + kNoiseShare * segment.sums.count();
+  };
+  PlaneSums both = large.sums;
+  both += small.sums;
+  const FittedPlane joint = both.fit(model);
+  if (!joint.ok) return false;
+  if (rise_of(small, joint, model) <= chance(small) &&
+      rise_of(large, joint, model) <= chance(large))
+    return true;
+  const double bending = small.sums.inflation(large.plane, model) - 1;
+  return rise_of(small, large.plane, model) <=
+         chance(small) + kBending * bending * small.sums.count();
 }
 
 }  // namespace
@@ -150,14 +165,7 @@ std::vector<PlanarSegment> merge_coplanar(std::vector<PlanarSegment> segments,
   for (PlanarSegment& segment : segments) {
     PlanarSegment* home = nullptr;
     for (PlanarSegment& other : merged) {
-      const double turn = segment.plane.plane.normal.dot(other.plane.plane.normal);
-      if (std::abs(turn) < kMaxTurnCos) continue;
-      PlaneSums both = segment.sums;
-      both += other.sums;
-      const FittedPlane joint = both.fit(model);
-      if (!joint.ok || !suits(segment.sums, segment.plane.chi2, joint, model) ||
-          !suits(other.sums, other.plane.chi2, joint, model))
-        continue;
+      if (!are_coplanar(other, segment, model)) continue;
       home = &other;
       break;
     }
