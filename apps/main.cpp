@@ -32,6 +32,7 @@
 #include "apps/cmd_synth.h"
 #include "apps/cmd_synth_graph.h"
 #include "apps/cmd_track_plane.h"
+#include "apps/cmd_train.h"
 #include "apps/cmd_vanishing.h"
 #include "apps/cmd_vocabulary.h"
 #include "apps/help.h"
@@ -96,6 +97,7 @@ int main(int argc, char** argv) {
     add_synth_command(app);
     add_synth_graph_command(app);
     add_track_plane_command(app);
+    add_train_command(app);
     add_vanishing_command(app);
     add_vocabulary_command(app);
     if (argc > 1 && argv[1][0] != '-' && !is_command(app, argv[1]))

@@ -55,15 +55,14 @@ FittedPlane robust_plane(const PlanarSegment& segment, const CloudPoints& points
   return best;
 }
 
-/// Segments that are planes by their looks. What of a segment is off the plane of most of it is
-/// judged by itself.
-std::vector<PlanarSegment> prune(std::vector<PlanarSegment> segments, const CloudPoints& points,
+/// Takes segments apart that hold more than one plane: the super-points on the plane of most of it,
+/// and those that are off it, again.
+std::vector<PlanarSegment> split(std::vector<PlanarSegment> segments, const CloudPoints& points,
                                  const SuperPoints& cloud, const CloudPlanesOptions& options,
-                                 const PlanarityModel& planarity, Random& random) {
+                                 Random& random) {
   constexpr double kNear = 2.5, kLeastShare = 0.1;
-  const auto contacts = contacts_of_cells(cloud);
   const double least = std::max(8, options.min_points / 4);
-  std::vector<PlanarSegment> kept;
+  std::vector<PlanarSegment> result;
   while (!segments.empty()) {
     PlanarSegment segment = std::move(segments.back());
     segments.pop_back();
@@ -86,11 +85,17 @@ std::vector<PlanarSegment> prune(std::vector<PlanarSegment> segments, const Clou
         if (segment.sums.count() < least || !segment.plane.ok) continue;
       }
     }
-    segment.probability =
-        planarity.probability(planarity_features(segment, points, cloud, contacts));
-    if (segment.probability >= options.min_probability) kept.push_back(std::move(segment));
+    result.push_back(std::move(segment));
   }
-  return kept;
+  return result;
+}
+
+/// Everything up to the judgement.
+std::vector<PlanarSegment> find_segments(const CloudPoints& points, const SuperPoints& cloud,
+                                         const CloudPlanesOptions& options, Random& random) {
+  std::vector<PlanarSegment> segments = cut_into_segments(cloud, points.model, options.max_cut);
+  segments = split(std::move(segments), points, cloud, options, random);
+  return merge_coplanar(std::move(segments), cloud, points.model);
 }
 
 PlaneLabels planes_by_cuts(const CloudPoints& points, const CloudPlanesOptions& options,
@@ -98,12 +103,13 @@ PlaneLabels planes_by_cuts(const CloudPoints& points, const CloudPlanesOptions& 
   constexpr double kLeastShare = 0.5;
   Random random(options.seed);
   const SuperPoints cloud = make_super_points(points);
-  std::vector<PlanarSegment> segments = cut_into_segments(cloud, points.model, options.max_cut);
-  segments = prune(std::move(segments), points, cloud, options, planarity, random);
-  segments = merge_coplanar(std::move(segments), cloud, points.model);
+  const auto contacts = contacts_of_cells(cloud);
   PlaneLabels result;
   result.labels.assign(points.xyz.size(), -1);
-  for (const PlanarSegment& segment : segments) {
+  for (const PlanarSegment& segment : find_segments(points, cloud, options, random)) {
+    const double probability =
+        planarity.probability(planarity_features(segment, points, cloud, contacts));
+    if (probability < options.min_probability) continue;
     const FittedPlane plane =
         robust_plane(segment, points, cloud, options.inlier_sigmas, kLeastShare, random);
     if (!plane.ok) continue;
@@ -111,7 +117,7 @@ PlaneLabels planes_by_cuts(const CloudPoints& points, const CloudPlanesOptions& 
       for (int k = cloud.cells[c].begin; k < cloud.cells[c].end; ++k)
         result.labels[cloud.order[k]] = static_cast<int>(result.planes.size());
     result.planes.push_back(plane);
-    probabilities.push_back(segment.probability);
+    probabilities.push_back(probability);
   }
   spread_labels(points, cloud, options.inlier_sigmas, result);
   std::vector<int> kept;
@@ -187,9 +193,8 @@ JudgedSegments segments_to_judge(const PointCloud& cloud, const CloudPlanesOptio
   if (result.points.size() < kLeastPoints) return result;
   result.cloud = make_super_points(result.points);
   const auto contacts = contacts_of_cells(result.cloud);
-  for (PlanarSegment& segment :
-       cut_into_segments(result.cloud, result.points.model, options.max_cut)) {
-    if (segment.sums.count() < std::max(8, options.min_points / 4) || !segment.plane.ok) continue;
+  Random random(options.seed);
+  for (PlanarSegment& segment : find_segments(result.points, result.cloud, options, random)) {
     result.features.push_back(planarity_features(segment, result.points, result.cloud, contacts));
     result.segments.push_back(std::move(segment));
   }

@@ -20,7 +20,7 @@ struct CloudPlanesOptions {
   double inlier_sigmas = 3;      ///< points of a plane are this near
   int min_points = 50;           ///< fewer are no plane
   double max_cut = 0.25;         ///< normalized cuts above it are not made
-  double min_probability = 0.5;  ///< of a segment being a plane, to be one
+  double min_probability = 0.3;  ///< of a segment; a lost plane costs more than a false one
   std::uint64_t seed = 1;        ///< of the random samples
   void check() const;
 };

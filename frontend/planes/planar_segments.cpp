@@ -176,11 +176,8 @@ std::vector<PlanarSegment> merge_coplanar(std::vector<PlanarSegment> segments,
       merged.push_back(std::move(segment));
       continue;
     }
-    const double share = segment.sums.count() / (segment.sums.count() + home->sums.count());
-    const double probability = share * segment.probability + (1 - share) * home->probability;
     home->cells.insert(home->cells.end(), segment.cells.begin(), segment.cells.end());
     *home = make_segment(std::move(home->cells), cloud, model);
-    home->probability = probability;
   }
   return merged;
 }

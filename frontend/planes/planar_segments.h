@@ -10,7 +10,6 @@ struct PlanarSegment {
   std::vector<int> cells;  ///< ascending
   PlaneSums sums;
   FittedPlane plane;
-  double probability = 1;  ///< that it is a plane
 };
 
 PlanarSegment make_segment(std::vector<int> cells, const SuperPoints& cloud, const FitModel& model);

@@ -10,7 +10,8 @@ namespace placegraph {
 namespace {
 
 constexpr int kSamples = 256;  ///< points of a segment that are looked at
-const double kAlikeCos = std::cos(10 * M_PI / 180), kCreaseCos = std::cos(30 * M_PI / 180);
+const double kAlikeCos = std::cos(10 * M_PI / 180), kGentleCos = std::cos(12 * M_PI / 180),
+             kCreaseCos = std::cos(30 * M_PI / 180);
 
 std::vector<int> sample_points(const PlanarSegment& segment, const SuperPoints& cloud) {
   const int stride = std::max(1, static_cast<int>(segment.sums.count()) / kSamples);
@@ -74,7 +75,8 @@ Shape shape_of(const PlanarSegment& segment, const CloudPoints& points, const Su
 /// Shares of the neighbours across the border.
 struct Border {
   double pairs = 0;
-  double goes_on = 0;  ///< on a cell that turns away by less than a crease does
+  double goes_on = 0;  ///< on a cell that turns away as a curved surface does
+  double gentle = 0;   ///< on a cell that turns away by more, less than a crease does
   double crease = 0;   ///< on a cell at a larger angle
   double rough = 0;    ///< on a cell that is no plane
 };
@@ -102,10 +104,10 @@ Border border_of(const PlanarSegment& segment, const SuperPoints& cloud,
       if (std::abs(turn) < kCreaseCos)
         border.crease += contact.pairs;
       else if (bends && planar_dissimilarity(here, there, model) > kDifferent)
-        border.goes_on += contact.pairs;
+        (std::abs(turn) > kGentleCos ? border.goes_on : border.gentle) += contact.pairs;
     }
   const double all = std::max(border.pairs, 1.0);
-  border.goes_on /= all, border.crease /= all, border.rough /= all;
+  border.goes_on /= all, border.gentle /= all, border.crease /= all, border.rough /= all;
   return border;
 }
 
@@ -113,8 +115,8 @@ Border border_of(const PlanarSegment& segment, const SuperPoints& cloud,
 
 const std::array<const char*, kPlanarityFeatures>& planarity_feature_names() {
   static constexpr std::array<const char*, kPlanarityFeatures> kNames = {
-      "misfit", "linearity", "scatter", "near",   "far",   "curved", "bend",
-      "turn",   "alike",     "goes_on", "crease", "rough", "border"};
+      "misfit", "linearity", "scatter", "near",   "far",   "curved", "bend", "turn",
+      "alike",  "goes_on",   "gentle",  "crease", "rough", "border", "size"};
   return kNames;
 }
 
@@ -143,9 +145,11 @@ PlanarityFeatures planarity_features(const PlanarSegment& segment, const CloudPo
           turn,
           alike,
           border.goes_on,
+          border.gentle,
           border.crease,
           border.rough,
-          border.pairs / std::sqrt(n)};
+          border.pairs / std::sqrt(n),
+          std::log(n)};
 }
 
 double PlanarityModel::probability(const PlanarityFeatures& features) const {

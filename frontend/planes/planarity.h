@@ -7,7 +7,7 @@
 
 namespace placegraph {
 
-constexpr int kPlanarityFeatures = 13;
+constexpr int kPlanarityFeatures = 15;
 /// What a segment looks like, free of scale.
 using PlanarityFeatures = std::array<double, kPlanarityFeatures>;
 

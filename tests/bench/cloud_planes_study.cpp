@@ -1,5 +1,5 @@
 // Planes in point clouds with known labels: found by each method, with and without noise added.
-//   bench_cloud_planes_study castle FOLDER | synpeb FILE
+//   bench_cloud_planes_study castle FOLDER | synpeb FILE | world NAME | generated SEED
 #include <fmt/format.h>
 #include <placegraph/eval/plane_check.h>
 #include <placegraph/frontend/planes/cloud_planes.h>
@@ -9,6 +9,8 @@
 #include <placegraph/graph/core/se3.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/point_cloud_file.h>
+#include <placegraph/io/synthetic/cloud_scene.h>
+#include <placegraph/io/synthetic/synthetic_world.h>
 #include <placegraph/io/text_file.h>
 
 #include <algorithm>
@@ -97,6 +99,45 @@ std::vector<Sample> read_synpeb(const std::string& file) {
   return {sample};
 }
 
+/// Frames of a rendered world.
+std::vector<Sample> render_world(const std::string& name) {
+  constexpr std::size_t kFrames = 12;
+  SyntheticOptions options;
+  options.world = name;
+  options.seed = 77;
+  const SyntheticWorld world(options);
+  // Faces in one plane are one.
+  const auto planes = world.planes();
+  std::vector<int> same_plane(planes.size(), 0);
+  for (std::size_t a = 1; a < planes.size(); ++a)
+    for (std::size_t b = 1; b <= a && same_plane[a] == 0; ++b)
+      if ((planes[a] - planes[b]).norm() < 1e-4 || (planes[a] + planes[b]).norm() < 1e-4)
+        same_plane[a] = static_cast<int>(b);
+  std::vector<Sample> samples;
+  for (std::size_t k = 0; k < kFrames; ++k) {
+    const SyntheticFrame seen =
+        world.render(world.size() * k / kFrames, {.depth = true, .planes = true});
+    Sample sample;
+    sample.name = fmt::format("{} {}", name, k);
+    sample.cloud = cloud_of_depth(seen.frame.depth, world.calibration().camera, 0);
+    sample.truth.assign(seen.planes.begin<std::uint16_t>(), seen.planes.end<std::uint16_t>());
+    for (int& label : sample.truth) label = same_plane[static_cast<std::size_t>(label)];
+    samples.push_back(std::move(sample));
+  }
+  return samples;
+}
+
+std::vector<Sample> generate(std::uint64_t seed) {
+  constexpr std::uint64_t kClouds = 40, kStream = 1'000'000;  // none that models are trained on
+  std::vector<Sample> samples;
+  for (std::uint64_t k = 0; k < kClouds; ++k) {
+    Random random(seed, kStream + k);
+    synthetic::LabelledCloud cloud = synthetic::random_cloud(random);
+    samples.push_back({fmt::format("cloud {}", k), std::move(cloud.cloud), cloud.labels, {}});
+  }
+  return samples;
+}
+
 /// Along the ray, in metres or in shares of the range.
 PointCloud with_noise(PointCloud cloud, double sigma_m, double sigma_share, Random& random) {
   for (Eigen::Vector3d& p : cloud.points) {
@@ -108,9 +149,9 @@ PointCloud with_noise(PointCloud cloud, double sigma_m, double sigma_share, Rand
 }
 
 void study(const std::vector<Sample>& samples, const std::string& data, double sigma_m,
-           double sigma_share, int min_points, bool verbose, CloudPlanesOptions options) {
+           double sigma_share, int min_points, bool verbose) {
   for (const auto& [name, method] : kMethods) {
-    if (std::getenv("ONLY") && std::string(std::getenv("ONLY")) != name) continue;
+    CloudPlanesOptions options;
     options.method = method;
     const PlanarityModel planarity = built_in_planarity();
     PlaneCheck all;
@@ -122,7 +163,10 @@ void study(const std::vector<Sample>& samples, const std::string& data, double s
       const std::clock_t begin = std::clock();
       const CloudPlanesResult result = find_cloud_planes(cloud, options, planarity);
       cpu.push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-      if (verbose && method == CloudPlanesMethod::kCuts) fmt::print(stderr, "{}: noise {:.3g} power {} least {:.3g} at 0.9 {:.3g}\n", sample.name, result.noise.at_1m, result.noise.power, result.noise.least_m, result.noise.sigma(0.9));
+      if (verbose && method == CloudPlanesMethod::kCuts)
+        fmt::print(stderr, "{}: noise {:.3g} power {} least {:.3g} at 0.9 {:.3g}\n", sample.name,
+                   result.noise.at_1m, result.noise.power, result.noise.least_m,
+                   result.noise.sigma(0.9));
       const PlaneCheck check = check_planes(sample.truth, result.labels, {0.8, min_points});
       found += static_cast<int>(result.planes.size());
       all.truth += check.truth, all.correct += check.correct, all.missed += check.missed;
@@ -163,20 +207,22 @@ void study(const std::vector<Sample>& samples, const std::string& data, double s
 }
 
 int run(const std::vector<std::string>& arguments) {
-  require(arguments.size() >= 2, "bench_cloud_planes_study castle FOLDER | synpeb FILE");
+  require(arguments.size() >= 2,
+          "bench_cloud_planes_study castle FOLDER | synpeb FILE | world NAME | generated SEED");
   const bool castle = arguments[0] == "castle", verbose = arguments.size() > 2;
-  const std::vector<Sample> samples =
-      castle ? read_castle(arguments[1]) : read_synpeb(arguments[1]);
+  const std::vector<Sample> samples = castle                     ? read_castle(arguments[1])
+                                      : arguments[0] == "synpeb" ? read_synpeb(arguments[1])
+                                      : arguments[0] == "world"  ? render_world(arguments[1])
+                                      : arguments[0] == "generated"
+                                          ? generate(std::stoull(arguments[1]))
+                                          : std::vector<Sample>{};
+  require(!samples.empty(), arguments[0] + ": no such data");
   fmt::print(
       "data\tnoise\tmethod\tplanes\tcorrect\tshare\tover_a_plane\textra\tunder\tmissed\tfalse\t"
       "normal_median_deg\tnormal_worst_deg\tcpu_ms\tfound\n");
-  CloudPlanesOptions options;
-  if (std::getenv("FLAT")) options.flatness = std::atof(std::getenv("FLAT"));
-  if (std::getenv("CUT")) options.max_cut = std::atof(std::getenv("CUT"));
-  if (std::getenv("SIG")) options.inlier_sigmas = std::atof(std::getenv("SIG"));
   for (const double noise : {0.0, 1.0, 2.0})
     study(samples, arguments[0], castle ? 1e-3 * noise : 0, castle ? 0 : 1e-2 * noise,
-          castle ? 300 : 100, verbose, options);
+          castle ? 300 : 100, verbose);
   return 0;
 }
 
