@@ -63,13 +63,13 @@ void add_world(const std::string& name, const Arguments& arguments, Random& rand
   world_options.world = name;
   world_options.seed = arguments.seed;
   world_options.width = 320, world_options.height = 240;
+  if (arguments.frames == 0) return;
   const SyntheticWorld world(world_options);
   const Camera camera = world.calibration().camera;
   for (int i = 0; i < arguments.frames; ++i) {
     const std::size_t frame =
         world.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(arguments.frames);
-    const SyntheticFrame seen =
-        world.render(frame, {.depth = true, .planes = true});
+    const SyntheticFrame seen = world.render(frame, {.depth = true, .planes = true});
     LabelledCloud labelled{cloud_of_depth(seen.frame.depth, camera, 0), {}};
     const double share = i % 3 == 0 ? 0 : 2e-4 * std::pow(30, random.uniform());
     for (std::size_t k = 0; k < labelled.cloud.points.size(); ++k) {

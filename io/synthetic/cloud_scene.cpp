@@ -153,6 +153,41 @@ class SceneMaker {
   int next_label_ = 1;
 };
 
+/// Part of a view goes through leaves: depths there are anyhow.
+void add_foliage(LabelledCloud& taken, int width, int height, Random& random) {
+  const int x0 = random.index(width), y0 = random.index(height);
+  const int x1 = x0 + width / 8 + random.index(width / 2),
+            y1 = y0 + height / 8 + random.index(height / 2);
+  const double depth = random.uniform(0.05, 0.4);
+  for (std::size_t i = 0; i < taken.labels.size(); ++i) {
+    const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+    if (x < x0 || x >= x1 || y < y0 || y >= y1) continue;
+    taken.cloud.points[i] *= std::max(0.1, 1 + random.normal(0, depth));
+    taken.labels[i] = 0;
+  }
+}
+
+/// The cloud as from nowhere: no pixels, the origin elsewhere, and points that fill a volume.
+LabelledCloud moved(const LabelledCloud& taken, double size_m, Random& random) {
+  LabelledCloud result;
+  const Eigen::Vector3d shift =
+      size_m *
+      Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1.5, 0));
+  for (std::size_t i = 0; i < taken.labels.size(); ++i) {
+    if (!taken.cloud.points[i].allFinite()) continue;
+    result.cloud.points.push_back(taken.cloud.points[i] + shift);
+    result.labels.push_back(taken.labels[i]);
+  }
+  const Eigen::Vector3d centre = shift + Eigen::Vector3d(0, 0, size_m * random.uniform(0.3, 0.8));
+  const double spread = size_m * random.uniform(0.05, 0.3);
+  for (int i = random.index(3000); i > 0; --i) {
+    result.cloud.points.push_back(
+        centre + spread * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
+    result.labels.push_back(0);
+  }
+  return result;
+}
+
 }  // namespace
 
 LabelledCloud take_cloud(const std::vector<Solid>& solids, const CloudSensor& sensor,
@@ -211,7 +246,11 @@ LabelledCloud random_cloud(Random& random) {
   sensor.noise_share = random.uniform() < 0.25 ? 0 : 2e-4 * std::pow(60, random.uniform());
   sensor.noise_power = random.index(3);
   sensor.depth_scale_m = size_m;
-  return take_cloud(solids, sensor, random);
+  LabelledCloud taken = take_cloud(solids, sensor, random);
+  if (!sensor.scans && random.uniform() < 0.3)
+    add_foliage(taken, sensor.width, sensor.height, random);
+  if (sensor.width <= 160 && random.uniform() < 0.4) return moved(taken, size_m, random);
+  return taken;
 }
 
 }  // namespace placegraph::synthetic

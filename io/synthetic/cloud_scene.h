@@ -44,7 +44,8 @@ LabelledCloud take_cloud(const std::vector<Solid>& solids, const CloudSensor& se
                          Random& random);
 
 /// A room or an open space of any size, 0.3 to 60 m, with boxes, cylinders, ellipsoids and heaps of
-/// small ones, taken by a depth camera or a scanner with noise of some kind.
+/// small ones, taken by a depth camera or a scanner with noise of some kind; partly through leaves,
+/// or moved away from its viewpoint and mixed with points that fill a volume.
 LabelledCloud random_cloud(Random& random);
 
 }  // namespace placegraph::synthetic

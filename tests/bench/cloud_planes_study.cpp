@@ -128,7 +128,7 @@ std::vector<Sample> render_world(const std::string& name) {
 }
 
 std::vector<Sample> generate(std::uint64_t seed) {
-  constexpr std::uint64_t kClouds = 40, kStream = 1'000'000;  // none that models are trained on
+  constexpr std::uint64_t kClouds = 20, kStream = 1'000'000;  // none that models are trained on
   std::vector<Sample> samples;
   for (std::uint64_t k = 0; k < kClouds; ++k) {
     Random random(seed, kStream + k);
