@@ -120,12 +120,21 @@ PlaneLabels planes_by_cuts(const CloudPoints& points, const CloudPlanesOptions& 
     probabilities.push_back(probability);
   }
   spread_labels(points, cloud, options.inlier_sigmas, result);
+  constexpr double kPorous = 0.5;
+  drop_porous(points, kPorous, result);
   std::vector<int> kept;
   drop_small(points, std::max(4, options.min_points / 4), options.min_points, result, &kept);
   std::vector<double> of_kept;
   for (const int k : kept) of_kept.push_back(probabilities[k]);
   probabilities = std::move(of_kept);
   return result;
+}
+
+/// Patches of surfaces are thin against the whole cloud; points anywhere in space are not.
+bool fills_a_volume(const CloudPoints& points, const CloudPlanesOptions& options) {
+  constexpr double kThickest = 0.05;  // of half the extent
+  if (points.model.noise != PointNoise::kIsotropic) return false;
+  return points.noise.sigma(0) * options.flatness > kThickest * points.model.flatness;
 }
 
 void fill(const CloudPoints& points, const PlaneLabels& found,
@@ -155,7 +164,7 @@ void CloudPlanesOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, CloudPlanesOptions& o) {
   field.choice("method", o.method, {"cuts", "ransac", "growing"}, "how planes are found");
-  field("flatness", o.flatness, "what a plane may bend, as a share of the depth", {0, 0.1});
+  field("flatness", o.flatness, "what a plane may bend, as a share of the depth", {1e-6, 0.1});
   field("inlier_sigmas", o.inlier_sigmas, "points of a plane are this near", {0.5, 10});
   field("min_points", o.min_points, "fewer are no plane", {3, 1e9});
   field("max_cut", o.max_cut, "normalized cuts above it are not made", {0, 2});
@@ -176,6 +185,8 @@ CloudPlanesResult find_cloud_planes(const PointCloud& cloud, const CloudPlanesOp
                                                          std::to_string(kLeastPoints) + " needed");
     return result;
   }
+  result.outcome = Outcome::ok();
+  if (fills_a_volume(points, options)) return result;
   std::vector<double> probabilities;
   const PlaneLabels found = options.method == CloudPlanesMethod::kRansac
                                 ? planes_by_ransac(points, options)
@@ -183,7 +194,6 @@ CloudPlanesResult find_cloud_planes(const PointCloud& cloud, const CloudPlanesOp
                                 ? planes_by_growing(points, options)
                                 : planes_by_cuts(points, options, planarity, probabilities);
   fill(points, found, probabilities, result);
-  result.outcome = Outcome::ok();
   return result;
 }
 

@@ -90,6 +90,19 @@ void settle_borders(const CloudPoints& points, Facing& faces, PlaneLabels& resul
 
 }  // namespace
 
+void drop_porous(const CloudPoints& points, double least, PlaneLabels& result) {
+  std::vector<double> same(result.planes.size(), 0), all(result.planes.size(), 0);
+  for (int i = 0; i < points.size(); ++i) {
+    const int label = result.labels[i];
+    if (label < 0) continue;
+    all[label] += points.begin[i + 1] - points.begin[i];
+    for (int n = points.begin[i]; n < points.begin[i + 1]; ++n)
+      same[label] += result.labels[points.neighbours[n]] == label;
+  }
+  for (int& label : result.labels)
+    if (label >= 0 && same[label] < least * all[label]) label = -1;
+}
+
 void refit(const CloudPoints& points, PlaneLabels& result) {
   result.sums.assign(result.planes.size(), {});
   for (int i = 0; i < points.size(); ++i)

@@ -24,6 +24,10 @@ void spread_labels(const CloudPoints& points, const SuperPoints& cloud, double s
 void drop_small(const CloudPoints& points, int min_piece, int min_points, PlaneLabels& result,
                 std::vector<int>* keep = nullptr);
 
+/// Takes the points from labels of whose neighbours less than `least` have the same label: a slice
+/// of points that fill a volume.
+void drop_porous(const CloudPoints& points, double least, PlaneLabels& result);
+
 /// Fits every plane to the points with its label; those that have none keep theirs.
 void refit(const CloudPoints& points, PlaneLabels& result);
 
