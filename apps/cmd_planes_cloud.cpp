@@ -140,7 +140,8 @@ void print(const Arguments& arguments, const PointCloud& cloud, const CloudPlane
     json["on_planes"] = on_planes;
     json["noise"] = {{"at_1m_m", result.noise.at_1m},
                      {"power_of_depth", result.noise.power},
-                     {"least_m", result.noise.least_m}};
+                     {"least_m", result.noise.least_m},
+                     {"shared", result.noise.shared}};
     json["planes"] = ordered_json::array();
     for (std::size_t k = 0; k < result.planes.size(); ++k)
       json["planes"].push_back(plane_json(static_cast<int>(k) + 1, result.planes[k]));

@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/median.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -176,6 +177,39 @@ CloudNoise measure_noise(const CloudPoints& points, double step_m) {
   return noise;
 }
 
+/// What is left of the noise in the means of 4x4 blocks, off the planes of 16x16 pixels, beyond
+/// what chance leaves: its variance over that of the noise, in the quietest third of them.
+double measure_shared(const CloudPoints& points) {
+  constexpr int kSide = 16, kBlock = 4, kBlocks = kSide / kBlock;
+  constexpr double kQuiet = 0.35, kMeans = kBlocks * kBlocks, kInBlock = kBlock * kBlock, kDof = 3;
+  constexpr int kPatches = 400;
+  const int across = points.width / kSide, down = points.height / kSide;
+  const int stride = std::max(1, across * down / kPatches);
+  std::vector<double> shares;
+  for (int patch = 0; patch < across * down; patch += stride) {
+    const int x0 = patch % across * kSide, y0 = patch / across * kSide;
+    PlaneSums sums;
+    for (int y = y0; y < y0 + kSide; ++y)
+      for (int x = x0; x < x0 + kSide; ++x)
+        if (const int i = points.pixel[static_cast<std::size_t>(y) * points.width + x]; i >= 0)
+          sums.add(points.fit[i], points.model);
+    const FittedPlane fit = sums.fit(points.model);
+    if (sums.count() < kSide * kSide || !fit.ok) continue;
+    std::array<double, kBlocks * kBlocks> means{};
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const int i = points.pixel[static_cast<std::size_t>(y0 + y) * points.width + x0 + x];
+        const FitPoint& point = points.fit[i];
+        means[y / kBlock * kBlocks + x / kBlock] +=
+            (point.value - fit.g.dot(point.q)) * std::sqrt(point.weight) / kInBlock;
+      }
+    double square = 0;
+    for (const double mean : means) square += mean * mean;
+    shares.push_back(square / (kMeans - kDof) - 1 / kInBlock);
+  }
+  return shares.empty() ? 0 : std::max(0.0, quantile(shares, kQuiet));
+}
+
 }  // namespace
 
 double CloudNoise::sigma(double depth_m) const {
@@ -236,6 +270,7 @@ CloudPoints prepare_cloud(const PointCloud& cloud, double flatness) {
       sigma = std::max(sigma, points.model.flatness * 1e-2 + 1e-12);
     points.fit[i].weight = 1 / (sigma * sigma);
   }
+  if (points.width > 0) points.noise.shared = points.model.shared = measure_shared(points);
   return points;
 }
 

@@ -12,6 +12,7 @@ struct CloudNoise {
   double at_1m = 0;
   int power = 1;
   double least_m = 0;  ///< by the steps of the depths
+  double shared = 0;   ///< of an image: variance that neighbours have in common, over theirs
   double sigma(double depth_m) const;
 };
 
@@ -34,8 +35,9 @@ struct CloudPoints {
 /// Prepares a cloud. Depth images have neighbours by pixel; scans that were taken from the origin
 /// (the surface is single along every ray) by direction; other clouds by distance. The noise is
 /// that of small patches, the quietest third of them, with the power of the depth that suits
-/// best. `flatness`: of the depth; of a cloud without viewpoint, of half its extent. Throws
-/// ArgumentError if the sizes of an organised cloud do not fit, or a depth is not positive.
+/// best; in images also what the means of blocks keep of it beyond chance. `flatness`: of the
+/// depth; of a cloud without viewpoint, of half its extent. Throws ArgumentError if the sizes of an
+/// organised cloud do not fit, or a depth is not positive.
 CloudPoints prepare_cloud(const PointCloud& cloud, double flatness);
 
 }  // namespace placegraph

@@ -103,7 +103,7 @@ double PlaneSums::misfit(const FittedPlane& fit, const FitModel& model) const {
 
 double PlaneSums::inflation(const FittedPlane& fit, const FitModel& model) const {
   const double bend = model.flatness * (model.noise == PointNoise::kAlongRay ? fit.g.norm() : 1.0);
-  return 1 + bend * bend * w_ / std::max(n_, 1.0);
+  return 1 + model.shared + bend * bend * w_ / std::max(n_, 1.0);
 }
 
 double residual_sigmas(const FittedPlane& fit, const FitPoint& point, const FitModel& model) {
@@ -111,7 +111,7 @@ double residual_sigmas(const FittedPlane& fit, const FitPoint& point, const FitM
   const double bend = model.flatness * (ray ? fit.g.norm() : 1.0);
   const double off =
       ray ? point.value - fit.g.dot(point.q) : fit.plane.normal.dot(point.q) - fit.plane.distance_m;
-  return std::abs(off) / std::sqrt(1 / point.weight + bend * bend);
+  return std::abs(off) / std::sqrt((1 + model.shared) / point.weight + bend * bend);
 }
 
 FittedPlane plane_through(const Eigen::Vector3d& a, const Eigen::Vector3d& b,

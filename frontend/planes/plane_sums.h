@@ -23,6 +23,9 @@ struct FitPoint {
 struct FitModel {
   PointNoise noise = PointNoise::kAlongRay;
   double flatness = 0;
+  /// Variance that neighbours have in common, as the steps of a depth camera, over that of the
+  /// noise. It does not average out, so planes may bend by it as well.
+  double shared = 0;
 };
 
 /// A plane with the evidence for it.
