@@ -207,7 +207,9 @@ double measure_shared(const CloudPoints& points) {
     for (const double mean : means) square += mean * mean;
     shares.push_back(square / (kMeans - kDof) - 1 / kInBlock);
   }
-  return shares.empty() ? 0 : std::max(0.0, quantile(shares, kQuiet));
+  // Where few patches are flat, what is left is the surface's: no sensor shares more than it has.
+  constexpr double kMost = 1;
+  return shares.empty() ? 0 : std::clamp(quantile(shares, kQuiet), 0.0, kMost);
 }
 
 }  // namespace
