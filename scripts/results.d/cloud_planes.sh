@@ -11,7 +11,7 @@ command_line "$study generated 5"
 cat >> "$rows" << 'NOTE'
 
 20 depth images 640x480 of a model 0.2 m high, planes of 300 px or more, coplanar faces as one, window and door with their walls; a range scan of
-10,000 points of a staircase, taken as points without order, planes of 100 points or more; 20 generated clouds of 0.3 to 60 m with curved things,
+10,000 points, taken as points without order, planes of 100 points or more; 20 generated clouds of 0.3 to 60 m with curved things,
 none that planarity was trained on. Noise added along the ray: mm for the castle, % of the range for the scan, none for the generated ones (they
 have their own). Correct: found region and plane hold 80 % of each other (Hoover et al. 1996). In pieces: planes that several found regions share; joined:
 found regions that hold several planes; false: found regions of that size that are none of these. The same options everywhere.
