@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/calib_option.h"
+#include "apps/cmd_planes_cloud.h"
 #include "apps/output.h"
 #include "apps/usage.h"
 
@@ -132,9 +133,11 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_planes_command(CLI::App& app) {
-  CLI::App* planes = app.add_subcommand("planes", "Planes behind what the views see");
-  planes->footer("placegraph planes two-view matches.txt --out labels.txt");
-  planes->require_subcommand(1);
+  CLI::App* planes =
+      app.add_subcommand("planes", "Planes in a point cloud, or behind the matches of two views");
+  planes->footer("placegraph planes depth.png --calib K.txt --depth-scale 0.001 --out planes.png");
+  planes->require_subcommand(0, 1);
+  add_cloud_planes(*planes);
   auto arguments = std::make_shared<Arguments>();
   Arguments& a = *arguments;
   CLI::App* command = planes->add_subcommand(

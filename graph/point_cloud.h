@@ -1,0 +1,18 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+namespace placegraph {
+
+/// Points of a scene in the sensor's frame [m], as a depth camera, a scanner or a stereo pair gives
+/// them. An organised cloud has a point for every pixel of an image, row by row; where nothing was
+/// measured it is NaN.
+struct PointCloud {
+  std::vector<Eigen::Vector3d> points;
+  int width = 0, height = 0;  ///< [px] of an organised cloud, else 0
+  double step_m = 0;          ///< depths are multiples of it; 0: not known, or too fine to matter
+
+  bool organised() const { return width > 0 && height > 0; }
+};
+
+}  // namespace placegraph
