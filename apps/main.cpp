@@ -29,6 +29,7 @@
 #include "apps/cmd_planes.h"
 #include "apps/cmd_route.h"
 #include "apps/cmd_run.h"
+#include "apps/cmd_scene.h"
 #include "apps/cmd_synth.h"
 #include "apps/cmd_synth_graph.h"
 #include "apps/cmd_track_plane.h"
@@ -93,6 +94,7 @@ int main(int argc, char** argv) {
     add_planes_command(app);
     add_route_command(app);
     add_run_command(app);
+    add_scene_command(app);
     add_synth_command(app);
     add_synth_graph_command(app);
     add_track_plane_command(app);
