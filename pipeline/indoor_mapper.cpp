@@ -71,7 +71,7 @@ class Fusion {
       return plan;
     }
     doors_ = find_doors(walls_, placed_, voxels, path_, options_.doors);
-    rooms_ = partition_rooms(voxels, walls_, doors_, options_.rooms);
+    rooms_ = partition_rooms(voxels, walls_, doors_, path_, options_.rooms);
     tell_walls(plan);
     tell_rooms(voxels, plan);
     tell_doors(voxels, plan);
@@ -130,9 +130,12 @@ class Fusion {
   void tell_walls(IndoorMap& plan) const {
     for (const WallPiece& piece : walls_) {
       IndoorWall wall;
-      wall.a = plan_of(on(piece.axis, piece.offset_m, piece.from_m));
-      wall.b = plan_of(on(piece.axis, piece.offset_m, piece.to_m));
-      wall.normal = plan_of(on(piece.axis, piece.sign, 0)) - plan_of({0, 0});
+      wall.a = plan_of(on(piece.axis, piece.offset_at(piece.from_m), piece.from_m));
+      wall.b = plan_of(on(piece.axis, piece.offset_at(piece.to_m), piece.to_m));
+      const Eigen::Vector2d along = (wall.b - wall.a).normalized();
+      wall.normal = Eigen::Vector2d(-along[1], along[0]);
+      const Eigen::Vector2d side = plan_of(on(piece.axis, piece.sign, 0)) - plan_of({0, 0});
+      if (wall.normal.dot(side) < 0) wall.normal = -wall.normal;
       wall.sigma_m = piece.sigma_m, wall.low_m = piece.low_m, wall.high_m = piece.high_m;
       wall.sights = piece.count;
       const Keyframe* keyframe = map_.find_keyframe(keyframes_[piece.sight]);

@@ -15,6 +15,7 @@ struct Step {
   bool wall = false;           ///< the surface goes on down there
   bool recess = false;         ///< something stands a little behind it
   bool open = false;           ///< rays pass
+  bool over = false;           ///< rays pass above where a head would be
   std::optional<double> head;  ///< lowest height of the surface above a door's
 };
 
@@ -34,7 +35,7 @@ std::vector<Plane> planes_of(const std::vector<WallPiece>& walls, double reach_m
     bool joined = false;
     for (Plane& plane : planes) {
       if (plane.axis != piece.axis || plane.sign != piece.sign ||
-          std::abs(plane.offset_m - piece.offset_m) > 0.04)
+          std::abs(plane.offset_m - piece.offset_m) > 0.1)
         continue;
       if (piece.from_m > plane.to_m + reach_m || piece.to_m < plane.from_m - reach_m) continue;
       plane.from_m = std::min(plane.from_m, piece.from_m);
@@ -81,13 +82,40 @@ class PlaneProfile {
     return static_cast<int>(std::floor((along - from_) / kAlong_m));
   }
 
+  /// How far the surface lies behind the plane about each step: poses that drift bend it.
+  void find_reference(const std::vector<PlacedPoint>& points) {
+    constexpr int kReach = 24;  // steps
+    std::vector<std::vector<double>> behind(steps_.size());
+    for (const PlacedPoint& p : points) {
+      if (p.normal[plane_.axis] * plane_.sign < 0.95F || p.sigma > 0.05F) continue;
+      const int step = step_of(p.point[1 - plane_.axis]);
+      const double b = plane_.sign * (plane_.offset_m - p.point[plane_.axis]);
+      if (step >= 0 && step < static_cast<int>(steps_.size()) && p.point[2] > 0.25F &&
+          std::abs(b) < 0.13)
+        behind[step].push_back(b);
+    }
+    reference_.assign(steps_.size(), 0.0);
+    for (int i = 0; i < static_cast<int>(steps_.size()); ++i) {
+      // The surface is in front of the leaves in it: the lower third.
+      std::vector<double> about;
+      for (int k = std::max(0, i - kReach); k < std::min<int>(behind.size(), i + kReach + 1); ++k)
+        about.insert(about.end(), behind[k].begin(), behind[k].end());
+      if (about.size() < 10) continue;
+      const auto third = about.begin() + static_cast<std::ptrdiff_t>(about.size() / 3);
+      std::nth_element(about.begin(), third, about.end());
+      reference_[i] = *third;
+    }
+  }
+
   void take_points(const std::vector<PlacedPoint>& points) {
+    find_reference(points);
     std::vector<std::vector<double>> low(steps_.size()), high(steps_.size()), heads(steps_.size());
     for (const PlacedPoint& p : points) {
       if (p.normal[plane_.axis] * plane_.sign < 0.9F || p.sigma > 0.1F) continue;
       const int step = step_of(p.point[1 - plane_.axis]);
       if (step < 0 || step >= static_cast<int>(steps_.size())) continue;
-      const double behind = plane_.sign * (plane_.offset_m - p.point[plane_.axis]);
+      const double behind =
+          plane_.sign * (plane_.offset_m - p.point[plane_.axis]) - reference_[step];
       if (behind < -0.06 || behind > options_.max_recess_m) continue;
       if (p.point[2] > 0.25F && p.point[2] < options_.min_head_m - 0.1)
         for (int k = std::max(0, step - 1); k <= step + 1 && k < static_cast<int>(low.size()); ++k)
@@ -115,12 +143,14 @@ class PlaneProfile {
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       double at[2];
       at[1 - plane_.axis] = from_ + (static_cast<double>(i) + 0.5) * kAlong_m;
-      at[plane_.axis] = plane_.offset_m - plane_.sign * 0.07;
+      at[plane_.axis] = plane_.offset_m - plane_.sign * (reference_[i] + 0.07);
       const int c = voxels.column_of(at[0]), r = voxels.row_of(at[1]);
       if (!voxels.contains(c, r)) continue;
       int passed = 0;
       for (int l = first; l <= last; ++l)
         passed += voxels.passes(c, r, l) >= 2 && voxels.passes(c, r, l) > 2 * voxels.hits(c, r, l);
+      for (int l = voxels.layer_of(options_.min_head_m) + 2; l < voxels.layers(); ++l)
+        steps_[i].over |= voxels.passes(c, r, l) >= 2;
       steps_[i].open = passed >= 2 && 2 * passed >= last - first + 1;
       if (steps_[i].open && !steps_[i].recess) steps_[i].wall = false;
     }
@@ -143,11 +173,15 @@ class PlaneProfile {
     DoorPiece door{
         plane_.axis, plane_.sign, plane_.offset_m, from_ + begin * kAlong_m, from_ + end * kAlong_m,
         0,           false};
+    if (std::getenv("DOORS"))
+      std::fprintf(stderr, "gap axis %d sign %d off %.2f %.2f..%.2f\n", door.axis, door.sign,
+                   door.offset_m, door.from_m, door.to_m);
     if (width < options_.min_width_m - kAlong_m || width > options_.max_width_m) return;
-    std::size_t open = 0, recess = 0;
+    door.offset_m -= plane_.sign * reference_[(begin + end) / 2];
+    std::size_t open = 0, recess = 0, over = 0;
     std::vector<double> heads;
     for (std::size_t i = begin; i < end; ++i) {
-      open += steps_[i].open, recess += steps_[i].recess;
+      open += steps_[i].open, recess += steps_[i].recess, over += steps_[i].over;
       if (steps_[i].head) heads.push_back(*steps_[i].head);
     }
     const std::size_t count = end - begin;
@@ -156,9 +190,16 @@ class PlaneProfile {
     const bool crossed = std::any_of(crossings_.begin(), crossings_.end(),
                                      [&](double at) { return at > door.from_m && at < door.to_m; });
     door.closed = recess > open;
+    if (std::getenv("DOORS"))
+      std::fprintf(
+          stderr,
+          "cand axis %d sign %d off %.2f %.2f..%.2f open %zu recess %zu heads %zu/%zu head %.2f\n",
+          door.axis, door.sign, door.offset_m, door.from_m, door.to_m, open, recess, heads.size(),
+          end - begin, door.head_m);
     const bool head_fits = head_seen && door.head_m <= options_.max_head_m;
     if (door.closed && head_fits && 3 * recess >= 2 * count && width < 1.6) doors.push_back(door);
-    if (!door.closed && 2 * open >= count && (head_fits || (!head_seen && crossed)))
+    if (!door.closed && 2 * open >= count &&
+        (head_fits || (!head_seen && crossed && 4 * over < count)))
       doors.push_back(door);
   }
 
@@ -166,6 +207,7 @@ class PlaneProfile {
   const DoorFinderOptions& options_;
   double from_ = 0;
   std::vector<Step> steps_;
+  std::vector<double> reference_;
   std::vector<double> crossings_;
 };
 

@@ -1,7 +1,9 @@
 #include <placegraph/frontend/scene/room_partition.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
@@ -24,16 +26,30 @@ class Partitioner {
             free_(r, c) = 255;
   }
 
-  void block(int axis, int sign, double offset, double from, double to) {
-    double low[2], high[2];
-    low[1 - axis] = from - 0.05, high[1 - axis] = to + 0.05;
-    low[axis] = sign > 0 ? offset - kBehind_m : offset;
-    high[axis] = sign > 0 ? offset : offset + kBehind_m;
-    const cv::Point a(voxels_.column_of(low[0] + 0.5 * voxels_.cell_m()),
-                      voxels_.row_of(low[1] + 0.5 * voxels_.cell_m()));
-    const cv::Point b(voxels_.column_of(high[0] - 0.5 * voxels_.cell_m()),
-                      voxels_.row_of(high[1] - 0.5 * voxels_.cell_m()));
-    cv::rectangle(blocked_, a, {std::max(a.x, b.x), std::max(a.y, b.y)}, 255, cv::FILLED);
+  /// The surface between two places along it, each with its offset.
+  void block(int axis, int sign, double from, double offset_from, double to, double offset_to) {
+    const double reach = 0.05, half = 0.5 * kBehind_m;
+    const double length = to - from + 2 * reach;
+    const int steps = std::max(1, static_cast<int>(std::ceil(length / voxels_.cell_m())));
+    for (int k = 0; k <= steps; ++k) {
+      const double along = from - reach + length * k / steps;
+      const double share = (along - from) / std::max(1e-9, to - from);
+      const double offset = offset_from + share * (offset_to - offset_from) - sign * half;
+      double low[2], high[2];
+      low[1 - axis] = along, high[1 - axis] = along;
+      low[axis] = offset - half, high[axis] = offset + half - 1e-6;
+      const cv::Point a(voxels_.column_of(low[0]), voxels_.row_of(low[1])),
+          b(voxels_.column_of(high[0]), voxels_.row_of(high[1]));
+      cv::rectangle(blocked_, a, b, 255, cv::FILLED);
+    }
+  }
+
+  /// A line that parts boxes: of a wall that has some length.
+  void cut(int axis, double offset) {
+    cuts_[axis].push_back(axis == 0 ? voxels_.column_of(offset) : voxels_.row_of(offset));
+  }
+  void enter(const Eigen::Vector3d& p) {
+    path_.emplace_back(voxels_.column_of(p[0]), voxels_.row_of(p[1]));
   }
 
   RoomPartition partition() {
@@ -48,6 +64,7 @@ class Partitioner {
     cv::Mat1i kernels;
     int count = cv::connectedComponents(wide, kernels, 4, CV_32S);
     grow(space, kernels);
+    complete(kernels, count);
     RoomPartition result;
     result.room_of_cell = Image(space.size(), CV_32SC1, cv::Scalar(0));
     for (int k = 1; k < count; ++k) add_room(kernels == k, distance, result);
@@ -81,6 +98,43 @@ class Partitioner {
         }
       front.swap(next);
     }
+  }
+
+  /// Number of the strip between cuts of every column or row; -1 outside of all.
+  static std::vector<int> strips(std::vector<int> cuts, int size) {
+    std::sort(cuts.begin(), cuts.end());
+    std::vector<int> strip(static_cast<std::size_t>(size), -1);
+    for (int i = 0; i < size; ++i) {
+      const auto next = std::upper_bound(cuts.begin(), cuts.end(), i);
+      if (next != cuts.begin() && next != cuts.end())
+        strip[i] = static_cast<int>(next - cuts.begin());
+    }
+    return strip;
+  }
+
+  /// Boxes between the lines of walls that are mostly one entered room's become its own.
+  void complete(cv::Mat1i& rooms, int count) const {
+    std::vector<char> entered(static_cast<std::size_t>(count), 0);
+    for (const cv::Point& p : path_)
+      if (p.x >= 0 && p.y >= 0 && p.x < rooms.cols && p.y < rooms.rows) entered[rooms(p)] = 1;
+    const std::vector<int> column = strips(cuts_[0], rooms.cols),
+                           row = strips(cuts_[1], rooms.rows);
+    std::map<std::pair<int, int>, std::map<int, int>> boxes;  // cells by room, -1: all
+    for (int r = 0; r < rooms.rows; ++r)
+      for (int c = 0; c < rooms.cols; ++c) {
+        if (column[c] < 0 || row[r] < 0 || blocked_(r, c)) continue;
+        auto& box = boxes[{column[c], row[r]}];
+        ++box[-1];
+        if (rooms(r, c) > 0) ++box[rooms(r, c)];
+      }
+    for (int r = 0; r < rooms.rows; ++r)
+      for (int c = 0; c < rooms.cols; ++c) {
+        if (column[c] < 0 || row[r] < 0 || blocked_(r, c) || rooms(r, c)) continue;
+        const auto& box = boxes[{column[c], row[r]}];
+        for (const auto& [room, cells] : box)
+          if (room > 0 && entered[room] && cells > options_.completed_share * box.at(-1))
+            rooms(r, c) = room;
+      }
   }
 
   /// Whether walls run along most of a hole's border.
@@ -135,6 +189,8 @@ class Partitioner {
   const VoxelEvidence& voxels_;
   const RoomPartitionOptions& options_;
   cv::Mat1b free_, blocked_;
+  std::array<std::vector<int>, 2> cuts_;
+  std::vector<cv::Point> path_;
 };
 
 }  // namespace
@@ -143,18 +199,26 @@ void visit(OptionVisitor& field, RoomPartitionOptions& o) {
   field("min_area_m2", o.min_area_m2, "of a room", {0.1, 1000});
   field("neck_m", o.neck_m, "free space narrower than this parts rooms", {0, 5});
   field("closing_m", o.closing_m, "unseen cells so near to free ones are free", {0, 5});
+  field("completed_share", o.completed_share,
+        "of a box between walls that is seen free: then all of it is", {0, 1});
   field("outline_m", o.outline_m, "tolerance of a room's outline", {0.01, 5});
 }
 
 RoomPartition partition_rooms(const VoxelEvidence& voxels, const std::vector<WallPiece>& walls,
                               const std::vector<DoorPiece>& doors,
+                              const std::vector<Eigen::Vector3d>& path,
                               const RoomPartitionOptions& options) {
   options.check();
   Partitioner partitioner(voxels, options);
   for (const WallPiece& wall : walls)
-    partitioner.block(wall.axis, wall.sign, wall.offset_m, wall.from_m, wall.to_m);
+    partitioner.block(wall.axis, wall.sign, wall.from_m, wall.offset_at(wall.from_m), wall.to_m,
+                      wall.offset_at(wall.to_m));
   for (const DoorPiece& door : doors)
-    partitioner.block(door.axis, door.sign, door.offset_m, door.from_m, door.to_m);
+    partitioner.block(door.axis, door.sign, door.from_m, door.offset_m, door.to_m, door.offset_m);
+  constexpr double kCutting_m = 0.8;
+  for (const WallPiece& wall : walls)
+    if (wall.to_m - wall.from_m > kCutting_m) partitioner.cut(wall.axis, wall.offset_m);
+  for (const Eigen::Vector3d& p : path) partitioner.enter(p);
   return partitioner.partition();
 }
 

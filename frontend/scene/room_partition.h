@@ -6,9 +6,10 @@ namespace placegraph {
 
 struct RoomPartitionOptions {
   double min_area_m2 = 2;
-  double neck_m = 0.7;      ///< free space narrower than this parts rooms
-  double closing_m = 0.15;  ///< unseen cells so near to free ones are free
-  double outline_m = 0.08;  ///< tolerance of a room's outline
+  double neck_m = 0.7;           ///< free space narrower than this parts rooms
+  double closing_m = 0.15;       ///< unseen cells so near to free ones are free
+  double completed_share = 0.5;  ///< of a box between walls that is seen free: all of it is
+  double outline_m = 0.08;       ///< tolerance of a room's outline
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, RoomPartitionOptions& options);
@@ -31,6 +32,7 @@ struct RoomPartition {
 [[nodiscard]] RoomPartition partition_rooms(const VoxelEvidence& voxels,
                                             const std::vector<WallPiece>& walls,
                                             const std::vector<DoorPiece>& doors,
+                                            const std::vector<Eigen::Vector3d>& path,
                                             const RoomPartitionOptions& options = {});
 
 }  // namespace placegraph

@@ -22,6 +22,9 @@ struct WallFinderOptions {
   double min_share = 0.6;     ///< of the looked at height that must be wall
   double max_gap_m = 0.3;     ///< within a wall
   double min_length_m = 0.4;
+  double max_step_m = 0.07;  ///< between pieces of one wall: what drift of the poses makes of it
+  double min_top_m =
+      2.3;  ///< of what is shorter than a door is high: leaves and furniture end below
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, WallFinderOptions& options);
@@ -31,6 +34,10 @@ void visit(OptionVisitor& field, WallFinderOptions& options);
 struct WallPiece {
   int axis = 0, sign = 1;
   double offset_m = 0, from_m = 0, to_m = 0;
+  double slope = 0;  ///< change of the offset along the wall; `offset_m` is that of its middle
+  double offset_at(double along_m) const {
+    return offset_m + slope * (along_m - 0.5 * (from_m + to_m));
+  }
   double sigma_m = 0, low_m = 0, high_m = 0;
   int count = 0, sight = 0;  ///< points, and the sight that gave most of them
 };
