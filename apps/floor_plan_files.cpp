@@ -5,6 +5,8 @@
 #include <placegraph/eval/umeyama.h>
 #include <placegraph/io/dataset.h>
 #include <placegraph/io/indoor_map_file.h>
+#include <placegraph/io/map_database.h>
+#include <placegraph/pipeline/lens_correction.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -80,6 +82,27 @@ SE3 by_first_pose(const Trajectory& truth, const Map& map) {
 }
 
 }  // namespace
+
+IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
+                      Sensor sensor, double lens_k1, const IndoorMapperOptions& options) {
+  LensCorrection lens(dataset.calibration(sensor));
+  if (lens_k1 != 0) lens.add(lens_k1);
+  return map_indoors(
+      map, calibration,
+      [&](const Keyframe& keyframe) {
+        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame), sensor);
+        if (lens_k1 != 0) lens.apply(frame);
+        return frame;
+      },
+      options);
+}
+
+void save_labels(const std::string& map_file, const PlaceGraph& places) {
+  StoredMap stored = read_map(map_file);
+  for (Place& place : stored.map.place_graph.places)
+    if (const Place* labelled = places.find(place.id)) place.labels = labelled->labels;
+  write_map(map_file, stored);
+}
 
 void write_floor_plan(const std::string& folder, const IndoorMap& plan, const Map& map,
                       const std::string& title) {

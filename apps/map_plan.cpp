@@ -4,8 +4,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/dataset.h>
 #include <placegraph/io/yaml_config.h>
-#include <placegraph/pipeline/indoor_mapper.h>
-#include <placegraph/pipeline/lens_correction.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -24,7 +22,7 @@ struct Arguments {
   bool as_json = false, force = false;
 };
 
-void plan_of_map(const Arguments& arguments) {
+void draw_plan(const Arguments& arguments) {
   IndoorMapperOptions options;
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   options.check();
@@ -33,17 +31,8 @@ void plan_of_map(const Arguments& arguments) {
   if (!stored.origin.calibration || stored.map.keyframes.empty())
     throw NoAnswer(arguments.map + ": nothing in it has a pose");
   const auto dataset = open_dataset(stored.origin.sequence);
-  LensCorrection lens(dataset->calibration(stored.origin.sensor));
-  lens.add(stored.origin.lens_k1);
-  const IndoorMap plan = map_indoors(
-      stored.map, *stored.origin.calibration,
-      [&](const Keyframe& keyframe) {
-        Frame frame =
-            dataset->frame(static_cast<std::size_t>(keyframe.frame), stored.origin.sensor);
-        if (stored.origin.lens_k1 != 0) lens.apply(frame);
-        return frame;
-      },
-      options);
+  const IndoorMap plan = plan_of_map(stored.map, *stored.origin.calibration, *dataset,
+                                     stored.origin.sensor, stored.origin.lens_k1, options);
   if (!plan.outcome) throw NoAnswer(arguments.map + ": no floor plan: " + plan.outcome.reason);
   const OutputFolder folder(arguments.out);
   write_floor_plan(arguments.out, plan, stored.map, dataset->name());
@@ -69,7 +58,7 @@ void add_map_plan_command(CLI::App& map) {
       ->allow_extra_args(false);
   command->add_flag("--json", a.as_json, "for machines");
   command->add_flag("--force", a.force, "write into a folder that is not empty");
-  command->callback([arguments] { plan_of_map(*arguments); });
+  command->callback([arguments] { draw_plan(*arguments); });
 }
 
 }  // namespace placegraph::apps

@@ -244,6 +244,7 @@ void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field.group("floor", o.floor, "surfaces from one eye");
   field.group("orientation", o.orientation, "orientation maps, for one eye");
   field("stereo_sigma_px", o.stereo_sigma_px, "of a disparity", {0.01, 10});
+  field("stereo_radius_px", o.stereo_radius_px, "of patches of dense stereo", {2, 100});
   field("min_step_m", o.min_step_m, "keyframes nearer to the last one used tell nothing new",
         {0, 10});
   field("min_turn_deg", o.min_turn_deg, "unless they are turned by so much", {0, 180});
@@ -258,8 +259,6 @@ IndoorMapper::IndoorMapper(const IndoorMapperOptions& options, const Calibration
     : options_(options), calibration_(calibration) {
   options_.check();
   calibration_.check();
-  require(calibration_.depth || calibration_.baseline_m > 0 || calibration_.camera_height_m,
-          "indoor map: depth, two eyes, or the height of the camera above the floor is needed");
 }
 
 std::vector<SurfacePoint> IndoorMapper::points_of_one_eye(const Image& image) const {
@@ -285,9 +284,10 @@ std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame) const {
   if (calibration_.baseline_m > 0 && !frame.right.empty()) {
     const Image depth =
         dense_stereo(frame.image, frame.right, camera.fx, calibration_.baseline_m, options_.stereo);
+    SurfacePointOptions points = options_.points;
+    points.radius_px = options_.stereo_radius_px;
     return surface_points(depth, camera, SE3(),
-                          options_.stereo_sigma_px / (camera.fx * calibration_.baseline_m),
-                          options_.points);
+                          options_.stereo_sigma_px / (camera.fx * calibration_.baseline_m), points);
   }
   if (calibration_.camera_height_m) return points_of_one_eye(frame.image);
   return {};
@@ -308,11 +308,13 @@ void IndoorMapper::add(SurfaceSight sight) {
 }
 
 IndoorMap IndoorMapper::fuse(const Map& map) const {
-  if (!map.metric) {
-    IndoorMap plan;
+  IndoorMap plan;
+  if (!map.metric)
     plan.outcome = Outcome::failure(Outcome::Code::kTooFewData, "the map's unit is not the metre");
-    return plan;
-  }
+  else if (!calibration_.depth && calibration_.baseline_m <= 0 && !calibration_.camera_height_m)
+    plan.outcome = Outcome::failure(Outcome::Code::kTooFewData,
+                                    "depth, two eyes or the camera's height is needed");
+  if (plan.outcome.code == Outcome::Code::kTooFewData) return plan;
   Fusion fusion(options_, map);
   fusion.lay_out(sights_);
   return fusion.fuse();

@@ -14,6 +14,7 @@ struct IndoorMapperOptions {
   FloorSightOptions floor;
   OrientationMapOptions orientation;
   double stereo_sigma_px = 0.25;  ///< of a disparity
+  int stereo_radius_px = 16;      ///< of patches of dense stereo, which is noisier than depth is
   double min_step_m = 0.15;       ///< keyframes nearer to the last one that was used, and ...
   double min_turn_deg = 5;        ///< ... turned by less, tell nothing new
   double cell_m = 0.05;           ///< of the cells that walls and rooms are found from
@@ -30,8 +31,8 @@ void visit(OptionVisitor& field, IndoorMapperOptions& options);
 /// map as it stands, so that after a loop closure the plan is simply fused again.
 class IndoorMapper {
  public:
-  /// Throws ArgumentError for options or a calibration out of range. Depth where the calibration
-  /// has a depth camera, stereo where it has a baseline, else one eye: its floor is
+  /// Throws ArgumentError for options or a calibration out of range. Sees depth where the
+  /// calibration has a depth camera, stereo where it has a baseline, else one eye: its floor is
   /// `camera_height_m` below it, as far as the map's unit is the metre.
   IndoorMapper(const IndoorMapperOptions& options, const Calibration& calibration);
 
@@ -42,7 +43,8 @@ class IndoorMapper {
 
   /// The plan by the poses of `map` (its first component and what is joined to it). Rooms list the
   /// places whose anchor stands in them.
-  /// Outcomes: too few data (no points, or a map whose unit is not the metre), degenerate (see
+  /// Outcomes: too few data (no points, a map whose unit is not the metre, or one eye
+  /// of unknown height), degenerate (see
   /// find_building_axes; no wall).
   [[nodiscard]] IndoorMap fuse(const Map& map) const;
 

@@ -87,7 +87,7 @@ std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& dep
       point.point = (T_cam_depth * Eigen::Vector3d(z * ray)).cast<float>();
       const PatchPlane fit = fit_patch(depth_m, depth_camera, u, v, options.radius_px);
       double sigma = sigma_at_1m * z * z;
-      if (fit.good && fit.residual < options.max_residual) {
+      if (fit.good && fit.residual < options.max_residual + 2 * sigma_at_1m * z) {
         const Eigen::Vector3d normal = -fit.plane.normalized();
         // The patch's own depth is better than that of one pixel.
         const double z_plane = 1 / fit.plane.dot(ray);

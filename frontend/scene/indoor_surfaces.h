@@ -6,8 +6,8 @@ namespace placegraph {
 
 struct SurfacePointOptions {
   int step_px = 8;             ///< between points
-  int radius_px = 6;           ///< of the patch whose plane gives the normal
-  double max_residual = 0.01;  ///< of the inverse depths from that plane, relative, rms
+  int radius_px = 8;           ///< of the patch whose plane gives the normal
+  double max_residual = 0.01;  ///< of inverse depths from it, relative, rms, beside noise
   double max_range_m = 12;
   void check() const { check_ranges(*this); }
 };

@@ -91,6 +91,7 @@ class SideCoverage {
   void find_walls_of_columns() {
     wall_.assign(layers_.size(), 0);
     const int band = std::max(1, static_cast<int>(options_.band_m / kOffset_m));
+    std::size_t n0 = 0, n1 = 0, n2 = 0, n3 = 0;
     const int least = static_cast<int>(std::ceil(options_.min_height_m / voxels_.layer_m()));
     for (int a = 0; a < alongs_; ++a)
       for (int o = 0; o < offsets_; ++o) {
@@ -100,14 +101,21 @@ class SideCoverage {
         for (int k = std::max(0, o - band); k <= std::min(offsets_ - 1, o + band); ++k)
           covered |= layers_[static_cast<std::size_t>(k) * alongs_ + a];
         const int height = std::popcount(covered);
+        ++n0;
+        if (height >= least) ++n1;
         if (height < least) continue;
         const std::uint64_t through = passed_behind(a, o) & ~covered;
         const int top = 63 - std::countl_zero(covered);
         const std::uint64_t over = top >= 63 ? 0 : through >> (top + 1);
         if (std::popcount(over) >= 2) continue;
+        ++n2;
         if (height < options_.min_share * (height + std::popcount(through))) continue;
         wall_[cell] = 1;
+        ++n3;
       }
+    if (std::getenv("DOORS"))
+      std::fprintf(stderr, "side %d %d points %zu: cells %zu high %zu notover %zu wall %zu\n",
+                   axis_, sign_, points_.size(), n0, n1, n2, n3);
   }
 
   /// The runs of wall about an offset; marks in `used_` what they take.
