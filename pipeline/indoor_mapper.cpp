@@ -65,7 +65,9 @@ class Fusion {
     set_plan_frame(plan);
     place_points();
     const VoxelEvidence voxels = look();
-    walls_ = find_walls(placed_, voxels, options_.walls);
+    constexpr double kShoulder_m = 0.45;
+    walls_ = cut_at_path(find_walls(placed_, voxels, options_.walls), path_, kShoulder_m,
+                         options_.walls.min_length_m);
     if (walls_.empty()) {
       plan.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no wall is seen");
       return plan;
@@ -245,6 +247,9 @@ void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field.group("orientation", o.orientation, "orientation maps, for one eye");
   field("stereo_sigma_px", o.stereo_sigma_px, "of a disparity", {0.01, 10});
   field("stereo_radius_px", o.stereo_radius_px, "of patches of dense stereo", {2, 100});
+  field("stereo_band_m", o.stereo_band_m, "walls.band_m for dense stereo", {0.02, 1});
+  field("stereo_wall_sigma_m", o.stereo_wall_sigma_m, "walls.max_sigma_m for dense stereo",
+        {0.001, 10});
   field("min_step_m", o.min_step_m, "keyframes nearer to the last one used tell nothing new",
         {0, 10});
   field("min_turn_deg", o.min_turn_deg, "unless they are turned by so much", {0, 180});
@@ -315,7 +320,12 @@ IndoorMap IndoorMapper::fuse(const Map& map) const {
     plan.outcome = Outcome::failure(Outcome::Code::kTooFewData,
                                     "depth, two eyes or the camera's height is needed");
   if (plan.outcome.code == Outcome::Code::kTooFewData) return plan;
-  Fusion fusion(options_, map);
+  IndoorMapperOptions options = options_;
+  if (!calibration_.depth && calibration_.baseline_m > 0) {
+    options.walls.band_m = options.stereo_band_m;
+    options.walls.max_sigma_m = options.stereo_wall_sigma_m;
+  }
+  Fusion fusion(options, map);
   fusion.lay_out(sights_);
   return fusion.fuse();
 }

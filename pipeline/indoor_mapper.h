@@ -13,12 +13,14 @@ struct IndoorMapperOptions {
   DenseStereoOptions stereo;
   FloorSightOptions floor;
   OrientationMapOptions orientation;
-  double stereo_sigma_px = 0.25;  ///< of a disparity
-  int stereo_radius_px = 16;      ///< of patches of dense stereo, which is noisier than depth is
-  double min_step_m = 0.15;       ///< keyframes nearer to the last one that was used, and ...
-  double min_turn_deg = 5;        ///< ... turned by less, tell nothing new
-  double cell_m = 0.05;           ///< of the cells that walls and rooms are found from
-  double layer_m = 0.2;           ///< their height
+  double stereo_sigma_px = 0.25;     ///< of a disparity
+  int stereo_radius_px = 16;         ///< of patches of dense stereo, which is noisier than depth is
+  double stereo_band_m = 0.1;        ///< as walls.band_m and ...
+  double stereo_wall_sigma_m = 0.2;  ///< ... walls.max_sigma_m, for dense stereo
+  double min_step_m = 0.15;          ///< keyframes nearer to the last one that was used, and ...
+  double min_turn_deg = 5;           ///< ... turned by less, tell nothing new
+  double cell_m = 0.05;              ///< of the cells that walls and rooms are found from
+  double layer_m = 0.2;              ///< their height
   WallFinderOptions walls;
   DoorFinderOptions doors;
   RoomPartitionOptions rooms;

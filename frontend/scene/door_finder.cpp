@@ -173,9 +173,6 @@ class PlaneProfile {
     DoorPiece door{
         plane_.axis, plane_.sign, plane_.offset_m, from_ + begin * kAlong_m, from_ + end * kAlong_m,
         0,           false};
-    if (std::getenv("DOORS"))
-      std::fprintf(stderr, "gap axis %d sign %d off %.2f %.2f..%.2f\n", door.axis, door.sign,
-                   door.offset_m, door.from_m, door.to_m);
     if (width < options_.min_width_m - kAlong_m || width > options_.max_width_m) return;
     door.offset_m -= plane_.sign * reference_[(begin + end) / 2];
     std::size_t open = 0, recess = 0, over = 0;
@@ -190,16 +187,10 @@ class PlaneProfile {
     const bool crossed = std::any_of(crossings_.begin(), crossings_.end(),
                                      [&](double at) { return at > door.from_m && at < door.to_m; });
     door.closed = recess > open;
-    if (std::getenv("DOORS"))
-      std::fprintf(
-          stderr,
-          "cand axis %d sign %d off %.2f %.2f..%.2f open %zu recess %zu heads %zu/%zu head %.2f\n",
-          door.axis, door.sign, door.offset_m, door.from_m, door.to_m, open, recess, heads.size(),
-          end - begin, door.head_m);
-    const bool head_fits = head_seen && door.head_m <= options_.max_head_m;
+    const bool head_fits = head_seen && door.head_m <= options_.max_head_m && 2 * over < count;
     if (door.closed && head_fits && 3 * recess >= 2 * count && width < 1.6) doors.push_back(door);
     if (!door.closed && 2 * open >= count &&
-        (head_fits || (!head_seen && crossed && 4 * over < count)))
+        (head_fits || (!head_seen && crossed && width < 1.4 && 4 * over < count)))
       doors.push_back(door);
   }
 

@@ -133,7 +133,7 @@ struct FloorEnd {
 
 FloorEnd floor_end(const Image& labels, int u, int vertical, int horizon_row) {
   const auto at = [&](int v) { return labels.at<std::uint8_t>(v, u) - 1; };
-  constexpr int kGap = 12;  // pixels without a label that may lie between
+  constexpr int kGap = 40;  // pixels without a label that may lie between
   int floor_row = -1;
   for (int v = labels.rows - 1; v > horizon_row; --v) {
     const int axis = at(v);

@@ -91,7 +91,6 @@ class SideCoverage {
   void find_walls_of_columns() {
     wall_.assign(layers_.size(), 0);
     const int band = std::max(1, static_cast<int>(options_.band_m / kOffset_m));
-    std::size_t n0 = 0, n1 = 0, n2 = 0, n3 = 0;
     const int least = static_cast<int>(std::ceil(options_.min_height_m / voxels_.layer_m()));
     for (int a = 0; a < alongs_; ++a)
       for (int o = 0; o < offsets_; ++o) {
@@ -101,21 +100,14 @@ class SideCoverage {
         for (int k = std::max(0, o - band); k <= std::min(offsets_ - 1, o + band); ++k)
           covered |= layers_[static_cast<std::size_t>(k) * alongs_ + a];
         const int height = std::popcount(covered);
-        ++n0;
-        if (height >= least) ++n1;
         if (height < least) continue;
         const std::uint64_t through = passed_behind(a, o) & ~covered;
         const int top = 63 - std::countl_zero(covered);
         const std::uint64_t over = top >= 63 ? 0 : through >> (top + 1);
         if (std::popcount(over) >= 2) continue;
-        ++n2;
         if (height < options_.min_share * (height + std::popcount(through))) continue;
         wall_[cell] = 1;
-        ++n3;
       }
-    if (std::getenv("DOORS"))
-      std::fprintf(stderr, "side %d %d points %zu: cells %zu high %zu notover %zu wall %zu\n",
-                   axis_, sign_, points_.size(), n0, n1, n2, n3);
   }
 
   /// The runs of wall about an offset; marks in `used_` what they take.
@@ -266,6 +258,40 @@ std::vector<WallPiece> find_walls(const std::vector<PlacedPoint>& points,
       walls.insert(walls.end(), found.begin(), found.end());
     }
   return walls;
+}
+
+std::vector<WallPiece> cut_at_path(const std::vector<WallPiece>& walls,
+                                   const std::vector<Eigen::Vector3d>& path, double reach_m,
+                                   double min_length_m) {
+  std::vector<WallPiece> left;
+  for (const WallPiece& wall : walls) {
+    std::vector<std::pair<double, double>> stretches{{wall.from_m, wall.to_m}};
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const Eigen::Vector3d &p = path[i - 1], &q = path[i];
+      const double a = p[wall.axis] - wall.offset_at(p[1 - wall.axis]),
+                   b = q[wall.axis] - wall.offset_at(q[1 - wall.axis]);
+      constexpr double kBroken_m = 3;  // between two stretches of the way
+      if ((a < 0) == (b < 0) || (q - p).norm() > kBroken_m) continue;
+      const double at = (b * p[1 - wall.axis] - a * q[1 - wall.axis]) / (b - a);
+      std::vector<std::pair<double, double>> rest;
+      for (const auto& [from, to] : stretches) {
+        if (at < from - reach_m || at > to + reach_m) {
+          rest.emplace_back(from, to);
+          continue;
+        }
+        if (at - reach_m - from > min_length_m) rest.emplace_back(from, at - reach_m);
+        if (to - at - reach_m > min_length_m) rest.emplace_back(at + reach_m, to);
+      }
+      stretches.swap(rest);
+    }
+    for (const auto& [from, to] : stretches) {
+      WallPiece piece = wall;
+      piece.from_m = from, piece.to_m = to;
+      piece.offset_m = wall.offset_at(0.5 * (from + to));
+      left.push_back(piece);
+    }
+  }
+  return left;
 }
 
 }  // namespace placegraph

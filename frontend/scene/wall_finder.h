@@ -49,4 +49,10 @@ struct WallPiece {
                                                 const VoxelEvidence& voxels,
                                                 const WallFinderOptions& options = {});
 
+/// Where the camera went there is no wall: takes `reach_m` to both sides of every crossing out of
+/// the walls; what is left of one and shorter than `min_length_m` too.
+[[nodiscard]] std::vector<WallPiece> cut_at_path(const std::vector<WallPiece>& walls,
+                                                 const std::vector<Eigen::Vector3d>& path,
+                                                 double reach_m, double min_length_m);
+
 }  // namespace placegraph
