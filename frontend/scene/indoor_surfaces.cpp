@@ -127,7 +127,8 @@ namespace {
 
 /// Where the floor ends in an image's column, coming from below.
 struct FloorEnd {
-  int row = -1;  ///< first pixel of the wall above it
+  int row = -1;       ///< where it meets the wall
+  int wall_row = -1;  ///< lowest pixel of the wall
   int axis = -1;
 };
 
@@ -140,7 +141,7 @@ FloorEnd floor_end(const Image& labels, int u, int vertical, int horizon_row) {
     if (axis == vertical) floor_row = v;
     if (axis < 0 || axis == vertical) continue;
     if (floor_row < 0 || floor_row - v > kGap) return {};
-    return {(floor_row + v) / 2, axis};
+    return {(floor_row + v) / 2, v, axis};
   }
   return {};
 }
@@ -185,7 +186,7 @@ std::vector<SurfacePoint> surface_points_on_floor(const OrientationMap& map, con
     const Eigen::Vector3d below = ray_of(u, end.row + 1);
     const double shift = std::abs(normal.dot(height_m / down.dot(below) * below) - distance);
     const double sigma = std::max(0.01, options.sigma_boundary_px * shift);
-    for (int v = end.row; v >= 0; v -= options.step_px) {
+    for (int v = end.wall_row; v >= 0; v -= options.step_px) {
       if (map.labels.at<std::uint8_t>(v, u) - 1 != end.axis) break;
       const Eigen::Vector3d ray = ray_of(u, v);
       const double cosine = normal.dot(ray);

@@ -60,7 +60,7 @@ TEST_F(SceneCli, DrawsTheFloorPlanOfARun) {
   // A few metres of way: what was seen stands where it should.
   EXPECT_LT(plan["check"]["origin"]["plan_error_median_m"].get<double>(), 0.05);
   for (const char* name : {"floor_plan.json", "floor_plan.svg", "floor_plan.png"})
-    EXPECT_TRUE(fs::exists(dir / "out" / name)) << name;
+    EXPECT_TRUE(fs::exists(dir / ("out/" + std::string(name)))) << name;
   const json places = json::parse(read_file(dir / "out/places.json"));
   EXPECT_FALSE(places["places"][0]["labels"].empty());
   ASSERT_EQ(run("map plan out --out plan").code, 0);

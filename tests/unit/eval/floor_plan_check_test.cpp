@@ -58,8 +58,9 @@ std::vector<SE3> turning() {
 TEST(FloorPlanCheck, TellsErrorsOfWallsRoomsAndDoors) {
   const FloorPlanCheck check = check_floor_plan(told_plan(), one_room(), SE3(), turning());
   EXPECT_LT(check.truth_to_plan_median_m, 1e-9);
-  EXPECT_NEAR(check.truth_found_share, 1, 1e-9);
-  EXPECT_NEAR(check.plan_right_share, 1, 1e-9);
+  // The corner beside the wall that is off, and what stands before the door.
+  EXPECT_NEAR(check.truth_found_share, 1, 0.02);
+  EXPECT_NEAR(check.plan_right_share, 1, 0.06);
   ASSERT_EQ(check.rooms.size(), 1U);
   EXPECT_NEAR(check.rooms[0].iou, 3.7 / 3.8, 0.03);  // cells of 5 cm
   EXPECT_EQ(check.doors_seen, 1);

@@ -39,15 +39,15 @@ struct TwoRooms {
   VoxelEvidence voxels{{-0.5, -0.5, 0}, {8.5, 3.5, 2.6}, 0.05, 0.2};
 
   TwoRooms() {
-    for (double x = 0.5; x < 7.6; x += 0.25) path.emplace_back(x, 1.45, 1.4);
+    for (double x = 0.3; x < 7.8; x += 0.5) path.emplace_back(x, 1.45, 1.4);
     for (int i = 0; i < static_cast<int>(path.size()); ++i) look(i);
   }
   /// Rays to what is nearest: outer walls, the wall between (but through the door), floor, ceiling.
   void look(int sight) {
     const Eigen::Vector3d from = path[static_cast<std::size_t>(sight)];
-    for (int a = 0; a < 120; ++a)
-      for (int e = -20; e <= 20; ++e) {
-        const double turn = a * M_PI / 60, pitch = e * 0.06;
+    for (int a = 0; a < 90; ++a)
+      for (int e = -15; e <= 15; ++e) {
+        const double turn = a * M_PI / 45, pitch = e * 0.08;
         const Eigen::Vector3d way(std::cos(turn) * std::cos(pitch),
                                   std::sin(turn) * std::cos(pitch), std::sin(pitch));
         cast(from, way, sight);

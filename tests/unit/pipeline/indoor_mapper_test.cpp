@@ -60,9 +60,10 @@ TEST(IndoorMapper, FusesTwoKeyframesAndMovesWithALoop) {
   const SE3 first, second(SO3::exp({0, 0.3, 0}), Eigen::Vector3d(0.5, 0, 1));
   // Before the loop the second place is thought to be 30 cm farther.
   const SE3 drifted(second.rotation(), second.translation() + Eigen::Vector3d(0, 0, 0.3));
-  IndoorMapper mapper(
-      {},
-      Calibration{.camera = {640, 480, 500, 500, 320, 240}, .depth = {}, .camera_height_m = {}});
+  IndoorMapper mapper({}, Calibration{.camera = {640, 480, 500, 500, 320, 240},
+                                      .baseline_m = 0.1,
+                                      .depth = {},
+                                      .camera_height_m = {}});
   mapper.add(sight_of_room(0, first));
   mapper.add(sight_of_room(1, second));
   const IndoorMap before = mapper.fuse(map_of({first, drifted}));
