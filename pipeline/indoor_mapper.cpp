@@ -291,8 +291,12 @@ std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame) const {
         dense_stereo(frame.image, frame.right, camera.fx, calibration_.baseline_m, options_.stereo);
     SurfacePointOptions points = options_.points;
     points.radius_px = options_.stereo_radius_px;
-    return surface_points(depth, camera, SE3(),
-                          options_.stereo_sigma_px / (camera.fx * calibration_.baseline_m), points);
+    std::vector<SurfacePoint> seen =
+        surface_points(depth, camera, SE3(),
+                       options_.stereo_sigma_px / (camera.fx * calibration_.baseline_m), points);
+    // A false match is seldom part of a plane; its ray would be seen to pass through walls.
+    std::erase_if(seen, [](const SurfacePoint& p) { return p.normal.squaredNorm() < 0.5F; });
+    return seen;
   }
   if (calibration_.camera_height_m) return points_of_one_eye(frame.image);
   return {};
