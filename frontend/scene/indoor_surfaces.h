@@ -23,7 +23,7 @@ std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& dep
 
 struct DenseStereoOptions {
   int disparities = 96;  ///< searched from 0 on [px], a multiple of 16
-  int window_px = 5;
+  int window_px = 9;
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, DenseStereoOptions& options);
