@@ -22,6 +22,7 @@
 #include "apps/map_file.h"
 #include "apps/map_label.h"
 #include "apps/map_learn.h"
+#include "apps/map_plan.h"
 #include "apps/output.h"
 #include "apps/run_files.h"
 
@@ -251,6 +252,7 @@ void add_map_command(CLI::App& app) {
   add_export_command(*map);
   add_map_learn_command(*map);
   add_map_label_command(*map);
+  add_map_plan_command(*map);
 }
 
 }  // namespace placegraph::apps

@@ -19,6 +19,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include "apps/draw_frame.h"
+#include "apps/floor_plan_files.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/run_files.h"
@@ -34,7 +35,7 @@ using nlohmann::json;
 struct Arguments {
   std::string sequence, out, resume, config, odometry, draw;
   std::vector<std::string> settings;
-  std::optional<std::string> sensor, cues;
+  std::optional<std::string> sensor, cues, scene;
   std::optional<double> camera_height_m;
   std::optional<std::int64_t> seed;
   std::optional<int> threads;
@@ -48,6 +49,7 @@ RunOptions options_of(const Arguments& arguments, RunOptions options = {}) {
   if (!arguments.config.empty()) read_options(arguments.config, options);
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
+  if (arguments.scene) options.scene.geometry = *arguments.scene == "geometry";
   if (arguments.cues) options.slam.odometry.cues = *arguments.cues;
   if (arguments.camera_height_m) {
     require(*arguments.camera_height_m > 0, "--camera-height: must be positive");
@@ -117,6 +119,11 @@ void print_summary(const json& summary, const std::string& folder) {
       if (figures.contains("ate_rmse_m") && figures["ate_rmse_m"].is_number())
         std::printf("%-12s ATE %.4f m (%s), path %.1f m\n", "", figures["ate_rmse_m"].get<double>(),
                     name.c_str(), summary["path_m"].get<double>());
+  if (summary.contains("floor_plan") && summary["floor_plan"].contains("walls"))
+    std::printf("%-12s floor plan: %d walls, %d doors, %d rooms\n", "",
+                summary["floor_plan"]["walls"].get<int>(),
+                summary["floor_plan"]["doors"].get<int>(),
+                summary["floor_plan"]["rooms"].get<int>());
   std::printf(
       "%-12s %.1f s, %.1f ms CPU a frame, results in %s\n", "", summary["wall_s"].get<double>(),
       1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(), folder.c_str());
@@ -181,6 +188,22 @@ RunOptions prepare(Arguments& arguments) {
   return options;
 }
 
+/// Draws the floor plan and labels the places by its rooms; what result.json says of it. Where
+/// there is no plan the run is good all the same.
+json map_scene(const Arguments& arguments, const RunOptions& options, const Dataset& dataset,
+               RunResult& run) {
+  const IndoorMap plan =
+      plan_of_map(run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.indoor);
+  if (plan.outcome) {
+    label_places(plan, run.map.place_graph);
+    save_labels(map_path(arguments.out), run.map.place_graph);
+    write_floor_plan(arguments.out, plan, run.map, dataset.name());
+  } else {
+    warn("no floor plan: " + plan.outcome.reason);
+  }
+  return describe_floor_plan(plan, run.map, dataset, arguments.sequence);
+}
+
 void run(Arguments arguments) {
   const RunOptions options = prepare(arguments);
   if (!arguments.draw.empty()) {
@@ -219,12 +242,15 @@ void run(Arguments arguments) {
         MapFile{map_path(arguments.out), fs::absolute(arguments.sequence).string(),
                 !arguments.resume.empty()});
   }
+  json floor_plan;
+  if (options.scene.geometry) floor_plan = map_scene(arguments, options, *dataset, run);
   getrusage(RUSAGE_SELF, &after);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
 
   const Trajectory optimized = run.map.trajectory_optimized();
   json summary = describe_run(run, optimized);
   if (!options.motion.file.empty()) summary["motion"] = describe_motion(run.map.place_graph);
+  if (!floor_plan.is_null()) summary["floor_plan"] = floor_plan;
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
   summary["sequence"] = dataset->name();
   summary["format"] = dataset->format();
@@ -263,6 +289,10 @@ void add_run_command(CLI::App& app) {
   command->add_option("--cues", arguments->cues,
                       "what motion is seen by, joined by commas: points, lines, plane, manhattan, "
                       "direct; default: points,plane");
+  command
+      ->add_option("--scene", arguments->scene,
+                   "geometry: a floor plan with walls, doors and rooms; see docs/indoor.md")
+      ->check(CLI::IsMember({"geometry", "none"}));
   command->add_option("--camera-height", arguments->camera_height_m,
                       "height above the ground [m]: gives a single eye its scale");
   command->add_option("--odometry", arguments->odometry,

@@ -4,6 +4,7 @@
 
 #include "apps/cmd_scene_check.h"
 #include "apps/cmd_scene_label.h"
+#include "apps/cmd_scene_orientation.h"
 #include "apps/cmd_scene_popup.h"
 #include "apps/cmd_scene_surfaces.h"
 
@@ -15,6 +16,7 @@ void add_scene_command(CLI::App& app) {
   command->require_subcommand(1);
   add_scene_check_command(*command);
   add_scene_label_command(*command);
+  add_scene_orientation_command(*command);
   add_scene_popup_command(*command);
   add_scene_surfaces_command(*command);
 }

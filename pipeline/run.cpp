@@ -100,6 +100,7 @@ void RunOptions::check() const {
   check_ranges(*this);
   motion.check();
   lens.check();
+  scene.indoor.check();
   slam.check();
 }
 
@@ -113,7 +114,13 @@ void visit(OptionVisitor& field, RunOptions& o) {
   field("threads", o.threads, "threads; the result does not depend on it", {1, 256});
   field.group("motion", o.motion, "motion that other sensors measured");
   field.group("lens", o.lens, "self-calibration of one eye's radial distortion");
+  field.group("scene", o.scene, "what is made of the scene beside the places");
   visit(field, o.slam);
+}
+
+void visit(OptionVisitor& field, SceneOptions& o) {
+  field("geometry", o.geometry, "a floor plan with walls, doors and rooms, at the end");
+  field.group("indoor", o.indoor, "the floor plan");
 }
 
 void MotionOptions::check() const {

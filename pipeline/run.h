@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/io/dataset.h>
 #include <placegraph/io/map_database.h>
+#include <placegraph/pipeline/indoor_mapper.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <functional>
@@ -20,6 +21,13 @@ struct MotionOptions {
 };
 void visit(OptionVisitor& field, MotionOptions& options);
 
+/// What is made of the scene beside the places, from the finished map.
+struct SceneOptions {
+  bool geometry = false;  ///< a floor plan with walls, doors and rooms (docs/indoor.md)
+  IndoorMapperOptions indoor;
+};
+void visit(OptionVisitor& field, SceneOptions& options);
+
 /// A run over a recorded sequence: what `placegraph run` and configs/*.yaml set.
 struct RunOptions {
   SensorChoice sensor = SensorChoice::kAuto;  ///< auto: the best the sequence offers
@@ -29,6 +37,7 @@ struct RunOptions {
   int threads = 2;     ///< 2 or more: the next frame is read while this one is worked on
   MotionOptions motion;
   LensOptions lens;
+  SceneOptions scene;
   SlamOptions slam;
   void check() const;
 };

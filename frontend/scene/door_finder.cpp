@@ -1,0 +1,239 @@
+#include <placegraph/frontend/scene/door_finder.h>
+#include <placegraph/graph/core/median.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace placegraph {
+namespace {
+
+constexpr double kAlong_m = 0.05;
+
+/// What one step along a wall's surface shows at the height of doors.
+struct Step {
+  bool wall = false;           ///< the surface goes on down there
+  bool recess = false;         ///< something stands a little behind it
+  bool open = false;           ///< rays pass
+  bool over = false;           ///< rays pass above where a head would be
+  std::optional<double> head;  ///< lowest height of the surface above a door's
+};
+
+/// All pieces on one plane: same side, offsets that agree.
+struct Plane {
+  int axis = 0, sign = 1;
+  double offset_m = 0, from_m = 0, to_m = 0;
+};
+
+std::vector<Plane> planes_of(const std::vector<WallPiece>& walls, double reach_m) {
+  std::vector<WallPiece> left = walls;
+  std::sort(left.begin(), left.end(), [](const WallPiece& a, const WallPiece& b) {
+    return a.to_m - a.from_m > b.to_m - b.from_m;
+  });
+  std::vector<Plane> planes;
+  for (const WallPiece& piece : left) {
+    bool joined = false;
+    for (Plane& plane : planes) {
+      if (plane.axis != piece.axis || plane.sign != piece.sign ||
+          std::abs(plane.offset_m - piece.offset_m) > 0.1)
+        continue;
+      if (piece.from_m > plane.to_m + reach_m || piece.to_m < plane.from_m - reach_m) continue;
+      plane.from_m = std::min(plane.from_m, piece.from_m);
+      plane.to_m = std::max(plane.to_m, piece.to_m);
+      joined = true;
+      break;
+    }
+    if (!joined)
+      planes.push_back({piece.axis, piece.sign, piece.offset_m, piece.from_m, piece.to_m});
+  }
+  return planes;
+}
+
+class PlaneProfile {
+ public:
+  PlaneProfile(const Plane& plane, const std::vector<PlacedPoint>& points,
+               const VoxelEvidence& voxels, const std::vector<Eigen::Vector3d>& path,
+               const DoorFinderOptions& options)
+      : plane_(plane), options_(options) {
+    from_ = plane.from_m - options.max_width_m;
+    const int count =
+        static_cast<int>((plane.to_m - plane.from_m + 2 * options.max_width_m) / kAlong_m) + 1;
+    steps_.resize(count);
+    take_points(points);
+    take_voxels(voxels);
+    crossings(path);
+  }
+
+  void find(std::vector<DoorPiece>& doors) const {
+    for (std::size_t i = 0; i < steps_.size();) {
+      if (steps_[i].wall) {
+        ++i;
+        continue;
+      }
+      std::size_t end = i;
+      while (end < steps_.size() && !steps_[end].wall) ++end;
+      if (i > 0 && end < steps_.size()) judge(i, end, doors);
+      i = end;
+    }
+  }
+
+ private:
+  int step_of(double along) const {
+    return static_cast<int>(std::floor((along - from_) / kAlong_m));
+  }
+
+  /// How far the surface lies behind the plane about each step: poses that drift bend it.
+  void find_reference(const std::vector<PlacedPoint>& points) {
+    constexpr int kReach = 24;  // steps
+    std::vector<std::vector<double>> behind(steps_.size());
+    for (const PlacedPoint& p : points) {
+      if (p.normal[plane_.axis] * plane_.sign < 0.95F || p.sigma > 0.05F) continue;
+      const int step = step_of(p.point[1 - plane_.axis]);
+      const double b = plane_.sign * (plane_.offset_m - p.point[plane_.axis]);
+      if (step >= 0 && step < static_cast<int>(steps_.size()) && p.point[2] > 0.25F &&
+          std::abs(b) < 0.13)
+        behind[step].push_back(b);
+    }
+    reference_.assign(steps_.size(), 0.0);
+    for (int i = 0; i < static_cast<int>(steps_.size()); ++i) {
+      // The surface is in front of the leaves in it: the lower third.
+      std::vector<double> about;
+      for (int k = std::max(0, i - kReach); k < std::min<int>(behind.size(), i + kReach + 1); ++k)
+        about.insert(about.end(), behind[k].begin(), behind[k].end());
+      if (about.size() < 10) continue;
+      const auto third = about.begin() + static_cast<std::ptrdiff_t>(about.size() / 3);
+      std::nth_element(about.begin(), third, about.end());
+      reference_[i] = *third;
+    }
+  }
+
+  void take_points(const std::vector<PlacedPoint>& points) {
+    find_reference(points);
+    std::vector<std::vector<double>> low(steps_.size()), high(steps_.size()), heads(steps_.size());
+    for (const PlacedPoint& p : points) {
+      if (p.normal[plane_.axis] * plane_.sign < 0.9F || p.sigma > 0.1F) continue;
+      const int step = step_of(p.point[1 - plane_.axis]);
+      if (step < 0 || step >= static_cast<int>(steps_.size())) continue;
+      const double behind =
+          plane_.sign * (plane_.offset_m - p.point[plane_.axis]) - reference_[step];
+      if (behind < -0.06 || behind > options_.max_recess_m) continue;
+      if (p.point[2] > 0.25F && p.point[2] < options_.min_head_m - 0.1)
+        for (int k = std::max(0, step - 1); k <= step + 1 && k < static_cast<int>(low.size()); ++k)
+          low[k].push_back(behind);
+      if (p.point[2] > options_.min_head_m && behind < 0.5 * options_.min_recess_m + 0.01)
+        for (int k = std::max(0, step - 2); k <= step + 2 && k < static_cast<int>(low.size()); ++k)
+          heads[k].push_back(p.point[2]);
+    }
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      if (low[i].size() >= 3) {
+        const double behind = median_of(low[i]);
+        steps_[i].wall = behind < options_.min_recess_m;
+        steps_[i].recess = !steps_[i].wall;
+      }
+      if (heads[i].size() >= 3) {
+        std::sort(heads[i].begin(), heads[i].end());
+        steps_[i].head = heads[i][heads[i].size() / 20];
+      }
+    }
+  }
+
+  void take_voxels(const VoxelEvidence& voxels) {
+    const int first = std::max(0, voxels.layer_of(0.5)),
+              last = std::min(voxels.layers() - 1, voxels.layer_of(options_.min_head_m - 0.2));
+    for (std::size_t i = 0; i < steps_.size(); ++i) {
+      double at[2];
+      at[1 - plane_.axis] = from_ + (static_cast<double>(i) + 0.5) * kAlong_m;
+      at[plane_.axis] = plane_.offset_m - plane_.sign * (reference_[i] + 0.07);
+      const int c = voxels.column_of(at[0]), r = voxels.row_of(at[1]);
+      if (!voxels.contains(c, r)) continue;
+      int passed = 0;
+      for (int l = first; l <= last; ++l)
+        passed += voxels.passes(c, r, l) >= 2 && voxels.passes(c, r, l) > 2 * voxels.hits(c, r, l);
+      for (int l = voxels.layer_of(options_.min_head_m) + 2; l < voxels.layers(); ++l)
+        steps_[i].over |= voxels.passes(c, r, l) >= 2;
+      steps_[i].open = passed >= 2 && 2 * passed >= last - first + 1;
+      if (steps_[i].open && !steps_[i].recess) steps_[i].wall = false;
+    }
+  }
+
+  void crossings(const std::vector<Eigen::Vector3d>& path) {
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      const double a = path[i - 1][plane_.axis] - plane_.offset_m,
+                   b = path[i][plane_.axis] - plane_.offset_m;
+      if ((a < 0) == (b < 0) || (path[i] - path[i - 1]).norm() > 3) continue;
+      const double share = a / (a - b);
+      crossings_.push_back(path[i - 1][1 - plane_.axis] * (1 - share) +
+                           path[i][1 - plane_.axis] * share);
+    }
+  }
+
+  /// A stretch without wall at the height of doors, wall at both its ends.
+  void judge(std::size_t begin, std::size_t end, std::vector<DoorPiece>& doors) const {
+    const double width = static_cast<double>(end - begin) * kAlong_m;
+    DoorPiece door{
+        plane_.axis, plane_.sign, plane_.offset_m, from_ + begin * kAlong_m, from_ + end * kAlong_m,
+        0,           false};
+    if (width < options_.min_width_m - kAlong_m || width > options_.max_width_m) return;
+    door.offset_m -= plane_.sign * reference_[(begin + end) / 2];
+    std::size_t open = 0, recess = 0, over = 0;
+    std::vector<double> heads;
+    for (std::size_t i = begin; i < end; ++i) {
+      open += steps_[i].open, recess += steps_[i].recess, over += steps_[i].over;
+      if (steps_[i].head) heads.push_back(*steps_[i].head);
+    }
+    const std::size_t count = end - begin;
+    const bool head_seen = 2 * heads.size() >= count;
+    if (head_seen) door.head_m = median_of(heads);
+    const bool crossed = std::any_of(crossings_.begin(), crossings_.end(),
+                                     [&](double at) { return at > door.from_m && at < door.to_m; });
+    door.closed = recess > open;
+    const bool head_fits = head_seen && door.head_m <= options_.max_head_m && 2 * over < count;
+    if (door.closed && head_fits && 3 * recess >= 2 * count && width < 1.6) doors.push_back(door);
+    if (!door.closed && 2 * open >= count &&
+        (head_fits || (!head_seen && crossed && width < 1.4 && 4 * over < count)))
+      doors.push_back(door);
+  }
+
+  const Plane& plane_;
+  const DoorFinderOptions& options_;
+  double from_ = 0;
+  std::vector<Step> steps_;
+  std::vector<double> reference_;
+  std::vector<double> crossings_;
+};
+
+}  // namespace
+
+void visit(OptionVisitor& field, DoorFinderOptions& o) {
+  field("min_width_m", o.min_width_m, "of a door", {0.2, 5});
+  field("max_width_m", o.max_width_m, "of a door", {0.2, 10});
+  field("min_head_m", o.min_head_m, "of an opening's head above the floor", {0.5, 5});
+  field("max_head_m", o.max_head_m, "of an opening's head above the floor", {0.5, 10});
+  field("min_recess_m", o.min_recess_m, "of a leaf behind its wall's surface", {0.005, 1});
+  field("max_recess_m", o.max_recess_m, "of a leaf behind its wall's surface", {0.005, 1});
+}
+
+std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
+                                  const std::vector<PlacedPoint>& points,
+                                  const VoxelEvidence& voxels,
+                                  const std::vector<Eigen::Vector3d>& path,
+                                  const DoorFinderOptions& options) {
+  options.check();
+  std::vector<DoorPiece> doors, once;
+  for (const Plane& plane : planes_of(walls, options.max_width_m))
+    PlaneProfile(plane, points, voxels, path, options).find(doors);
+  for (const DoorPiece& door : doors) {
+    const double middle = 0.5 * (door.from_m + door.to_m);
+    const auto same = std::find_if(once.begin(), once.end(), [&](const DoorPiece& other) {
+      return other.axis == door.axis && std::abs(other.offset_m - door.offset_m) < 0.45 &&
+             std::abs(0.5 * (other.from_m + other.to_m) - middle) < 0.4;
+    });
+    if (same == once.end())
+      once.push_back(door);
+    else if (!door.closed)  // What passes through is no leaf.
+      same->closed = false;
+  }
+  return once;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,32 @@
+#pragma once
+#include <placegraph/frontend/scene/wall_finder.h>
+
+namespace placegraph {
+
+struct DoorFinderOptions {
+  double min_width_m = 0.6, max_width_m = 2.2;
+  double min_head_m = 1.8, max_head_m = 2.5;         ///< of an opening's head above the floor
+  double min_recess_m = 0.025, max_recess_m = 0.16;  ///< of a leaf behind its wall's surface
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, DoorFinderOptions& options);
+
+/// A door in the frame of the walls: in the wall surface `offset_m` along `axis`.
+struct DoorPiece {
+  int axis = 0, sign = 1;
+  double offset_m = 0, from_m = 0, to_m = 0;
+  double head_m = 0;  ///< 0: none was seen
+  bool closed = false;
+};
+
+/// Doors along each wall's surface, and what lies between walls of one plane. Open ones: below a
+/// head nothing stands and rays pass, or, without a head, the `path` (camera positions, in order)
+/// goes through a gap of a door's width. Closed ones: a leaf as high and wide as doors are, set
+/// back from a wall that goes on above or beside it. A door that both sides tell is told once.
+[[nodiscard]] std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
+                                                const std::vector<PlacedPoint>& points,
+                                                const VoxelEvidence& voxels,
+                                                const std::vector<Eigen::Vector3d>& path,
+                                                const DoorFinderOptions& options = {});
+
+}  // namespace placegraph

@@ -1,0 +1,51 @@
+#pragma once
+#include <placegraph/frontend/scene/orientation_map.h>
+#include <placegraph/graph/indoor_map.h>
+
+namespace placegraph {
+
+struct SurfacePointOptions {
+  int step_px = 8;             ///< between points
+  int radius_px = 8;           ///< of the patch whose plane gives the normal
+  double max_residual = 0.01;  ///< of inverse depths from it, relative, rms, beside noise
+  double max_range_m = 12;
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, SurfacePointOptions& options);
+
+/// Points of the surfaces in a depth image (CV_32FC1 [m], 0 = none) of `depth_camera`, in the frame
+/// that `T_cam_depth` leads to. Inverse depth is linear in the pixel on a plane: where a patch's
+/// are, its plane gives the normal. Deviations are those of the patch, at least
+/// `sigma_at_1m` z^2. Throws ArgumentError for an image of another size or type.
+std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& depth_camera,
+                                         const SE3& T_cam_depth, double sigma_at_1m,
+                                         const SurfacePointOptions& options = {});
+
+struct DenseStereoOptions {
+  int disparities = 96;  ///< searched from 0 on [px], a multiple of 16
+  int window_px = 9;
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, DenseStereoOptions& options);
+
+/// Depth of every pixel of the left eye that both eyes agree on (semi-global matching,
+/// Hirschmueller 2008, by OpenCV): CV_32FC1 [m], 0 = none.
+Image dense_stereo(const Image& left, const Image& right, double fx, double baseline_m,
+                   const DenseStereoOptions& options = {});
+
+struct FloorSightOptions {
+  double max_range_m = 6;
+  int step_px = 8;
+  double sigma_boundary_px = 1.5;  ///< of the row where floor and wall meet
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, FloorSightOptions& options);
+
+/// The same from one image: floor pixels of an orientation map lie on the floor, `height_m` under
+/// the camera; walls stand where it ends below them, turned as their labels say, and reach as far
+/// up as the label does (METHODS: X = h x / (n . x)). Empty where the map shows no floor.
+std::vector<SurfacePoint> surface_points_on_floor(const OrientationMap& map, const Camera& camera,
+                                                  const SO3& R_cam_manhattan, double height_m,
+                                                  const FloorSightOptions& options = {});
+
+}  // namespace placegraph

@@ -1,0 +1,71 @@
+// `placegraph scene orientation`, `run --scene geometry`, `map plan`.
+#include <nlohmann/json.hpp>
+
+#include "tests/support/cli_test.h"
+
+namespace placegraph {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::CommandResult;
+using test::read_file;
+
+/// A rendered walk, made once for all tests.
+class IndoorCli : public test::CliTest {
+ protected:
+  static void SetUpTestSuite() {
+    made = new test::TemporaryFolder;
+    const CommandResult result = test::run_placegraph(
+        "synth corridor-loop --frames 60 --size 320x240 --difficulty clean --labels --mono --out "
+        "walk",
+        made->path());
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+  static void TearDownTestSuite() { delete made; }
+  static std::string walk() { return *made / "walk"; }
+  static inline test::TemporaryFolder* made = nullptr;
+};
+
+TEST_F(IndoorCli, TellsOrientationsOfASequence) {
+  const CommandResult result = run("scene orientation " + walk() + " --every 20 --out maps --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json summary = json::parse(result.out);
+  EXPECT_EQ(summary["images"], 3);
+  // At half the size of what the section of docs/results.md measures.
+  EXPECT_GT(summary["check"]["accuracy"].get<double>(), 0.8);
+  EXPECT_TRUE(fs::exists(dir / "maps/000020.png"));
+}
+
+TEST_F(IndoorCli, TellsTheSurfacesOfAnImage) {
+  dir.write("K.txt", "262.5 262.5 159.5 119.5 320 240\n");
+  const std::string image = walk() + "/image_0/000000.png";
+  const CommandResult result =
+      run("scene orientation " + image + " --calib K.txt --out map.png --draw drawn.png --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json summary = json::parse(result.out);
+  EXPECT_GT(summary["wall"].get<double>(), summary["ceiling"].get<double>());
+  EXPECT_TRUE(fs::exists(dir / "map.png"));
+  EXPECT_TRUE(fs::exists(dir / "drawn.png"));
+  expect_usage_error("scene orientation " + image + " --out other.png", "--calib");
+  expect_usage_error("scene orientation " + image + " --calib K.txt --out map.png", "map.png");
+}
+
+TEST_F(IndoorCli, DrawsTheFloorPlanOfARun) {
+  const CommandResult result =
+      run("run " + walk() + " --sensor rgbd --scene geometry --out out --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json plan = json::parse(result.out)["floor_plan"];
+  EXPECT_EQ(plan["outcome"], "ok");
+  // A few metres of way: what was seen stands where it should.
+  EXPECT_LT(plan["check"]["origin"]["plan_error_median_m"].get<double>(), 0.05);
+  for (const char* name : {"floor_plan.json", "floor_plan.svg", "floor_plan.png"})
+    EXPECT_TRUE(fs::exists(dir / ("out/" + std::string(name)))) << name;
+  const json places = json::parse(read_file(dir / "out/places.json"));
+  EXPECT_FALSE(places["places"][0]["labels"].empty());
+  ASSERT_EQ(run("map plan out --out plan").code, 0);
+  EXPECT_EQ(read_file(dir / "plan/floor_plan.json"), read_file(dir / "out/floor_plan.json"));
+}
+
+}  // namespace
+}  // namespace placegraph

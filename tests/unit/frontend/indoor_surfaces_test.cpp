@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+#include <placegraph/frontend/scene/indoor_surfaces.h>
+#include <placegraph/frontend/scene/room_partition.h>
+#include <placegraph/graph/core/error.h>
+
+namespace placegraph {
+namespace {
+
+Camera small_camera() {
+  Camera camera;
+  camera.width = 80, camera.height = 60;
+  camera.fx = camera.fy = 60, camera.cx = 39.5, camera.cy = 29.5;
+  return camera;
+}
+
+TEST(SurfacePoints, TellThePlaneOfADepthImage) {
+  const Camera camera = small_camera();
+  const Eigen::Vector3d n = Eigen::Vector3d(0.3, -0.2, -1).normalized();
+  Image depth(60, 80, CV_32FC1, cv::Scalar(0));
+  for (int v = 0; v < 60; ++v)
+    for (int u = 0; u < 80; ++u) {
+      const Eigen::Vector3d ray((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1);
+      depth.at<float>(v, u) = static_cast<float>(-2 / n.dot(ray));
+    }
+  const auto points = surface_points(depth, camera, SE3(), 0.001);
+  ASSERT_GT(points.size(), 40U);
+  for (const SurfacePoint& p : points) {
+    // Depth is held in float: a millionth of it.
+    EXPECT_NEAR(n.dot(p.normal.cast<double>()), 1, 1e-4);
+    EXPECT_NEAR(n.dot(p.point.cast<double>()), -2, 1e-4);
+  }
+  EXPECT_THROW((void)surface_points(Image(60, 80, CV_8UC1), camera, SE3(), 0.001), ArgumentError);
+}
+
+/// Looks from two rooms of 4 x 3 m beside each other, a wall at x = 4 with a door at y = 1 .. 1.9.
+struct TwoRooms {
+  std::vector<PlacedPoint> points;
+  std::vector<Eigen::Vector3d> path;
+  VoxelEvidence voxels{{-0.5, -0.5, 0}, {8.5, 3.5, 2.6}, 0.05, 0.2};
+
+  TwoRooms() {
+    for (double x = 0.3; x < 7.8; x += 0.5) path.emplace_back(x, 1.45, 1.4);
+    for (int i = 0; i < static_cast<int>(path.size()); ++i) look(i);
+  }
+  /// Rays to what is nearest: outer walls, the wall between (but through the door), floor, ceiling.
+  void look(int sight) {
+    const Eigen::Vector3d from = path[static_cast<std::size_t>(sight)];
+    for (int a = 0; a < 90; ++a)
+      for (int e = -15; e <= 15; ++e) {
+        const double turn = a * M_PI / 45, pitch = e * 0.08;
+        const Eigen::Vector3d way(std::cos(turn) * std::cos(pitch),
+                                  std::sin(turn) * std::cos(pitch), std::sin(pitch));
+        cast(from, way, sight);
+      }
+  }
+  void cast(const Eigen::Vector3d& from, const Eigen::Vector3d& way, int sight) {
+    double best = 1e9;
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+    const auto plane = [&](int axis, double at, bool door) {
+      const double t = (at - from[axis]) / way[axis];
+      if (!(t > 1e-6) || t >= best) return;
+      const Eigen::Vector3d p = from + t * way;
+      if (door && p[1] > 1 && p[1] < 1.9 && p[2] < 2.05) return;
+      best = t, normal.setZero(), normal[axis] = way[axis] > 0 ? -1 : 1;
+    };
+    for (const double x : {0.0, 8.0}) plane(0, x, false);
+    plane(0, from[0] < 4 ? 3.95 : 4.05, true);
+    for (const double y : {0.0, 3.0}) plane(1, y, false);
+    for (const double z : {0.0, 2.6}) plane(2, z, false);
+    const Eigen::Vector3d to = from + best * way;
+    points.push_back({to.cast<float>(), normal.cast<float>(), 0.005F, sight});
+    voxels.add_ray(from, to, 0.1, true);
+  }
+};
+
+TEST(FloorPlan, OfTwoRoomsHasTheirWallsTheDoorAndBoth) {
+  const TwoRooms scene;
+  const auto walls = find_walls(scene.points, scene.voxels);
+  for (const WallPiece& wall : walls) {
+    const double at = wall.offset_m;
+    double nearest = 1;
+    if (wall.axis == 0)
+      for (const double x : {0.0, 3.95, 4.05, 8.0}) nearest = std::min(nearest, std::abs(at - x));
+    else
+      for (const double y : {0.0, 3.0}) nearest = std::min(nearest, std::abs(at - y));
+    EXPECT_LT(nearest, 0.005);  // exact points
+  }
+  const auto doors = find_doors(walls, scene.points, scene.voxels, scene.path);
+  ASSERT_EQ(doors.size(), 1U);
+  EXPECT_FALSE(doors[0].closed);
+  EXPECT_NEAR(0.5 * (doors[0].from_m + doors[0].to_m), 1.45, 0.1);  // two steps of the profile
+  EXPECT_NEAR(doors[0].head_m, 2.05, 0.15);
+  const RoomPartition rooms = partition_rooms(scene.voxels, walls, doors, scene.path);
+  ASSERT_EQ(rooms.rooms.size(), 2U);
+  for (const auto& room : rooms.rooms) EXPECT_NEAR(room.area_m2, 3.95 * 3, 0.6);
+}
+
+TEST(FloorPlan, HasNoWallWhereTheCameraWent) {
+  WallPiece wall;
+  wall.from_m = 0, wall.to_m = 5, wall.offset_m = 2;
+  const auto left = cut_at_path({wall}, {{1, 3, 1}, {3, 3, 1}}, 0.5, 0.4);
+  ASSERT_EQ(left.size(), 2U);
+  EXPECT_NEAR(left[0].to_m, 2.5, 1e-9);
+  EXPECT_NEAR(left[1].from_m, 3.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace placegraph
