@@ -12,7 +12,7 @@ namespace placegraph {
 namespace {
 
 constexpr std::uintmax_t kMaxImageBytes = std::uintmax_t{1} << 30;
-constexpr int kLeastSide = 16;  ///< of a picture [px]: less is a mistake, or a single line
+constexpr int kLeastSide = 4;  ///< of a picture [px]: less is a line, no picture
 
 std::string read_bytes(const std::string& path) {
   std::error_code error;

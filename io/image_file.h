@@ -11,7 +11,7 @@ struct GreyAndColour {
 };
 
 /// Reads PNG, JPEG, PGM/PPM, TIFF or BMP; pixels as stored (EXIF orientation is not applied).
-/// Throws FileError if the file is missing, truncated, no image, or under 16 px high or wide.
+/// Throws FileError if the file is missing, truncated, no image, or under 4 px high or wide.
 GreyAndColour read_image(const std::string& path);
 
 /// Channels and depth as in the file. Throws like `read_image`.
