@@ -24,12 +24,12 @@ plan_row() {
 }
 for world in "corridor-loop 1 standard" "corridor-loop 7 hard" "warehouse 1 standard" "warehouse 5 standard"; do
   set -- $world
-  name=plan-$1-$2
-  render "$name" "$1" --seed "$2" --difficulty "$3" --stereo
+  plan=plan-$1-$2
+  render "$plan" "$1" --seed "$2" --difficulty "$3" --stereo
   for sensor in rgbd stereo mono; do
     case $sensor in mono) height="--camera-height 1.4" ;; *) height= ;; esac
-    run "$name-$sensor" "$out/$name-world" --sensor "$sensor" --scene geometry $height
-    plan_row "$name-$sensor" "$1, seed $2, $3" "$sensor"
+    run "$plan-$sensor" "$out/$plan-world" --sensor "$sensor" --scene geometry $height
+    plan_row "$plan-$sensor" "$1, seed $2, $3" "$sensor"
   done
 done
 mkdir -p docs/images
