@@ -28,11 +28,13 @@ class CueOpinions {
   /// Of views by machines trained without their fold.
   const Eigen::MatrixXd& left_out() const { return left_out_; }
   Eigen::VectorXd of(const std::array<Eigen::VectorXd, kClassifierCues>& distances) const {
-    Eigen::VectorXd result(left_out_.cols());
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(left_out_.cols());
     Eigen::Index first = 0;
     for (const Cue& cue : cues_) {
-      result.segment(first, places_) =
-          cue.coefficients.transpose() * kernel_of(distances, cue.alone);
+      // A cue without distances is one that no stump looks at.
+      if (distances[cue.cue].size() > 0)
+        result.segment(first, places_) =
+            cue.coefficients.transpose() * kernel_of(distances, cue.alone);
       first += places_;
     }
     return result;

@@ -18,7 +18,7 @@ plan_row() {
   back=$(awk -v v="$(get plan_error_median_m)" 'BEGIN { printf "%.1f", 100 * v }')
   worse=$(printf '%s\n%s\n' "$walls" "$back" | sort -g | tail -1)
   iou=$(get room_iou_least); found=$(get doors_found); seen=$(get doors_seen)
-  share=$(awk -v a="$found" -v b="$seen" 'BEGIN { printf "%.1f", b > 0 ? 100 * a / b : 0 }')
+  share=$(awk -v a="$found" -v b="$seen" 'BEGIN { printf "%.1f", (b > 0 ? 100 * a / b : 0) }')
   cells "$2" "$3" "$walls" "$back" "<= $limit" "$(verdict "$worse" "<=" "$limit")" "$(digits "$iou" 3)" \
     "$(verdict "$iou" ">=" 0.85)" "$found of $seen" "$(verdict "$share" ">=" 80)" "$(get doors_false)"
 }

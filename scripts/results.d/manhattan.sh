@@ -16,3 +16,34 @@ york_row "rotation error, median [deg]" "$(figure 'error median')" "<=" 1.5
 york_row "rotation error, 95 % [deg]" "$(figure 'deg, 95 %')" "<=" 4
 york_row "marked points found within 2 deg" "$(figure recall)" ">=" 0.85
 york_row "false ones an image" "$(figure false)" "<=" 1
+
+printf '\nThe heading of a run with two eyes once round the rendered corridor without loop closing, against the truth from the first pose on: what rectangular worlds are worth.\n\n' >> "$rows"
+command_line "placegraph synth corridor-loop --difficulty standard --stereo --depth --labels --out WORLD"
+command_line "placegraph run WORLD --sensor stereo --cues CUES --no-loops --out OUT"
+render heading corridor-loop --difficulty standard --stereo --depth --labels
+# heading_errors TRUTH ESTIMATE: median, greatest and last error about the first camera's y [deg], and the share of frames beyond 0.5 deg [%]
+heading_errors() {
+  LC_ALL=C awk 'NR == FNR { for (i = 1; i <= 12; i++) truth[FNR, i] = $i; next }
+    function entry(matrix, row, column) { return matrix[4 * row + column + 1] }
+    {
+      for (i = 1; i <= 12; i++) { e[i] = $i; g[i] = truth[FNR, i]; if (FNR == 1) { e0[i] = $i; g0[i] = g[i] } }
+      # row 0 and row 2 of R_first_now of both, then of their quotient
+      for (r = 0; r < 3; r++) for (c = 0; c < 3; c++) {
+        a[r, c] = b[r, c] = 0
+        for (k = 0; k < 3; k++) { a[r, c] += entry(e0, k, r) * entry(e, k, c); b[r, c] += entry(g0, k, r) * entry(g, k, c) }
+      }
+      x = z = 0
+      for (k = 0; k < 3; k++) { x += a[0, k] * b[2, k]; z += a[2, k] * b[2, k] }
+      yaw = atan2(x, z) * 180 / atan2(0, -1); if (yaw < 0) yaw = -yaw
+      print yaw
+    }' "$1" "$2" > "$out/heading.txt"
+  last=$(tail -1 "$out/heading.txt")
+  sort -g "$out/heading.txt" | LC_ALL=C awk -v last="$last" '{ v[NR] = $1; n += $1 > 0.5 }
+    END { printf "%.3f %.3f %.3f %.1f\n", v[int((NR + 1) / 2)], v[NR], last, 100 * n / NR }'
+}
+columns cues "heading error, median [deg]" "at the end [deg]" "greatest [deg]" "target" met "frames beyond it [%]"
+for cues in points,plane points,plane,manhattan; do
+  run "heading-$cues" "$out/heading-world" --sensor stereo --cues $cues --no-loops
+  set -- $(heading_errors "$out/heading-world/poses.txt" "$out/heading-$cues/trajectory_optimized.kitti")
+  cells "$cues" "$1" "$3" "$2" "<= 0.5" "$(verdict "$2" "<=" 0.5)" "$4"
+done
