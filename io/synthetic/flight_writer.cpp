@@ -1,12 +1,12 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/body_state_file.h>
 #include <placegraph/io/euroc_sensor.h>
 #include <placegraph/io/flow_file.h>
 #include <placegraph/io/marker_layout_file.h>
 #include <placegraph/io/synthetic/flight_writer.h>
 #include <placegraph/io/synthetic/hover.h>
-#include <placegraph/io/synthetic/parallel.h>
 #include <placegraph/io/synthetic/sequence_folder.h>
 
 #include <mutex>
@@ -88,7 +88,7 @@ void write_flight(const SyntheticWorld& world, const std::string& path,
 
   std::mutex mutex;
   std::size_t done = 0;
-  synthetic::parallel_for(static_cast<int>(world.size()), options.threads, [&](int i) {
+  parallel_for(static_cast<int>(world.size()), options.threads, [&](int i) {
     const auto index = static_cast<std::size_t>(i);
     const SyntheticFrame frame = world.render(index, contents);
     folder.write(kCamera + "/data/" + name(index), frame.frame.image);

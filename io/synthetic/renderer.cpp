@@ -1,5 +1,5 @@
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/synthetic/materials.h>
-#include <placegraph/io/synthetic/parallel.h>
 #include <placegraph/io/synthetic/renderer.h>
 
 #include <limits>

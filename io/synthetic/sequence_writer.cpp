@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/flow_file.h>
-#include <placegraph/io/synthetic/parallel.h>
 #include <placegraph/io/synthetic/sequence_folder.h>
 #include <placegraph/io/synthetic/sequence_writer.h>
 #include <placegraph/io/trajectory_file.h>
@@ -131,7 +131,7 @@ void write_sequence(const SyntheticWorld& world, const std::string& path,
 
   std::mutex mutex;
   std::size_t done = 0;
-  synthetic::parallel_for(static_cast<int>(world.size()), options.threads, [&](int index) {
+  parallel_for(static_cast<int>(world.size()), options.threads, [&](int index) {
     write_frame(world, folder, static_cast<std::size_t>(index), contents);
     const std::lock_guard<std::mutex> lock(mutex);
     ++done;

@@ -6,9 +6,9 @@
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/random.h>
+#include <placegraph/io/atomic_file.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/image_list.h>
-#include <placegraph/io/text_file.h>
 
 #include <malloc.h>
 #include <algorithm>
@@ -158,10 +158,13 @@ void study(const std::string& folder, const std::vector<int>& sizes, const std::
     looking.values.push_back(query);
     past.values.push_back(filtering);
   }
-  if (!plot.empty())
-    write_file(plot, to_png({"What recognizing a place costs",
+  if (!plot.empty()) {
+    AtomicFile file(plot);
+    file.stream() << to_png({"What recognizing a place costs",
                              "stored views",
-                             {{"CPU time of an image [ms]", {all, looking, past}}}}));
+                             {{"CPU time of an image [ms]", {all, looking, past}}}});
+    file.commit();
+  }
 }
 
 }  // namespace

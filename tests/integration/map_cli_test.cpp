@@ -79,14 +79,15 @@ TEST_F(MapCli, ARunLeavesOneFileThatHoldsItsMap) {
 }
 
 TEST_F(MapCli, ExportsAreWhatTheRunWrote) {
-  const CommandResult result = run(
-      "map export " + whole() +
-      " --g2o g.g2o --places p.json --tum t.tum --kitti k.kitti --graphml p.graphml --dot p.dot --revisits r.txt");
+  const CommandResult result = run("map export " + whole() +
+                                   " --g2o g.g2o --places p.json --tum t.tum --kitti k.kitti "
+                                   "--graphml p.graphml --dot p.dot --revisits r.txt");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(read_file(dir / "g.g2o"), read_file(whole() + "/graph.g2o"));
   EXPECT_EQ(read_file(dir / "p.json"), read_file(whole() + "/places.json"));
   EXPECT_EQ(read_file(dir / "t.tum"), read_file(whole() + "/trajectory_optimized.tum"));
   EXPECT_EQ(read_file(dir / "k.kitti"), read_file(whole() + "/trajectory_optimized.kitti"));
+  EXPECT_TRUE(fs::exists(dir / "r.txt"));  // without a line: the drive never comes back
   EXPECT_EQ(read_file(dir / "p.graphml"), read_file(whole() + "/places.graphml"));
   EXPECT_EQ(read_file(dir / "p.dot"), read_file(whole() + "/places.dot"));
   expect_usage_error("map export " + whole(), "nothing to write");

@@ -1,8 +1,0 @@
-#pragma once
-#include <placegraph/graph/core/parallel.h>
-
-namespace placegraph::synthetic {
-
-using placegraph::parallel_for;
-
-}  // namespace placegraph::synthetic
