@@ -4,6 +4,7 @@
 #include <placegraph/eval/loop_benchmark.h>
 #include <placegraph/eval/loop_truth_from_poses.h>
 #include <placegraph/eval/precision_recall_plot.h>
+#include <placegraph/eval/reliability.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/loop_file.h>
 #include <placegraph/io/trajectory_file.h>
@@ -26,7 +27,8 @@ namespace {
 using nlohmann::json;
 
 const std::map<std::string, LoopFileFormat> kFormats = {{"scores", LoopFileFormat::kScores},
-                                                        {"ibow", LoopFileFormat::kIbow}};
+                                                        {"ibow", LoopFileFormat::kIbow},
+                                                        {"run", LoopFileFormat::kRun}};
 
 struct Arguments {
   std::vector<std::string> predictions, names;
@@ -41,6 +43,7 @@ struct Arguments {
 struct Judgement {
   std::string name, path;
   LoopBenchmark benchmark;
+  std::optional<Reliability> reliability;  ///< where scores are probabilities
 };
 
 struct Protocol {
@@ -92,8 +95,12 @@ std::vector<Judgement> judge(const Arguments& arguments, const Protocol& protoco
     const std::string name = arguments.names.empty()
                                  ? std::filesystem::path(path).filename().string()
                                  : arguments.names[i];
-    judgements.push_back(
-        {name, path, judge_loops(protocol.truth, predictions, arguments.tolerance)});
+    Judgement& judgement = judgements.emplace_back();
+    judgement.name = name;
+    judgement.path = path;
+    judgement.benchmark = judge_loops(protocol.truth, predictions, arguments.tolerance);
+    if (format == LoopFileFormat::kRun)
+      judgement.reliability = reliability_of(judgement.benchmark.candidates);
   }
   return judgements;
 }
@@ -107,20 +114,28 @@ json json_of(const Judgement& judgement) {
     hits = b.curve.curve.back().hits;
     misses = b.curve.curve.back().misses;
   }
-  return {{"name", judgement.name},
-          {"predictions_file", judgement.path},
-          {"positives", b.positives},
-          {"answered", b.answered},
-          {"hits", hits},
-          {"misses", misses},
-          {"dropped", b.dropped},
-          {"unjudged", b.unjudged},
-          {"r_at_1", number_or_null(b.recall_at[0])},
-          {"r_at_5", number_or_null(b.recall_at[1])},
-          {"r_at_10", number_or_null(b.recall_at[2])},
-          {"ap", number_or_null(b.curve.average_precision)},
-          {"recall_at_100p", number_or_null(b.curve.recall_at_full_precision)},
-          {"f1_max", number_or_null(b.curve.f1_max)}};
+  json report = {{"name", judgement.name},
+                 {"predictions_file", judgement.path},
+                 {"positives", b.positives},
+                 {"answered", b.answered},
+                 {"hits", hits},
+                 {"misses", misses},
+                 {"dropped", b.dropped},
+                 {"unjudged", b.unjudged},
+                 {"r_at_1", number_or_null(b.recall_at[0])},
+                 {"r_at_5", number_or_null(b.recall_at[1])},
+                 {"r_at_10", number_or_null(b.recall_at[2])},
+                 {"ap", number_or_null(b.curve.average_precision)},
+                 {"recall_at_100p", number_or_null(b.curve.recall_at_full_precision)},
+                 {"f1_max", number_or_null(b.curve.f1_max)}};
+  if (!judgement.reliability) return report;
+  report["candidates"] = b.candidates.size();
+  report["calibration_error"] = judgement.reliability->calibration_error;
+  for (const ReliabilityBin& bin : judgement.reliability->bins)
+    report["reliability"].push_back({{"candidates", bin.answers},
+                                     {"mean_probability", bin.mean_probability},
+                                     {"share_right", bin.share_right}});
+  return report;
 }
 
 std::string to_json(const std::vector<Judgement>& judgements, const Protocol& protocol) {
@@ -149,6 +164,16 @@ std::string to_table(const std::vector<Judgement>& judgements, const Protocol& p
                         width, b.positives, b.answered, cell(b.recall_at[0]), cell(b.recall_at[1]),
                         cell(b.recall_at[2]), cell(b.curve.average_precision),
                         cell(b.curve.recall_at_full_precision), cell(b.curve.f1_max));
+  }
+  for (const Judgement& judgement : judgements) {
+    if (!judgement.reliability) continue;
+    text += fmt::format("{}: probabilities of {} candidates are off by {:.3f}; right of those in\n",
+                        judgement.name, judgement.benchmark.candidates.size(),
+                        judgement.reliability->calibration_error);
+    for (const ReliabilityBin& bin : judgement.reliability->bins)
+      if (bin.answers > 0)
+        text += fmt::format("  mean {:.3f}: {:.3f} ({} candidates)\n", bin.mean_probability,
+                            bin.share_right, bin.answers);
   }
   return text;
 }
@@ -222,8 +247,9 @@ void add_loops_command(CLI::App& app) {
       ->check(CLI::ExistingFile);
   command
       ->add_option("--format", a.formats,
-                   "scores (query candidate score [stage] a line) or ibow (iBoW-LCD's output, "
-                   "inliers as score); one for all or one each")
+                   "scores (query candidate score [stage] a line), ibow (iBoW-LCD's output, "
+                   "inliers as score) or run (loops.csv of a run, its probabilities); one for all "
+                   "or one each")
       ->transform(CLI::CheckedTransformer(kFormats))
       ->default_str("scores");
   command->add_option("--names", a.names, "of the systems, else the names of their files");

@@ -14,6 +14,7 @@
 #include "apps/cmd_convert.h"
 #include "apps/cmd_eval.h"
 #include "apps/cmd_eval_edges.h"
+#include "apps/cmd_explain.h"
 #include "apps/cmd_flow.h"
 #include "apps/cmd_georeference.h"
 #include "apps/cmd_hover.h"
@@ -80,6 +81,7 @@ int main(int argc, char** argv) {
     add_convert_command(app);
     add_eval_command(app);
     add_eval_edges_command(app);
+    add_explain_command(app);
     add_flow_command(app);
     add_georeference_command(app);
     add_hover_command(app);

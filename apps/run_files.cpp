@@ -96,10 +96,11 @@ std::string places_json(const Map& map) {
 
 std::string loops_csv(const Map& map) {
   std::ostringstream csv;
-  csv << "query,match,inliers,accepted,stage\n";
+  csv << "query,match,inliers,accepted,stage,model,lines,likeness,probability\n";
   for (const LoopRecord& loop : map.loops)
     csv << loop.query_frame << ',' << loop.match_frame << ',' << loop.inliers << ','
-        << (loop.accepted ? 1 : 0) << ',' << loop.stage << '\n';
+        << (loop.accepted ? 1 : 0) << ',' << loop.stage << ',' << to_string(loop.model) << ','
+        << loop.lines << ',' << loop.likeness << ',' << loop.probability << '\n';
   return csv.str();
 }
 

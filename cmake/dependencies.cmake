@@ -2,7 +2,7 @@
 # brings ATLAS, and the first library on the link line gets CHOLMOD's BLAS calls.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d features2d video videoio aruco ml ximgproc)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d features2d video videoio aruco line_descriptor ml ximgproc)
 set(BLA_VENDOR OpenBLAS)
 find_package(BLAS REQUIRED)
 find_package(OpenMP REQUIRED COMPONENTS CXX)  # faiss names its target without looking for it

@@ -115,6 +115,8 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
   for (auto& [id, of_query] : gathered) {
     const JudgedQuery judged = judge(id, of_query);
     result.positives += judged.has_match;
+    for (const Candidate& candidate : of_query.candidates)
+      result.candidates.push_back({candidate.prediction.score, candidate.correct});
     if (!of_query.candidates.empty())
       answers.push_back({judged.best.score, judged.verdict == LoopVerdict::kHit});
     for (std::size_t i = 0; i < found.size(); ++i)

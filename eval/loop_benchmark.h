@@ -37,6 +37,8 @@ struct LoopBenchmark {
   std::array<std::optional<double>, 3> recall_at;
   static constexpr std::array<int, 3> kRanks = {1, 5, 10};
   PrecisionRecall curve;
+  /// Every candidate that counts, not the best alone; in the order of the queries.
+  std::vector<ScoredAnswer> candidates;
   std::vector<JudgedQuery> queries;  ///< ascending; all that the truth lists, and all answered ones
 };
 

@@ -4,6 +4,7 @@
 #include <placegraph/io/loop_file.h>
 #include <placegraph/io/text_file.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -62,6 +63,36 @@ std::vector<LoopPrediction> read_ibow(TextFile& file) {
     prediction.score = static_cast<double>(inliers);
     prediction.line = file.line();
     if ((first == 0 && last == 0) || inliers == 0) continue;
+    predictions.push_back(std::move(prediction));
+  }
+  return predictions;
+}
+
+std::vector<LoopPrediction> read_run(TextFile& file) {
+  std::string_view line;
+  std::vector<std::string_view> names, fields;
+  if (!file.next(line)) throw FileError(file.path(), "is empty; expected loops.csv of a run");
+  split_comma(line, names);
+  const auto column = [&](std::string_view name) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    if (at == names.end()) file.fail("no column " + std::string(name));
+    return static_cast<std::size_t>(at - names.begin());
+  };
+  const std::size_t query = column("query"), match = column("match"), stage = column("stage"),
+                    probability = column("probability"), columns = names.size();
+  std::vector<LoopPrediction> predictions;
+  while (file.next(line)) {
+    split_comma(line, fields);
+    if (fields.size() != columns)
+      file.fail(std::to_string(fields.size()) + " columns, expected " + std::to_string(columns));
+    LoopPrediction prediction;
+    prediction.query = image_of(file, fields[query], "query");
+    prediction.candidate = image_of(file, fields[match], "match");
+    prediction.stage = fields[stage];
+    prediction.score = file.number(fields[probability], "probability");
+    if (prediction.score < 0 || prediction.score > 1)
+      file.fail("probability: " + in_quotes(fields[probability]) + " is none");
+    prediction.line = file.line();
     predictions.push_back(std::move(prediction));
   }
   return predictions;
@@ -165,7 +196,15 @@ LoopQuery query_of_row(const Row& row, bool ranges, const std::string& path, int
 
 std::vector<LoopPrediction> read_loop_predictions(const std::string& path, LoopFileFormat format) {
   TextFile file(path);
-  return format == LoopFileFormat::kIbow ? read_ibow(file) : read_scores(file);
+  switch (format) {
+    case LoopFileFormat::kIbow:
+      return read_ibow(file);
+    case LoopFileFormat::kRun:
+      return read_run(file);
+    case LoopFileFormat::kScores:
+      break;
+  }
+  return read_scores(file);
 }
 
 void write_loop_predictions(const std::string& path,

@@ -14,6 +14,9 @@ enum class LoopFileFormat {
   /// window of matched images (both 0: nothing proposed), the matched image, whether it is
   /// consistent over time, the inliers of the epipolar geometry, words known, seconds.
   kIbow,
+  /// loops.csv of a run: comma-separated columns named in the first line, of which `query`,
+  /// `match`, `stage` and `probability` (the score) are read.
+  kRun,
 };
 
 /// Hypotheses of a recognizer. Of iBoW's the score is the number of inliers, and those without any

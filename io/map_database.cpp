@@ -139,6 +139,7 @@ void MapDatabase::Impl::put_frames(const MapChanges& changes) {
     MapRow row;
     row.integer(record.frame).integer(record.stamp_ns).integer(record.keyframe);
     record.T_keyframe_frame ? row.pose(*record.T_keyframe_frame) : row.null();
+    row.integer(record.inliers);
     frames.write(number++, row);
   }
   number = static_cast<std::int64_t>(changes.first_frame);
@@ -158,7 +159,11 @@ void MapDatabase::Impl::put_frames(const MapChanges& changes) {
                             .integer(loop.inliers)
                             .integer(loop.accepted)
                             .text(loop.stage)
-                            .pose(loop.T_match_query));
+                            .pose(loop.T_match_query)
+                            .text(to_string(loop.model))
+                            .integer(loop.lines)
+                            .real(loop.likeness)
+                            .real(loop.probability));
 }
 
 void MapDatabase::Impl::put_constraints(const MapChanges& changes) {

@@ -11,7 +11,7 @@ namespace placegraph {
 struct StoredMap;
 
 /// Version of the tables (`PRAGMA user_version`): one that is newer is refused.
-constexpr int kMapSchema = 1;
+constexpr int kMapSchema = 2;
 
 /// What a map was made from, and how.
 struct MapOrigin {

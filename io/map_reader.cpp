@@ -249,13 +249,16 @@ void MapReader::read_edges() {
 
 void MapReader::read_frames() {
   Map& map = stored_.map;
-  SqliteRows rows(database_, "frame", "number, frame, stamp_ns, keyframe, T_keyframe_frame");
+  SqliteRows rows(database_, "frame",
+                  std::string("number, frame, stamp_ns, keyframe, T_keyframe_frame, ") +
+                      (schema_ >= 2 ? "inliers" : "0"));
   while (rows.next()) {
     require_next(rows, map.frames.size());
     FrameRecord record;
     record.frame = rows.integer(1, 0);
     record.stamp_ns = rows.integer(2);
     record.keyframe = rows.integer(3, -1);
+    record.inliers = static_cast<int>(rows.integer(5, 0, kMost));
     if (!rows.is_null(4)) {
       record.T_keyframe_frame = pose(rows, 4, "T_keyframe_frame");
       (void)keyframe_of(rows, record.keyframe, "keyframe");
@@ -281,8 +284,10 @@ void MapReader::read_frames() {
 }
 
 void MapReader::read_loops() {
-  SqliteRows rows(database_, "loop",
-                  "number, query_frame, match_frame, inliers, accepted, stage, T_match_query");
+  SqliteRows rows(
+      database_, "loop",
+      std::string("number, query_frame, match_frame, inliers, accepted, stage, T_match_query, ") +
+          (schema_ >= 2 ? "model, lines, likeness, probability" : "'none', 0, 0.0, 0.0"));
   while (rows.next()) {
     require_next(rows, stored_.map.loops.size());
     LoopRecord& loop = stored_.map.loops.emplace_back();
@@ -292,6 +297,14 @@ void MapReader::read_loops() {
     loop.accepted = rows.integer(4, 0, 1) == 1;
     loop.stage = rows.text(5);
     loop.T_match_query = pose(rows, 6, "T_match_query");
+    const auto model = loop_model(rows.text(7));
+    if (!model) rows.refuse("model: none that loops are found by");
+    loop.model = *model;
+    loop.lines = static_cast<int>(rows.integer(8, 0, kMost));
+    loop.likeness = rows.real(9);
+    loop.probability = rows.real(10);
+    if (loop.likeness < 0 || loop.probability < 0 || loop.probability > 1)
+      rows.refuse("likeness or probability: out of range");
   }
 }
 

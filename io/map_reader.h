@@ -13,6 +13,7 @@ class MapReader {
  public:
   explicit MapReader(const std::string& path) : database_(path, SqliteDatabase::Access::kRead) {
     check_map_schema(database_);
+    schema_ = database_.integer("PRAGMA user_version");
   }
 
   StoredMap read() {
@@ -67,6 +68,7 @@ class MapReader {
 
   static constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   SqliteDatabase database_;
+  std::int64_t schema_ = 0;
   StoredMap stored_;
   std::set<std::int64_t> parts_;
 };

@@ -43,12 +43,13 @@ CREATE TABLE edge (
   PRIMARY KEY (kind, number)) WITHOUT ROWID;
 CREATE TABLE frame (
   number INTEGER PRIMARY KEY, frame INTEGER NOT NULL, stamp_ns INTEGER NOT NULL,
-  keyframe INTEGER NOT NULL, T_keyframe_frame BLOB);
+  keyframe INTEGER NOT NULL, T_keyframe_frame BLOB, inliers INTEGER NOT NULL DEFAULT 0);
 CREATE TABLE online (number INTEGER PRIMARY KEY, stamp_ns INTEGER NOT NULL, T_map_cam BLOB);
 CREATE TABLE loop (
   number INTEGER PRIMARY KEY, query_frame INTEGER NOT NULL, match_frame INTEGER NOT NULL,
   inliers INTEGER NOT NULL, accepted INTEGER NOT NULL, stage TEXT NOT NULL,
-  T_match_query BLOB NOT NULL);
+  T_match_query BLOB NOT NULL, model TEXT NOT NULL DEFAULT 'none', lines INTEGER NOT NULL DEFAULT 0,
+  likeness REAL NOT NULL DEFAULT 0, probability REAL NOT NULL DEFAULT 0);
 CREATE TABLE landmarks (number INTEGER PRIMARY KEY, count INTEGER NOT NULL, data BLOB NOT NULL);
 CREATE TABLE link (
   keyframe INTEGER PRIMARY KEY REFERENCES keyframe (id), part INTEGER NOT NULL,
@@ -97,6 +98,17 @@ void check_map_schema(SqliteDatabase& database) {
   if (version < 1)
     throw FileError(database.path(),
                     "is a map of schema " + std::to_string(version) + ", which there never was");
+}
+
+void upgrade_map_schema(SqliteDatabase& database) {
+  if (database.integer("PRAGMA user_version") >= 2) return;
+  database.execute(
+      "BEGIN; ALTER TABLE frame ADD COLUMN inliers INTEGER NOT NULL DEFAULT 0;"
+      "ALTER TABLE loop ADD COLUMN model TEXT NOT NULL DEFAULT 'none';"
+      "ALTER TABLE loop ADD COLUMN lines INTEGER NOT NULL DEFAULT 0;"
+      "ALTER TABLE loop ADD COLUMN likeness REAL NOT NULL DEFAULT 0;"
+      "ALTER TABLE loop ADD COLUMN probability REAL NOT NULL DEFAULT 0;"
+      "PRAGMA user_version = 2; COMMIT");
 }
 
 }  // namespace placegraph

@@ -20,9 +20,9 @@ struct MapDatabase::Impl {
         keyframes(database, "keyframe", "id", 6),
         features(database, "features", "keyframe", 3),
         views(database, "view", "keyframe", 2),
-        frames(database, "frame", "number", 5),
+        frames(database, "frame", "number", 6),
         online(database, "online", "number", 3),
-        loops(database, "loop", "number", 7),
+        loops(database, "loop", "number", 11),
         landmarks(database, "landmarks", "number", 3),
         links(database, "link", "keyframe", 9),
         parts(database, "part", "anchor", 5),
@@ -47,6 +47,7 @@ struct MapDatabase::Impl {
     database.execute("PRAGMA locking_mode = EXCLUSIVE");
     check_map_schema(database);
     database.text("PRAGMA journal_mode = WAL");
+    upgrade_map_schema(database);
     // A power cut, unlike a kill, may take the last commits along, but leaves the file whole.
     database.execute(synchronized ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = OFF");
     return database;

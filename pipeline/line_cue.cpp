@@ -334,24 +334,6 @@ void LineCue::wait(const Frame& frame, const SE3& T_odom_start) {
   tracker_.detect(frame.mask);
 }
 
-LineView LineCue::seen() const {
-  LineView seen;
-  for (const LineTrack& track : tracker_.tracks())
-    seen[track.id] = {track.edge.segment, track.edge.line.carriers(options_.sigma_floor_px)};
-  return seen;
-}
-
-std::vector<PlacedLine> LineCue::placed(const SlidingWindow& window) const {
-  std::vector<PlacedLine> placed;
-  for (const LineTrack& track : tracker_.tracks()) {
-    const auto line = window.line(track.id);
-    const auto covariance = covariances_.find(track.id);
-    if (line && covariance != covariances_.end())
-      placed.push_back({track.id, *line, covariance->second, track.edge.segment});
-  }
-  return placed;
-}
-
 void LineCue::prune(SlidingWindow& window) {
   for (const std::int64_t id : window.lines()) {
     const auto& observations = window.line_observations(id);
@@ -360,46 +342,6 @@ void LineCue::prune(SlidingWindow& window) {
     window.remove_line(id);
     sightings_.erase(id);
   }
-}
-
-std::vector<double> LineCue::depths(const SlidingWindow& window) const {
-  std::vector<double> result;
-  for (const LineTrack& track : tracker_.tracks()) {
-    const auto line = window.line(track.id);
-    if (!line) continue;
-    const auto z =
-        depth_on_line(calibration_.camera, T_odom_last_, *line, track.edge.segment.middle());
-    if (z && *z > 0) result.push_back(*z);
-  }
-  return result;
-}
-
-std::vector<double> LineCue::flow_px() const {
-  std::vector<double> result;
-  for (const LineTrack& track : tracker_.tracks())
-    if (const auto at = at_keyframe_.find(track.id); at != at_keyframe_.end())
-      result.push_back(std::abs(track.edge.segment.offset_of(at->second.middle())));
-  return result;
-}
-
-int LineCue::followed(const SlidingWindow& window) const {
-  int count = 0;
-  for (const LineTrack& track : tracker_.tracks()) count += window.line(track.id).has_value();
-  return count;
-}
-
-std::vector<FrameView::Line> LineCue::view(const SlidingWindow& window,
-                                           const SE3& T_odom_cam) const {
-  std::vector<FrameView::Line> lines;
-  for (const LineTrack& track : tracker_.tracks()) {
-    FrameView::Line seen{track.id, track.edge.segment, track.edge.line.carriers(), std::nullopt};
-    if (const auto line = window.line(track.id))
-      if (const auto r = line_residual_px(calibration_.camera, T_odom_cam, *line, seen.seen.first,
-                                          seen.seen.second))
-        seen.off_px = r->cwiseAbs().maxCoeff();
-    lines.push_back(seen);
-  }
-  return lines;
 }
 
 }  // namespace placegraph

@@ -3,6 +3,7 @@
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/lines/direction_compass.h>
+#include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
@@ -67,6 +68,9 @@ class LineCue {
   LineView seen() const;
   /// Adds what an earlier keyframe saw to the window: to begin with, in order of time.
   void observe_earlier(std::int64_t keyframe, const LineView& seen, SlidingWindow& window);
+  /// Edges of the newest image, taken at T_odom_cam, with their lines where the window has them;
+  /// not described.
+  std::vector<LineFeature> features(const SlidingWindow& window, const SE3& T_odom_cam) const;
   /// Lines of the window as the newest image sees them.
   std::vector<PlacedLine> placed(const SlidingWindow& window) const;
   /// Directions that several of the lines in the newest keyframe share, in the window's frame.

@@ -2,6 +2,7 @@
 #include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/loop_closer.h>
+#include <placegraph/pipeline/loop_odds.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibratio
     require(views_.empty() || views_.back().keyframe < keyframe.id,
             "LoopCloser: the map's keyframes must stand in the order of their ids");
     database_.add(keyframe.id, keyframe.features);
-    views_.push_back({keyframe.id, keyframe.frame, keyframe.features});
+    views_.push_back({keyframe.id, keyframe.frame, keyframe.features, {}});
   }
   records_ = map.loops;
 }
@@ -76,9 +77,15 @@ void LoopCloser::lift_features(const Frame& frame, std::vector<Feature>& feature
 }
 
 void LoopCloser::add_view(std::int64_t keyframe, const Frame& frame,
-                          const std::optional<SE3>& T_previous_this) {
-  View view{keyframe, frame.id, detect_features(frame.image, options_.detector, frame.mask)};
+                          const std::optional<SE3>& T_previous_this,
+                          std::vector<LineFeature> lines) {
+  View view{keyframe, frame.id, detect_features(frame.image, options_.detector, frame.mask),
+            std::move(lines)};
   lift_features(frame, view.features);
+  std::vector<LineSegment> segments;
+  for (const LineFeature& line : view.lines) segments.push_back(line.segment);
+  const auto descriptors = describe_segments(frame.image, segments);
+  for (std::size_t i = 0; i < view.lines.size(); ++i) view.lines[i].descriptor = descriptors[i];
   if (T_previous_this && !views_.empty() && !calibration_.depth) {
     // Depth by parallax between neighbours: the same way for one eye and for two.
     constexpr double kBandPx = 2.0, kMinParallaxRad = 0.7 * M_PI / 180;
@@ -185,39 +192,54 @@ bool LoopCloser::within_reach(const View& query, const View& match, const Motion
                          drift_over(tracked->way, distance, median_depth_m).length;
 }
 
-/// Verifies one candidate of the newest view; a loop that passes is appended to pending_.
-LoopRecord LoopCloser::verify(const PlaceCandidate& candidate, const KnownMotions& known,
-                              double median_depth_m) {
+/// Of a candidate of the newest view, which is `likeness` times as like it as the keyframe before.
+LoopRecord LoopCloser::judge(const PlaceCandidate& candidate, double likeness,
+                             const KnownMotions& known, double median_depth_m) {
+  LoopRecord record;
+  record.query_frame = views_.back().frame;
+  record.match_frame = find_view(candidate.id)->frame;
+  record.likeness = likeness;
+  record.stage = "retrieval";
+  if (likeness >= options_.min_similarity) verify(record, candidate.id, known, median_depth_m);
+  record.probability = loop_probability(record);
+  return record;
+}
+
+/// Verifies a candidate of the newest view; a loop that passes is appended to pending_.
+void LoopCloser::verify(LoopRecord& record, std::int64_t candidate, const KnownMotions& known,
+                        double median_depth_m) {
   const View& query = views_.back();
-  const View& match = *find_view(candidate.id);
-  LoopRecord record{query.frame, match.frame, 0, false, "geometry", {}};
-  Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | candidate.id);
-  const bool free_scale = known.units_differ && known.units_differ(candidate.id, query.keyframe);
-  if (!free_scale && !within_reach(query, match, known.odometry, median_depth_m)) {
-    record.stage = "drift";
-    return record;
-  }
-  const LoopVerification verified = verify_loop(calibration_.camera, query.features, match.features,
-                                                options_.verifier, random, free_scale);
+  const View& match = *find_view(candidate);
+  Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | candidate);
+  const bool free_scale = known.units_differ && known.units_differ(candidate, query.keyframe);
+  record.stage = "drift";
+  if (!free_scale && !within_reach(query, match, known.odometry, median_depth_m)) return;
+  record.stage = "geometry";
+  const LoopVerification verified =
+      verify_loop(calibration_.camera, query.for_verification(), match.for_verification(),
+                  options_.verifier, random, free_scale);
   record.inliers = verified.inliers;
-  if (!verified.outcome) return record;
+  record.lines = verified.lines;
+  record.model = verified.model;
+  if (!verified.outcome) return;
   record.stage = "drift";
   record.T_match_query = verified.T_match_query;
   const Loop loop{query.keyframe, match.keyframe, verified.T_match_query,
                   options_.information_scale * verified.information, verified.scale_match_query};
-  if (!within_drift(loop, known.odometry, median_depth_m, free_scale)) return record;
+  if (!within_drift(loop, known.odometry, median_depth_m, free_scale)) return;
   record.stage = "covariance";
-  if (!within_covariance(loop, known, median_depth_m)) return record;
+  if (!within_covariance(loop, known, median_depth_m)) return;
   record.stage = "support";
   pending_.push_back({loop, records_.size(), views_.size(), false});
-  return record;
 }
 
 void LoopCloser::accept(Pending& pending, std::vector<Loop>& accepted) {
   if (pending.accepted) return;
   pending.accepted = true;
-  records_[pending.record].accepted = true;
-  records_[pending.record].stage = "accepted";
+  LoopRecord& record = records_[pending.record];
+  record.accepted = true;
+  record.stage = "accepted";
+  record.probability = loop_probability(record);
   accepted.push_back(pending.loop);
 }
 
@@ -232,11 +254,10 @@ std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double media
         return query.frame - find_view(id)->frame >= options_.min_frame_gap;
       });
   for (const PlaceCandidate& candidate : candidates) {
-    if (candidate.score < options_.min_similarity * similarity_to_last) {
-      records_.push_back({query.frame, find_view(candidate.id)->frame, 0, false, "retrieval", {}});
-      break;  // the rest is less similar still
-    }
-    records_.push_back(verify(candidate, known, median_depth_m));
+    // Without a keyframe before there is nothing that likeness could be a share of.
+    const double likeness = similarity_to_last > 0 ? candidate.score / similarity_to_last : 1;
+    records_.push_back(judge(candidate, likeness, known, median_depth_m));
+    if (records_.back().stage == "retrieval") break;  // the rest is less similar still
     if (records_.back().stage != "support") continue;
     Pending& found = pending_.back();
     for (Pending& other : pending_) {
@@ -271,8 +292,9 @@ std::optional<Loop> LoopCloser::relocalize(const Frame& frame,
     if (std::find(tries.begin(), tries.end(), c.id) == tries.end()) tries.push_back(c.id);
   for (const std::int64_t id : tries) {
     Random random(seed_, static_cast<std::uint64_t>(frame.id) << 20 | id);
-    const LoopVerification verified = verify_loop(
-        calibration_.camera, features, find_view(id)->features, options_.verifier, random);
+    const LoopVerification verified =
+        verify_loop(calibration_.camera, features, find_view(id)->for_verification(),
+                    options_.verifier, random);
     if (verified.outcome)
       return Loop{-1, id, verified.T_match_query,
                   options_.information_scale * verified.information};
@@ -285,6 +307,10 @@ void LoopCloser::rescale(double factor, std::int64_t first_keyframe) {
     if (view.keyframe < first_keyframe) continue;
     for (Feature& feature : view.features)
       if (feature.point_cam) *feature.point_cam *= static_cast<float>(factor);
+    for (LineFeature& line : view.lines)
+      if (line.line_cam)
+        line.line_cam = Line3::from_direction(factor * line.line_cam->nearest_point(),
+                                              line.line_cam->direction());
   }
   // Loops measured in the old unit may not meet those of the new one.
   pending_.clear();

@@ -46,12 +46,15 @@ class LoopCloser {
   struct View {
     std::int64_t keyframe, frame;
     std::vector<Feature> features;
+    std::vector<LineFeature> lines;  ///< not those of a map that was read
+    LoopView for_verification() const { return {features, lines}; }
   };
 
   /// Describes a keyframe. `T_previous_this`, if there is a predecessor in the same run of
-  /// tracking, gives depth to the features both see.
+  /// tracking, gives depth to the features both see. `lines`: edges that motion memory follows
+  /// there; their descriptors are made here.
   void add_view(std::int64_t keyframe, const Frame& frame,
-                const std::optional<SE3>& T_previous_this);
+                const std::optional<SE3>& T_previous_this, std::vector<LineFeature> lines = {});
   /// Revisits that the newest view completes.
   std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
   /// Where a frame stands relative to a known keyframe: T_match_query of the frame; `query` is -1,
@@ -76,8 +79,10 @@ class LoopCloser {
     std::size_t record, view;
     bool accepted;
   };
-  LoopRecord verify(const PlaceCandidate& candidate, const KnownMotions& known,
-                    double median_depth_m);
+  LoopRecord judge(const PlaceCandidate& candidate, double likeness, const KnownMotions& known,
+                   double median_depth_m);
+  void verify(LoopRecord& record, std::int64_t candidate, const KnownMotions& known,
+              double median_depth_m);
   bool within_covariance(const Loop& loop, const KnownMotions& known, double median_depth_m) const;
   struct Drift {
     double length, angle_rad, log_scale;

@@ -163,6 +163,10 @@ class Odometry {
   /// the `first`-th on.
   std::vector<PointLandmark> landmarks(std::size_t first = 0) const;
   double median_depth_m() const { return median_depth_m_; }
+  /// Edges of the newest image, with their lines in its camera where they are known; not described.
+  std::vector<LineFeature> line_features() const {
+    return lines_ ? lines_->features(window_, T_odom_last_) : std::vector<LineFeature>();
+  }
   /// Of all runs of tracking; nothing is asked of two eyes.
   const LensEstimator& lens() const { return lens_; }
   /// Tracks and ground of the last frame; nothing where it is lost.

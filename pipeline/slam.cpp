@@ -95,7 +95,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   check_frame(frame);
   FrameResult result;
   result.frame = frame.id;
-  records.push_back({frame.id, frame.stamp_ns, -1, std::nullopt});
+  records.push_back({frame.id, frame.stamp_ns, -1, std::nullopt, 0});
 
   // A single eye that begins anew within the map waits for its second view; until then every frame
   // is looked up.
@@ -121,7 +121,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
     posed_once = true;
     record_pose(update.keyframe,
                 odometry.keyframe_pose(update.keyframe).inverse() * update.T_odom_cam, result);
-    result.inliers = update.inliers;
+    records.back().inliers = result.inliers = update.inliers;
   } else if (bridge && (located || lost_in_a_row > 0) && update.state == TrackingState::kWaiting) {
     const Loop at = located ? *located : *bridge;
     if (located || update.reference) record_pose(at.match, at.T_match_query, result);
@@ -243,7 +243,9 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
   }
   {
     const auto inner = times.measure("described features");
-    closer.add_view(keyframe.id, keyframe.frame, T_previous_this);
+    const bool newest = keyframe.frame.id == records.back().frame;
+    closer.add_view(keyframe.id, keyframe.frame, T_previous_this,
+                    newest ? odometry.line_features() : std::vector<LineFeature>());
   }
   if (options.views.enabled) keep_view(keyframe.id, keyframe.frame);
   if (options.loops.enabled) close_loops(result);

@@ -1,6 +1,7 @@
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/frontend/places/loop_verifier.h>
+#include <placegraph/graph/core/median.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -36,93 +37,155 @@ std::vector<FeatureMatch> match_guided(const Camera& camera, const std::vector<F
   return matches;
 }
 
-/// Share of the image covered by the box of +- 2 standard deviations of the pixels.
-double spread_of(const Camera& camera, const std::vector<Eigen::Vector2d>& px,
-                 const std::vector<int>& indices) {
+/// Share of the image covered by the box of +- 2 standard deviations of the query's pixels.
+double spread_of(const Camera& camera, const std::vector<LoopPoint>& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero(), square = Eigen::Vector2d::Zero();
-  for (int i : indices) mean += px[i] / indices.size();
-  for (int i : indices) square += (px[i] - mean).cwiseAbs2() / indices.size();
+  const auto count = static_cast<double>(points.size());
+  for (const LoopPoint& point : points) mean += point.px_query / count;
+  for (const LoopPoint& point : points) square += (point.px_query - mean).cwiseAbs2() / count;
   const Eigen::Vector2d side = 4 * square.cwiseSqrt();
   return side.x() * side.y() / (static_cast<double>(camera.width) * camera.height);
 }
 
-/// A match whose point is known from both sides, where the query has a depth of its own.
-struct TwoWayMatch {
-  Eigen::Vector3d point_match;
-  Eigen::Vector2d px_query;
-  std::optional<Eigen::Vector3d> point_query;
-  Eigen::Vector2d px_match;
-};
-
-struct TwoWayPose {
+/// What the points of two views say of their poses, before lines are asked.
+struct PointsAgree {
+  Outcome outcome;
+  LoopModel model = LoopModel::kNone;
   Sim3 S_match_query;
-  Matrix7d normal = Matrix7d::Zero();  // J^T W J [1/px^2]
-  double rmse_px = 0;
+  std::vector<LoopPoint> points;  // inliers
+  int matches = 0;
 };
 
-/// Gauss-Newton on the reprojection errors in both views, Huber-weighted; with the scale between
-/// the views' units or without. An error common to all depths (a depth camera's, or of a short
-/// baseline) pulls the pose one way from one side and the other way from the other.
-TwoWayPose refine_two_way(const Camera& camera, const std::vector<TwoWayMatch>& matches,
-                          const Sim3& start, double huber_px, bool free_scale) {
-  TwoWayPose pose{start};
-  const Eigen::Index dof = free_scale ? 7 : 6;
-  for (int iteration = 0; iteration < 10; ++iteration) {
-    const Sim3 S_query_match = pose.S_match_query.inverse();
-    const Eigen::Matrix3d sR_match_query =
-        pose.S_match_query.scale() * pose.S_match_query.rotation().matrix();
-    Matrix7d H = Matrix7d::Zero();
-    Vector7d g = Vector7d::Zero();
-    double sum = 0, weights = 0;
-    const auto add = [&](const Eigen::Vector3d& point_cam, const Eigen::Vector2d& px,
-                         const Eigen::Matrix<double, 3, 7>& J_cam_xi) {
-      Eigen::Matrix<double, 2, 3> J_px_cam;
-      const auto projected = camera.project(point_cam, &J_px_cam);
-      if (!projected) return;
-      const Eigen::Matrix<double, 2, 7> J = J_px_cam * J_cam_xi;
-      const Eigen::Vector2d r = *projected - px;
-      const double weight = r.norm() > huber_px ? huber_px / r.norm() : 1;
-      H.noalias() += weight * J.transpose() * J;
-      g.noalias() += weight * J.transpose() * r;
-      sum += weight * r.squaredNorm();
-      weights += 2 * weight;
-    };
-    for (const TwoWayMatch& m : matches) {
-      Eigen::Matrix<double, 3, 7> J;
-      const Eigen::Vector3d p_query = S_query_match * m.point_match;
-      J << -Eigen::Matrix3d::Identity(), hat(p_query), -p_query;
-      add(p_query, m.px_query, J);
-      if (!m.point_query) continue;
-      J << sR_match_query, -sR_match_query * hat(*m.point_query), sR_match_query * *m.point_query;
-      add(pose.S_match_query * *m.point_query, m.px_match, J);
-    }
-    pose.normal.setZero();
-    pose.normal.topLeftCorner(dof, dof) = H.topLeftCorner(dof, dof);
-    pose.rmse_px = weights > 0 ? std::sqrt(sum / weights) : 0;
-    Eigen::MatrixXd damped = H.topLeftCorner(dof, dof);
-    damped.diagonal().array() += 1e-9 * damped.trace();
-    Vector7d step = Vector7d::Zero();
-    step.head(dof) = -damped.ldlt().solve(g.head(dof));
-    if (!step.allFinite()) break;
-    pose.S_match_query = pose.S_match_query.plus(step);
-    if (step.norm() < 1e-8) break;
-  }
-  return pose;
+std::vector<LoopPoint> points_of(const std::vector<Feature>& query,
+                                 const std::vector<Feature>& match,
+                                 const std::vector<FeatureMatch>& matches) {
+  const auto known = [](const Feature& feature) {
+    return feature.point_cam ? std::optional<Eigen::Vector3d>(feature.point_cam->cast<double>())
+                             : std::nullopt;
+  };
+  std::vector<LoopPoint> points;
+  for (const FeatureMatch& m : matches)
+    points.push_back({match[m.b].px.cast<double>(), query[m.a].px.cast<double>(), known(match[m.b]),
+                      known(query[m.a])});
+  return points;
 }
 
-/// Median of log(depth the query measured / depth that the match's points have in it).
-std::optional<double> median_log_ratio(const std::vector<TwoWayMatch>& matches,
-                                       const SE3& T_query_match) {
-  std::vector<double> log_ratios;
-  for (const TwoWayMatch& m : matches) {
-    if (!m.point_query) continue;
-    const double z = (T_query_match * m.point_match).z();
-    if (z > 0 && m.point_query->z() > 0) log_ratios.push_back(std::log(m.point_query->z() / z));
+std::vector<LoopPoint> chosen(const std::vector<LoopPoint>& points,
+                              const std::vector<int>& indices) {
+  std::vector<LoopPoint> result;
+  for (const int i : indices) result.push_back(points[static_cast<std::size_t>(i)]);
+  return result;
+}
+
+Pose3d2dResult pose_of(const Camera& camera, const std::vector<LoopPoint>& points,
+                       const Pose3d2dOptions& options, Random& random, const SE3* prior) {
+  std::vector<Eigen::Vector3d> points_match;
+  std::vector<Eigen::Vector2d> px;
+  for (const LoopPoint& point : points) {
+    points_match.push_back(*point.point_match);
+    px.push_back(point.px_query);
   }
-  if (log_ratios.size() < 8) return std::nullopt;
-  const auto middle = log_ratios.begin() + log_ratios.size() / 2;
-  std::nth_element(log_ratios.begin(), middle, log_ratios.end());
-  return *middle;
+  return estimate_pose_3d2d(camera, points_match, px, options, random, prior);
+}
+
+/// By the match's points of known depth. `few` is enough of them where lines are to bring the rest.
+PointsAgree agree_in_space(const Camera& camera, const LoopView& query, const LoopView& match,
+                           const LoopVerifierOptions& options, Random& random, int few) {
+  PointsAgree result;
+  result.model = LoopModel::kPoints3d2d;
+  std::vector<bool> has_depth(match.points.size());
+  for (std::size_t j = 0; j < match.points.size(); ++j)
+    has_depth[j] = match.points[j].point_cam.has_value();
+  std::vector<LoopPoint> points =
+      points_of(query.points, match.points,
+                match_features(query.points, match.points, options.matcher, has_depth));
+  // A first pose may stand on fewer matches; the guided round must bring the rest.
+  Pose3d2dOptions first = options.pose;
+  first.ransac.min_inliers = std::max(8, options.pose.ransac.min_inliers / 2);
+  Pose3d2dResult pose = pose_of(camera, points, first, random, nullptr);
+  if (pose.outcome) {
+    points = points_of(query.points, match.points,
+                       match_guided(camera, query.points, match.points, pose.T_ref_cam.inverse(),
+                                    3 * options.pose.threshold_px, options.matcher));
+    Pose3d2dOptions second = options.pose;
+    second.ransac.min_inliers = few;
+    second.prior_inlier_ratio = options.min_inlier_ratio;
+    const SE3 prior = pose.T_ref_cam;
+    pose = pose_of(camera, points, second, random, &prior);
+  }
+  result.outcome = pose.outcome;
+  result.matches = static_cast<int>(points.size());
+  result.points = chosen(points, pose.inliers);
+  result.S_match_query = Sim3(pose.T_ref_cam);
+  return result;
+}
+
+/// By two views alone, with what depths there are for its length: where most of what matches has
+/// none, `with_depth` has.
+PointsAgree agree_in_images(const Camera& camera, const LoopView& query, const LoopView& match,
+                            int with_depth, const LoopVerifierOptions& options, Random& random,
+                            bool free_scale) {
+  PointsAgree result;
+  const std::vector<LoopPoint> points = points_of(
+      query.points, match.points, match_features(query.points, match.points, options.matcher));
+  const int matches = static_cast<int>(points.size());
+  if (matches < options.two_view.pose.ransac.min_inliers || 2 * with_depth > matches) {
+    result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "too few matches without depth");
+    return result;
+  }
+  const LoopOfTwoViews views =
+      loop_of_two_views(camera, points, options.two_view, random, free_scale);
+  result.outcome = views.outcome;
+  result.model =
+      views.model == TwoViewModel::kEssential ? LoopModel::kEssential : LoopModel::kHomography;
+  result.matches = matches;
+  result.points = chosen(points, views.inliers);
+  result.S_match_query = views.S_match_query;
+  return result;
+}
+
+/// Lines of the match that the query sees where the pose has them.
+std::vector<LoopLine> agreeing_lines(const Camera& camera, const LoopView& query,
+                                     const LoopView& match, const SE3& T_match_query,
+                                     const LoopVerifierOptions& options) {
+  std::vector<LoopLine> lines;
+  const std::vector<LineFeature> seen(query.lines.begin(), query.lines.end()),
+      known(match.lines.begin(), match.lines.end());
+  for (const LineFeatureMatch& m :
+       match_lines_guided(camera, seen, known, T_match_query, options.lines)) {
+    const LoopLine line{*known[static_cast<std::size_t>(m.b)].line_cam,
+                        seen[static_cast<std::size_t>(m.a)].segment};
+    const auto r = line_residual_px(camera, T_match_query, line.line_match,
+                                    line.seen_by_query.start, line.seen_by_query.end);
+    if (r && r->cwiseAbs().maxCoeff() <= options.pose.threshold_px) lines.push_back(line);
+  }
+  return lines;
+}
+
+/// Why views that agree are no revisit all the same; ok if they are.
+Outcome judged(const Camera& camera, const PointsAgree& agree, const LoopVerification& verified,
+               const std::optional<double>& log_ratio, const LoopVerifierOptions& options,
+               bool free_scale) {
+  using Code = Outcome::Code;
+  if (verified.inliers < options.min_inlier_ratio * verified.matches)
+    return Outcome::failure(Code::kNoConsensus, "too small a share of inliers");
+  if (spread_of(camera, agree.points) < options.min_spread)
+    return Outcome::failure(Code::kDegenerate, "inliers crowd in one part of the image");
+  std::vector<double> depths;
+  const SE3 T_match_query = verified.T_match_query;
+  for (const LoopPoint& point : agree.points) {
+    if (point.point_match)
+      depths.push_back(point.point_match->z());
+    else if (point.point_query)
+      depths.push_back((T_match_query * (verified.scale_match_query * *point.point_query)).z());
+  }
+  if (depths.empty() ||
+      T_match_query.translation().norm() > options.max_baseline_depths * median_of(depths) ||
+      T_match_query.rotation().log().norm() > options.max_angle_deg * M_PI / 180)
+    return Outcome::failure(Code::kInconsistent, "the views differ too much");
+  if (!free_scale && log_ratio && std::abs(*log_ratio) > options.max_scale_error)
+    return Outcome::failure(Code::kInconsistent, "depths of both views disagree");
+  return Outcome::ok();
 }
 
 }  // namespace
@@ -132,6 +195,8 @@ void LoopVerifierOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, LoopVerifierOptions& o) {
   field.group("matcher", o.matcher, "descriptor matching");
   field.group("pose", o.pose, "relative pose from 3-D points to pixels");
+  field.group("two_view", o.two_view, "relative pose where too few points have a depth");
+  field.group("lines", o.lines, "lines that the pose expects in the query");
   field("min_inlier_ratio", o.min_inlier_ratio, "share of the matches that must agree", {0, 1});
   field("min_spread", o.min_spread, "share of the image the inliers must cover", {0, 1});
   field("max_scale_error", o.max_scale_error, "disagreement of depths seen from both sides",
@@ -141,88 +206,51 @@ void visit(OptionVisitor& field, LoopVerifierOptions& o) {
   field("max_angle_deg", o.max_angle_deg, "rotation between the views", {1, 180});
 }
 
-LoopVerification verify_loop(const Camera& camera, const std::vector<Feature>& query,
-                             const std::vector<Feature>& match, const LoopVerifierOptions& options,
-                             Random& random, bool free_scale) {
+LoopVerification verify_loop(const Camera& camera, const LoopView& query, const LoopView& match,
+                             const LoopVerifierOptions& options, Random& random, bool free_scale) {
   using Code = Outcome::Code;
   LoopVerification result;
-  std::vector<bool> has_depth(match.size());
-  for (std::size_t j = 0; j < match.size(); ++j) has_depth[j] = match[j].point_cam.has_value();
+  const bool have_lines = !query.lines.empty() && !match.lines.empty();
+  const int enough = options.pose.ransac.min_inliers, few = have_lines ? enough / 2 : enough;
+  PointsAgree agree = agree_in_space(camera, query, match, options, random, few);
+  if (!agree.outcome && agree.matches < enough) {
+    PointsAgree by_images =
+        agree_in_images(camera, query, match, agree.matches, options, random, free_scale);
+    if (by_images.outcome) agree = std::move(by_images);
+  }
+  result.model = agree.model;
+  result.matches = agree.matches;
+  result.inliers = static_cast<int>(agree.points.size());
+  result.outcome = agree.outcome;
+  if (!agree.outcome) return result;
 
-  std::vector<FeatureMatch> matches = match_features(query, match, options.matcher, has_depth);
-  Pose3d2dResult pose;
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector2d> px;
-  for (int round = 0; round < 2; ++round) {
-    points.clear();
-    px.clear();
-    for (const FeatureMatch& m : matches) {
-      points.push_back(match[m.b].point_cam->cast<double>());
-      px.push_back(query[m.a].px.cast<double>());
-    }
-    Pose3d2dOptions pose_options = options.pose;
-    if (round == 0) {
-      // A first pose may stand on fewer matches; the guided round must bring the rest.
-      pose_options.ransac.min_inliers = std::max(8, options.pose.ransac.min_inliers / 2);
-    } else {
-      pose_options.prior_inlier_ratio = options.min_inlier_ratio;
-    }
-    const SE3 prior = pose.T_ref_cam;
-    pose = estimate_pose_3d2d(camera, points, px, pose_options, random, round ? &prior : nullptr);
-    result.matches = static_cast<int>(matches.size());
-    result.inliers = static_cast<int>(pose.inliers.size());
-    if (!pose.outcome) {
-      result.outcome = pose.outcome;
-      return result;
-    }
-    if (round == 0)
-      matches = match_guided(camera, query, match, pose.T_ref_cam.inverse(),
-                             3 * options.pose.threshold_px, options.matcher);
-  }
-  std::vector<TwoWayMatch> both;
-  for (int i : pose.inliers) {
-    const Feature& own = query[matches[i].a];
-    both.push_back({points[i], px[i], std::nullopt, match[matches[i].b].px.cast<double>()});
-    if (own.point_cam) both.back().point_query = own.point_cam->cast<double>();
-  }
-  const auto log_ratio = median_log_ratio(both, pose.T_ref_cam.inverse());
-  if (free_scale && !log_ratio) {
-    result.outcome = Outcome::failure(Code::kTooFewData, "too few depths for the scale");
+  LoopEvidence evidence{agree.points, {}};
+  SE3 T_match_query(agree.S_match_query.rotation(), agree.S_match_query.translation());
+  if (have_lines) evidence.lines = agreeing_lines(camera, query, match, T_match_query, options);
+  result.lines = static_cast<int>(evidence.lines.size());
+  if (result.inliers + result.lines < enough) {
+    result.outcome = Outcome::failure(Code::kNoConsensus, "too few points and lines agree");
     return result;
   }
-  const Sim3 start(pose.T_ref_cam.rotation(), pose.T_ref_cam.translation(),
-                   free_scale ? std::exp(-*log_ratio) : 1);
-  const TwoWayPose refined =
-      refine_two_way(camera, both, start, options.pose.threshold_px / 2, free_scale);
+  Sim3 start = agree.S_match_query;
+  std::optional<double> log_ratio;
+  if (agree.model == LoopModel::kPoints3d2d) {
+    log_ratio = median_log_ratio(agree.points, T_match_query.inverse());
+    if (free_scale && !log_ratio) {
+      result.outcome = Outcome::failure(Code::kTooFewData, "too few depths for the scale");
+      return result;
+    }
+    start = Sim3(start.rotation(), start.translation(), free_scale ? std::exp(-*log_ratio) : 1);
+  }
+  const LoopRefinement refined =
+      refine_loop(camera, evidence, start, options.pose.threshold_px / 2, free_scale);
   const double sigma_px = std::max(0.3, refined.rmse_px);
   const Sim3& S_match_query = refined.S_match_query;
   result.T_match_query = SE3(S_match_query.rotation(), S_match_query.translation());
   result.scale_match_query = S_match_query.scale();
   result.information = refined.normal / (sigma_px * sigma_px);
   result.rmse_px = refined.rmse_px;
-
-  if (result.inliers < options.min_inlier_ratio * result.matches) {
-    result.outcome = Outcome::failure(Code::kNoConsensus, "too small a share of inliers");
-    return result;
-  }
-  if (spread_of(camera, px, pose.inliers) < options.min_spread) {
-    result.outcome = Outcome::failure(Code::kDegenerate, "inliers crowd in one part of the image");
-    return result;
-  }
-  std::vector<double> depths;
-  for (int i : pose.inliers) depths.push_back(points[i].z());
-  std::nth_element(depths.begin(), depths.begin() + depths.size() / 2, depths.end());
-  if (result.T_match_query.translation().norm() >
-          options.max_baseline_depths * depths[depths.size() / 2] ||
-      result.T_match_query.rotation().log().norm() > options.max_angle_deg * M_PI / 180) {
-    result.outcome = Outcome::failure(Code::kInconsistent, "the views differ too much");
-    return result;
-  }
-  if (!free_scale && log_ratio && std::abs(*log_ratio) > options.max_scale_error) {
-    result.outcome = Outcome::failure(Code::kInconsistent, "depths of both views disagree");
-    return result;
-  }
-  result.outcome = Outcome::ok();
+  result.outcome = judged(camera, agree, result, log_ratio, options, free_scale);
   return result;
 }
 

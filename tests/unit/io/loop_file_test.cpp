@@ -71,6 +71,25 @@ TEST_F(LoopFile, ReadsTheHypothesesOfIbowThatHaveInliers) {
   EXPECT_DOUBLE_EQ(found[0].score, 683);
 }
 
+TEST_F(LoopFile, ReadsTheCandidatesOfARunByTheirColumns) {
+  const std::string header = "query,match,inliers,accepted,stage,model,probability\n";
+  const auto found = read_loop_predictions(
+      folder.write("loops.csv",
+                   header + "90,3,41,1,accepted,3d2d,0.98\n90,7,0,0,geometry,none,0.2\n"),
+      LoopFileFormat::kRun);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].candidate, 3);
+  EXPECT_EQ(found[0].stage, "accepted");
+  EXPECT_DOUBLE_EQ(found[1].score, 0.2);
+  EXPECT_THAT(refusal("query,match,stage\n", LoopFileFormat::kRun),
+              HasSubstr("found.txt:1: no column probability"));
+  EXPECT_THAT(refusal(header + "90,3,41,1\n", LoopFileFormat::kRun),
+              HasSubstr("found.txt:2: 4 columns, expected 7"));
+  EXPECT_THAT(refusal(header + "90,3,41,1,accepted,3d2d,1.98\n", LoopFileFormat::kRun),
+              HasSubstr("found.txt:2: probability"));
+  EXPECT_THAT(refusal("", LoopFileFormat::kRun), HasSubstr("is empty"));
+}
+
 TEST_F(LoopFile, RefusesATruncatedLineOfIbow) {
   EXPECT_THAT(refusal("0 0 0 0 0 0 0.1\n90 100 95 1\n", LoopFileFormat::kIbow),
               HasSubstr("found.txt:2: 4 columns, expected 7"));

@@ -89,7 +89,32 @@ TEST_F(MapDatabaseFaults, AMissingTableIsSaid) {
 
 TEST_F(MapDatabaseFaults, ANewerSchemaIsRefusedByItsVersion) {
   change("PRAGMA user_version = 99");
-  EXPECT_THAT(refusal(), HasSubstr("is a map of schema 99; this program reads up to 1"));
+  EXPECT_THAT(refusal(), HasSubstr("is a map of schema 99; this program reads up to 2"));
+}
+
+TEST_F(MapDatabaseFaults, ALoopModelThatThereIsNotIsNamed) {
+  change("UPDATE loop SET model = 'guess' WHERE number = 0");
+  EXPECT_THAT(refusal(), HasSubstr("table loop, row 0: model"));
+  change("UPDATE loop SET model = 'none', probability = 1.5 WHERE number = 0");
+  EXPECT_THAT(refusal(), HasSubstr("table loop, row 0: likeness or probability"));
+}
+
+// Schema 1 had no more columns of loops than these.
+TEST_F(MapDatabaseFaults, AMapOfTheFirstSchemaIsReadAndUpgradedWhenWritten) {
+  change(
+      "BEGIN; ALTER TABLE frame DROP COLUMN inliers; ALTER TABLE loop DROP COLUMN model; ALTER TABLE loop DROP COLUMN lines;"
+      "ALTER TABLE loop DROP COLUMN likeness; ALTER TABLE loop DROP COLUMN probability;"
+      "PRAGMA user_version = 1; COMMIT");
+  const Map old = read_map(path).map;
+  ASSERT_EQ(old.loops.size(), 2u);
+  EXPECT_EQ(old.loops[0].inliers, 33);
+  EXPECT_EQ(old.loops[0].probability, 0);
+  Random random(3);
+  MapChanges changes;
+  changes.loops = test::random_map(random).map.loops;
+  MapDatabase::open(path).commit(changes);
+  EXPECT_EQ(read_map(path).map.loops[0].probability, changes.loops[0].probability);
+  EXPECT_GT(changes.loops[0].probability, 0);
 }
 
 TEST_F(MapDatabaseFaults, AnotherDatabaseIsNoMap) {

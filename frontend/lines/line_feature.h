@@ -1,0 +1,48 @@
+#pragma once
+#include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/core/line3.h>
+#include <placegraph/graph/core/line_segment.h>
+#include <placegraph/graph/landmark.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// A straight edge of a keyframe, described, with its line in the keyframe's camera frame where
+/// that is known.
+struct LineFeature {
+  LineSegment segment;
+  BinaryDescriptor descriptor{};
+  std::optional<Line3> line_cam;
+};
+
+/// Line band descriptors, 256 bits, of segments of a grey image (Zhang & Koch 2013, by OpenCV).
+/// Throws ArgumentError if the image is not CV_8UC1 or a segment lies outside it or has no length.
+std::vector<BinaryDescriptor> describe_segments(const Image& image,
+                                                const std::vector<LineSegment>& segments);
+
+struct LineFeatureMatcherOptions {
+  int max_distance = 60;     ///< bits of 256
+  double gate_px = 9;        ///< between a segment and where its line is expected
+  double max_angle_deg = 8;  ///< between both
+  double min_overlap = 0.3;  ///< of the shorter of two segments with the other, along the line
+  void check() const;
+};
+void visit(OptionVisitor& field, LineFeatureMatcherOptions& options);
+
+struct LineFeatureMatch {
+  int a = 0, b = 0;  ///< indices into the two lists
+};
+
+/// Segments of a that show lines of b, whose pose T_b_a is known about: near the projection of b's
+/// line, along it, beside its part that b sees, the most alike descriptor. Each segment of a has
+/// one partner at most; ascending in a.
+std::vector<LineFeatureMatch> match_lines_guided(const Camera& camera,
+                                                 const std::vector<LineFeature>& a,
+                                                 const std::vector<LineFeature>& b,
+                                                 const SE3& T_b_a,
+                                                 const LineFeatureMatcherOptions& options);
+
+}  // namespace placegraph
