@@ -14,14 +14,16 @@ double loop_probability(const LoopRecord& record);
 
 /// What the model sees of a record.
 struct LoopOddsCues {
-  std::size_t stage = 0;    ///< index into kLoopStages
-  double log_likeness = 0;  ///< within bounds
+  std::size_t fate = 0;     ///< index into kLoopFates
+  /// Within bounds. Once a pose has been found, how alike the views are tells nothing more: 0.
+  double log_likeness = 0;
   double log_agreeing = 0;  ///< of one and the points and lines that agree
 };
 LoopOddsCues loop_odds_cues(const LoopRecord& record);
 
-/// The stages of a decision, in the order of the tests.
-inline constexpr std::array<std::string_view, 6> kLoopStages = {
-    "retrieval", "geometry", "drift", "covariance", "support", "accepted"};
+/// What may have become of a candidate: the stages of LoopRecord, and "unreachable" for a drift
+/// that was judged before anything was looked at.
+inline constexpr std::array<std::string_view, 7> kLoopFates = {
+    "retrieval", "unreachable", "geometry", "drift", "covariance", "support", "accepted"};
 
 }  // namespace placegraph

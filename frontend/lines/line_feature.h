@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/line3.h>
 #include <placegraph/graph/core/line_segment.h>
+#include <placegraph/graph/core/options.h>
 #include <placegraph/graph/landmark.h>
 
 #include <optional>

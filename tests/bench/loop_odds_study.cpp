@@ -18,8 +18,8 @@
 namespace placegraph {
 namespace {
 
-constexpr int kStages = static_cast<int>(kLoopStages.size());
-constexpr int kUnknowns = kStages + 2;
+constexpr int kFates = static_cast<int>(kLoopFates.size());
+constexpr int kUnknowns = kFates + 2;
 using Vector = Eigen::Matrix<double, kUnknowns, 1>;
 using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
@@ -30,9 +30,9 @@ struct Candidate {
 
   Vector row() const {
     Vector x = Vector::Zero();
-    x[static_cast<Eigen::Index>(cues.stage)] = 1;
-    x[kStages] = cues.log_likeness;
-    x[kStages + 1] = cues.log_agreeing;
+    x[static_cast<Eigen::Index>(cues.fate)] = 1;
+    x[kFates] = cues.log_likeness;
+    x[kFates + 1] = cues.log_agreeing;
     return x;
   }
 };
@@ -51,11 +51,12 @@ std::vector<Candidate> candidates_of(const std::string& map, const std::string& 
     if (query && match) candidates.push_back({loop_odds_cues(loop), same.holds(*query, *match)});
   }
   for (Candidate& candidate : candidates)
-    candidate.weight = 1000.0 / static_cast<double>(candidates.size());
+    candidate.weight = 50.0 / static_cast<double>(candidates.size());
   return candidates;
 }
 
-/// Greatest posterior of a logistic model, coefficients normal about zero with a deviation of 3.
+/// Greatest posterior of a logistic model, coefficients normal about zero with a deviation of 3. A
+/// run of hundreds of candidates is worth fifty independent ones: neighbours fare alike.
 Vector fit(const std::vector<Candidate>& candidates) {
   constexpr double kSigma = 3;
   Vector coefficients = Vector::Zero();
@@ -84,18 +85,18 @@ void run(int count, char** arguments) {
     candidates.insert(candidates.end(), of_run.begin(), of_run.end());
   }
   const Vector coefficients = fit(candidates);
-  for (int stage = 0; stage < kStages; ++stage) {
+  for (int fate = 0; fate < kFates; ++fate) {
     int all = 0, same = 0;
     for (const Candidate& candidate : candidates) {
-      if (static_cast<int>(candidate.cues.stage) != stage) continue;
+      if (static_cast<int>(candidate.cues.fate) != fate) continue;
       ++all;
       same += candidate.same;
     }
-    fmt::print("{}\t{}\t{}\t{:.2f}\n", kLoopStages[static_cast<std::size_t>(stage)], all, same,
-               coefficients[stage]);
+    fmt::print("{}\t{}\t{}\t{:.2f}\n", kLoopFates[static_cast<std::size_t>(fate)], all, same,
+               coefficients[fate]);
   }
-  fmt::print("per log likeness\t{:.2f}\nper log agreeing\t{:.2f}\n", coefficients[kStages],
-             coefficients[kStages + 1]);
+  fmt::print("per log likeness\t{:.2f}\nper log agreeing\t{:.2f}\n", coefficients[kFates],
+             coefficients[kFates + 1]);
 }
 
 }  // namespace

@@ -123,10 +123,15 @@ TEST(LoopVerifier, RefusesASmallShareOfInliers) {
   EXPECT_LT(result.inliers, 0.9 * result.matches);
 }
 
-TEST(LoopVerifier, RefusesAMatchWithoutDepth) {
+TEST(LoopVerifier, RefusesViewsWithoutDepth) {
   Random random = seeded_random(96);
   Visit visit = revisit(random);
   for (Feature& f : visit.match) f.point_cam.reset();
+  // The query's own depths are as good.
+  const auto by_query = verify_loop(kCamera, visit.query, visit.match, {}, random);
+  ASSERT_TRUE(by_query.outcome) << by_query.outcome.reason;
+  EXPECT_LT(distance_m(by_query.T_match_query, kTruth), 0.1);
+  for (Feature& f : visit.query) f.point_cam.reset();
   const auto result = verify_loop(kCamera, visit.query, visit.match, {}, random);
   EXPECT_EQ(result.outcome.code, Code::kTooFewData);
   EXPECT_EQ(result.matches, 0);

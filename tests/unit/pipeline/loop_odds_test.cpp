@@ -20,7 +20,7 @@ TEST(LoopOdds, GrowWithWhatSpeaksForALoop) {
   EXPECT_GT(loop_probability(record("geometry", 0.8, 20)), p);
   EXPECT_GT(loop_probability(record("geometry", 0.4, 60)), p);
   EXPECT_GT(loop_probability(record("accepted", 0.4, 60)), 0.9);
-  EXPECT_LT(loop_probability(record("retrieval", 0.1, 0)), 0.3);
+  EXPECT_LT(loop_probability(record("retrieval", 0.1, 0)), 0.01);
   EXPECT_GT(loop_probability(record("accepted", 0.4, 60)),
             loop_probability(record("covariance", 0.4, 60)));
 }
@@ -32,9 +32,9 @@ TEST(LoopOdds, LinesCountAsPointsDo) {
 }
 
 TEST(LoopOdds, StayFiniteAtTheBounds) {
-  for (const auto stage : kLoopStages)
+  for (const char* stage : {"retrieval", "geometry", "drift", "covariance", "support", "accepted"})
     for (const double likeness : {0.0, 1e9}) {
-      const double p = loop_probability(record(std::string(stage), likeness, 0));
+      const double p = loop_probability(record(stage, likeness, 0));
       EXPECT_GE(p, 0);
       EXPECT_LE(p, 1);
     }
