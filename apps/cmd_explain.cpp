@@ -127,24 +127,65 @@ json assumed_by(const StoredMap& stored, const RunOptions& options) {
   return assumed;
 }
 
-void print(const json& told) {
-  const json& at = told["where"];
-  fmt::print("frame      {}, {:.3f} s\n", told["frame"].get<std::int64_t>(),
-             told["stamp_s"].get<double>());
+std::string numbers(const json& list) {
+  std::string text;
+  for (const json& value : list) text += fmt::format("{:.4g} ", value.get<double>());
+  return text;
+}
+
+/// Names with percentages or counts; "nothing" for an empty object.
+std::string named(const json& values) {
+  std::string text;
+  for (const auto& [name, value] : values.items())
+    text += value.is_number_float() ? fmt::format("{} {:.0f} %, ", name, 100 * value.get<double>())
+                                    : fmt::format("{} {}, ", name, value.dump());
+  return text.empty() ? "nothing" : text.substr(0, text.size() - 2);
+}
+
+std::string labels_of(const json& labels) {
+  std::string text;
+  for (const json& label : labels) text += " '" + label.get<std::string>() + "'";
+  return text;
+}
+
+void print_where(const json& at) {
   if (!at["posed"].get<bool>()) {
     fmt::print("where      not posed: tracking was lost or waited here\n");
-  } else {
-    fmt::print("where      place {} {}, keyframe {}, {:.3f} {} from it; component {}\n",
-               at["place"].get<std::int64_t>(), at["labels"].dump(),
-               at["keyframe"].get<std::int64_t>(), at["way_to_keyframe"].get<double>(),
-               at["unit"].get<std::string>(), at["component"].get<int>());
-    fmt::print("           at {}, facing {} (x y z w)\n", at["position"].dump(),
-               at["quaternion_xyzw"].dump());
-    if (at.contains("sigma_position"))
-      fmt::print("           its place known to {:.3g} {}, {:.3g} deg (from the first place)\n",
-                 at["sigma_position"].get<double>(), at["unit"].get<std::string>(),
-                 at["sigma_angle_deg"].get<double>());
+    return;
   }
+  const auto unit = at["unit"].get<std::string>();
+  fmt::print("where      place {}{}, {:.3g} {} from its keyframe {}, component {}\n",
+             at["place"].get<std::int64_t>(), labels_of(at["labels"]),
+             at["way_to_keyframe"].get<double>(), unit, at["keyframe"].get<std::int64_t>(),
+             at["component"].get<int>());
+  fmt::print("           position {}, orientation {}(x y z w)\n", numbers(at["position"]),
+             numbers(at["quaternion_xyzw"]));
+  if (at.contains("sigma_position"))
+    fmt::print("           its place known to {:.3g} {}, {:.3g} deg, seen from the first one\n",
+               at["sigma_position"].get<double>(), unit, at["sigma_angle_deg"].get<double>());
+}
+
+std::string assumptions(const json& assumed) {
+  std::string text = fmt::format("{}, cues {}", assumed["sensor"].get<std::string>(),
+                                 assumed["cues"].get<std::string>());
+  if (assumed.contains("ground_below_camera_m"))
+    text += fmt::format(", ground {:g} m below the camera",
+                        assumed["ground_below_camera_m"].get<double>());
+  return text + (assumed["metric"].get<bool>() ? ", unit the metre" : ", no unit of length");
+}
+
+void print_sees(const json& sees) {
+  if (sees.contains("unknown")) {
+    fmt::print("sees       unknown: {}\n", sees["unknown"].get<std::string>());
+    return;
+  }
+  fmt::print("sees       {}\n           {}\n", named(sees["surfaces"]), named(sees["classes"]));
+}
+
+void print(const json& told) {
+  fmt::print("frame      {}, {:.3f} s\n", told["frame"].get<std::int64_t>(),
+             told["stamp_s"].get<double>());
+  print_where(told["where"]);
   const json& by = told["known_by"];
   fmt::print("known by   {} landmarks; keyframe with {} features, {} placed; constraints {}\n",
              by["inliers"].get<int>(), by["features"].get<int>(), by["features_placed"].get<int>(),
@@ -154,8 +195,8 @@ void print(const json& told) {
                loop["query_frame"].get<std::int64_t>(), loop["match_frame"].get<std::int64_t>(),
                loop["inliers"].get<int>(), loop["lines"].get<int>(),
                loop["model"].get<std::string>(), loop["probability"].get<double>());
-  fmt::print("sees       {}\n", told["sees"].dump());
-  fmt::print("assumed    {}\n", told["assumed"].dump());
+  print_sees(told["sees"]);
+  fmt::print("assumed    {}\n", assumptions(told["assumed"]));
   if (told["refused"].empty()) fmt::print("refused    nothing\n");
   for (const json& loop : told["refused"])
     fmt::print("refused    frame {} by {}: probability {:.3f}, {} points\n",

@@ -152,6 +152,24 @@ TEST_F(MapCli, NothingSavedIsSaid) {
   expect_usage_error("run", "SEQUENCE and --out are needed, or --resume");
 }
 
+TEST_F(MapCli, ExplainsAFrame) {
+  const CommandResult result = run("explain " + whole() + " 20 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["frame"], 20);
+  EXPECT_EQ(told["where"]["posed"], true);
+  EXPECT_EQ(told["where"]["unit"], "m");
+  EXPECT_EQ(told["where"]["covariance"].size(), 6u);
+  EXPECT_GT(told["known_by"]["inliers"], 10);
+  EXPECT_GT(told["known_by"]["constraints"]["odometry"], 0);
+  EXPECT_GT(told["sees"]["surfaces"]["ground"], 0.05);
+  EXPECT_EQ(told["assumed"]["sensor"], "depths measured");
+  EXPECT_THAT(run("explain " + whole() + " 20").out, HasSubstr("known by"));
+  expect_failure("explain " + whole() + " 99", 1, "has no frame 99");
+  expect_usage_error("explain " + whole() + " -1", "FRAME");
+  expect_usage_error("explain nowhere 1", "nowhere");
+}
+
 TEST_F(MapCli, FramesOfTheDriveStandWhereTheyWere) {
   const CommandResult result = run("localize " + whole() + " " + drive() + " --out placed.txt");
   ASSERT_EQ(result.code, 0) << result.err;
