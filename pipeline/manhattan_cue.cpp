@@ -31,6 +31,8 @@ void visit(OptionVisitor& field, ManhattanCueOptions& o) {
   field("max_width_px", o.max_width_px, "wider images are halved first", {16, 1e5});
   field("max_sigma_deg", o.max_sigma_deg, "directions known less well are not believed",
         {0.01, 30});
+  field("few_points", o.few_points,
+        "a frame between keyframes that is posed by fewer is turned by the worlds, too", {0, 1e6});
 }
 
 ManhattanCue::ManhattanCue(const ManhattanCueOptions& options, const Camera& camera,
@@ -58,6 +60,33 @@ std::vector<LineSegment> ManhattanCue::detect(const Image& image) const {
   for (LineSegment& segment : segments)
     for (Eigen::Vector2d* end : {&segment.start, &segment.end}) *end = (2 * *end).array() + 0.5;
   return segments;
+}
+
+/// Near where the window has it: farther off it is no sighting of that world.
+ManhattanFrame ManhattanCue::track(const std::vector<LineSegment>& segments,
+                                   const ManhattanWorlds::Expected& world) const {
+  const double reach_rad = std::min(5 * kDeg, 1 * kDeg + 3 * largest_sigma_rad(world.covariance));
+  return track_manhattan_frame(segments, camera_, world.R_cam_world, reach_rad,
+                               options_.directions.points.noise, options_.directions.manhattan);
+}
+
+std::optional<ManhattanCue::Heading> ManhattanCue::heading(const Image& image,
+                                                           const SO3& R_odom_cam,
+                                                           const SlidingWindow& window,
+                                                           std::int64_t keyframe) const {
+  const auto expected = worlds_.expected(window, keyframe);
+  if (expected.empty()) return std::nullopt;
+  const std::vector<LineSegment> segments = detect(image);
+  for (ManhattanWorlds::Expected world : expected) {
+    const auto R_odom_world = window.world(world.world);
+    if (world.world == ManhattanWorlds::kMapAxes || !R_odom_world) continue;
+    world.R_cam_world = R_odom_cam.inverse() * *R_odom_world;
+    const ManhattanFrame frame = track(segments, world);
+    if (!trusted(frame)) continue;
+    return Heading{world.world, nearest_axes(frame.R_cam_manhattan, world.R_cam_world),
+                   worlds_.honest(frame.covariance).inverse()};
+  }
+  return std::nullopt;
 }
 
 bool ManhattanCue::trusted(const ManhattanFrame& frame) const {
@@ -94,12 +123,7 @@ void ManhattanCue::observe(std::int64_t keyframe, const Image& image,
   for (const LineSegment& segment : segments) view_.push_back({segment});
   bool seen = false;
   for (const ManhattanWorlds::Expected& world : worlds_.expected(window, keyframe)) {
-    // Farther off than this it is no sighting of that world.
-    const double reach_rad = std::min(5 * kDeg, 1 * kDeg + 3 * largest_sigma_rad(world.covariance));
-    const ManhattanFrame frame =
-        track_manhattan_frame(segments, camera_, world.R_cam_world, reach_rad,
-                              options_.directions.points.noise, options_.directions.manhattan);
-    if (take(keyframe, frame, window)) seen = true;
+    if (take(keyframe, track(segments, world), window)) seen = true;
     if (seen) break;
   }
   if (seen) return;

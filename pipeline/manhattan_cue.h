@@ -14,6 +14,8 @@ struct ManhattanCueOptions {
   ManhattanWorldOptions worlds;
   int max_width_px = 800;    ///< wider images are halved before segments are looked for
   double max_sigma_deg = 1;  ///< about any axis: directions known less well are not believed
+  /// A frame between keyframes that is posed by fewer points is turned by the worlds, too.
+  int few_points = 60;
   void check() const;
 };
 void visit(OptionVisitor& field, ManhattanCueOptions& options);
@@ -32,12 +34,23 @@ class ManhattanCue {
   void observe(std::int64_t keyframe, const Image& image,
                const std::optional<std::vector<LineSegment>>& segments, SlidingWindow& window);
   void settle(const SlidingWindow& window) { worlds_.settle(window); }
+  /// A world of the window as a frame sees it, which is taken from about R_odom_cam: the one seen
+  /// last that is believed. Nothing if none is.
+  struct Heading {
+    std::int64_t world = 0;
+    SO3 R_cam_world;
+    Eigen::Matrix3d information;  ///< right tangent [1/rad^2]
+  };
+  std::optional<Heading> heading(const Image& image, const SO3& R_odom_cam,
+                                 const SlidingWindow& window, std::int64_t keyframe) const;
   /// The edges of the last keyframe's image that were looked at, with their world and axis.
   const std::vector<FrameView::DirectedLine>& view() const { return view_; }
   void reset();
 
  private:
   std::vector<LineSegment> detect(const Image& image) const;
+  ManhattanFrame track(const std::vector<LineSegment>& segments,
+                       const ManhattanWorlds::Expected& world) const;
   bool trusted(const ManhattanFrame& frame) const;
   bool take(std::int64_t keyframe, const ManhattanFrame& frame, SlidingWindow& window);
 

@@ -12,8 +12,9 @@ struct ManhattanWorldOptions {
   /// Of the directions of one view beyond what its lines' noise explains: the scene is not quite
   /// rectangular, lines are taken for what they are not, the lens.
   double sigma_floor_deg = 0.1;
-  /// Neighbouring views see the same lines and err alike: so many of them count as one.
-  double correlation = 4;
+  /// Neighbouring views see the same lines and err alike: so many of them count as one. What points
+  /// before a blank wall say of a turn is worse than they know, so this is not to be overdone.
+  double correlation = 1;
   /// Of a world seen from a new keyframe, beyond what the window claims to know: its rotations
   /// drift by more than the noise of its points explains, in turns above all. Worlds that differ by
   /// less than about three of these are one.
@@ -56,6 +57,8 @@ class ManhattanWorlds {
   /// After the window has been optimized: how well the newest keyframe knows the worlds.
   void settle(const SlidingWindow& window);
   void reset();
+  /// Of the directions of one view, with what is beyond the noise of its lines.
+  Eigen::Matrix3d honest(const Eigen::Matrix3d& covariance) const;
 
  private:
   struct Candidate {
@@ -63,7 +66,6 @@ class ManhattanWorlds {
     SO3 R_cam_manhattan;
     Eigen::Matrix3d covariance;
   };
-  Eigen::Matrix3d honest(const Eigen::Matrix3d& covariance) const;
   void see(const Candidate& sighting, std::int64_t world, SlidingWindow& window);
   std::optional<std::int64_t> begin_world(const Candidate& newest, SlidingWindow& window);
   void forget_one(SlidingWindow& window);

@@ -115,10 +115,12 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   update.inliers = static_cast<int>(points.inliers.size());
   Outcome posed = points.outcome;
   SE3 T_odom_cam = points.T_ref_cam;
+  Matrix6d information = points.information;
   if (lines_) {
     const PoseFromLines both = pose_with_lines(frame, prior, points, random);
     posed = both.outcome;
     T_odom_cam = both.T_ref_cam;
+    information = both.information;
     update.inliers += static_cast<int>(both.inliers.size());
   }
   if (!posed) {
@@ -128,6 +130,8 @@ OdometryUpdate Odometry::track(const Frame& frame) {
     return update;
   }
   tracker_.keep(keep);
+  const auto heading = heading_of(frame, T_odom_cam, update.inliers);
+  T_odom_cam = turned(T_odom_cam, information, heading);
 
   T_last_cur_ = T_odom_last_.inverse() * T_odom_cam;
   velocity_known_ = true;
@@ -139,7 +143,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
     if (update.rescale)
       T_last_cur_ = SE3(T_last_cur_.rotation(), update.rescale->factor * T_last_cur_.translation());
   } else {
-    remember(frame.id);
+    remember(frame.id, heading);
   }
   update.state = TrackingState::kTracking;
   update.T_odom_cam = T_odom_last_;

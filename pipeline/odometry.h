@@ -185,6 +185,7 @@ class Odometry {
     std::int64_t frame;
     SE3 T_keyframe_cam;
     std::vector<std::pair<std::int64_t, Eigen::Vector2d>> px;  // of landmarks
+    std::optional<ManhattanCue::Heading> heading;              // of one that few points pose
   };
   struct Sighting2d {
     std::int64_t keyframe;
@@ -227,7 +228,7 @@ class Odometry {
                     OdometryUpdate& update) const;
   std::vector<Eigen::Vector2f> predict(const SE3& T_odom_cam) const;
   bool keyframe_due(const Frame& frame, int inliers) const;
-  void remember(std::int64_t frame);
+  void remember(std::int64_t frame, const std::optional<ManhattanCue::Heading>& heading);
   void anchor_tracks();
   void pose_between(std::int64_t keyframe, OdometryUpdate& update);
   void add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);
@@ -241,6 +242,10 @@ class Odometry {
   void set_scale(double factor, OdometryUpdate& update);
   void refine_window();
   void look_at_directions(const Frame& frame);
+  std::optional<ManhattanCue::Heading> heading_of(const Frame& frame, const SE3& T_odom_cam,
+                                                  int points) const;
+  SE3 turned(const SE3& T_odom_cam, const Matrix6d& information,
+             const std::optional<ManhattanCue::Heading>& heading) const;
   void widen_last_link(const SE3& T_odom_oldest);
   double unit_drift() const;
   PointLandmark describe_landmark(std::int64_t id) const;

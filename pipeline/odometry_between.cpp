@@ -3,10 +3,11 @@
 
 namespace placegraph {
 
-void Odometry::remember(std::int64_t frame) {
+void Odometry::remember(std::int64_t frame, const std::optional<ManhattanCue::Heading>& heading) {
   FrameBetween& between = between_.emplace_back();
   between.frame = frame;
   between.T_keyframe_cam = window_.pose(last_keyframe_).inverse() * T_odom_last_;
+  between.heading = heading;
   for (const PointTrack& track : tracker_.tracks())
     if (window_.landmark(track.id)) between.px.emplace_back(track.id, track.px.cast<double>());
 }
@@ -31,6 +32,7 @@ void Odometry::anchor_tracks() {
 /// follows, or the way between two keyframes would be a false pace and a jump.
 void Odometry::pose_between(std::int64_t keyframe, OdometryUpdate& update) {
   constexpr int kIterations = 10;
+  constexpr double kSigmaPx = 1;  // of a track
   for (const FrameBetween& between : between_) {
     std::vector<Eigen::Vector3d> points;
     std::vector<Eigen::Vector2d> px;
@@ -46,9 +48,11 @@ void Odometry::pose_between(std::int64_t keyframe, OdometryUpdate& update) {
     if (update.rescale)
       T_keyframe_cam =
           SE3(T_keyframe_cam.rotation(), update.rescale->factor * T_keyframe_cam.translation());
-    const SE3 T_odom_cam = refine_pose_3d2d(calibration_.camera, points, px, all,
-                                            window_.pose(keyframe) * T_keyframe_cam,
-                                            options_.pose.threshold_px, kIterations);
+    Matrix6d normal;
+    const SE3 by_points = refine_pose_3d2d(calibration_.camera, points, px, all,
+                                           window_.pose(keyframe) * T_keyframe_cam,
+                                           options_.pose.threshold_px, kIterations, &normal);
+    const SE3 T_odom_cam = turned(by_points, normal / (kSigmaPx * kSigmaPx), between.heading);
     if (T_odom_cam.matrix().allFinite()) update.filled.emplace_back(between.frame, T_odom_cam);
   }
   between_.clear();

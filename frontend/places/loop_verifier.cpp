@@ -162,6 +162,26 @@ std::vector<LoopLine> agreeing_lines(const Camera& camera, const LoopView& query
   return lines;
 }
 
+/// Whether the few depths that gave a way of two views its length are where the pose has them.
+bool depths_fit(const Camera& camera, const PointsAgree& agree, const LoopVerification& verified,
+                const LoopVerifierOptions& options) {
+  const Sim3 S_match_query(verified.T_match_query.rotation(), verified.T_match_query.translation(),
+                           verified.scale_match_query);
+  const Sim3 S_query_match = S_match_query.inverse();
+  int known = 0, fitting = 0;
+  const auto ask = [&](const Eigen::Vector3d& point_cam, const Eigen::Vector2d& px) {
+    const auto projected = camera.project(point_cam);
+    ++known;
+    fitting += projected && (*projected - px).norm() < options.pose.threshold_px;
+  };
+  for (const LoopPoint& point : agree.points) {
+    if (point.point_match) ask(S_query_match * *point.point_match, point.px_query);
+    if (point.point_query) ask(S_match_query * *point.point_query, point.px_match);
+  }
+  return fitting >= options.two_view.min_depths &&
+         fitting >= options.two_view.min_depth_share * known;
+}
+
 /// Why views that agree are no revisit all the same; ok if they are.
 Outcome judged(const Camera& camera, const PointsAgree& agree, const LoopVerification& verified,
                const std::optional<double>& log_ratio, const LoopVerifierOptions& options,
@@ -183,6 +203,8 @@ Outcome judged(const Camera& camera, const PointsAgree& agree, const LoopVerific
       T_match_query.translation().norm() > options.max_baseline_depths * median_of(depths) ||
       T_match_query.rotation().log().norm() > options.max_angle_deg * M_PI / 180)
     return Outcome::failure(Code::kInconsistent, "the views differ too much");
+  if (agree.model != LoopModel::kPoints3d2d && !depths_fit(camera, agree, verified, options))
+    return Outcome::failure(Code::kInconsistent, "depths are not where the pose has them");
   if (!free_scale && log_ratio && std::abs(*log_ratio) > options.max_scale_error)
     return Outcome::failure(Code::kInconsistent, "depths of both views disagree");
   return Outcome::ok();
