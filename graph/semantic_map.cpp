@@ -116,6 +116,7 @@ SemanticMap SemanticGrid::map() const {
     map.outcome = Outcome::failure(Outcome::Code::kTooFewData, "nothing is seen");
     return map;
   }
+  map.outcome = Outcome::ok();
   std::vector<std::size_t> order(cells_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),

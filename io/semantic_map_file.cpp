@@ -133,6 +133,7 @@ SemanticMap read_semantic_map(const std::string& path) {
     throw FileError(
         path, fmt::format("holds {} bytes of cells, {} cells are {}", bytes.size() - header.body,
                           header.cells, static_cast<std::size_t>(header.cells) * kVertexBytes));
+  map.outcome = Outcome::ok();
   const char* at = bytes.data() + header.body;
   for (std::int64_t i = 0; i < header.cells; ++i) {
     SemanticCell cell;

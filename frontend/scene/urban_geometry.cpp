@@ -11,6 +11,7 @@ namespace placegraph {
 namespace {
 
 constexpr double kFarthestForPlane_m = 25;
+constexpr double kHalfRoad_m = 3.5;  // what lies before the camera is road, beside it may be higher
 constexpr std::size_t kFewest = 60;
 
 /// Between which heights above the ground [m] something is found.
@@ -131,6 +132,7 @@ GroundProfile fit_ground(const std::vector<DepthSample>& samples,
     if (ground_share[static_cast<std::size_t>(sample.superpixel)] < 0.5F) continue;
     const Eigen::Vector3d p = sample.point.cast<double>();
     if (p[1] < 0.3 - 0.08 * p[2]) continue;  // above all slopes that a street has
+    if (std::abs(p[0]) > kHalfRoad_m) continue;
     all.push_back(p);
     if (p[2] > kFarthestForPlane_m) continue;
     points.push_back(p);
@@ -156,6 +158,7 @@ GroundProfile fit_ground(const std::vector<DepthSample>& samples,
     if (!next.good || next.height < 0.3) break;
     fit = next;
   }
+  profile.outcome = Outcome::ok();
   profile.down = fit.down;
   profile.camera_height_m = fit.height;
   // Hills: how much higher the ground is farther out, carried on where it is not seen.

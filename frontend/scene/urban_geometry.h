@@ -39,7 +39,7 @@ struct GroundProfile {
   double height_of(const Eigen::Vector3d& point) const;
 };
 
-/// The plane through what looks like ground and lies below the camera, by least median of squares
+/// The plane through what looks like ground and lies before the camera, by least median of squares
 /// and reweighting, then medians of what is left over along z. `ground_share`: by superpixel, how
 /// probable ground is. `camera_height_m`: 0 where it is not known.
 [[nodiscard]] GroundProfile fit_ground(const std::vector<DepthSample>& samples,
