@@ -25,7 +25,7 @@ class TrueCells {
  public:
   TrueCells(const SemanticMap& map, const LabelledMesh& truth, const SE3& T_plan_truth,
             double tolerance_m)
-      : cell_(map.cell_m), reach_(static_cast<int>(std::ceil(tolerance_m / map.cell_m))) {
+      : cell_(map.cell_m), reach_(static_cast<int>(tolerance_m / map.cell_m) + 1) {
     for (const SemanticCell& cell : map.cells)
       if (cell.label >= 0) add_blocks(cell.at);
     for (const LabelledMesh::Face& face : truth.faces)
