@@ -25,7 +25,6 @@
 #include "apps/progress.h"
 #include "apps/run_files.h"
 #include "apps/run_judgement.h"
-#include "apps/scene_models.h"
 #include "apps/semantic_map_files.h"
 #include "apps/usage.h"
 
@@ -241,10 +240,9 @@ json map_street(const Arguments& arguments, const RunOptions& options, const Dat
 
 void run(Arguments arguments) {
   const RunOptions options = prepare(arguments);
-  if (options.scene.semantics) {  // what is absent is said before the work
-    (void)scene_model_path(SceneModel::Kind::kUrban, options.scene.urban_model);
-    (void)scene_model_path(SceneModel::Kind::kSurfaces, options.scene.surfaces_model);
-  }
+  if (options.scene.semantics)
+    check_urban_models(options.scene.urban,
+                       {options.scene.urban_model, options.scene.surfaces_model});
   if (!arguments.draw.empty()) {
     require_free_folder(arguments.draw, arguments.force);
     require(fs::weakly_canonical(arguments.draw) != fs::weakly_canonical(arguments.out),

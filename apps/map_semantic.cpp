@@ -12,7 +12,6 @@
 
 #include "apps/map_file.h"
 #include "apps/output.h"
-#include "apps/scene_models.h"
 #include "apps/semantic_map_files.h"
 
 namespace placegraph::apps {
@@ -30,8 +29,7 @@ void write_map_of_street(const Arguments& a) {
   for (const std::string& setting : a.settings) set_option(options, setting);
   options.check();
   require_free_folder(a.out, a.force);
-  (void)scene_model_path(SceneModel::Kind::kUrban, a.models.urban);
-  (void)scene_model_path(SceneModel::Kind::kSurfaces, a.models.surfaces);
+  check_urban_models(options, a.models);
   const StoredMap stored = read_stored_map(a.map);
   if (!stored.origin.calibration || stored.map.keyframes.empty())
     throw NoAnswer(a.map + ": nothing in it has a pose");

@@ -2,6 +2,7 @@
 
 #include <placegraph/eval/semantic_map_check.h>
 #include <placegraph/eval/semantic_map_plot.h>
+#include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/dataset.h>
 #include <placegraph/io/labelled_mesh_file.h>
@@ -102,6 +103,12 @@ Georeference read_georeference(const std::string& folder, const Map& map) {
     return found->second;
   };
   return result;
+}
+
+void check_urban_models(const UrbanMapperOptions& options, const UrbanModelPaths& models) {
+  const SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, models.urban);
+  (void)load_scene_model(SceneModel::Kind::kSurfaces, models.surfaces);
+  (void)moving_classes(options.sight.moving, urban);
 }
 
 UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, const Dataset& dataset,

@@ -27,6 +27,10 @@ struct Georeference {
 /// Reads georeference.json and trajectory_enu.tum of a folder. Throws FileError.
 Georeference read_georeference(const std::string& folder, const Map& map);
 
+/// Says what is wrong with models or options before any work. Throws FileError where a model is
+/// absent or broken, naming the command that makes it, and ArgumentError.
+void check_urban_models(const UrbanMapperOptions& options, const UrbanModelPaths& models);
+
 /// A mapper that has taken the keyframes of a map whose images are those of `dataset`; `lens_k1` is
 /// the distortion that was taken out of them. Throws FileError where a model is absent.
 UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, const Dataset& dataset,

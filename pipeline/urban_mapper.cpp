@@ -1,3 +1,4 @@
+#include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/urban_mapper.h>
 
@@ -37,6 +38,7 @@ UrbanMapper::UrbanMapper(const UrbanMapperOptions& options, const Calibration& c
   calibration_.check();
   require(urban_.kind == SceneModel::Kind::kUrban && surfaces_.kind == SceneModel::Kind::kSurfaces,
           "urban mapper: a model of urban classes and one of surfaces are needed");
+  (void)moving_classes(options_.sight.moving, urban_);
 }
 
 void UrbanMapper::add(std::int64_t keyframe, const Frame& frame, const SE3& T_map_cam) {

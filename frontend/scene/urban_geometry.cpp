@@ -279,12 +279,7 @@ std::vector<float> geometry_log_likelihoods(const std::vector<RegionPlace>& regi
       const Surface surface = model.surfaces[c];
       double likelihood = 0;
       if (surface != Surface::kSky) {
-        // Of what stands, the place in the picture has told already how probable each height is: a
-        // height is possible or not. Ground is where the ground is.
-        const double height = soft_box(r.height_m, heights[c].low, heights[c].high, sigma) *
-                              (surface == Surface::kGround
-                                   ? 1
-                                   : (heights[c].high - heights[c].low) / kHeightRange_m);
+        const double height = soft_box(r.height_m, heights[c].low, heights[c].high, sigma);
         double turn = 1;
         if (surface == Surface::kGround)
           turn = soft_box(r.upness, 0.9, 1.1, r.upness_sigma);

@@ -17,6 +17,7 @@ SceneModel model_of(SceneModel::Kind kind, std::vector<std::string> classes) {
 
 UrbanMapper mapper_of(double baseline_m = 0.5) {
   UrbanMapperOptions options;
+  options.sight.moving = "";  // no class of these models moves
   options.grid.min_weight = 1;
   options.grid.min_sights = 1;
   return {options,
@@ -116,6 +117,22 @@ TEST(UrbanMapper, TellsWhatIsSeenFromEachPlace) {
   ASSERT_EQ(shares.size(), 2U);
   EXPECT_TRUE(shares[0].empty());
   EXPECT_NEAR(shares[1][1], 0.9, 1e-4);
+}
+
+TEST(UrbanMapper, RefusesModelsAndClassesThatItCannotUse) {
+  const Calibration calibration{.camera = {640, 480, 500, 500, 320, 240},
+                                .baseline_m = 0.5,
+                                .depth = {},
+                                .camera_height_m = {}};
+  const SceneModel urban = model_of(SceneModel::Kind::kUrban, {"Road", "Car"});
+  const SceneModel surfaces =
+      model_of(SceneModel::Kind::kSurfaces, {"sky", "ground", "vertical", "object"});
+  UrbanMapperOptions options;
+  options.sight.moving = "Car,Tram";
+  EXPECT_THROW(UrbanMapper(options, calibration, urban, surfaces), ArgumentError);
+  options.sight.moving = "Car";
+  EXPECT_NO_THROW(UrbanMapper(options, calibration, urban, surfaces));
+  EXPECT_THROW(UrbanMapper(options, calibration, surfaces, urban), ArgumentError);
 }
 
 TEST(UrbanMapper, SaysWhyThereIsNoMap) {
