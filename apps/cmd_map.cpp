@@ -23,6 +23,7 @@
 #include "apps/map_label.h"
 #include "apps/map_learn.h"
 #include "apps/map_plan.h"
+#include "apps/map_semantic.h"
 #include "apps/output.h"
 #include "apps/run_files.h"
 
@@ -253,6 +254,7 @@ void add_map_command(CLI::App& app) {
   add_map_learn_command(*map);
   add_map_label_command(*map);
   add_map_plan_command(*map);
+  add_map_semantic_command(*map);
 }
 
 }  // namespace placegraph::apps

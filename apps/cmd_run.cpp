@@ -5,6 +5,7 @@
 #include <placegraph/io/g2o.h>
 #include <placegraph/io/map_database.h>
 #include <placegraph/io/place_graph_export.h>
+#include <placegraph/io/text_file.h>
 #include <placegraph/io/trajectory_file.h>
 #include <placegraph/io/yaml_config.h>
 #include <placegraph/pipeline/run.h>
@@ -24,6 +25,7 @@
 #include "apps/progress.h"
 #include "apps/run_files.h"
 #include "apps/run_judgement.h"
+#include "apps/semantic_map_files.h"
 #include "apps/usage.h"
 
 namespace placegraph::apps {
@@ -44,12 +46,25 @@ struct Arguments {
 
 std::string map_path(const std::string& folder) { return (fs::path(folder) / "map.db").string(); }
 
+/// "geometry,semantics", either alone, or "none".
+void set_scene(const std::string& list, SceneOptions& options) {
+  options.geometry = options.semantics = false;
+  std::vector<std::string_view> names;
+  split_comma(list, names);
+  for (const std::string_view name : names) {
+    require(name == "geometry" || name == "semantics" || (name == "none" && names.size() == 1),
+            "--scene: " + in_quotes(name) + " is none of geometry, semantics; or none");
+    options.geometry = options.geometry || name == "geometry";
+    options.semantics = options.semantics || name == "semantics";
+  }
+}
+
 /// Defaults (or what a run that goes on was begun with) < file < --set < explicit flags.
 RunOptions options_of(const Arguments& arguments, RunOptions options = {}) {
   if (!arguments.config.empty()) read_options(arguments.config, options);
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
-  if (arguments.scene) options.scene.geometry = *arguments.scene == "geometry";
+  if (arguments.scene) set_scene(*arguments.scene, options.scene);
   if (arguments.cues) options.slam.odometry.cues = *arguments.cues;
   if (arguments.camera_height_m) {
     require(*arguments.camera_height_m > 0, "--camera-height: must be positive");
@@ -124,6 +139,10 @@ void print_summary(const json& summary, const std::string& folder) {
                 summary["floor_plan"]["walls"].get<int>(),
                 summary["floor_plan"]["doors"].get<int>(),
                 summary["floor_plan"]["rooms"].get<int>());
+  if (summary.contains("semantic_map") && summary["semantic_map"].contains("cells"))
+    std::printf("%-12s semantic map: %lld cells of %d keyframes\n", "",
+                summary["semantic_map"]["cells"].get<long long>(),
+                summary["semantic_map"]["keyframes"].get<int>());
   std::printf(
       "%-12s %.1f s, %.1f ms CPU a frame, results in %s\n", "", summary["wall_s"].get<double>(),
       1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(), folder.c_str());
@@ -204,8 +223,26 @@ json map_scene(const Arguments& arguments, const RunOptions& options, const Data
   return describe_floor_plan(plan, run.map, dataset, arguments.sequence);
 }
 
+/// Writes the map of the street; what result.json says of it. Where there is none the run is good
+/// all the same.
+json map_street(const Arguments& arguments, const RunOptions& options, const Dataset& dataset,
+                const RunResult& run) {
+  const UrbanMapper mapper = urban_mapper_of(
+      run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.urban,
+      {options.scene.urban_model, options.scene.surfaces_model});
+  const SemanticMap semantic = mapper.fuse(run.map);
+  if (semantic.outcome)
+    write_semantic_map(arguments.out, semantic, mapper, run.map, poses_of(run.map), dataset.name());
+  else
+    warn("no semantic map: " + semantic.outcome.reason);
+  return describe_semantic_map(semantic, mapper, run.map, dataset, arguments.sequence);
+}
+
 void run(Arguments arguments) {
   const RunOptions options = prepare(arguments);
+  if (options.scene.semantics)
+    check_urban_models(options.scene.urban,
+                       {options.scene.urban_model, options.scene.surfaces_model});
   if (!arguments.draw.empty()) {
     require_free_folder(arguments.draw, arguments.force);
     require(fs::weakly_canonical(arguments.draw) != fs::weakly_canonical(arguments.out),
@@ -242,8 +279,9 @@ void run(Arguments arguments) {
         MapFile{map_path(arguments.out), fs::absolute(arguments.sequence).string(),
                 !arguments.resume.empty()});
   }
-  json floor_plan;
+  json floor_plan, semantic_map;
   if (options.scene.geometry) floor_plan = map_scene(arguments, options, *dataset, run);
+  if (options.scene.semantics) semantic_map = map_street(arguments, options, *dataset, run);
   getrusage(RUSAGE_SELF, &after);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
 
@@ -251,6 +289,7 @@ void run(Arguments arguments) {
   json summary = describe_run(run, optimized);
   if (!options.motion.file.empty()) summary["motion"] = describe_motion(run.map.place_graph);
   if (!floor_plan.is_null()) summary["floor_plan"] = floor_plan;
+  if (!semantic_map.is_null()) summary["semantic_map"] = semantic_map;
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
   summary["sequence"] = dataset->name();
   summary["format"] = dataset->format();
@@ -289,10 +328,10 @@ void add_run_command(CLI::App& app) {
   command->add_option("--cues", arguments->cues,
                       "what motion is seen by, joined by commas: points, lines, plane, manhattan, "
                       "direct; default: points,plane");
-  command
-      ->add_option("--scene", arguments->scene,
-                   "geometry: a floor plan with walls, doors and rooms; see docs/indoor.md")
-      ->check(CLI::IsMember({"geometry", "none"}));
+  command->add_option(
+      "--scene", arguments->scene,
+      "geometry: a floor plan with walls, doors and rooms (docs/indoor.md); semantics: "
+      "what is where in a street (docs/urban_map.md); or both, joined by a comma");
   command->add_option("--camera-height", arguments->camera_height_m,
                       "height above the ground [m]: gives a single eye its scale");
   command->add_option("--odometry", arguments->odometry,

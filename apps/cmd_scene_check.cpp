@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <placegraph/eval/label_check.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/class_list.h>
 #include <placegraph/io/image_file.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -19,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string labels, data;
+  std::string labels, data, classes;
   bool surfaces = false, confusion = false, json = false;
 };
 
@@ -29,7 +31,8 @@ std::vector<std::string> names_of(const std::vector<SceneClass>& classes, bool s
   for (int s = 0; surfaces && s < kSurfaceCount; ++s)
     names.push_back(surface_name(static_cast<Surface>(s)));
   for (const SceneClass& c : classes)
-    if (!surfaces && c.surface) names.push_back(c.name);
+    if (!surfaces && c.surface && !std::count(names.begin(), names.end(), c.name))
+      names.push_back(c.name);
   return names;
 }
 
@@ -63,7 +66,8 @@ LabelCheck compare(const Arguments& a, const LabelledSet& set,
 
 void check_labels(const Arguments& a) {
   const LabelledSet set = read_labelled_set(a.data);
-  const std::vector<std::string> names = names_of(set.classes, a.surfaces);
+  const std::vector<std::string> names =
+      names_of(a.classes.empty() ? set.classes : read_class_list(a.classes), a.surfaces);
   const LabelCheck check = compare(a, set, names);
   nlohmann::json report = {{"pictures", set.train.size()},
                            {"pixels", check.pixels()},
@@ -112,6 +116,10 @@ void add_scene_check_command(CLI::App& scene) {
       ->add_option("DATA", a.data, "folder with images/ and labels/, CLASSES.txt in it or above it")
       ->required()
       ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--classes", a.classes,
+                   "CLASSES.txt by which LABELS are numbered, where it is not that of DATA")
+      ->check(CLI::ExistingFile);
   command->add_flag("--surfaces", a.surfaces, "LABELS are surfaces");
   command->add_flag("--confusion", a.confusion, "pixels of each class by what they are called");
   command->add_flag("--json", a.json, "a report for machines");

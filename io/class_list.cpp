@@ -24,7 +24,9 @@ std::vector<SceneClass> read_class_list(const std::string& path) {
     if (!read.surface && fields[2] != "-")
       file.fail("surface: " + in_quotes(fields[2]) +
                 " is neither sky, ground, vertical, object nor -");
-    const auto same = [&](const SceneClass& c) { return c.id == read.id || c.name == read.name; };
+    const auto same = [&](const SceneClass& c) {
+      return c.id == read.id || (c.name == read.name && c.surface != read.surface);
+    };
     if (std::any_of(classes.begin(), classes.end(), same))
       file.fail("class " + std::to_string(read.id) + " " + in_quotes(read.name) +
                 " is there already");

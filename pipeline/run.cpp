@@ -101,6 +101,7 @@ void RunOptions::check() const {
   motion.check();
   lens.check();
   scene.indoor.check();
+  scene.urban.check();
   slam.check();
 }
 
@@ -120,7 +121,11 @@ void visit(OptionVisitor& field, RunOptions& o) {
 
 void visit(OptionVisitor& field, SceneOptions& o) {
   field("geometry", o.geometry, "a floor plan with walls, doors and rooms, at the end");
+  field("semantics", o.semantics, "a map of what is where in a street, at the end");
+  field("urban_model", o.urban_model, "model of a street's classes; empty: the program's own");
+  field("surfaces_model", o.surfaces_model, "model of surfaces; empty: the program's own");
   field.group("indoor", o.indoor, "the floor plan");
+  field.group("urban", o.urban, "the map of a street");
 }
 
 void MotionOptions::check() const {

@@ -3,6 +3,7 @@
 #include <placegraph/io/map_database.h>
 #include <placegraph/pipeline/indoor_mapper.h>
 #include <placegraph/pipeline/slam.h>
+#include <placegraph/pipeline/urban_mapper.h>
 
 #include <functional>
 #include <string>
@@ -23,8 +24,12 @@ void visit(OptionVisitor& field, MotionOptions& options);
 
 /// What is made of the scene beside the places, from the finished map.
 struct SceneOptions {
-  bool geometry = false;  ///< a floor plan with walls, doors and rooms (docs/indoor.md)
+  bool geometry = false;   ///< a floor plan with walls, doors and rooms (docs/indoor.md)
+  bool semantics = false;  ///< a map of what is where in a street (docs/urban_map.md)
+  /// Models that label streets; empty: those that came with the program.
+  std::string urban_model, surfaces_model;
   IndoorMapperOptions indoor;
+  UrbanMapperOptions urban;
 };
 void visit(OptionVisitor& field, SceneOptions& options);
 

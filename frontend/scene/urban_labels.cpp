@@ -1,3 +1,4 @@
+#include <placegraph/frontend/scene/label_field.h>
 #include <placegraph/frontend/scene/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 
@@ -6,24 +7,34 @@
 #include <cmath>
 
 namespace placegraph {
+namespace {
 
-UrbanLabels label_urban(const SceneModel& urban, const SceneModel& surfaces, const SceneView& view,
-                        const LabellerOptions& options) {
+void require_kinds(const SceneModel& urban, const SceneModel& surfaces) {
   require(urban.kind == SceneModel::Kind::kUrban && surfaces.kind == SceneModel::Kind::kSurfaces &&
               surfaces.class_count() == kSurfaceCount,
           "label_urban: a model of urban classes and one of surfaces are needed");
+}
+
+/// How probable each surface is by what the classes of a superpixel say.
+std::array<float, kSurfaceCount> surface_shares(const SceneModel& urban, const float* p) {
+  std::array<float, kSurfaceCount> shares{};
+  for (std::size_t c = 0; c < urban.classes.size(); ++c)
+    shares[static_cast<std::size_t>(urban.surfaces[c])] += p[c];
+  return shares;
+}
+
+/// The surface's probability is pooled with what the classes say of it, and shared out again.
+UrbanLabels pool(const SceneModel& urban, std::vector<float> classes,
+                 const std::vector<float>& geometry) {
   constexpr float kOfSurfaces = 0.5f;  // two views of the same superpixels: half as good as two
   const auto n = urban.classes.size();
   UrbanLabels result;
-  result.classes = classify_superpixels(urban, view, options);
-  const std::vector<float> geometry = classify_superpixels(surfaces, view, options);
+  result.classes = std::move(classes);
   result.surfaces.assign(geometry.size(), 0.0f);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(view.superpixels.count); ++i) {
+  for (std::size_t i = 0; i < geometry.size() / kSurfaceCount; ++i) {
     float* p = result.classes.data() + i * n;
     const float* g = geometry.data() + i * kSurfaceCount;
-    std::array<float, kSurfaceCount> before{};
-    for (std::size_t c = 0; c < n; ++c) before[static_cast<std::size_t>(urban.surfaces[c])] += p[c];
-    // The surface's probability is pooled with what the classes say of it, and shared out again.
+    const std::array<float, kSurfaceCount> before = surface_shares(urban, p);
     std::array<float, kSurfaceCount> pooled{};
     float sum = 0;
     for (std::size_t s = 0; s < kSurfaceCount; ++s)
@@ -36,6 +47,44 @@ UrbanLabels label_urban(const SceneModel& urban, const SceneModel& surfaces, con
       const auto s = static_cast<std::size_t>(urban.surfaces[c]);
       if (before[s] > 0) p[c] *= pooled[s] / sum / before[s];
     }
+  }
+  return result;
+}
+
+}  // namespace
+
+UrbanLabels label_urban(const SceneModel& urban, const SceneModel& surfaces, const SceneView& view,
+                        const LabellerOptions& options) {
+  require_kinds(urban, surfaces);
+  std::vector<float> classes = classify_superpixels(urban, view, options);
+  return pool(urban, std::move(classes), classify_superpixels(surfaces, view, options));
+}
+
+UrbanLabels join_urban(const SceneModel& urban, const UrbanLabels& alone, const SceneView& view,
+                       const std::vector<float>& log_likelihoods, const LabellerOptions& options) {
+  const auto n = urban.classes.size();
+  const std::size_t size = static_cast<std::size_t>(view.superpixels.count) * n;
+  require(log_likelihoods.size() == size && alone.classes.size() == size,
+          "join_urban: a likelihood for each superpixel and class is needed");
+  UrbanLabels result = alone;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(view.superpixels.count); ++i) {
+    float* p = result.classes.data() + i * n;
+    const float* told = log_likelihoods.data() + i * n;
+    const float most = *std::max_element(told, told + n);
+    float sum = 0;
+    for (std::size_t c = 0; c < n; ++c)
+      sum += p[c] = std::max(p[c], 1e-4f) * std::exp(told[c] - most);
+    for (std::size_t c = 0; c < n; ++c) p[c] /= sum;
+  }
+  LabelField field{urban.class_count(), 0, 0, urban.relations};
+  if (options.field) field.smoothness = static_cast<double>(urban.smoothness);
+  if (options.field && options.relations)
+    field.relation_weight = static_cast<double>(urban.relation_weight);
+  result.classes = field_marginals(field, result.classes, view.superpixels, view.features);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(view.superpixels.count); ++i) {
+    const auto shares = surface_shares(urban, result.classes.data() + i * n);
+    std::copy(shares.begin(), shares.end(),
+              result.surfaces.begin() + static_cast<std::ptrdiff_t>(i * kSurfaceCount));
   }
   return result;
 }

@@ -17,4 +17,12 @@ struct UrbanLabels {
 UrbanLabels label_urban(const SceneModel& urban, const SceneModel& surfaces, const SceneView& view,
                         const LabellerOptions& options = {});
 
+/// One random field over the pairs (s, g), with what else is known of the superpixels, e.g. where
+/// they are in space: `log_likelihoods` of that, count x classes of the urban model, enter the
+/// unary terms beside the probabilities of `alone`, which `label_urban` gave without its field.
+/// Throws ArgumentError for another size.
+UrbanLabels join_urban(const SceneModel& urban, const UrbanLabels& alone, const SceneView& view,
+                       const std::vector<float>& log_likelihoods,
+                       const LabellerOptions& options = {});
+
 }  // namespace placegraph

@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/flow_file.h>
+#include <placegraph/io/labelled_mesh_file.h>
 #include <placegraph/io/synthetic/sequence_folder.h>
 #include <placegraph/io/synthetic/sequence_writer.h>
 #include <placegraph/io/trajectory_file.h>
@@ -51,6 +52,23 @@ std::string world_yaml(const SyntheticWorld& world) {
   return text + "]\n";
 }
 
+/// The class of every number in labels_0, for what learns and judges labels of streets.
+std::string class_list() {
+  const auto surface = [](const std::string& name) {
+    if (name == "Sky") return "sky";
+    if (name == "Road" || name == "Pavement") return "ground";
+    return name == "Car" ? "object" : "vertical";
+  };
+  std::string text;
+  for (int i = 0; i < static_cast<int>(synthetic::SurfaceClass::kCount); ++i) {
+    const auto label = static_cast<synthetic::SurfaceClass>(i);
+    const char* name = synthetic::urban_class_name(label);
+    text += name ? fmt::format("{} {} {}\n", i, name, surface(name))
+                 : fmt::format("{} {} -\n", i, to_string(label));
+  }
+  return text;
+}
+
 std::string readme(const SyntheticWorld& world, const SyntheticContents& contents) {
   std::string text =
       "Rendered by placegraph synth. KITTI odometry layout, poses.txt = T_world_cam0, exact.\n"
@@ -61,7 +79,11 @@ std::string readme(const SyntheticWorld& world, const SyntheticContents& content
         "depth_0: 16-bit, one step = {} m along the optical axis, 0 = none; same camera as "
         "image_0.\n",
         depth_unit_m(world));
-  if (contents.labels) text += "labels_0: 8-bit, index into `classes` of world.yaml.\n";
+  if (contents.labels)
+    text +=
+        "labels_0: 8-bit, index into `classes` of world.yaml; CLASSES.txt: which class of a street "
+        "each is.\n"
+        "scene.ply: what stands still, polygons with a class each, in the frame of poses.txt.\n";
   if (contents.planes)
     text +=
         "planes_0: 16-bit, line of planes.txt counted from 0 (0 = none); a line is nx ny nz d,\n"
@@ -106,6 +128,10 @@ void write_texts(const SyntheticWorld& world, const SequenceFolder& folder,
   folder.write("world.yaml", world_yaml(world));
   folder.write("README.txt", readme(world, contents));
   if (!world.floor_plan().empty()) folder.write("floorplan.json", world.floor_plan());
+  if (contents.labels && !world.is_indoor()) {
+    folder.write("CLASSES.txt", class_list());
+    folder.write("scene.ply", to_ply(world.static_mesh()));
+  }
   if (contents.planes) {
     std::string text;
     for (const Eigen::Vector4d& p : world.planes())
@@ -139,7 +165,7 @@ void write_sequence(const SyntheticWorld& world, const std::string& path,
   });
   folder.put_in_place({"image_0", "image_1", "depth_0", "labels_0", "planes_0", "flow_0",
                        "calib.txt", "times.txt", "poses.txt", "calib_depth.txt", "planes.txt",
-                       "world.yaml", "README.txt", "floorplan.json"});
+                       "world.yaml", "README.txt", "floorplan.json", "CLASSES.txt", "scene.ply"});
 }
 
 }  // namespace placegraph

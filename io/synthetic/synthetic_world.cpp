@@ -202,6 +202,31 @@ std::vector<Eigen::Vector4d> SyntheticWorld::planes() const {
   return out;
 }
 
+LabelledMesh SyntheticWorld::static_mesh() const {
+  LabelledMesh mesh;
+  std::vector<int> number;
+  for (int i = 0; i < static_cast<int>(synthetic::SurfaceClass::kCount); ++i) {
+    const auto label = static_cast<synthetic::SurfaceClass>(i);
+    const char* urban = synthetic::urban_class_name(label);
+    const std::string name = urban ? urban : to_string(label);
+    const auto found = std::find(mesh.classes.begin(), mesh.classes.end(), name);
+    number.push_back(static_cast<int>(found - mesh.classes.begin()));
+    if (found == mesh.classes.end()) mesh.classes.push_back(name);
+  }
+  const SE3 T_first_scene = tour_->T_scene_cam.front().inverse();
+  for (const synthetic::Part& part : tour_->scene.parts)
+    for (const synthetic::Face& from : part.faces) {
+      LabelledMesh::Face face;
+      face.label = number[static_cast<std::size_t>(from.label)];
+      for (int i = 0; i < from.count; ++i) {
+        face.corners.push_back(static_cast<int>(mesh.vertices.size()));
+        mesh.vertices.emplace_back(T_first_scene * from.corners[static_cast<std::size_t>(i)]);
+      }
+      mesh.faces.push_back(std::move(face));
+    }
+  return mesh;
+}
+
 const std::string& SyntheticWorld::floor_plan() const { return tour_->floor_plan; }
 const synthetic::HoverSetting* SyntheticWorld::hover() const { return tour_->hover.get(); }
 bool SyntheticWorld::is_indoor() const { return !tour_->scene.outdoor; }

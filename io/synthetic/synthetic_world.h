@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/trajectory.h>
 #include <placegraph/graph/frame.h>
+#include <placegraph/graph/labelled_mesh.h>
 #include <placegraph/io/synthetic/sensor_model.h>
 
 #include <memory>
@@ -70,6 +71,9 @@ class SyntheticWorld {
   std::vector<Eigen::Vector4d> planes() const;
   /// A JSON text with rooms, walls and doors; empty outdoors.
   const std::string& floor_plan() const;
+  /// What stands still in the scene, in the first camera's frame; faces of the classes that people
+  /// label in streets, the others by their own names.
+  LabelledMesh static_mesh() const;
   bool is_indoor() const;
   /// Flight, markers and camera mounting of the hover world; null of others.
   const synthetic::HoverSetting* hover() const;

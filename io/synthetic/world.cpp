@@ -12,6 +12,33 @@ const char* to_string(SurfaceClass label) {
   return kNames[static_cast<int>(label)];
 }
 
+const char* urban_class_name(SurfaceClass label) {
+  switch (label) {
+    case SurfaceClass::kSky:
+      return "Sky";
+    case SurfaceClass::kRoad:
+      return "Road";
+    case SurfaceClass::kPavement:
+    case SurfaceClass::kKerb:
+      return "Pavement";
+    case SurfaceClass::kBuilding:
+    case SurfaceClass::kRoof:
+      return "Building";
+    case SurfaceClass::kWall:
+      return "Fence";
+    case SurfaceClass::kVegetation:
+      return "Tree";
+    case SurfaceClass::kPole:
+      return "Pole";
+    case SurfaceClass::kSign:
+      return "Sign";
+    case SurfaceClass::kCar:
+      return "Car";
+    default:
+      return nullptr;
+  }
+}
+
 void Part::finish() {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e30), high = -low;
   for (const Face& face : faces) {

@@ -34,6 +34,9 @@ enum class SurfaceClass : std::uint8_t {
   kCount
 };
 const char* to_string(SurfaceClass label);
+/// The class of a street that it is, as people label pictures of streets: kerbs are pavement, roofs
+/// building, walls and fences fence, hedges and trees tree. Null for what has no such class.
+const char* urban_class_name(SurfaceClass label);
 
 /// How a surface is shaded from its metric surface coordinates; see materials.h.
 enum class Material : std::uint8_t {

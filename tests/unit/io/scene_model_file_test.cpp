@@ -123,10 +123,19 @@ TEST_F(ClassList, ReadsNumbersNamesAndSurfaces) {
   EXPECT_FALSE(classes[2].surface);
 }
 
+TEST_F(ClassList, LetsSeveralNumbersBeOfOneClass) {
+  const std::string list =
+      folder.write("CLASSES.txt", "1 Road ground\n2 Pavement ground\n3 Pavement ground\n");
+  const std::vector<SceneClass> classes = read_class_list(list);
+  ASSERT_EQ(classes.size(), 3u);
+  EXPECT_EQ(classes[2].name, "Pavement");
+}
+
 TEST_F(ClassList, NamesTheLineItCannotRead) {
   EXPECT_THAT(refusal_of("0 Sky sky\n1 Road\n"), HasSubstr("CLASSES.txt:2: 2 columns"));
   EXPECT_THAT(refusal_of("0 Sky above\n"), HasSubstr("CLASSES.txt:1: surface"));
   EXPECT_THAT(refusal_of("0 Sky sky\n0 Road ground\n"), HasSubstr("there already"));
+  EXPECT_THAT(refusal_of("0 Sky sky\n1 Sky ground\n"), HasSubstr("there already"));
   EXPECT_THAT(refusal_of("300 Sky sky\n"), HasSubstr("number"));
   EXPECT_THAT(refusal_of("11 void -\n"), HasSubstr("no class that is scored"));
 }

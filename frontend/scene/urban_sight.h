@@ -1,0 +1,56 @@
+#pragma once
+#include <placegraph/frontend/scene/urban_geometry.h>
+#include <placegraph/frontend/scene/urban_labels.h>
+#include <placegraph/graph/semantic_map.h>
+
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+struct UrbanSightOptions {
+  int step_px = 6;          ///< between points
+  double max_range_m = 40;  ///< farther points are not used
+  double max_residual = 3;  ///< standard deviations of a disparity from its superpixel's plane
+  /// Classes that move, joined by commas: what is one of them is no part of the map.
+  std::string moving = "Car,Pedestrian,Bicyclist";
+  UrbanGeometryOptions geometry;
+  LabellerOptions labeller;
+  void check() const;
+};
+void visit(OptionVisitor& field, UrbanSightOptions& options);
+
+/// What a street camera sees: labels, and the points of what stands still.
+struct UrbanSight {
+  UrbanLabels labels;
+  SceneView view;
+  GroundProfile ground;
+  SemanticSight sight;  ///< regions are the superpixels
+};
+
+/// Labels the picture (BGR or grey) by both models and by where two eyes see its superpixels in
+/// space (`depth_m`: CV_32FC1 of the picture's size, 0 = none; METHODS 10: height above ground,
+/// normal and depth are unary terms), and projects the pixels back, X = Z K^-1 (u, v, 1)^T. Sky,
+/// `moving` classes, what is farther than `max_range_m` and depths that are off their superpixel's
+/// plane are left out. `camera_height_m`: above the ground, 0 where it is not known; it serves
+/// where no ground is seen. Throws ArgumentError for images of other sizes, models of other kinds
+/// and a moving class that the model does not have.
+UrbanSight see_street(const Image& picture, const Image& depth_m, const Camera& camera,
+                      double baseline_m, double camera_height_m, const SceneModel& urban,
+                      const SceneModel& surfaces, const UrbanSightOptions& options = {});
+
+struct SeenThroughOptions {
+  double min_disparity_px = 2;  ///< by which what stands behind must be farther
+  int radius_px = 2;            ///< all around must be so
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, SeenThroughOptions& options);
+
+/// Which points another image looks through: where it sees them at a pixel and all depths around
+/// are farther, nothing stood there when it was taken. `depth_m` as above, of that image;
+/// `T_other_cam` maps the points into its camera.
+std::vector<bool> seen_through(const std::vector<SemanticPoint>& points, const SE3& T_other_cam,
+                               const Image& depth_m, const Camera& camera, double baseline_m,
+                               const SeenThroughOptions& options = {});
+
+}  // namespace placegraph

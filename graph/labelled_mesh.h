@@ -1,0 +1,19 @@
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// What truly stands where: polygons of a static scene, each of a class.
+struct LabelledMesh {
+  struct Face {
+    std::vector<int> corners;  ///< three or more indices, convex and planar
+    int label = 0;             ///< of `classes`
+  };
+  std::vector<std::string> classes;
+  std::vector<Eigen::Vector3d> vertices;  ///< world frame [m]
+  std::vector<Face> faces;
+};
+
+}  // namespace placegraph
