@@ -169,29 +169,6 @@ void SlidingWindow::remove_line(std::int64_t id) {
   impl_->change().lines.erase(id);
 }
 
-void SlidingWindow::add_plane(std::int64_t id, const Plane3& plane_map) {
-  const bool added = impl_->change().planes.try_emplace(id, plane_map).second;
-  require(added, "sliding window: plane " + std::to_string(id) + " is there already");
-}
-
-void SlidingWindow::add_height(const HeightObservation& h) {
-  impl_->keyframe(h.keyframe);
-  impl_->require_plane(h.plane);
-  require(positive(h.height_m) && positive(h.sigma_m),
-          "sliding window: height_m and sigma_m must be finite and positive");
-  impl_->change().heights.push_back(h);
-}
-
-void SlidingWindow::add_plane_point(const PlanePoint& point) {
-  impl_->require_plane(point.plane);
-  impl_->landmark(point.landmark);
-  WindowLandmark& landmark = impl_->change().landmarks.at(point.landmark);
-  require(positive(point.sigma_m), "sliding window: sigma_m must be finite and positive");
-  require(!landmark.on_plane, "sliding window: landmark " + std::to_string(point.landmark) +
-                                  " lies on a plane already");
-  landmark.on_plane = point;
-}
-
 void SlidingWindow::add_pose_prior(const PosePrior& prior) {
   impl_->keyframe(prior.keyframe);
   require_sound(prior.T_map_cam, prior.information,
@@ -315,18 +292,10 @@ std::vector<std::int64_t> SlidingWindow::landmarks() const {
 
 std::vector<std::int64_t> SlidingWindow::lines() const { return ids_of(impl_->state().lines); }
 
-std::vector<std::int64_t> SlidingWindow::planes() const { return ids_of(impl_->state().planes); }
-
 std::optional<Line3> SlidingWindow::line(std::int64_t id) const {
   const auto it = impl_->state().lines.find(id);
   if (it == impl_->state().lines.end()) return std::nullopt;
   return it->second.line_map;
-}
-
-std::optional<Plane3> SlidingWindow::plane(std::int64_t id) const {
-  const auto it = impl_->state().planes.find(id);
-  if (it == impl_->state().planes.end()) return std::nullopt;
-  return it->second;
 }
 
 SE3 SlidingWindow::pose(std::int64_t keyframe) const { return impl_->keyframe(keyframe); }

@@ -78,6 +78,15 @@ struct HeightObservation {
   double sigma_m = 1;
 };
 
+/// A plane landmark as a keyframe measures it, by its depth image: error log(q_measured^-1 q_cam),
+/// see PlaneObservationFactor.
+struct PlaneObservation {
+  std::int64_t keyframe = 0;
+  std::int64_t plane = 0;
+  Plane3 plane_cam;
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< of its tangent, of full rank
+};
+
 /// A point landmark that lies on a plane landmark.
 struct PlanePoint {
   std::int64_t plane = 0;
@@ -119,8 +128,8 @@ struct WindowSummary {
 /// Bundle adjustment over the last keyframes; what leaves is marginalized into a linear prior by
 /// Schur complement, with first-estimate Jacobians for the states that stay in it. Undistorted
 /// pinhole camera. Residuals: reprojection (px / sigma, Huber), inverse depth, the ends of segments
-/// from projected lines, distances, heights above planes, points on planes, pose priors, motions,
-/// rotations against rectangular worlds, the prior.
+/// from projected lines, distances, heights above planes, points on planes, planes as they were
+/// measured, pose priors, motions, rotations against rectangular worlds, the prior.
 /// Deterministic; single-threaded.
 class SlidingWindow {
  public:
@@ -153,11 +162,22 @@ class SlidingWindow {
   const std::vector<LineObservation>& line_observations(std::int64_t line) const;
   /// Distances of both ends from the projected line [px].
   std::optional<Eigen::Vector2d> residual_px(const LineObservation& observation) const;
-  /// A plane leaves the window with the last keyframe whose height above it is known and the last
-  /// point on it. Heights give the scale where at least three points lie on their plane.
+  /// A plane leaves the window with the last keyframe that measured it or whose height above it is
+  /// known and the last point on it, unless it is kept: then the prior goes on to hold it to the
+  /// keyframes. Heights give the scale where at least three points lie on their plane; a measured
+  /// plane is metric.
   void add_plane(std::int64_t id, const Plane3& plane_map);
   void add_height(const HeightObservation& observation);
   void add_plane_point(const PlanePoint& point);
+  void add_plane_observation(const PlaneObservation& observation);
+  const std::vector<PlaneObservation>& plane_observations() const;  ///< in the order they came
+  /// The error of a measurement of a plane in standard deviations, three of them.
+  std::optional<Eigen::Vector3d> residual_sigmas(const PlaneObservation& observation) const;
+  void remove_plane_observation(std::int64_t keyframe, std::int64_t plane);
+  void keep_plane(std::int64_t id, bool kept = true);
+  /// Forgets a plane with all that was measured of it in the window; what went into the prior is
+  /// integrated over it.
+  void remove_plane(std::int64_t id);
   /// A world leaves the window with the last keyframe that saw it, unless it is kept: then the
   /// prior goes on to hold it to the keyframes, as far as their motion is known.
   void add_world(std::int64_t id, const SO3& R_map_world);
@@ -217,6 +237,9 @@ class SlidingWindow {
   /// Covariance (right tangent) of R_cam_world, a world as a keyframe has it before it. Nothing
   /// where a direction is unobservable.
   std::optional<Eigen::Matrix3d> world_covariance(std::int64_t world, std::int64_t keyframe) const;
+  /// Covariance of the tangent of a plane as a keyframe has it before it, in its camera's frame.
+  /// Nothing where a direction is unobservable.
+  std::optional<Eigen::Matrix3d> plane_covariance(std::int64_t plane, std::int64_t keyframe) const;
   /// What the points of the window, at its estimate and without its prior, say of the lens.
   LensEvidence lens_evidence() const;
   /// Standard deviation of log(|t_middle_last| / |t_first_middle|) between three keyframes of the

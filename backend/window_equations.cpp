@@ -3,6 +3,7 @@
 #include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/inverse_depth.h>
 #include <placegraph/backend/factors/line_reprojection.h>
+#include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/point_on_plane.h>
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/factors/relative_pose.h>
@@ -148,6 +149,11 @@ void WindowEquations::add_distance(const DistanceObservation& d) {
 void WindowEquations::add_height(const HeightObservation& h) {
   add_factor(HeightAbovePlaneFactor(h.height_m, h.sigma_m), true, keyframes_.at(h.keyframe),
              planes_.at(h.plane));
+}
+
+void WindowEquations::add_plane_observation(const PlaneObservation& o) {
+  add_factor(PlaneObservationFactor(o.plane_cam, whitening_of(o)), true, keyframes_.at(o.keyframe),
+             planes_.at(o.plane));
 }
 
 void WindowEquations::add_pose_prior(const PosePrior& prior) {

@@ -47,6 +47,7 @@ class WindowEquations {
   void add_line(const WindowLine& line);
   void add_distance(const DistanceObservation& distance);
   void add_height(const HeightObservation& height);
+  void add_plane_observation(const PlaneObservation& observation);
   void add_pose_prior(const PosePrior& prior);
   void add_world_observation(const WorldObservation& observation);
   void add_motion(const MotionObservation& motion);

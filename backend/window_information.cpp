@@ -2,6 +2,7 @@
 #include <placegraph/backend/window_information.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace placegraph {
@@ -25,6 +26,8 @@ WindowInformation window_information(const WindowState& state) {
   for (const auto& [id, line] : state.lines) equations.add_line(line);
   for (const DistanceObservation& distance : state.distances) equations.add_distance(distance);
   for (const HeightObservation& height : state.heights) equations.add_height(height);
+  for (const PlaneObservation& observation : state.plane_observations)
+    equations.add_plane_observation(observation);
   for (const PosePrior& prior : state.pose_priors) equations.add_pose_prior(prior);
   for (const WorldObservation& observation : state.world_observations)
     equations.add_world_observation(observation);
@@ -108,6 +111,41 @@ std::optional<Eigen::Matrix3d> world_covariance(const WindowState& state,
   J.rightCols<3>().setIdentity();
   if (!held) J.leftCols<3>() = -R_world_cam.matrix();
   const Eigen::MatrixXd root = J * scale.asDiagonal() * eigen.eigenvectors() *
+                               eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  return Eigen::Matrix3d(root * root.transpose());
+}
+
+std::optional<Eigen::Matrix3d> plane_covariance(const WindowState& state,
+                                                const WindowInformation& information,
+                                                std::int64_t plane, std::int64_t keyframe) {
+  Eigen::Matrix<double, 3, 6> J_pose;
+  Eigen::Matrix3d J_plane;
+  transform_to(state.keyframes.at(keyframe), state.planes.at(plane), &J_pose, &J_plane);
+  const Eigen::Matrix3d J_inverse = J_plane.inverse();
+  Eigen::Matrix3d H;
+  if (state.fixed == keyframe) {
+    H = J_inverse.transpose() * joint_information(state, information, {{Kind::kPlane, plane}}) *
+        J_inverse;
+  } else {
+    // From (xi, w of the plane) to (xi, w of the plane in the camera), of which a window that
+    // floats as a whole leaves xi open.
+    QuadraticForm joint{
+        joint_information(state, information, {{Kind::kKeyframe, keyframe}, {Kind::kPlane, plane}}),
+        Eigen::VectorXd::Zero(9)};
+    Eigen::Matrix<double, 9, 9> M = Eigen::Matrix<double, 9, 9>::Identity();
+    M.bottomLeftCorner<3, 6>() = -J_inverse * J_pose;
+    M.bottomRightCorner<3, 3>() = J_inverse;
+    const Eigen::VectorXd size_before =
+        (M.cwiseAbs().transpose() * joint.H.cwiseAbs() * M.cwiseAbs()).diagonal().head<6>();
+    joint.H = M.transpose() * joint.H * M;
+    H = marginalize_first(joint, 6, &size_before).H;
+  }
+  const Eigen::Vector3d scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scale.asDiagonal() * H *
+                                                             scale.asDiagonal());
+  constexpr double kFloor = 1e-12;
+  if (!(eigen.eigenvalues()[0] > kFloor)) return std::nullopt;
+  const Eigen::Matrix3d root = scale.asDiagonal() * eigen.eigenvectors() *
                                eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
   return Eigen::Matrix3d(root * root.transpose());
 }

@@ -25,6 +25,10 @@ Matrix6d relative_information(const WindowState& state, const WindowInformation&
 std::optional<Eigen::Matrix3d> world_covariance(const WindowState& state,
                                                 const WindowInformation& information,
                                                 std::int64_t world, std::int64_t keyframe);
+/// See SlidingWindow::plane_covariance.
+std::optional<Eigen::Matrix3d> plane_covariance(const WindowState& state,
+                                                const WindowInformation& information,
+                                                std::int64_t plane, std::int64_t keyframe);
 /// See SlidingWindow::sigma_log_length_ratio.
 double sigma_log_length_ratio(const WindowState& state, const WindowInformation& information,
                               std::int64_t first, std::int64_t middle, std::int64_t last);

@@ -150,12 +150,17 @@ void hold_first(MarginalPrior& prior) {
   prior.T_map_cam_lin.erase(prior.T_map_cam_lin.begin());
 }
 
-/// Planes that nothing in the window but what leaves with a keyframe speaks of.
+/// Planes that nothing in the window but what leaves with a keyframe speaks of, and that nobody
+/// wants kept.
 std::vector<std::int64_t> leaving_planes(const WindowState& state, std::int64_t leaving,
                                          std::int64_t newest) {
   std::set<std::int64_t> touched(state.prior.planes.begin(), state.prior.planes.end()), staying;
-  for (const HeightObservation& h : state.heights)
-    (h.keyframe == leaving ? touched : staying).insert(h.plane);
+  staying = state.kept_planes;
+  const auto of = [&](const auto& o) {
+    (o.keyframe == leaving ? touched : staying).insert(o.plane);
+  };
+  std::for_each(state.heights.begin(), state.heights.end(), of);
+  std::for_each(state.plane_observations.begin(), state.plane_observations.end(), of);
   for (const auto& [id, landmark] : state.landmarks) {
     if (!landmark.on_plane) continue;
     const bool ends = sees(landmark, leaving) && !sees(landmark, newest);
@@ -200,6 +205,7 @@ void erase_keyframe(WindowState& state, std::int64_t leaving, std::int64_t newes
                 [&](const MotionObservation& m) { return m.from == leaving || m.to == leaving; });
   const auto of_leaving = [&](const auto& o) { return o.keyframe == leaving; };
   std::erase_if(state.heights, of_leaving);
+  std::erase_if(state.plane_observations, of_leaving);
   std::erase_if(state.pose_priors, of_leaving);
   std::erase_if(state.world_observations, of_leaving);
   for (const std::int64_t world : worlds) {
@@ -255,6 +261,11 @@ void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
   for (const HeightObservation& height : state.heights)
     if (height.keyframe == leaving) {
       equations.add_height(height);
+      metric = true;
+    }
+  for (const PlaneObservation& observation : state.plane_observations)
+    if (observation.keyframe == leaving) {
+      equations.add_plane_observation(observation);
       metric = true;
     }
   for (const PosePrior& prior : state.pose_priors)

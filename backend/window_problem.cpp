@@ -7,6 +7,7 @@
 #include <placegraph/backend/factors/inverse_depth.h>
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/line_reprojection.h>
+#include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/point_factor.h>
 #include <placegraph/backend/factors/point_on_plane.h>
 #include <placegraph/backend/factors/pose_prior.h>
@@ -56,6 +57,8 @@ class WindowProblem {
     add_points();
     add_lines();
     for (const HeightObservation& height : state.heights) add_height(height);
+    for (const PlaneObservation& observation : state.plane_observations)
+      add_plane_observation(observation);
     for (const PosePrior& prior : state.pose_priors) add_pose_prior(prior);
     for (const MotionObservation& motion : state.motions) add_motion(motion);
     for (const DistanceObservation& distance : state.distances) add_distance(distance);
@@ -258,6 +261,11 @@ class WindowProblem {
     problem_.AddResidualBlock(&heights_.emplace_back(HeightAbovePlaneFactor(h.height_m, h.sigma_m)),
                               &loss_, &poses_[7 * position(h.keyframe)], plane_of_id(h.plane));
   }
+  void add_plane_observation(const PlaneObservation& o) {
+    problem_.AddResidualBlock(
+        &planes_seen_.emplace_back(PlaneObservationFactor(o.plane_cam, whitening_of(o))), &loss_,
+        &poses_[7 * position(o.keyframe)], plane_of_id(o.plane));
+  }
   void add_pose_prior(const PosePrior& prior) {
     const std::size_t k = position(prior.keyframe);
     bool deficient = false;
@@ -310,6 +318,7 @@ class WindowProblem {
   std::deque<CeresFactor<LineReprojectionFactor>> segments_;
   std::deque<CeresFactor<PointOnPlaneFactor>> plane_points_;
   std::deque<CeresFactor<HeightAbovePlaneFactor>> heights_;
+  std::deque<CeresFactor<PlaneObservationFactor>> planes_seen_;
   std::deque<CeresFactor<PosePriorFactor<SE3>>> pose_priors_;
   std::deque<CeresFactor<RelativePoseFactor<SE3>>> motions_;
   std::deque<CeresFactor<DistanceFactor>> distances_;
@@ -357,7 +366,7 @@ bool is_full(const MotionObservation& motion) {
 }
 
 bool has_metric_observation(const WindowState& state) {
-  if (!state.distances.empty()) return true;
+  if (!state.distances.empty() || !state.plane_observations.empty()) return true;
   if (std::any_of(state.motions.begin(), state.motions.end(), is_full)) return true;
   // What is known of a rotation alone has no unit.
   const auto places =

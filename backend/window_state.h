@@ -32,10 +32,12 @@ struct WindowState {
   std::map<std::int64_t, SO3> worlds;     ///< R_map_world
   std::set<std::int64_t> kept;            ///< keyframes that are not to be marginalized
   std::set<std::int64_t> kept_worlds;     ///< worlds that are not to be marginalized
+  std::set<std::int64_t> kept_planes;     ///< planes that are not to be marginalized
   /// Where the window lies as a whole is chosen so that this one stays as it is.
   std::optional<std::int64_t> held_world;
   std::vector<DistanceObservation> distances;
   std::vector<HeightObservation> heights;
+  std::vector<PlaneObservation> plane_observations;
   std::vector<PosePrior> pose_priors;
   std::vector<WorldObservation> world_observations;
   std::vector<MotionObservation> motions;
@@ -68,8 +70,9 @@ void for_factors(const Camera& camera, const LineObservation& o, Use&& use) {
                                o.second->eye_cam));
 }
 
-/// Square root of the information of a world's sighting.
+/// Square root of the information of a world's sighting, or of a measured plane.
 Eigen::Matrix3d whitening_of(const WorldObservation& observation);
+Eigen::Matrix3d whitening_of(const PlaneObservation& observation);
 
 /// Moves all that a window knows, the linearization points of its prior too, by T_new_old on the
 /// left: the same window in another frame (window_worlds.cpp).
@@ -80,8 +83,8 @@ void turn_window(WindowState& state, std::int64_t world, const SO3& R_map_world)
 /// A full-rank pose prior in the window holds it in the map.
 bool has_full_pose_prior(const WindowState& state);
 
-/// Whether something in the window gives the scale: a depth, a distance, a height above a plane
-/// with at least three points, two known positions, a motion of full rank.
+/// Whether something in the window gives the scale: a depth, a distance, a measured plane, a height
+/// above a plane with at least three points, two known positions, a motion of full rank.
 bool has_metric_observation(const WindowState& state);
 
 /// A motion that leaves no direction open.

@@ -28,6 +28,8 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
           "cues: direct needs a right eye, depth or the camera's height");
   if (cues_.lines) lines_.emplace(options_.lines, calibration_, options_.stereo);
   if (cues_.manhattan) manhattan_.emplace(options_.manhattan, calibration_.camera, seed_, log_);
+  if (options_.planes.enabled && metric_from_start() && !cues_.surfaces_alone())
+    planes_.emplace(options_.planes, log_);
   if (cues_.surfaces_alone() || cues_.direct)
     surfaces_.emplace(options_.surfaces, calibration_, options_.stereo, cues_.direct);
   if (!scale_known_ && calibration_.camera_height_m && options_.ground.enabled && cues_.plane)
@@ -59,6 +61,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map,
   tracker_.reset();
   if (lines_) lines_->reset();
   if (manhattan_) manhattan_->reset();
+  if (planes_) planes_->reset();
   if (surfaces_) surfaces_->reset();
   newest_motion_ = DirectMotion();
   window_ = empty_window();
@@ -197,6 +200,7 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
   if (surfaces_) align_keyframes(frame, previous);
   if (ground_ || floor_ || motion_) measure_scale(frame, update);
   if (manhattan_) look_at_directions(frame);
+  if (planes_) look_at_planes(frame);
   refine_window();
   pose_between(previous, update);
   frames_since_keyframe_ = 0;
@@ -216,6 +220,7 @@ void Odometry::refine_window() {
   const WindowSummary summary = alone ? WindowSummary{} : window_.optimize();
   if (!alone && !summary.outcome)
     log(log_, LogLevel::kWarning, "window not optimized: " + summary.outcome.reason);
+  if (planes_ && !alone) planes_->prune(window_);
   std::vector<double> depths = keep_fitting_landmarks();
   if (lines_) {
     lines_->prune(window_);
@@ -224,7 +229,7 @@ void Odometry::refine_window() {
   }
   if (cues_.surfaces_alone()) depths = {surfaces_->median_depth_m()};
   if (!depths.empty()) median_depth_m_ = std::max(1e-3, median_of(depths));
-  if (manhattan_) widen_last_link(window_.pose(window_.keyframes().front()));
+  if (manhattan_ || planes_) widen_last_link(window_.pose(window_.keyframes().front()));
   for (const std::int64_t id : window_.keyframes()) keyframe_poses_[id] = window_.pose(id);
   if (rectification_ && !alone) calibrate_eyes();
   const auto keyframes = window_.keyframes();

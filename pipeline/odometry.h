@@ -18,6 +18,7 @@
 #include <placegraph/pipeline/lens_estimator.h>
 #include <placegraph/pipeline/line_cue.h>
 #include <placegraph/pipeline/manhattan_cue.h>
+#include <placegraph/pipeline/plane_landmarks.h>
 #include <placegraph/pipeline/surface_cue.h>
 
 #include <map>
@@ -48,6 +49,7 @@ struct OdometryOptions {
   GroundScaleOptions ground;
   LineCueOptions lines;
   ManhattanCueOptions manhattan;
+  PlaneLandmarkOptions planes;
   SurfaceCueOptions surfaces;
   KeyframeOptions keyframe;
   SlidingWindowOptions window{.max_keyframes = 10, .relative_decrease = 1e-3};
@@ -246,6 +248,8 @@ class Odometry {
                                                   int points) const;
   SE3 turned(const SE3& T_odom_cam, const Matrix6d& information,
              const std::optional<ManhattanCue::Heading>& heading) const;
+  std::vector<DepthPlane> planes_in(const Frame& frame) const;
+  void look_at_planes(const Frame& frame);
   void widen_last_link(const SE3& T_odom_oldest);
   double unit_drift() const;
   PointLandmark describe_landmark(std::int64_t id) const;
@@ -274,6 +278,7 @@ class Odometry {
   Cues cues_;
   std::optional<LineCue> lines_;
   std::optional<ManhattanCue> manhattan_;
+  std::optional<PlaneLandmarks> planes_;
   std::optional<GroundScale> ground_;
   std::optional<SurfaceCue> surfaces_;
   DirectMotion newest_motion_;                           // of surfaces, from the last keyframe

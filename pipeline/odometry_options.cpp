@@ -25,6 +25,7 @@ void OdometryOptions::check() const {
   ground.check();
   lines.check();
   manhattan.check();
+  planes.check();
   surfaces.check();
   window.check();
 }
@@ -41,6 +42,7 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
   field.group("ground", o.ground, "metric scale from the road");
   field.group("lines", o.lines, "lines followed over time, where they are among the cues");
   field.group("manhattan", o.manhattan, "rectangular worlds, where they are among the cues");
+  field.group("planes", o.planes, "planes in the depth of keyframes as landmarks of the window");
   field.group("surfaces", o.surfaces,
               "grey values of surfaces, where plane is the only cue or direct is among them");
   field.group("keyframe", o.keyframe, "when a frame becomes a keyframe");

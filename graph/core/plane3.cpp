@@ -39,6 +39,23 @@ Plane3::Plane3(const Eigen::Vector3d& normal, double distance) {
   q_ = unit_quaternion(x);
 }
 
+Plane3 Plane3::from_closest_point(const Eigen::Vector3d& closest) {
+  const double distance = closest.norm();
+  require(std::isfinite(distance) && distance > 0,
+          "plane: a closest point must be finite and not the origin");
+  return Plane3(closest, distance);
+}
+
+Eigen::Vector3d Plane3::closest_point(Eigen::Matrix3d* J_closest) const {
+  if (!J_closest) return distance() * normal();
+  Eigen::Matrix3d J_normal;
+  Eigen::RowVector3d J_distance;
+  const Eigen::Vector3d n = normal(&J_normal);
+  const double d = distance(&J_distance);
+  *J_closest = d * J_normal + n * J_distance;
+  return d * n;
+}
+
 Eigen::Vector3d Plane3::normal(Eigen::Matrix3d* J_normal) const {
   const Eigen::Vector3d v = q_.quaternion().vec();
   const double length = v.norm();
@@ -88,6 +105,21 @@ Plane3 transform_to(const SE3& T_a_b, const Plane3& plane_a, Eigen::Matrix<doubl
   }
   if (J_plane) J_plane->noalias() = J_b_x * A * quaternion_by_tangent(q_a);
   return plane_b;
+}
+
+Eigen::Matrix3d tangent_covariance(const Plane3& plane, const Eigen::Matrix3d& covariance_closest) {
+  require(plane.distance() != 0, "plane: a closest point at the origin leaves its normal open");
+  Eigen::Matrix3d J;
+  plane.closest_point(&J);
+  const Eigen::Matrix3d J_inverse = J.inverse();
+  return J_inverse * covariance_closest * J_inverse.transpose();
+}
+
+Eigen::Matrix3d closest_point_covariance(const Plane3& plane,
+                                         const Eigen::Matrix3d& covariance_tangent) {
+  Eigen::Matrix3d J;
+  plane.closest_point(&J);
+  return J * covariance_tangent * J.transpose();
 }
 
 Eigen::Matrix3d plane_information(const Plane3& plane, double sigma_normal_rad,

@@ -18,6 +18,12 @@ class Plane3 {
   /// Throws ArgumentError if `normal` is zero or anything is not finite. Distance [m].
   Plane3(const Eigen::Vector3d& normal, double distance);
   explicit Plane3(const SO3& quaternion) : q_(quaternion) {}
+  /// Of its point nearest to the origin, n d [m]. Throws ArgumentError if that is the origin (which
+  /// leaves the normal open) or not finite.
+  static Plane3 from_closest_point(const Eigen::Vector3d& closest);
+  /// n d [m], whatever the sign of the quaternion, and its derivative by w. Of a plane through the
+  /// origin it is zero, and its derivative has rank one.
+  Eigen::Vector3d closest_point(Eigen::Matrix3d* J_closest = nullptr) const;
 
   /// n and d, both of the sign of the quaternion, and their derivatives by w.
   Eigen::Vector3d normal(Eigen::Matrix3d* J_normal = nullptr) const;
@@ -39,6 +45,12 @@ class Plane3 {
 Plane3 transform_to(const SE3& T_a_b, const Plane3& plane_a,
                     Eigen::Matrix<double, 3, 6>* J_pose = nullptr,
                     Eigen::Matrix3d* J_plane = nullptr);
+
+/// Covariance of a plane's tangent from that of its closest point [m^2], and back. The first throws
+/// ArgumentError where the plane passes through the origin.
+Eigen::Matrix3d tangent_covariance(const Plane3& plane, const Eigen::Matrix3d& covariance_closest);
+Eigen::Matrix3d closest_point_covariance(const Plane3& plane,
+                                         const Eigen::Matrix3d& covariance_tangent);
 
 /// Information of a plane's tangent when its normal is known to `sigma_normal_rad` and its distance
 /// from the origin to `sigma_distance_m`.

@@ -3,6 +3,7 @@
 #include <placegraph/backend/sliding_window.h>
 #include <placegraph/graph/core/random.h>
 
+#include <Eigen/Cholesky>
 #include <map>
 
 namespace placegraph::test {
@@ -21,6 +22,9 @@ struct WindowWorldOptions {
   int ground_points = 0;
   double sigma_ground_m = 0.02;  ///< how uneven the ground is, where there is noise
   double sigma_height_m = 0;     ///< of the measured heights above the ground; 0: none is measured
+  /// So many planes about the way, no two parallel, are measured in every keyframe.
+  int planes = 0;
+  double sigma_plane_rad = 0.005, sigma_plane_m = 0.05;
 };
 
 struct WindowWorld {
@@ -34,6 +38,10 @@ struct WindowWorld {
   std::vector<HeightObservation> heights;  ///< by keyframe, plane 0
   int ground_points = 0;
   double sigma_ground_m = 0;
+  std::vector<Plane3> planes;                 ///< ids from kFirstPlane on
+  std::vector<PlaneObservation> planes_seen;  ///< by plane, then keyframe
+
+  static constexpr std::int64_t kFirstPlane = 10;
 };
 
 inline Camera window_camera() {
@@ -77,6 +85,26 @@ inline void add_lines(WindowWorld& world, const WindowWorldOptions& options, Ran
         *end += options.noise_px * Eigen::Vector2d(random.normal(), random.normal());
       }
       world.segments.push_back(o);
+    }
+  }
+}
+
+/// Planes about the way, measured in every keyframe.
+inline void add_planes(WindowWorld& world, const WindowWorldOptions& options, Random& random) {
+  for (int i = 0; i < options.planes; ++i) {
+    const double turn = 0.2 + 2.4 * i / options.planes;
+    const Plane3 plane({std::cos(turn), 0.1 * (i + 1), std::sin(turn)}, -4 - 2 * i);
+    world.planes.push_back(plane);
+    for (int k = 0; k < options.keyframes; ++k) {
+      const Plane3 plane_cam = transform_to(world.T_map_cam[static_cast<std::size_t>(k)], plane);
+      PlaneObservation o{
+          k, WindowWorld::kFirstPlane + i, plane_cam,
+          plane_information(plane_cam, options.sigma_plane_rad, options.sigma_plane_m)};
+      const Eigen::LLT<Eigen::Matrix3d> llt(o.information);
+      Eigen::Vector3d noise;
+      for (int j = 0; j < 3; ++j) noise[j] = options.noise_px / options.sigma_px * random.normal();
+      o.plane_cam = plane_cam.plus(llt.matrixU().solve(noise));
+      world.planes_seen.push_back(o);
     }
   }
 }
@@ -132,6 +160,7 @@ inline WindowWorld make_window_world(const WindowWorldOptions& options, Random& 
     const double noise = options.noise_px > 0 ? options.sigma_height_m * random.normal() : 0;
     world.heights.push_back({k, 0, height_m + noise, options.sigma_height_m});
   }
+  add_planes(world, options, random);
   return world;
 }
 
@@ -200,6 +229,16 @@ inline void add_view(SlidingWindow& window, const WindowWorld& world, std::int64
   }
   for (const HeightObservation& h : world.heights)
     if (h.keyframe == id) window.add_height(h);
+  for (const PlaneObservation& o : world.planes_seen) {
+    if (o.keyframe != id) continue;
+    if (!window.plane(o.plane)) {
+      Eigen::Vector3d step;
+      for (int i = 0; i < 3; ++i) step[i] = 0.01 * disturbance * random.normal();
+      const auto which = static_cast<std::size_t>(o.plane - WindowWorld::kFirstPlane);
+      window.add_plane(o.plane, world.planes[which].plus(step));
+    }
+    window.add_plane_observation(o);
+  }
 }
 
 /// Drives through the world keyframe by keyframe; each starts from the last pose and the true

@@ -61,6 +61,13 @@ WindowWorldOptions stereo_with_lines() {
   return world;
 }
 
+/// Three planes, which go into the prior.
+WindowWorldOptions stereo_with_planes() {
+  WindowWorldOptions world = stereo();
+  world.planes = 3;
+  return world;
+}
+
 /// Normalized squared error of an estimate, 6 degrees of freedom.
 double nees(const SE3& estimate, const SE3& truth, const Matrix6d& covariance) {
   const Vector6d error = (estimate.inverse() * truth).log();
@@ -118,6 +125,7 @@ INSTANTIATE_TEST_SUITE_P(Of, WindowConsistency,
                          testing::Values(Case{"stereo", stereo()},
                                          Case{"stereo_long_tracks", long_tracks(), -1, false},
                                          Case{"stereo_with_lines", stereo_with_lines()},
+                                         Case{"stereo_with_planes", stereo_with_planes()},
                                          Case{"stereo_from_a_kept_anchor", stereo(), 3},
                                          Case{"mono_over_ground", mono_over_ground()}),
                          [](const auto& c) { return std::string(c.param.name); });

@@ -58,6 +58,37 @@ TEST(Plane3, InformationIsThatOfNormalAndDistance) {
   EXPECT_NEAR((J_distance * covariance * J_distance.transpose()).value(), 0.1 * 0.1, 1e-12);
 }
 
+TEST(Plane3, HasTheClosestPointItWasMadeOf) {
+  const Eigen::Vector3d closest(0.3, -1.2, 0.7);
+  const Plane3 plane = Plane3::from_closest_point(closest);
+  EXPECT_LT((plane.closest_point() - closest).norm(), 1e-14);
+  EXPECT_LT((Plane3(-plane.normal(), -plane.distance()).closest_point() - closest).norm(), 1e-14);
+  EXPECT_THROW((void)Plane3::from_closest_point(Eigen::Vector3d::Zero()), ArgumentError);
+  Eigen::Matrix3d J;
+  plane.closest_point(&J);
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d step = Eigen::Vector3d::Unit(k) * 1e-6;
+    const Eigen::Vector3d difference =
+        plane.plus(step).closest_point() - plane.plus(-step).closest_point();
+    EXPECT_LT((difference / 2e-6 - J.col(k)).norm(), 1e-8);
+  }
+}
+
+TEST(Plane3, CarriesCovariancesToTheClosestPointAndBack) {
+  const Plane3 plane({1, -2, 0.5}, 1.7);
+  Eigen::Matrix3d root;
+  root << 1, 0.2, 0, -0.3, 2, 0.1, 0.4, 0, 0.5;
+  const Eigen::Matrix3d covariance = 1e-4 * root * root.transpose();
+  const Eigen::Matrix3d back =
+      closest_point_covariance(plane, tangent_covariance(plane, covariance));
+  EXPECT_LT((back - covariance).norm(), 1e-12);
+  // Along the normal the closest point moves as the plane does.
+  const Eigen::Vector3d n = plane.normal();
+  const Eigen::Matrix3d of_plane = plane_information(plane, 0.02, 0.1).inverse();
+  EXPECT_NEAR(n.dot(closest_point_covariance(plane, of_plane) * n), 0.1 * 0.1, 1e-12);
+  EXPECT_THROW((void)tangent_covariance(Plane3({1, 0, 0}, 0), covariance), ArgumentError);
+}
+
 TEST(Plane3, RefusesANormalOfZero) {
   EXPECT_THROW(Plane3({0, 0, 0}, 1), ArgumentError);
   EXPECT_THROW(Plane3({0, 0, 1}, std::nan("")), ArgumentError);
