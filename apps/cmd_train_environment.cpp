@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/io/image_file.h>
+#include <placegraph/io/synthetic/renderer.h>
 #include <placegraph/io/synthetic/synthetic_world.h>
+#include <placegraph/io/synthetic/tours.h>
 #include <placegraph/pipeline/scene_eye.h>
 
 #include <CLI/CLI.hpp>
@@ -32,6 +35,14 @@ struct Arguments {
 
 using Samples = std::vector<EnvironmentSample>;
 
+/// Of a room by its name; nothing for shafts, which nobody enters.
+std::optional<Environment> kind_of_name(const std::string& name) {
+  if (name.starts_with("shaft")) return std::nullopt;
+  if (name.starts_with("corridor")) return Environment::kCorridor;
+  if (name.starts_with("hall")) return Environment::kHall;
+  return Environment::kRoom;
+}
+
 /// Of the room that a point of the plan lies in; nothing outside and in rooms of other names.
 std::optional<Environment> kind_of_room(const nlohmann::json& plan, const Eigen::Vector3d& p) {
   for (const nlohmann::json& room : plan.at("rooms")) {
@@ -39,10 +50,7 @@ std::optional<Environment> kind_of_room(const nlohmann::json& plan, const Eigen:
     const auto high = room.at("high").get<std::vector<double>>();
     if (p.x() < low.at(0) || p.x() > high.at(0) || p.z() < low.at(1) || p.z() > high.at(1))
       continue;
-    const std::string name = room.at("name").get<std::string>();
-    if (name.starts_with("corridor")) return Environment::kCorridor;
-    if (name.starts_with("hall")) return Environment::kHall;
-    return Environment::kRoom;
+    return kind_of_name(room.at("name").get<std::string>());
   }
   return std::nullopt;
 }
@@ -75,6 +83,60 @@ EnvironmentEvidence evidence_of(const Frame& frame, const Camera& camera, const 
   return evidence;
 }
 
+/// A view from anywhere in a room of the plan, as somebody holds a camera; nothing if it is
+/// blocked.
+std::optional<Frame> handheld_view(const SyntheticWorld& world, const nlohmann::json& room,
+                                   double floor_y, Random& random) {
+  constexpr double kMargin_m = 0.7, kNearest_m = 0.5;
+  const auto low = room.at("low").get<std::vector<double>>();
+  const auto high = room.at("high").get<std::vector<double>>();
+  const auto inside = [&](std::size_t i) {
+    return low.at(i) + 2 * kMargin_m < high.at(i)
+               ? random.uniform(low.at(i) + kMargin_m, high.at(i) - kMargin_m)
+               : 0.5 * (low.at(i) + high.at(i));
+  };
+  const double x = inside(0), z = inside(1), height = random.uniform(1.1, 1.7);
+  const Eigen::Vector3d yaw(0, random.uniform(-M_PI, M_PI), 0);
+  const Eigen::Vector3d pitch(random.uniform(-0.7, 0.2), 0, 0),
+      roll(0, 0, random.uniform(-0.5, 0.5));
+  const Eigen::Vector3d origin = world.tour().T_scene_cam.front().translation();
+  const synthetic::View view{world.tour().camera,
+                             SE3(SO3::exp(yaw) * SO3::exp(pitch) * SO3::exp(roll),
+                                 origin + Eigen::Vector3d(x, floor_y - height, z)),
+                             0};
+  const synthetic::Rendering rendering = synthetic::render(world.tour().scene, view, 1, false, 1);
+  Frame frame;
+  frame.depth = synthetic::depth_image(rendering);
+  if (cv::countNonZero(frame.depth < kNearest_m) > 0.2 * static_cast<double>(frame.depth.total()))
+    return std::nullopt;
+  rendering.grey.convertTo(frame.image, CV_8UC1, 255);
+  for (int v = 0; v < frame.image.rows; ++v)
+    for (int u = 0; u < frame.image.cols; ++u)
+      frame.image.at<std::uint8_t>(v, u) =
+          cv::saturate_cast<std::uint8_t>(frame.image.at<std::uint8_t>(v, u) + random.normal(0, 2));
+  return frame;
+}
+
+/// `count` of such views, the kinds of rooms in turn.
+void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int count,
+                  const SceneEye& eye, Samples& samples) {
+  std::vector<std::vector<const nlohmann::json*>> rooms(kEnvironmentCount);
+  for (const nlohmann::json& room : plan.at("rooms"))
+    if (const auto kind = kind_of_name(room.at("name").get<std::string>()))
+      rooms[static_cast<std::size_t>(*kind)].push_back(&room);
+  Random random(world.options().seed, 5);
+  const double floor_y = plan.at("floor_y").get<double>();
+  for (int i = 0; i < count; ++i) {
+    const auto kind = static_cast<std::size_t>(i % kEnvironmentCount);
+    if (rooms[kind].empty()) continue;
+    const nlohmann::json& room =
+        *rooms[kind][static_cast<std::size_t>(random.index(static_cast<int>(rooms[kind].size())))];
+    if (const auto frame = handheld_view(world, room, floor_y, random))
+      samples.push_back({evidence_of(*frame, world.calibration().camera, eye, true),
+                         static_cast<Environment>(kind)});
+  }
+}
+
 void add_world(const std::string& name, std::uint64_t seed, int frames, const SceneEye& eye,
                Samples& samples) {
   SyntheticOptions options;
@@ -94,6 +156,7 @@ void add_world(const std::string& name, std::uint64_t seed, int frames, const Sc
     const SyntheticFrame seen = world.render(at, {.depth = true});
     samples.push_back({evidence_of(seen.frame, camera, eye, true), *kind});
   }
+  if (world.is_indoor()) add_handheld(world, plan, 2 * frames, eye, samples);
 }
 
 /// Pictures of a labelled set: a street where a tenth is buildings, a road where hardly any is;

@@ -1,19 +1,21 @@
 # Every combination of the elements of navigation, with what each brings and what only two together do.
-# elements_row NAME MASK...: reads result.json
+# ELEMENTS_FRAMES (150) says how long the clips are, ELEMENTS_WORLDS which are run.
+frames=${ELEMENTS_FRAMES:-150}
+worlds=${ELEMENTS_WORLDS:-town corridor k0095}
 title="Elements: every combination on a rendered town, a rendered corridor and a real drive"
 heading "$title"
 command_line "placegraph run SEQUENCE --elements motion[,spatial][,geometry][,context][,semantics] --out OUT"
-render elements-town town-loop --difficulty standard --frames 150 --mono
-render elements-corridor corridor-loop --difficulty standard --frames 150
 # places_told FILE KIND: share of the places of a run labelled as what they are [%]
 places_told() {
   right=$(number "$1" "$2"); all=$(number "$1" places)
   [ -n "$right" ] && computed %.0f "100 * $right / $all" || echo 0
 }
+# ate ALIGN FILE: of the optimized trajectory, as a run judges itself
+ate() { awk -v mark="\"$1\": {" 'index($0, mark) { on = 1 } on && /"ate_rmse_m"/ { gsub(/[^-+0-9.eE]/, "", $2); print $2; exit }' "$2"; }
 # combinations NAME TITLE SEQUENCE KIND ARGUMENTS...
 combinations() {
-  name=$1; what=$2; sequence=$3; kind=$4; shift 4
-  table_file=$out/elements-$name.txt
+  clip=$1; what=$2; of=$3; kind=$4; shift 4
+  table_file=$out/elements-$clip.txt
   : > "$table_file"
   echo >> "$rows"
   echo "$what:" >> "$rows"
@@ -25,13 +27,10 @@ combinations() {
       [ "$(echo "$bits" | cut -c$i)" = 0 ] || list=$list,$element
       i=$((i + 1))
     done
-    n=elements-$name-$bits
-    run "$n" "$sequence" "$@" --elements "$list" --scene none
-    for align in sim3 origin; do
-      judge "$n-$align" "$sequence" "$out/$n/trajectory_optimized.kitti" --align $align --lengths 10 --step 10
-    done
+    n=elements-$clip-$bits
+    run "$n" "$of" "$@" --elements "$list" --scene none
     f=$out/$n/result.json
-    a=$(number "$out/$n-sim3.json" ate_rmse_m); b=$(number "$out/$n-origin.json" ate_rmse_m)
+    a=$(ate sim3 "$f"); b=$(ate origin "$f")
     loops=$(number "$f" loops_accepted); told=$(places_told "$f" "$kind")
     cells "$list" "$(number "$f" posed)" "$loops" "$(digits "$a" 4)" "$(digits "$b" 4)" "$told" \
       "$(computed %.0f "1000 * $(number "$f" cpu_s) / $(number "$f" frames)")"
@@ -58,9 +57,17 @@ combinations() {
       for (i = 1; i <= 4; i++) for (j = i + 1; j <= 4; j++) print line[i, j]
     }' "$table_file" >> "$rows"
 }
-combinations town "Town-loop, 150 frames, one eye, camera height 1.65 m" "$out/elements-town-world" street --sensor mono --camera-height 1.65
-combinations corridor "Corridor-loop, 150 frames, RGB-D" "$out/elements-corridor-world" corridor --sensor rgbd
-s=$data/sequences/kitti0095_mono268
-if [ -d "$s" ]; then
-  combinations k0095 "kitti0095_mono268, its first 150 frames, one eye, camera height 1.65 m" "$s" street --sensor mono --camera-height 1.65 --set max_frames=150
-fi
+for world in $worlds; do
+  case $world in
+    town)
+      render elements-town town-loop --difficulty standard --frames "$frames" --mono
+      combinations town "Town-loop, $frames frames, one eye, camera height 1.65 m" "$out/elements-town-world" street --sensor mono --camera-height 1.65 ;;
+    corridor)
+      render elements-corridor corridor-loop --difficulty standard --frames "$frames"
+      combinations corridor "Corridor-loop, $frames frames, RGB-D" "$out/elements-corridor-world" corridor --sensor rgbd ;;
+    k0095)
+      s=$data/sequences/kitti0095_mono268
+      [ -d "$s" ] || continue
+      combinations k0095 "kitti0095_mono268, its first $frames frames, one eye, camera height 1.65 m" "$s" street --sensor mono --camera-height 1.65 --set max_frames="$frames" ;;
+  esac
+done

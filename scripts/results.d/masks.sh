@@ -15,21 +15,21 @@ masks_row() {
 }
 # with_and_without NAME TITLE SEQUENCE LENGTHS ARGUMENTS...
 with_and_without() {
-  name=$1; what=$2; sequence=$3; lengths=$4; shift 4
+  clip=$1; what=$2; of=$3; lengths=$4; shift 4
   for variant in none all still sky ground; do
-    n=masks-$name-$variant
+    n=masks-$clip-$variant
     case $variant in
-      none) run "$n" "$sequence" "$@" ;;
-      all) run "$n" "$sequence" "$@" --set semantics.enabled=true ;;
+      none) run "$n" "$of" "$@" ;;
+      all) run "$n" "$of" "$@" --set semantics.enabled=true ;;
       *)
         for part in sky moving ground; do
           [ "$part" = "$variant" ] || [ "$part-$variant" = moving-still ] || set -- "$@" --set "semantics.masks.$part=false"
         done
-        run "$n" "$sequence" "$@" --set semantics.enabled=true
+        run "$n" "$of" "$@" --set semantics.enabled=true
         for part in sky moving ground; do set -- "$@" --set "semantics.masks.$part=true"; done ;;
     esac
-    judge "$n" "$sequence" "$out/$n/trajectory_optimized.kitti" --align origin --lengths "$lengths" --step 1
-    judge "$n-sim3" "$sequence" "$out/$n/trajectory_optimized.kitti" --align sim3 --lengths "$lengths" --step 1
+    judge "$n" "$of" "$out/$n/trajectory_optimized.kitti" --align origin --lengths "$lengths" --step 1
+    judge "$n-sim3" "$of" "$out/$n/trajectory_optimized.kitti" --align sim3 --lengths "$lengths" --step 1
     case $variant in
       none) masks_row "$what" "$n" "no masks" ;;
       all) masks_row "$what" "$n" "sky, moving, ground" ;;
