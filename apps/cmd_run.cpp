@@ -8,7 +8,7 @@
 #include <placegraph/io/text_file.h>
 #include <placegraph/io/trajectory_file.h>
 #include <placegraph/io/yaml_config.h>
-#include <placegraph/pipeline/run.h>
+#include <placegraph/pipeline/elements.h>
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -20,11 +20,13 @@
 #include <opencv2/core/utility.hpp>
 
 #include "apps/draw_frame.h"
+#include "apps/environment_files.h"
 #include "apps/floor_plan_files.h"
 #include "apps/output.h"
 #include "apps/progress.h"
 #include "apps/run_files.h"
 #include "apps/run_judgement.h"
+#include "apps/scene_models.h"
 #include "apps/semantic_map_files.h"
 #include "apps/usage.h"
 
@@ -37,7 +39,7 @@ using nlohmann::json;
 struct Arguments {
   std::string sequence, out, resume, config, odometry, draw;
   std::vector<std::string> settings;
-  std::optional<std::string> sensor, cues, scene;
+  std::optional<std::string> sensor, cues, scene, elements;
   std::optional<double> camera_height_m;
   std::optional<std::int64_t> seed;
   std::optional<int> threads;
@@ -64,6 +66,7 @@ RunOptions options_of(const Arguments& arguments, RunOptions options = {}) {
   if (!arguments.config.empty()) read_options(arguments.config, options);
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
+  if (arguments.elements) set_elements(parse_elements(*arguments.elements), options);
   if (arguments.scene) set_scene(*arguments.scene, options.scene);
   if (arguments.cues) options.slam.odometry.cues = *arguments.cues;
   if (arguments.camera_height_m) {
@@ -207,6 +210,12 @@ RunOptions prepare(Arguments& arguments) {
   return options;
 }
 
+/// The model of surfaces that labels are made with, where the run needs them.
+std::shared_ptr<const SceneModel> surfaces_of(const SlamOptions& options) {
+  if (!options.semantics.enabled && !options.context.enabled) return nullptr;
+  return std::make_shared<const SceneModel>(load_scene_model(SceneModel::Kind::kSurfaces, ""));
+}
+
 /// Draws the floor plan and labels the places by its rooms; what result.json says of it. Where
 /// there is no plan the run is good all the same.
 json map_scene(const Arguments& arguments, const RunOptions& options, const Dataset& dataset,
@@ -249,6 +258,7 @@ void run(Arguments arguments) {
             "--draw: must be another folder than --out");
   }
   const auto dataset = open_dataset(arguments.sequence);
+  const auto surfaces = surfaces_of(options.slam);
   const OutputFolder folder(arguments.out);
   std::optional<OutputFolder> drawings;
   FrameObserver observer;
@@ -277,7 +287,8 @@ void run(Arguments arguments) {
         },
         log, observer,
         MapFile{map_path(arguments.out), fs::absolute(arguments.sequence).string(),
-                !arguments.resume.empty()});
+                !arguments.resume.empty()},
+        surfaces);
   }
   json floor_plan, semantic_map;
   if (options.scene.geometry) floor_plan = map_scene(arguments, options, *dataset, run);
@@ -290,6 +301,11 @@ void run(Arguments arguments) {
   if (!options.motion.file.empty()) summary["motion"] = describe_motion(run.map.place_graph);
   if (!floor_plan.is_null()) summary["floor_plan"] = floor_plan;
   if (!semantic_map.is_null()) summary["semantic_map"] = semantic_map;
+  if (!run.environments.empty()) {
+    summary["environments"] = describe_environments(run.map.place_graph);
+    write_file((fs::path(arguments.out) / "environment.csv").string(),
+               environment_csv(run.environments));
+  }
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
   summary["sequence"] = dataset->name();
   summary["format"] = dataset->format();
@@ -328,6 +344,9 @@ void add_run_command(CLI::App& app) {
   command->add_option("--cues", arguments->cues,
                       "what motion is seen by, joined by commas: points, lines, plane, manhattan, "
                       "direct; default: points,plane");
+  command->add_option("--elements", arguments->elements,
+                      "what navigation is made of, joined by commas: motion, spatial, geometry, "
+                      "context, semantics; default: as the options say");
   command->add_option(
       "--scene", arguments->scene,
       "geometry: a floor plan with walls, doors and rooms (docs/indoor.md); semantics: "

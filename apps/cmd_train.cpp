@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/cmd_train_environment.h"
 #include "apps/cmd_train_planarity.h"
 #include "apps/cmd_train_surfaces.h"
 #include "apps/cmd_train_urban.h"
@@ -15,6 +16,7 @@ void add_train_command(CLI::App& app) {
   add_train_surfaces_command(*command);
   add_train_urban_command(*command);
   add_train_planarity_command(*command);
+  add_train_environment_command(*command);
 }
 
 }  // namespace placegraph::apps

@@ -90,19 +90,19 @@ std::optional<GroundScale::Length> GroundScale::believe(const GroundPlaneResult&
 }
 
 std::optional<GroundScale::Length> GroundScale::find(const Image& image_new, const Image& image_old,
-                                                     const SE3& T_old_new) {
+                                                     const SE3& T_old_new, const Image& mask_new) {
   recent_log_factors_.clear();
-  const auto length = believe(
-      search_ground_plane(image_new, image_old, camera_, T_old_new, normal_cam_, options_.plane));
+  const auto length = believe(search_ground_plane(image_new, image_old, camera_, T_old_new,
+                                                  normal_cam_, options_.plane, mask_new));
   recent_log_factors_.clear();  // it belongs to another unit
   return length;
 }
 
 std::optional<GroundScale::Length> GroundScale::follow(const Image& image_new,
-                                                       const Image& image_old,
-                                                       const SE3& T_old_new) {
-  return believe(
-      align_ground_plane(image_new, image_old, camera_, T_old_new, prior(), options_.plane));
+                                                       const Image& image_old, const SE3& T_old_new,
+                                                       const Image& mask_new) {
+  return believe(align_ground_plane(image_new, image_old, camera_, T_old_new, prior(),
+                                    options_.plane, mask_new));
 }
 
 }  // namespace placegraph

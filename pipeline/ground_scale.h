@@ -33,10 +33,12 @@ class GroundScale {
     double sigma_relative = 1;
   };
   /// For a motion whose scale is unknown; nothing if the road says nothing.
-  std::optional<Length> find(const Image& image_new, const Image& image_old, const SE3& T_old_new);
+  /// `mask_new`: 0 = not the ground, CV_8UC1 of the image's size or empty.
+  std::optional<Length> find(const Image& image_new, const Image& image_old, const SE3& T_old_new,
+                             const Image& mask_new = {});
   /// For a motion whose scale is roughly right.
-  std::optional<Length> follow(const Image& image_new, const Image& image_old,
-                               const SE3& T_old_new);
+  std::optional<Length> follow(const Image& image_new, const Image& image_old, const SE3& T_old_new,
+                               const Image& mask_new = {});
   /// Outline in the image of the ground that is looked at.
   std::vector<Eigen::Vector2d> outline_px() const;
   double min_baseline_m() const { return options_.min_baseline_heights * camera_height_m_; }

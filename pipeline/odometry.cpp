@@ -185,13 +185,15 @@ bool Odometry::keyframe_due(const Frame& frame, int inliers) const {
          (frames_since_keyframe_ >= o.max_interval && share > 0.1 * o.max_flow_share);
 }
 
-void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update) {
+void Odometry::add_keyframe(const Frame& given, const SE3& T_odom_cam, OdometryUpdate& update) {
+  const Frame frame = looked_at(given);
   const std::int64_t id = next_keyframe_++;
   window_.add_keyframe(id, T_odom_cam);
   if (cues_.points) {
     const auto span = times_.measure("point detection");
     anchor_tracks();
-    tracker_.detect(frame.mask);
+    leave_moving_things();
+    detect_points(frame, given.mask);
   }
   observe_tracks(id, frame);
   if (lines_) observe_lines(id, frame);
@@ -199,7 +201,7 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
   last_keyframe_ = id;
   if (surfaces_) align_keyframes(frame, previous);
   if (ground_ || floor_ || motion_) measure_scale(frame, update);
-  if (manhattan_) look_at_directions(frame);
+  if (manhattan_ && (!assumed_ || assumed_->manhattan_world)) look_at_directions(frame);
   if (planes_) look_at_planes(frame);
   refine_window();
   pose_between(previous, update);
@@ -211,7 +213,7 @@ void Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
     landmarks_at_keyframe_ += window_.landmark(track.id).has_value();
   }
   if (lines_) landmarks_at_keyframe_ += lines_->followed(window_);
-  update.new_keyframes.push_back({id, frame});
+  update.new_keyframes.push_back({id, frame, sight_});
 }
 
 void Odometry::refine_window() {

@@ -19,6 +19,7 @@
 #include <placegraph/pipeline/line_cue.h>
 #include <placegraph/pipeline/manhattan_cue.h>
 #include <placegraph/pipeline/plane_landmarks.h>
+#include <placegraph/pipeline/scene_eye.h>
 #include <placegraph/pipeline/surface_cue.h>
 
 #include <map>
@@ -56,6 +57,8 @@ struct OdometryOptions {
   double outlier_px = 4;  ///< a landmark that misses its pixel by more is dropped
   /// So is one that misses all its pixels by more than both, root mean square, with its track.
   double misfit_px = 0.4, misfit_sigmas = 1.5;
+  /// Points without which masks from labels are not heeded.
+  int min_unmasked_tracks = 150;
   double min_parallax_deg = 0.5;  ///< to triangulate a landmark from keyframes
   /// SlidingWindowOptions::scale_drift of a single eye whose unit the ground or another sensor
   /// measures.
@@ -77,6 +80,7 @@ struct OdometryUpdate {
   struct NewKeyframe {
     std::int64_t id;
     Frame frame;
+    std::shared_ptr<const SceneSight> sight = nullptr;  ///< its surfaces, where they are looked at
   };
   std::vector<NewKeyframe> new_keyframes;
   /// Frames that are posed afterwards, frame id and T_odom_cam: those before the initialization,
@@ -133,6 +137,13 @@ class Odometry {
 
   /// The camera's motion by other sensors, before the first frame: gives a single eye its unit.
   void set_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
+  /// Labels the surfaces of keyframes from now on, before the first frame. `masks`: they say where
+  /// points, lines and ground are looked for.
+  void set_scene(std::shared_ptr<const SceneEye> eye, bool masks);
+  /// What holds in the surroundings the camera is in; nothing: all that the options ask for.
+  void assume(const std::optional<Assumptions>& assumptions);
+  /// The landmarks that are followed, in the newest frame's camera.
+  std::vector<Eigen::Vector3d> points_cam() const;
   /// Whether a first frame has been taken since the last restart.
   bool started() const { return started_; }
   /// Tracking goes on in a unit of its own that lines on the floor are to give: where a frame is,
@@ -234,6 +245,10 @@ class Odometry {
   void anchor_tracks();
   void pose_between(std::int64_t keyframe, OdometryUpdate& update);
   void add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);
+  Frame looked_at(const Frame& frame);
+  void detect_points(const Frame& frame, const Image& given_mask);
+  void leave_moving_things();
+  Image ground_mask(const Frame& frame) const;
   void observe_tracks(std::int64_t keyframe, const Frame& frame);
   void observe_lines(std::int64_t keyframe, const Frame& frame);
   void measure_scale(const Frame& frame, OdometryUpdate& update);
@@ -290,6 +305,10 @@ class Odometry {
   std::int64_t newest_of_lens_ = -1;              // keyframe it has heard of
   std::shared_ptr<const MeasuredMotion> motion_;  // of the camera, where nothing else is metric
   std::map<std::int64_t, std::int64_t> stamps_;   // of this run's keyframes, for that
+  std::shared_ptr<const SceneEye> eye_;           // labels keyframes
+  bool masks_ = false;                            // and they are heeded
+  std::shared_ptr<const SceneSight> sight_;       // of the frame last labelled
+  std::optional<Assumptions> assumed_;
   TrackingState state_ = TrackingState::kWaiting;
   bool started_ = false;  // the first frame of this run has been seen
   bool lost_ = false;     // the last frame
@@ -313,6 +332,7 @@ class Odometry {
   std::vector<LinesWaiting> line_views_;
   std::vector<FrameBetween> between_;
   Frame reference_frame_;
+  std::shared_ptr<const SceneSight> reference_sight_;
   static constexpr double kUnknownDepth = 10;  // of a map whose unit is arbitrary
   double median_depth_m_ = kUnknownDepth;
 };

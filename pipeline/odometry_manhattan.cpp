@@ -20,6 +20,7 @@ void Odometry::look_at_directions(const Frame& frame) {
 std::optional<ManhattanCue::Heading> Odometry::heading_of(const Frame& frame, const SE3& T_odom_cam,
                                                           int points) const {
   if (!manhattan_ || points >= options_.manhattan.few_points) return std::nullopt;
+  if (assumed_ && !assumed_->manhattan_world) return std::nullopt;
   return manhattan_->heading(frame.image, T_odom_cam.rotation(), window_, last_keyframe_);
 }
 

@@ -54,6 +54,8 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
         "dropped with its track",
         {0, 100});
   field("misfit_sigmas", o.misfit_sigmas, "the same in standard deviations", {0.1, 100});
+  field("min_unmasked_tracks", o.min_unmasked_tracks,
+        "points without which masks from labels are not heeded", {0, 1e5});
   field("min_parallax_deg", o.min_parallax_deg, "to triangulate a landmark from keyframes",
         {0.01, 45});
   field("scale_drift", o.scale_drift,

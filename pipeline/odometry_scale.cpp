@@ -14,8 +14,9 @@ void Odometry::set_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
 void Odometry::measure_scale(const Frame& frame, OdometryUpdate& update) {
   const auto span = times_.measure("scale");
   stamps_[last_keyframe_] = frame.stamp_ns;
-  if (ground_) measure_ground(frame, update);
-  if (floor_) measure_floor(update);
+  const bool height = !assumed_ || assumed_->ground_height;
+  if (ground_ && height) measure_ground(frame, update);
+  if (floor_ && height) measure_floor(update);
   if (motion_) measure_way(update);
 }
 
@@ -91,7 +92,7 @@ void Odometry::measure_ground(const Frame& frame, OdometryUpdate& update) {
   if (old < 0) return;
   const double length = T_old_new.translation().norm();
   if (scale_known_) {
-    const auto measured = ground_->follow(frame.image, image_old, T_old_new);
+    const auto measured = ground_->follow(frame.image, image_old, T_old_new, ground_mask(frame));
     if (!measured) return;
     const double distance_m = measured->factor * length;
     window_.add_distance({old, current, distance_m, measured->sigma_relative * distance_m});
@@ -101,7 +102,7 @@ void Odometry::measure_ground(const Frame& frame, OdometryUpdate& update) {
             " +- " + std::to_string(measured->sigma_relative * distance_m));
     return;
   }
-  const auto measured = ground_->find(frame.image, image_old, T_old_new);
+  const auto measured = ground_->find(frame.image, image_old, T_old_new, ground_mask(frame));
   if (!measured) return;
   set_scale(measured->factor, update);
   const double distance_m = measured->factor * length;

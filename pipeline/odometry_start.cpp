@@ -25,7 +25,8 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
     return update;
   }
   if (!cues_.points) return begin_with_lines(frame);
-  tracker_.detect(frame.mask);
+  const Frame seen = looked_at(frame);
+  detect_points(seen, frame.mask);
   if (static_cast<int>(tracker_.tracks().size()) < 2 * options_.initializer.min_points) {
     started_ = false;  // a dark or empty frame is nothing to begin with
     tracker_.reset();
@@ -33,7 +34,8 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
   }
   update.reference = true;
   update.T_odom_cam = T_odom_start_;
-  reference_frame_ = frame;
+  reference_frame_ = seen;
+  reference_sight_ = sight_;
   views_.clear();
   View view{frame.id, {}};
   for (const PointTrack& track : tracker_.tracks()) view.px[track.id] = track.px.cast<double>();
@@ -109,6 +111,7 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
     return update;
   }
   if (!(scale > 0)) return update;
+  const Frame labelled = looked_at(frame);
   const SE3 T_ref_cur(start.T_ref_cur.rotation(), scale * start.T_ref_cur.translation());
   const std::int64_t ref = next_keyframe_++, cur = next_keyframe_++;
   window_.add_keyframe(ref, T_odom_start_);
@@ -125,18 +128,18 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   if (ground_ || motion_) {
     if (ground_) keyframe_frames_[ref] = reference_frame_;
     stamps_[ref] = reference_frame_.stamp_ns;
-    measure_scale(frame, update);
+    measure_scale(labelled, update);
     update.rescale.reset();  // nobody has heard of these keyframes yet
     refine_window();
   }
-  update.new_keyframes = {{ref, reference_frame_}, {cur, frame}};
+  update.new_keyframes = {{ref, reference_frame_, reference_sight_}, {cur, labelled, sight_}};
 
   update.filled = std::move(turned_);  // what follows knows better
   turned_.clear();
   fill_between(ref, cur, random, update);
   const double steps = static_cast<double>(views_.size() - 1);
   views_.clear();
-  tracker_.detect(frame.mask);
+  detect_points(labelled, frame.mask);
   px_at_keyframe_.clear();
   for (const PointTrack& track : tracker_.tracks()) {
     px_at_keyframe_[track.id] = track.px.cast<double>();

@@ -149,13 +149,15 @@ class SequenceRun {
  public:
   SequenceRun(const Dataset& dataset, const RunOptions& options, const RunProgress& progress,
               const LogSink& log, const FrameObserver& observer,
-              const std::optional<MapFile>& map_file)
+              const std::optional<MapFile>& map_file,
+              const std::shared_ptr<const SceneModel>& surfaces)
       : dataset_(dataset),
         options_(options),
         progress_(progress),
         log_(log),
         observer_(observer),
-        map_file_(map_file) {
+        map_file_(map_file),
+        surfaces_(surfaces) {
     result_.sensor = choose_sensor(dataset, options.sensor);
     result_.calibration = dataset.calibration(result_.sensor);
     if (options.camera_height_m > 0) result_.calibration.camera_height_m = options.camera_height_m;
@@ -211,6 +213,7 @@ class SequenceRun {
     if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
     Slam slam(options_.slam, result_.calibration, log_);
     if (!options_.motion.file.empty()) slam.set_motion(read_motion(dataset_, options_.motion));
+    if (surfaces_) slam.set_scene(surfaces_);
     const std::size_t first = go_on(stored, slam);
     FrameReader reader(dataset_, lens_, result_.sensor, end_, options_.threads > 1);
     for (std::size_t i = first; i < end_; ++i) {
@@ -232,6 +235,7 @@ class SequenceRun {
     result_.lens_k1 = lens_.k1();
     result_.map = slam.finish();
     if (map_file_) commit(slam, !result_.broken_off);
+    result_.environments = slam.environments();
     result_.stages = times_.stages();
     result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());
     return true;
@@ -265,6 +269,7 @@ class SequenceRun {
   const LogSink& log_;
   const FrameObserver& observer_;
   const std::optional<MapFile>& map_file_;
+  std::shared_ptr<const SceneModel> surfaces_;
   std::size_t begin_ = 0, end_ = 0;
   LensCorrection lens_{Calibration()};
   int pass_ = 0;
@@ -277,9 +282,10 @@ class SequenceRun {
 
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                        const RunProgress& progress, const LogSink& log,
-                       const FrameObserver& observer, const std::optional<MapFile>& map_file) {
+                       const FrameObserver& observer, const std::optional<MapFile>& map_file,
+                       const std::shared_ptr<const SceneModel>& surfaces) {
   options.check();
-  return SequenceRun(dataset, options, progress, log, observer, map_file).run();
+  return SequenceRun(dataset, options, progress, log, observer, map_file, surfaces).run();
 }
 
 }  // namespace placegraph

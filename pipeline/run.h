@@ -62,6 +62,8 @@ struct RunResult {
   /// Reading and the stages of Slam. With more than one thread the next frame is read while the
   /// last is worked on, and counts for the stage that is open then.
   std::vector<StageTimes::Stage> stages;
+  /// What keyframes say of their surroundings, where `context` is enabled.
+  std::vector<EnvironmentSight> environments;
 };
 
 /// Where a run saves its map as it goes (io/map_database.h): after every new place and at the end.
@@ -81,11 +83,13 @@ using FrameObserver =
 /// Runs the system over a sequence, every frame, never sleeping; once or twice from the beginning
 /// where the images of one eye prove to be distorted. Same result for any number of threads. Throws
 /// as Slam and the data set do; an unreadable frame that is not the first ends the run. With a
-/// `map_file` to resume, the frames up to the last committed place are as they were.
+/// `map_file` to resume, the frames up to the last committed place are as they were. `surfaces`: a
+/// model of surfaces, needed if `semantics` or `context` are enabled.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
                        const RunProgress& progress = {}, const LogSink& log = {},
                        const FrameObserver& observer = {},
-                       const std::optional<MapFile>& map_file = {});
+                       const std::optional<MapFile>& map_file = {},
+                       const std::shared_ptr<const SceneModel>& surfaces = {});
 
 /// "mono", "stereo", "rgbd".
 const char* to_string(Sensor sensor);

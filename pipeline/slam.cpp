@@ -12,11 +12,24 @@ void SlamOptions::check() const {
   places.check();
   pose_graph.check();
   views.cues.check();
+  semantics.masks.check();
+  context.filter.check();
 }
 
 void visit(OptionVisitor& field, KeyframeViewOptions& o) {
   field("enabled", o.enabled, "keep how keyframes look");
   field.group("cues", o.cues, "cues that views are compared by");
+}
+
+void visit(OptionVisitor& field, SceneUseOptions& o) {
+  field("enabled", o.enabled, "surfaces of keyframes say what is looked at");
+  field.group("masks", o.masks, "what is kept out");
+}
+
+void visit(OptionVisitor& field, ContextOptions& o) {
+  field("enabled", o.enabled, "kinds of environments are told, and places labelled by them");
+  field("assume", o.assume, "motion is seen by what holds in the kind of environment");
+  field.group("filter", o.filter, "the kind over views in order of travel");
 }
 
 void visit(OptionVisitor& field, SlamOptions& o) {
@@ -26,6 +39,8 @@ void visit(OptionVisitor& field, SlamOptions& o) {
   field.group("places", o.places, "topological places");
   field.group("pose_graph", o.pose_graph, "optimization of the place graph");
   field.group("views", o.views, "how keyframes look, for placegraph localize");
+  field.group("semantics", o.semantics, "labels of surfaces, for motion and places");
+  field.group("context", o.context, "the kind of environment and what is assumed there");
   field("max_lost_frames", o.max_lost_frames, "then a new component of the map begins",
         {1, 1000000});
 }
@@ -54,6 +69,16 @@ void Slam::set_motion(const MeasuredMotion& motion_cam) {
   impl_->odometry.set_motion(impl_->motion);
 }
 
+void Slam::set_scene(std::shared_ptr<const SceneModel> surfaces) {
+  require(impl_->records.empty() && !impl_->finished, "Slam::set_scene: after the first frame");
+  const SceneUseOptions& o = impl_->options.semantics;
+  impl_->odometry.set_scene(std::make_shared<const SceneEye>(std::move(surfaces), o.masks),
+                            o.enabled);
+  impl_->sees_surfaces = true;
+}
+
+const std::vector<EnvironmentSight>& Slam::environments() const { return impl_->environments; }
+
 FrameResult Slam::add_frame(const Frame& frame) { return impl_->add_frame(frame); }
 MapChanges Slam::take_changes() { return impl_->take_changes(); }
 void Slam::go_on_from(const Map& map, const PlaceHistory& history, const Frame& last) {
@@ -73,6 +98,8 @@ Map Slam::finish() {
 
 void Slam::Impl::check_frame(const Frame& frame) const {
   require(!finished, "Slam::add_frame: after finish()");
+  require(sees_surfaces || !(options.semantics.enabled || options.context.enabled),
+          "Slam: semantics and context need a model of surfaces, see set_scene");
   const Camera& camera = calibration.camera;
   require(frame.image.type() == CV_8UC1 && frame.image.cols == camera.width &&
               frame.image.rows == camera.height,
@@ -237,6 +264,7 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
     record->T_keyframe_frame = SE3();
   }
   if (motion) add_motion(keyframe.id);
+  if (options.context.enabled) look_around(keyframe);
   if (mapper.is_anchor(keyframe.id)) {
     result.new_place = true;
     report(mapper.optimize(odometry.window_begin()));

@@ -14,6 +14,29 @@ struct KeyframeViewOptions {
 };
 void visit(OptionVisitor& field, KeyframeViewOptions& options);
 
+/// Labels of surfaces for motion and places; the model is given by Slam::set_scene.
+struct SceneUseOptions {
+  bool enabled = false;
+  SceneMaskOptions masks;
+};
+void visit(OptionVisitor& field, SceneUseOptions& options);
+
+/// The kind of environment the camera is in, and what is assumed there.
+struct ContextOptions {
+  bool enabled = false;
+  bool assume = true;  ///< the odometry takes for granted what holds there, and nothing else
+  EnvironmentFilterOptions filter;
+};
+void visit(OptionVisitor& field, ContextOptions& options);
+
+/// What one keyframe says of its surroundings.
+struct EnvironmentSight {
+  std::int64_t keyframe = 0, frame = 0;
+  EnvironmentEvidence evidence;
+  std::array<double, kEnvironmentCount> probabilities{};  ///< by this view alone
+  std::optional<Environment> kind;                        ///< with those before it
+};
+
 struct SlamOptions {
   std::uint64_t seed = 0;  ///< of every random stream
   OdometryOptions odometry;
@@ -21,6 +44,8 @@ struct SlamOptions {
   PlaceOptions places;
   IncrementalOptions pose_graph;
   KeyframeViewOptions views;
+  SceneUseOptions semantics;
+  ContextOptions context;
   int max_lost_frames = 10;  ///< then a new component of the map begins
   void check() const;
 };
@@ -65,6 +90,9 @@ class Slam {
   /// Records of frames after that one are dropped: they come next. Throws ArgumentError if map and
   /// history contradict each other or the frame is another.
   void go_on_from(const Map& map, const PlaceHistory& history, const Frame& last);
+  /// A model of surfaces (ArgumentError otherwise), to be given before the first frame if
+  /// `semantics` or `context` are enabled.
+  void set_scene(std::shared_ptr<const SceneModel> surfaces);
   FrameResult add_frame(const Frame& frame);
   /// What the map has gained since the last call, at the cost of what it is. The views of keyframes
   /// that it tells are kept no longer.
@@ -76,6 +104,8 @@ class Slam {
   /// The radial distortion that the images of one eye (or of a depth camera's) still show, though
   /// they should not; run_sequence begins again without it.
   const LensEstimator& lens() const;
+  /// Of every keyframe of this run, in their order; nothing unless `context` is enabled.
+  const std::vector<EnvironmentSight>& environments() const;
   /// What the frontend sees in the last frame.
   FrameView view() const;
   /// CPU time that each stage has taken so far.

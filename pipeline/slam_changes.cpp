@@ -40,6 +40,7 @@ std::vector<PointLandmark> Slam::Impl::landmarks(std::size_t first) const {
 Map Slam::Impl::snapshot() const {
   Map map;
   map.place_graph = mapper.place_graph();
+  label_environments(map.place_graph.places);
   std::map<std::int64_t, std::pair<std::int64_t, PlaceMember>> members;
   for (Place& place : map.place_graph.places) {
     place.appearance = closer.appearance(place.anchor_keyframe);
@@ -63,6 +64,7 @@ Map Slam::Impl::snapshot() const {
 MapChanges Slam::Impl::take_changes() {
   MapChanges changes;
   changes.places = mapper.places();
+  label_environments(changes.places);
   const bool described_anew = closer.trained_views() != untold.training;
   for (const Place& place : changes.places)
     if (described_places.insert(place.id).second || described_anew)

@@ -17,7 +17,8 @@ struct Slam::Impl {
         log_sink(std::move(l)),
         odometry(o.odometry, c, o.seed, log_sink, times),
         closer(o.loops, c, o.seed),
-        mapper(o.places, o.pose_graph) {}
+        mapper(o.places, o.pose_graph),
+        surroundings(o.context.filter) {}
 
   FrameResult add_frame(const Frame& frame);
   void check_frame(const Frame& frame) const;
@@ -30,6 +31,8 @@ struct Slam::Impl {
   void add_keyframes(const OdometryUpdate& update, FrameResult& result);
   void add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, FrameResult& result);
   void refresh_links();
+  void look_around(const OdometryUpdate::NewKeyframe& keyframe);
+  void label_environments(std::vector<Place>& places) const;
   void close_loops(FrameResult& result);
   void report(const IncrementalStep& step) const;
   void apply(const OdometryUpdate::Rescale& rescale);
@@ -60,6 +63,9 @@ struct Slam::Impl {
   std::vector<std::size_t> origins;  // first views of a single eye, until the second comes
   bool posed_once = false, finished = false;
 
+  bool sees_surfaces = false;
+  EnvironmentFilter surroundings;
+  std::vector<EnvironmentSight> environments;    // of keyframes, ascending
   std::map<std::int64_t, PlaceView> views;       // of keyframes, until take_changes tells them
   std::optional<bool> views_in_colour;           // as the first
   std::vector<PointLandmark> earlier_landmarks;  // of a run that was taken up

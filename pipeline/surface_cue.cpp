@@ -164,6 +164,12 @@ void SurfaceCue::find_ground(const RectificationError& rectification, Random& ra
   ground_.emplace(options_.surface, camera, plane.plane_cam);
 }
 
+Image SurfaceCue::mask_of_ground() const {
+  if (ground_mask_.empty() || frame_.mask.empty())
+    return ground_mask_.empty() ? frame_.mask : ground_mask_;
+  return frame_.mask & ground_mask_;
+}
+
 /// The ground by its filter; for one eye, of the height that is known and the normal learned.
 std::vector<SurfacePatch> SurfaceCue::ground(const SE3& T_last_cur,
                                              const RectificationError& rectification,
@@ -174,7 +180,7 @@ std::vector<SurfacePatch> SurfaceCue::ground(const SE3& T_last_cur,
     const Vector3d g = mounting_ / *calibration_.camera_height_m;
     const double sigma_rad =
         std::hypot(std::sqrt(mounting_variance_rad2_), options_.nodding_deg * kRadPerDeg);
-    std::vector<Vector2f> px = ground_->pixels_of(SurfaceRegion::kAhead, frame_.mask);
+    std::vector<Vector2f> px = ground_->pixels_of(SurfaceRegion::kAhead, mask_of_ground());
     const double reach = 0.5 * step_of(px);
     return {patch(g, covariance_of(g, sigma_rad, options_.sigma_height), std::move(px), reach)};
   }
@@ -182,12 +188,12 @@ std::vector<SurfacePatch> SurfaceCue::ground(const SE3& T_last_cur,
       [&](const std::vector<Vector2f>& px, const std::vector<double>& expected) {
         return depth_(frame_, rectification, px, expected);
       },
-      T_last_cur.inverse(), frame_.mask, random);
+      T_last_cur.inverse(), mask_of_ground(), random);
   if (!look.outcome) return {};
   const Vector3d g = look.plane_cam.normal / look.plane_cam.distance_m;
   // The whole region but what lies off the surface: where depths are not told there may be grey
   // values all the same.
-  std::vector<Vector2f> px = ground_->pixels_of(look.region, frame_.mask);
+  std::vector<Vector2f> px = ground_->pixels_of(look.region, mask_of_ground());
   const double step = step_of(px);
   std::erase_if(px, [&](const Vector2f& p) {
     return std::any_of(look.off_px.begin(), look.off_px.end(),

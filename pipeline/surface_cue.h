@@ -61,6 +61,8 @@ class SurfaceCue {
 
   /// The newest image; everything below speaks of it.
   void see(const Frame& frame);
+  /// Where in it the ground may be looked at: 0 = not there, CV_8UC1 of its size or empty.
+  void restrict_ground(const Image& mask) { ground_mask_ = mask; }
   /// Its motion from the reference: from the guess, or after a search about it by `sigmas`.
   [[nodiscard]] DirectMotion align(const MotionGuess& guess) const;
   [[nodiscard]] DirectMotion search(const MotionGuess& guess, const Vector6d& sigmas) const;
@@ -92,6 +94,7 @@ class SurfaceCue {
   void find_ground(const RectificationError& rectification, Random& random);
   SurfacePatch patch(const Eigen::Vector3d& g, const Eigen::Matrix3d& covariance,
                      std::vector<Eigen::Vector2f> px, double reach_px) const;
+  Image mask_of_ground() const;
   int grid_step(int count) const;
   std::vector<Eigen::Vector2f> grid(int count) const;
 
@@ -104,6 +107,7 @@ class SurfaceCue {
   double mounting_variance_rad2_;
   Eigen::Vector3d dominant_g_ = Eigen::Vector3d::Zero();  // of the last reference, in its camera
   Frame frame_;
+  Image ground_mask_;
   std::vector<Image> pyramid_, reference_pyramid_, last_pyramid_;
   DirectReference reference_, last_reference_;
 };

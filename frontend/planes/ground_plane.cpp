@@ -17,6 +17,7 @@ using Eigen::Vector3d;
 /// One level of the two pyramids with the camera that belongs to it.
 struct Level {
   Image ref, cur;  // CV_8UC1
+  Image mask;      // of ref, 0 = not the ground; empty: all may be
   Camera camera;
 };
 
@@ -27,12 +28,16 @@ struct Sample {
 };
 
 std::vector<Level> build_levels(const Image& image_ref, const Image& image_cur,
-                                const Camera& camera, int count) {
-  std::vector<Level> levels{{image_ref, image_cur, camera}};
+                                const Image& mask_ref, const Camera& camera, int count) {
+  require(mask_ref.empty() || (mask_ref.type() == CV_8UC1 && mask_ref.size() == image_ref.size()),
+          "ground_plane: a mask of the image's size is needed");
+  std::vector<Level> levels{{image_ref, image_cur, mask_ref, camera}};
   for (int i = 1; i < count; ++i) {
     Level level = levels.back();
     cv::pyrDown(levels.back().ref, level.ref);
     cv::pyrDown(levels.back().cur, level.cur);
+    if (!mask_ref.empty())
+      cv::resize(levels.back().mask, level.mask, level.ref.size(), 0, 0, cv::INTER_NEAREST);
     level.camera.width = level.ref.cols;
     level.camera.height = level.ref.rows;
     for (double* value : {&level.camera.fx, &level.camera.fy, &level.camera.cx, &level.camera.cy})
@@ -69,6 +74,7 @@ std::vector<Sample> collect_samples(const Level& level, const Plane& plane,
       const double depth_heights = 1 / plane.normal.dot(ray);  // of the ray's plane point
       if (!(depth_heights > o.near_heights && depth_heights < o.far_heights)) continue;
       if (std::abs(ray.x() * depth_heights) > o.half_width_heights) continue;
+      if (!level.mask.empty() && !level.mask.at<unsigned char>(v, u)) continue;
       samples.push_back({ray, static_cast<double>(level.ref.at<unsigned char>(v, u))});
     }
   }
@@ -271,12 +277,12 @@ void visit(OptionVisitor& field, GroundPlaneOptions& o) {
 GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_cur,
                                      const Camera& camera, const SE3& T_cur_ref,
                                      const GroundPlanePrior& prior,
-                                     const GroundPlaneOptions& options) {
+                                     const GroundPlaneOptions& options, const Image& mask_ref) {
   const Plane& prior_ref = prior.plane_ref;
   require(image_ref.type() == CV_8UC1 && image_ref.size() == image_cur.size(),
           "align_ground_plane: two grey images of one size needed");
   require(prior_ref.distance_m > 0, "align_ground_plane: the prior's distance must be positive");
-  const auto levels = build_levels(image_ref, image_cur, camera, options.pyramid_levels);
+  const auto levels = build_levels(image_ref, image_cur, mask_ref, camera, options.pyramid_levels);
   const Matrix3d R = T_cur_ref.rotation().matrix();
   const Vector3d& t = T_cur_ref.translation();
 
@@ -331,15 +337,15 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
 
 GroundPlaneResult search_ground_plane(const Image& image_ref, const Image& image_cur,
                                       const Camera& camera, const SE3& T_cur_ref,
-                                      const Vector3d& level_ref,
-                                      const GroundPlaneOptions& options) {
+                                      const Vector3d& level_ref, const GroundPlaneOptions& options,
+                                      const Image& mask_ref) {
   const double step_length = T_cur_ref.translation().norm();
   GroundPlaneResult failure;
   if (!(step_length > 0)) {
     failure.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no translation");
     return failure;
   }
-  const auto levels = build_levels(image_ref, image_cur, camera, 3);
+  const auto levels = build_levels(image_ref, image_cur, mask_ref, camera, 3);
   const Level& level = levels[1];
   const Matrix3d R = T_cur_ref.rotation().matrix();
   const Vector3d& t = T_cur_ref.translation();
@@ -367,7 +373,7 @@ GroundPlaneResult search_ground_plane(const Image& image_ref, const Image& image
   // The search knows the pitch to its step, the roll not at all.
   constexpr double kSigmaRad = 1.5 * M_PI / 180;
   return align_ground_plane(image_ref, image_cur, camera, T_cur_ref, {best_plane, kSigmaRad},
-                            options);
+                            options, mask_ref);
 }
 
 }  // namespace placegraph

@@ -44,18 +44,21 @@ struct GroundPlaneResult {
 /// coarse to fine; the warp is H = K (R + t (n/d)^T) K^-1 (Siddiqui 2014, 2.4.2; Benhimane & Malis
 /// 2007). `prior` gives the start, after a search over distances between 0.7 and 1.4 times its own,
 /// and a Gaussian prior on pitch and roll. With t up to scale, so is the distance: the known camera
-/// height over it is the metric scale. Outcomes: too few data (samples in view), degenerate
-/// (translation along nothing the ground shows), inconsistent (ZNCC below min_zncc).
+/// height over it is the metric scale. `mask_ref`: 0 = not the ground (what labels say), CV_8UC1 of
+/// the image's size (ArgumentError otherwise) or empty. Outcomes: too few data (samples in view),
+/// degenerate (translation along nothing the ground shows), inconsistent (ZNCC below min_zncc).
 [[nodiscard]] GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_cur,
                                                    const Camera& camera, const SE3& T_cur_ref,
                                                    const GroundPlanePrior& prior,
-                                                   const GroundPlaneOptions& options);
+                                                   const GroundPlaneOptions& options,
+                                                   const Image& mask_ref = {});
 
 /// The same without a start: exhaustive search over pitch (+- 4 deg about `level_ref`) and distance
 /// (0.02 to 50 times |t|) on a coarse level by ZNCC, then align_ground_plane.
 [[nodiscard]] GroundPlaneResult search_ground_plane(const Image& image_ref, const Image& image_cur,
                                                     const Camera& camera, const SE3& T_cur_ref,
                                                     const Eigen::Vector3d& level_ref,
-                                                    const GroundPlaneOptions& options);
+                                                    const GroundPlaneOptions& options,
+                                                    const Image& mask_ref = {});
 
 }  // namespace placegraph

@@ -81,6 +81,20 @@ TEST_F(GroundScaleOnARoad, DoesNotBelieveAJumpUntilItLasts) {
   EXPECT_LT(refused, 10);
 }
 
+TEST_F(GroundScaleOnARoad, LooksOnlyWhereTheMaskAllowsIt) {
+  // A van's side in the left half of the newer picture: without the mask it would be measured too.
+  Image covered = new_.clone();
+  const cv::Rect van(0, 0, kCamera.width / 2 - 10, kCamera.height);
+  covered(van) = road(4 * kStep_m)(van);
+  Image mask(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(255));
+  mask(van).setTo(0);
+  const auto length = scale_.follow(covered, old_, T_old_new(1), mask);
+  ASSERT_TRUE(length);
+  EXPECT_NEAR(length->factor, 1, 0.03);
+  EXPECT_FALSE(scale_.follow(new_, old_, T_old_new(1), Image::zeros(mask.size(), CV_8UC1)));
+  EXPECT_THROW((void)scale_.follow(new_, old_, T_old_new(1), Image(4, 4, CV_8UC1)), ArgumentError);
+}
+
 TEST_F(GroundScaleOnARoad, SaysNothingWithoutTextureAndRefusesNoHeight) {
   const Image flat(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(100));
   EXPECT_FALSE(scale_.find(flat, flat, T_old_new(1)));

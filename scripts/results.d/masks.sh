@@ -1,0 +1,49 @@
+# With and without: labels of surfaces in motion, on what is real and what is rendered.
+title="Masks from labels of surfaces: with and without (surfaces.pgscene, learned from CamVid)"
+heading "$title"
+command_line "placegraph run SEQUENCE [--set semantics.enabled=true ...] --out OUT; the judgement in its result.json"
+columns sequence run posed keyframes "ATE [m] origin" "ATE [m] sim3" "scale error [%]" "t_rel [%]" "CPU [ms a frame]"
+# scale_error NAME: of the similarity that fits best
+masks_row() {
+  f=$out/$2/result.json
+  j=$out/$2.json
+  cells "$1" "$3" "$(number "$f" posed)" "$(number "$f" keyframes)" \
+    "$(digits "$(number "$j" ate_rmse_m)")" "$(digits "$(number "$out/$2-sim3.json" ate_rmse_m)")" \
+    "$(computed %.2f "100 * ($(number "$out/$2-sim3.json" scale) - 1)")" \
+    "$(digits "$(number "$j" t_rel_percent)")" \
+    "$(computed %.1f "1000 * $(number "$f" cpu_s) / $(number "$f" frames)")"
+}
+# with_and_without NAME TITLE SEQUENCE LENGTHS ARGUMENTS...
+with_and_without() {
+  clip=$1; what=$2; of=$3; lengths=$4; shift 4
+  for variant in none all still sky ground; do
+    n=masks-$clip-$variant
+    case $variant in
+      none) run "$n" "$of" "$@" ;;
+      all) run "$n" "$of" "$@" --set semantics.enabled=true ;;
+      *)
+        for part in sky moving ground; do
+          [ "$part" = "$variant" ] || [ "$part-$variant" = moving-still ] || set -- "$@" --set "semantics.masks.$part=false"
+        done
+        run "$n" "$of" "$@" --set semantics.enabled=true
+        for part in sky moving ground; do set -- "$@" --set "semantics.masks.$part=true"; done ;;
+    esac
+    judge "$n" "$of" "$out/$n/trajectory_optimized.kitti" --align origin --lengths "$lengths" --step 1
+    judge "$n-sim3" "$of" "$out/$n/trajectory_optimized.kitti" --align sim3 --lengths "$lengths" --step 1
+    case $variant in
+      none) masks_row "$what" "$n" "no masks" ;;
+      all) masks_row "$what" "$n" "sky, moving, ground" ;;
+      still) masks_row "$what" "$n" "moving only" ;;
+      *) masks_row "$what" "$n" "$variant only" ;;
+    esac
+  done
+}
+s=$data/sequences/kitti0095_mono268
+if [ -d "$s" ]; then with_and_without k0095 "kitti0095_mono268, one eye" "$s" 50,100,150,200 --sensor mono --camera-height 1.65; fi
+s=$data/sequences/kitti06_stereo51
+if [ -d "$s" ]; then
+  with_and_without k06 "kitti06_stereo51, two eyes" "$s" 10,20,30,40,50 --sensor stereo
+  with_and_without k06m "kitti06_stereo51, left eye" "$s" 10,20,30,40,50 --sensor mono --camera-height 1.65
+fi
+render traffic town-loop --difficulty hard --frames 150 --mono --seed 3
+with_and_without traffic "town-loop seed 3, hard traffic, 150 frames, one eye" "$out/traffic-world" 50,100 --sensor mono --camera-height 1.65
