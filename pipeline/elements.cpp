@@ -51,8 +51,7 @@ void set_elements(const Elements& elements, RunOptions& options) {
   options.slam.odometry.cues = elements.geometry ? "points,lines,plane,manhattan" : "points";
   options.scene.geometry = elements.geometry;
   options.slam.context.enabled = elements.context;
-  // What else is made of labels is switched here.
-  options.slam.semantics.enabled = elements.semantics;
+  options.slam.semantics.enabled = options.scene.semantics = elements.semantics;
 }
 
 }  // namespace placegraph

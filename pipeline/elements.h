@@ -20,7 +20,7 @@ Elements parse_elements(const std::string& names);
 
 /// Turns each element on or off: spatial is `loops.enabled`; geometry the cues
 /// "points,lines,plane,manhattan" instead of "points", and `scene.geometry`; context
-/// `context.enabled`; semantics `semantics.enabled`.
+/// `context.enabled`; semantics `semantics.enabled` and `scene.semantics`.
 void set_elements(const Elements& elements, RunOptions& options);
 
 }  // namespace placegraph
