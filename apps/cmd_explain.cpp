@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/scene/urban_labels.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/environment.h>
 #include <placegraph/io/dataset.h>
 #include <placegraph/io/yaml_config.h>
 #include <placegraph/pipeline/explanation.h>
@@ -116,7 +117,7 @@ json seen_in(const StoredMap& stored, std::int64_t frame) {
 }
 
 /// What the run took for granted there.
-json assumed_by(const StoredMap& stored, const RunOptions& options) {
+json assumed_by(const StoredMap& stored, const RunOptions& options, const Explanation& told) {
   const auto& calibration = stored.origin.calibration;
   const double height_m = calibration ? calibration->camera_height_m.value_or(0) : 0;
   const bool one_eye = calibration && calibration->baseline_m == 0 && !calibration->depth;
@@ -124,6 +125,15 @@ json assumed_by(const StoredMap& stored, const RunOptions& options) {
                   {"cues", options.slam.odometry.cues},
                   {"metric", stored.map.metric}};
   if (one_eye && height_m > 0) assumed["ground_below_camera_m"] = height_m;
+  const Place* place = told.posed ? stored.map.place_graph.find(told.place) : nullptr;
+  if (const auto kind = place ? environment_of(*place) : std::nullopt) {
+    const Assumptions there = assumptions_of(*kind);
+    assumed["environment"] = {{"kind", environment_name(*kind)},
+                              {"heeded", options.slam.context.enabled},
+                              {"ground_height", there.ground_height},
+                              {"manhattan_world", there.manhattan_world},
+                              {"street_surfaces", there.street_surfaces}};
+  }
   return assumed;
 }
 
@@ -171,6 +181,12 @@ std::string assumptions(const json& assumed) {
   if (assumed.contains("ground_below_camera_m"))
     text += fmt::format(", ground {:g} m below the camera",
                         assumed["ground_below_camera_m"].get<double>());
+  if (assumed.contains("environment")) {
+    const json& there = assumed["environment"];
+    text += ", a " + there["kind"].get<std::string>() + ":";
+    for (const char* what : {"ground_height", "manhattan_world", "street_surfaces"})
+      text += std::string(there[what].get<bool>() ? " " : " no ") + what;
+  }
   return text + (assumed["metric"].get<bool>() ? ", unit the metre" : ", no unit of length");
 }
 
@@ -221,7 +237,7 @@ void explain(const Arguments& arguments) {
                        {"constraints", told->constraints},
                        {"loops", list_of(told->loops)}}},
                      {"sees", seen_in(stored, told->frame)},
-                     {"assumed", assumed_by(stored, options)},
+                     {"assumed", assumed_by(stored, options, *told)},
                      {"refused", list_of(told->refused)}};
   if (arguments.as_json)
     fmt::print("{}\n", text.dump(1));
