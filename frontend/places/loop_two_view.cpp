@@ -41,7 +41,7 @@ struct Candidate {
   SE3 T_match_query;
   int ahead = 0;  ///< points that lie before both eyes
   double parallax_px = 0;
-  LengthEvidence match, query;  ///< by the depths of either
+  LengthEvidence match = {}, query = {};  ///< by the depths of either
 
   int agreeing() const { return match.agreeing + query.agreeing; }
 };
