@@ -18,7 +18,7 @@ struct DepthSample {
 struct UrbanGeometryOptions {
   double disparity_sigma_px = 0.25;  ///< of one pixel
   double ground_sigma_m = 0.03;      ///< how even the ground is, near by, and ...
-  double ground_sigma_rate = 0.004;   ///< ... more of it by the metre of distance
+  double ground_sigma_rate = 0.004;  ///< ... more of it by the metre of distance
   double outliers = 0.05;            ///< share of superpixels whose place says nothing
   double weight = 1;                 ///< of the terms in the random field; 0: none
   void check() const { check_ranges(*this); }

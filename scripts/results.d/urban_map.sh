@@ -46,7 +46,7 @@ done
 another apart "keyframes 4 m apart"
 another flat "the same, without height and normal" --set sight.geometry.weight=0
 another residuals "the same, without residuals" --set residuals=false
-another moving "the same, nothing dropped as moving" --set residuals=false --set sight.moving=
+another moving "the same, nothing dropped as moving" --set residuals=false --set 'sight.moving=""'
 s=$data/sequences/kitti06_stereo51
 if [ -d "$s" ]; then
   run urban-kitti06 "$s" --sensor stereo --scene semantics --set scene.urban.sight.step_px=4

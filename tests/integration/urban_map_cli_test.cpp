@@ -17,13 +17,13 @@ class UrbanMapCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     CommandResult result = test::run_placegraph(
-        "synth town-loop --frames 24 --size 620x188 --difficulty clean --labels --stereo --out "
+        "synth town-loop --frames 30 --size 620x188 --difficulty clean --labels --stereo --out "
         "town",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;
     result = test::run_placegraph(
-        "run town --sensor stereo --scene semantics --set scene.urban.min_step_m=0.5 --out out "
-        "--json",
+        "run town --sensor stereo --scene semantics --set scene.urban.min_step_m=0.5 "
+        "--set scene.urban.sight.step_px=3 --out out --json",
         made->path());
     ASSERT_EQ(result.code, 0) << result.err;
     summary = json::parse(result.out);
@@ -32,6 +32,8 @@ class UrbanMapCli : public test::CliTest {
   static std::string at(const std::string& name) { return *made / name; }
   static inline test::TemporaryFolder* made = nullptr;
   static inline json summary;
+  /// As the run was told: there are few keyframes, and they are small.
+  static inline const std::string kDense = " --set min_step_m=0.5 --set sight.step_px=3";
 };
 
 TEST_F(UrbanMapCli, TellsWhatTrulyStandsThere) {
@@ -50,7 +52,7 @@ TEST_F(UrbanMapCli, TellsWhatTrulyStandsThere) {
 }
 
 TEST_F(UrbanMapCli, MakesTheSameMapFromTheSavedOne) {
-  ASSERT_EQ(run("map semantic " + at("out") + " --out map --set min_step_m=0.5").code, 0);
+  ASSERT_EQ(run("map semantic " + at("out") + " --out map" + kDense).code, 0);
   EXPECT_EQ(read_file(dir / "map/semantic_map.ply"), read_file(at("out/semantic_map.ply")));
   EXPECT_FALSE(fs::exists(dir / "map/semantic_map.geojson"));
 }
@@ -59,7 +61,8 @@ TEST_F(UrbanMapCli, LaysTheMapOutOnTheEarth) {
   dir.write("earth/georeference.json",
             R"({"origin": {"latitude_deg": 49, "longitude_deg": 8.4, "height_m": 115}})");
   dir.write("earth/trajectory_enu.tum", read_file(at("out/trajectory_optimized.tum")));
-  const CommandResult result = run("map semantic " + at("out") + " --georeference earth --out map");
+  const CommandResult result =
+      run("map semantic " + at("out") + " --georeference earth --out map" + kDense);
   ASSERT_EQ(result.code, 0) << result.err;
   const json document = json::parse(read_file(dir / "map/semantic_map.geojson"));
   EXPECT_EQ(document["type"], "FeatureCollection");
