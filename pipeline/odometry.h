@@ -239,7 +239,6 @@ class Odometry {
   void set_scale(double factor, OdometryUpdate& update);
   void refine_window();
   void look_at_directions(const Frame& frame);
-  std::vector<DepthPlane> planes_in(const Frame& frame) const;
   void look_at_planes(const Frame& frame);
   void widen_last_link(const SE3& T_odom_oldest);
   double unit_drift() const;
