@@ -107,7 +107,14 @@ std::optional<std::int64_t> ManhattanWorlds::begin_world(const Candidate& newest
   }
   candidates_ = std::move(others);
   forget_one(window);
-  hold_map_axes(window);
+  if (!window.world(kMapAxes)) {
+    constexpr double kExactRad = 1e-4;
+    window.add_world(kMapAxes, SO3());
+    window.add_world_observation({oldest, kMapAxes, window.pose(oldest).rotation().inverse(),
+                                  Eigen::Matrix3d::Identity() / (kExactRad * kExactRad)});
+    window.keep_world(kMapAxes);
+    window.hold_world(kMapAxes);
+  }
   const std::int64_t world = next_world_++;
   window.add_world(world, R_map(newest));
   window.keep_world(world);

@@ -1,7 +1,6 @@
 #pragma once
 #include <placegraph/backend/sliding_window.h>
 #include <placegraph/graph/core/options.h>
-#include <placegraph/pipeline/map_axes.h>
 
 #include <map>
 #include <optional>
@@ -31,10 +30,13 @@ void visit(OptionVisitor& field, ManhattanWorldOptions& options);
 /// agree with none wait, and several of them that agree with each other begin a new world. Worlds
 /// go on unseen, known ever less well as the motion goes on.
 ///
-/// The axes of the map are a world of their own (hold_map_axes), so that what the others say about
-/// the heading turns the keyframes, and not the map under them.
+/// The axes of the map are a world of their own, seen once, exactly, by the oldest keyframe at the
+/// time when the first rectangular one begins. They hold the window (SlidingWindow::hold_world):
+/// what the others say about the heading turns the keyframes, and not the map under them.
 class ManhattanWorlds {
  public:
+  static constexpr std::int64_t kMapAxes = 0;
+
   explicit ManhattanWorlds(const ManhattanWorldOptions& options) : options_(options) {
     options_.check();
   }

@@ -28,7 +28,7 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
           "cues: direct needs a right eye, depth or the camera's height");
   if (cues_.lines) lines_.emplace(options_.lines, calibration_, options_.stereo);
   if (cues_.manhattan) manhattan_.emplace(options_.manhattan, calibration_.camera, seed_, log_);
-  if (options_.planes.enabled && metric_from_start() && !cues_.surfaces_alone())
+  if (options_.planes.enabled && calibration_.depth && !cues_.surfaces_alone())
     planes_.emplace(options_.planes, log_);
   if (cues_.surfaces_alone() || cues_.direct)
     surfaces_.emplace(options_.surfaces, calibration_, options_.stereo, cues_.direct);
@@ -231,7 +231,7 @@ void Odometry::refine_window() {
   }
   if (cues_.surfaces_alone()) depths = {surfaces_->median_depth_m()};
   if (!depths.empty()) median_depth_m_ = std::max(1e-3, median_of(depths));
-  if (manhattan_ || planes_) widen_last_link(window_.pose(window_.keyframes().front()));
+  if (manhattan_) widen_last_link(window_.pose(window_.keyframes().front()));
   for (const std::int64_t id : window_.keyframes()) keyframe_poses_[id] = window_.pose(id);
   if (rectification_ && !alone) calibrate_eyes();
   const auto keyframes = window_.keyframes();

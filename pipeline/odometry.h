@@ -263,7 +263,6 @@ class Odometry {
                                                   int points) const;
   SE3 turned(const SE3& T_odom_cam, const Matrix6d& information,
              const std::optional<ManhattanCue::Heading>& heading) const;
-  std::vector<DepthPlane> planes_in(const Frame& frame) const;
   void look_at_planes(const Frame& frame);
   void widen_last_link(const SE3& T_odom_oldest);
   double unit_drift() const;

@@ -1,23 +1,16 @@
-#include <placegraph/frontend/scene/indoor_surfaces.h>
 #include <placegraph/pipeline/odometry.h>
 
 namespace placegraph {
 
-/// What the depth camera or both eyes tell of the planes in view.
-std::vector<DepthPlane> Odometry::planes_in(const Frame& frame) const {
-  if (calibration_.depth && !frame.depth.empty()) {
-    std::vector<DepthPlane> planes;
-    for (const DepthPlane& plane :
-         find_depth_planes(frame.depth, calibration_.depth->camera, options_.planes.depth))
-      planes.push_back(transform(calibration_.depth->T_cam_depth, plane));
-    return planes;
-  }
-  return {};
-}
-
+/// Only a depth camera tells of planes: what two eyes make of blank walls is smooth, and wrong.
 void Odometry::look_at_planes(const Frame& frame) {
+  if (frame.depth.empty()) return;
   const auto span = times_.measure("planes");
-  planes_->add(last_keyframe_, planes_in(frame), window_);
+  std::vector<DepthPlane> planes;
+  for (const DepthPlane& plane :
+       find_depth_planes(frame.depth, calibration_.depth->camera, options_.planes.depth))
+    planes.push_back(transform(calibration_.depth->T_cam_depth, plane));
+  planes_->add(last_keyframe_, planes, window_);
 }
 
 }  // namespace placegraph

@@ -1,5 +1,4 @@
 #include <placegraph/graph/core/chi_squared.h>
-#include <placegraph/pipeline/map_axes.h>
 #include <placegraph/pipeline/plane_landmarks.h>
 
 #include <Eigen/Dense>
@@ -111,11 +110,14 @@ std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(std::int64_t keyframe
       if (!(distance < gate())) continue;
       const double share = overlap(seen[k].points_cam, points_cam);
       if (share < options_.min_overlap) continue;
-      result.push_back({distance, share, k, id});
+      // The larger it is, the sooner what is seen there is that plane.
+      const double cells =
+          share * static_cast<double>(std::min(points_cam.size(), seen[k].points_cam.size()));
+      result.push_back({distance, share, distance - 2 * std::log(1 + cells), k, id});
     }
   }
   std::stable_sort(result.begin(), result.end(),
-                   [](const Match& a, const Match& b) { return a.chi2 < b.chi2; });
+                   [](const Match& a, const Match& b) { return a.score < b.score; });
   return result;
 }
 
@@ -170,7 +172,6 @@ std::optional<std::size_t> PlaneLandmarks::partner(std::int64_t keyframe, const 
 /// Two planes that agree become a landmark.
 std::int64_t PlaneLandmarks::begin(const Waiting& before, const Waiting& now,
                                    SlidingWindow& window) {
-  hold_map_axes(window);
   const std::int64_t id = next_++;
   window.add_plane(id, transform_to(window.pose(now.keyframe).inverse(), now.plane.plane_cam));
   window.keep_plane(id);
@@ -194,10 +195,12 @@ void PlaneLandmarks::forget(std::int64_t keyframe, SlidingWindow& window) {
 }
 
 /// Each landmark to the plane that agrees with it best. A plane that agrees about as well with a
-/// landmark of the same place that no other plane is a sighting of gets none.
+/// landmark of the same place that no other plane is a sighting of gets none; nor does one whose
+/// landmark another plane agrees with about as well, unless that one is a sighting of its own.
 std::vector<std::optional<std::int64_t>> PlaneLandmarks::assign(const std::vector<Match>& all,
                                                                 std::size_t count) {
-  constexpr double kClearly = 6;  // so much of chi2 makes one of two landmarks the better one
+  constexpr double kClearly = 6;    // so much of chi2 makes one of two landmarks the better one
+  constexpr double kUndecided = 2;  // so little of a score makes neither of two planes the better
   std::vector<const Match*> chosen(count, nullptr);
   std::set<std::int64_t> taken;
   for (const Match& match : all)
@@ -210,6 +213,12 @@ std::vector<std::optional<std::int64_t>> PlaneLandmarks::assign(const std::vecto
     if (mine && !taken.contains(other.landmark) && other.chi2 < mine->chi2 + kClearly &&
         other.overlap > 0.5 * mine->overlap)
       result[other.seen].reset();
+    if (mine) continue;
+    const auto rival = std::find_if(chosen.begin(), chosen.end(), [&](const Match* m) {
+      return m && m->landmark == other.landmark;
+    });
+    if (rival != chosen.end() && other.score < (*rival)->score + kUndecided)
+      result[(*rival)->seen].reset();
   }
   return result;
 }

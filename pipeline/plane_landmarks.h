@@ -64,7 +64,7 @@ class PlaneLandmarks {
     DepthPlane plane;
   };
   struct Match {
-    double chi2 = 0, overlap = 0;
+    double chi2 = 0, overlap = 0, score = 0;
     std::size_t seen = 0;
     std::int64_t landmark = 0;
   };

@@ -73,12 +73,12 @@ TEST(ManhattanWorlds, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
   EXPECT_FALSE(drive.see(SO3()));
   EXPECT_EQ(drive.see(SO3()), 1);
   for (int k = 3; k < 8; ++k) EXPECT_EQ(drive.see(SO3()), 1);
-  EXPECT_EQ(drive.window.worlds(), (std::vector<std::int64_t>{kMapAxes, 1}));
+  EXPECT_EQ(drive.window.worlds(), (std::vector<std::int64_t>{ManhattanWorlds::kMapAxes, 1}));
   // Along the axes of the world, named as the first of the views named them.
   const SO3 turn = kR_map_world.inverse() * *drive.window.world(1);
   EXPECT_LT((turn.matrix() - turn.matrix().array().round().matrix()).norm(), 1e-6);
   // The map stays under them.
-  EXPECT_LT(drive.window.world(kMapAxes)->log().norm(), 1e-12);
+  EXPECT_LT(drive.window.world(ManhattanWorlds::kMapAxes)->log().norm(), 1e-12);
   const auto expected = drive.worlds.expected(drive.window, 7);
   ASSERT_EQ(expected.size(), 1u);
   EXPECT_LT(std::sqrt(expected[0].covariance.trace()), 2 * kDeg);
@@ -116,7 +116,7 @@ TEST(ManhattanWorlds, UnseenOnesAreRememberedUntilThereAreTooMany) {
   Drive forgetful(options);
   for (int k = 0; k < 3; ++k) (void)forgetful.see(SO3());
   for (int k = 0; k < 8; ++k) (void)forgetful.see(SO3::exp({0, 20 * kDeg, 0}));
-  EXPECT_EQ(forgetful.window.worlds(), (std::vector<std::int64_t>{kMapAxes, 2}));
+  EXPECT_EQ(forgetful.window.worlds(), (std::vector<std::int64_t>{ManhattanWorlds::kMapAxes, 2}));
 }
 
 TEST(ManhattanWorlds, FaultyOptionsAreRefused) {
