@@ -27,9 +27,9 @@ namespace {
 
 struct Arguments {
   std::string data, out, model;
-  std::vector<std::uint64_t> seeds{11, 12, 13}, left_out{14};
-  int frames = 60;
-  double penalty = 1e-3;
+  std::vector<std::uint64_t> seeds{11, 12}, left_out{14};
+  int frames = 14;
+  double penalty = 3e-3;
   bool force = false, json = false;
 };
 

@@ -38,7 +38,8 @@ Frame Odometry::looked_at(const Frame& frame) {
 /// New points where the frame's mask allows them; anywhere, if those are too few to go on with.
 void Odometry::detect_points(const Frame& frame, const Image& given_mask) {
   tracker_.detect(frame.mask);
-  if (sight_ && static_cast<int>(tracker_.tracks().size()) < options_.min_unmasked_tracks)
+  const bool masked = sight_ && !sight_->masks.use.empty();
+  if (masked && static_cast<int>(tracker_.tracks().size()) < options_.min_unmasked_tracks)
     tracker_.detect(given_mask);
 }
 

@@ -64,14 +64,19 @@ std::array<double, kEnvironmentCount> softmax(const EnvironmentModel& model,
   return p;
 }
 
-/// A sample as it is, without its points, without its unit, and without its picture.
-std::array<EnvironmentEvidence, 4> variants_of(const EnvironmentEvidence& evidence) {
-  std::array<EnvironmentEvidence, 4> variants;
-  variants.fill(evidence);
+/// A sample as it is, without its points, without its unit, without its surfaces, and by its points
+/// alone, which are what differs least between a rendered world and a real one. Rendered rooms are
+/// more rectangular than any real one: nothing is learned from that.
+constexpr std::size_t kVariants = 5;
+std::array<EnvironmentEvidence, kVariants> variants_of(const EnvironmentEvidence& evidence) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::array<EnvironmentEvidence, kVariants> variants;
+  variants.fill(evidence);
+  for (EnvironmentEvidence& variant : variants) variant.values[kRectangular] = unknown;
   for (std::size_t i = kSpread; i <= kAbove; ++i) variants[1].values[i] = unknown;
   for (std::size_t i = kDepth; i <= kAbove; ++i) variants[2].values[i] = unknown;
   for (std::size_t i = kSkyAbove; i <= kObject; ++i) variants[3].values[i] = unknown;
+  for (std::size_t i = kSkyAbove; i <= kRectangular; ++i) variants[4].values[i] = unknown;
   return variants;
 }
 
@@ -170,8 +175,8 @@ EnvironmentModel train_environments(const std::vector<EnvironmentSample>& sample
   for (const EnvironmentSample& sample : samples) {
     const auto kind = static_cast<std::size_t>(sample.kind);
     for (const EnvironmentEvidence& variant : variants_of(sample.evidence))
-      rows.push_back(
-          {standardized(model, variant), kind, 1 / (4 * count[kind] * static_cast<double>(kinds))});
+      rows.push_back({standardized(model, variant), kind,
+                      1 / (kVariants * count[kind] * static_cast<double>(kinds))});
   }
   // A kind without samples is never told.
   for (std::size_t k = 0; k < kEnvironmentCount; ++k) model.bias[k] = count[k] > 0 ? 0 : -20;

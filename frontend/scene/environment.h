@@ -61,8 +61,8 @@ struct EnvironmentSample {
 };
 
 /// By gradient descent on the log loss with a quadratic penalty; kinds weigh the same in all,
-/// whatever their numbers. Every sample counts four times: as it is, without its points, without
-/// its unit, and without its picture. Same samples, same bits. Throws ArgumentError
+/// whatever their numbers. Every sample counts five times: as it is, without its points, its unit,
+/// its surfaces, and by its points alone. Same samples, same bits. Throws ArgumentError
 /// unless there are samples of two kinds.
 EnvironmentModel train_environments(const std::vector<EnvironmentSample>& samples,
                                     double penalty = 1e-3);

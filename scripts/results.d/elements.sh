@@ -4,7 +4,8 @@ frames=${ELEMENTS_FRAMES:-150}
 worlds=${ELEMENTS_WORLDS:-town corridor k0095}
 title="Elements: every combination on a rendered town, a rendered corridor and a real drive"
 heading "$title"
-command_line "placegraph run SEQUENCE --elements motion[,spatial][,geometry][,context][,semantics] --out OUT"
+command_line "ELEMENTS_FRAMES=$frames ELEMENTS_WORLDS=\"$worlds\" scripts/results elements"
+command_line "placegraph run SEQUENCE --scene none --elements motion[,spatial][,geometry][,context][,semantics] --out OUT"
 # places_told FILE KIND: share of the places of a run labelled as what they are [%]
 places_told() {
   right=$(number "$1" "$2"); all=$(number "$1" places)
@@ -37,7 +38,7 @@ combinations() {
     echo "$bits $a $loops $told $b" >> "$table_file"
   done
   echo >> "$rows"
-  echo "Effects ($what): the mean over all combinations of the others, and of two: what they bring together beyond the sum of what each brings alone (negative ATE is better)." >> "$rows"
+  echo "Effects ($what): with less without, mean over all combinations of the others; of two: half of what the one's effect gains by the other, which neither brings alone. Less ATE is better." >> "$rows"
   columns element "ATE sim3 [m]" "ATE origin [m]" loops "places told [%]"
   LC_ALL=C awk '
     { for (k = 2; k <= 5; k++) v[$1, k] = $k; bits[NR] = $1 }

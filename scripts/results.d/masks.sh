@@ -45,5 +45,6 @@ if [ -d "$s" ]; then
   with_and_without k06 "kitti06_stereo51, two eyes" "$s" 10,20,30,40,50 --sensor stereo
   with_and_without k06m "kitti06_stereo51, left eye" "$s" 10,20,30,40,50 --sensor mono --camera-height 1.65
 fi
-render traffic town-loop --difficulty hard --frames 150 --mono --seed 3
-with_and_without traffic "town-loop seed 3, hard traffic, 150 frames, one eye" "$out/traffic-world" 50,100 --sensor mono --camera-height 1.65
+frames=${MASKS_FRAMES:-150}
+render traffic town-loop --difficulty hard --frames "$frames" --mono --seed 3
+with_and_without traffic "town-loop seed 3, hard traffic, $frames frames, one eye" "$out/traffic-world" 50,100 --sensor mono --camera-height 1.65

@@ -17,8 +17,7 @@ class ElementsCli : public test::CliTest {
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
     const CommandResult result = test::run_placegraph(
-        "synth corridor-loop --frames 60 --size 320x240 --difficulty clean --mono --out walk",
-        made->path());
+        "synth corridor-loop --frames 40 --difficulty standard --mono --out walk", made->path());
     ASSERT_EQ(result.code, 0) << result.err;
   }
   static void TearDownTestSuite() { delete made; }
@@ -32,7 +31,7 @@ TEST_F(ElementsCli, ContextTellsTheKindOfEverySurroundingsAndLabelsPlaces) {
                                    "--json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json summary = json::parse(result.out);
-  EXPECT_EQ(summary["posed"], 60);
+  EXPECT_EQ(summary["posed"], 40);
   EXPECT_EQ(summary["loops_checked"], 0);
   const json& kinds = summary["environments"];
   EXPECT_GE(kinds["corridor"].get<int>(), 1);
