@@ -27,17 +27,18 @@ namespace {
 /// A free keyframe outside the prior needs this many points and lines to be determined.
 constexpr int kMinPointsPerKeyframe = 3;
 
-/// The window as a Ceres problem. Blocks lie in arrays in the order of the ids: Ceres orders the
-/// blocks of one elimination group by address, and the order decides the last bits of the sums.
+/// The window as a Ceres problem. Ceres orders the blocks of one elimination group by address, and
+/// the order decides the last bits of the sums: the blocks of a group lie in one array, by kind and
+/// in the order of the ids.
 class WindowProblem {
  public:
   explicit WindowProblem(const WindowState& state)
       : state_(state),
         loss_({RobustKernel::Kind::kHuber, state.options.huber_px}),
-        poses_(7 * state.keyframes.size() + VariableBlock<SO3>::kSize * state.worlds.size()),
+        poses_(7 * state.keyframes.size() + VariableBlock<SO3>::kSize * state.worlds.size() +
+               VariableBlock<Line3>::kSize * state.lines.size() +
+               VariableBlock<Plane3>::kSize * state.planes.size()),
         points_(3 * state.landmarks.size()),
-        lines_(VariableBlock<Line3>::kSize * state.lines.size()),
-        planes_(VariableBlock<Plane3>::kSize * state.planes.size()),
         points_by_keyframe_(state.keyframes.size()),
         is_held_(state.keyframes.size()),
         problem_(ownership()),
@@ -133,9 +134,7 @@ class WindowProblem {
   bool finite() const {
     const auto good = [](double x) { return std::isfinite(x); };
     return std::all_of(poses_.begin(), poses_.end(), good) &&
-           std::all_of(points_.begin(), points_.end(), good) &&
-           std::all_of(lines_.begin(), lines_.end(), good) &&
-           std::all_of(planes_.begin(), planes_.end(), good);
+           std::all_of(points_.begin(), points_.end(), good);
   }
 
   /// Takes the estimate over. Landmarks that were not in the problem move with the keyframe that
@@ -160,7 +159,7 @@ class WindowProblem {
     }
     i = 0;
     for (auto& [id, line] : state.lines) {
-      double const* const block = &lines_[VariableBlock<Line3>::kSize * i++];
+      double const* const block = &poses_[first_line() + VariableBlock<Line3>::kSize * i++];
       if (problem_.HasParameterBlock(block)) {
         line.line_map = VariableBlock<Line3>::load(block);
       } else if (!line.observations.empty()) {
@@ -172,7 +171,8 @@ class WindowProblem {
     }
     i = 0;
     for (auto& [id, plane_map] : state.planes)
-      plane_map = VariableBlock<Plane3>::load(&planes_[VariableBlock<Plane3>::kSize * i++]);
+      plane_map =
+          VariableBlock<Plane3>::load(&poses_[first_plane() + VariableBlock<Plane3>::kSize * i++]);
     i = 0;
     for (auto& [id, R_map_world] : state.worlds)
       R_map_world =
@@ -197,6 +197,12 @@ class WindowProblem {
   }
 
   std::size_t first_world() const { return 7 * state_.keyframes.size(); }
+  std::size_t first_line() const {
+    return first_world() + VariableBlock<SO3>::kSize * state_.worlds.size();
+  }
+  std::size_t first_plane() const {
+    return first_line() + VariableBlock<Line3>::kSize * state_.lines.size();
+  }
   double* world_block(std::size_t k) {
     return &poses_[first_world() + VariableBlock<SO3>::kSize * k];
   }
@@ -204,7 +210,9 @@ class WindowProblem {
     return world_block(static_cast<std::size_t>(
         std::lower_bound(world_ids_.begin(), world_ids_.end(), world) - world_ids_.begin()));
   }
-  double* plane_block(std::size_t k) { return &planes_[VariableBlock<Plane3>::kSize * k]; }
+  double* plane_block(std::size_t k) {
+    return &poses_[first_plane() + VariableBlock<Plane3>::kSize * k];
+  }
   double* plane_of_id(std::int64_t plane) {
     return plane_block(static_cast<std::size_t>(
         std::lower_bound(plane_ids_.begin(), plane_ids_.end(), plane) - plane_ids_.begin()));
@@ -239,7 +247,7 @@ class WindowProblem {
   /// Lines are few and stand beside the poses: with blocks of one size only among what is
   /// eliminated, Ceres' code for points stays fast.
   void add_lines() {
-    double* block = lines_.data();
+    double* block = poses_.data() + first_line();
     for (const auto& [id, line] : state_.lines) {
       VariableBlock<Line3>::store(line.line_map, block);
       if (is_usable(line)) {
@@ -309,8 +317,8 @@ class WindowProblem {
   std::vector<std::int64_t> ids_;        ///< of keyframes, ascending
   std::vector<std::int64_t> plane_ids_;  ///< ascending
   std::vector<std::int64_t> world_ids_;  ///< ascending
-  std::vector<double> poses_;            ///< and, after those of all keyframes, the worlds
-  std::vector<double> points_, lines_, planes_;
+  std::vector<double> poses_;            ///< of all keyframes; after them worlds, lines, planes
+  std::vector<double> points_;
   std::vector<int> points_by_keyframe_;
   std::vector<char> is_held_;  ///< by a pose prior or a motion of full rank
   std::deque<PointFactor<Reprojection>> reprojections_;
