@@ -295,7 +295,8 @@ std::optional<Loop> LoopCloser::relocalize(const Frame& frame,
     const LoopVerification verified =
         verify_loop(calibration_.camera, features, find_view(id)->for_verification(),
                     options_.verifier, random);
-    if (verified.outcome)
+    // No second loop stands beside this one: two views and a few depths are not enough.
+    if (verified.outcome && verified.model == LoopModel::kPoints3d2d)
       return Loop{-1, id, verified.T_match_query,
                   options_.information_scale * verified.information};
   }
