@@ -2,7 +2,7 @@
 //   bench_loop_odds_study MAP TRUTH RADIUS [MAP TRUTH RADIUS ...]
 // MAP: map.db of a run; TRUTH: a pose per frame of its sequence; two views show one place where
 // their true positions are within RADIUS [m] and their headings within 40 deg. Every run weighs
-// alike. Prints for each stage its candidates, the share that are true, and its constant.
+// alike. Prints for each fate its candidates, how many are true, and its constant.
 #include <fmt/format.h>
 #include <placegraph/eval/same_view.h>
 #include <placegraph/graph/core/error.h>
