@@ -8,6 +8,17 @@
 #include <set>
 
 namespace placegraph {
+namespace {
+
+KeyframePoses looked_up(std::map<std::int64_t, SE3> poses) {
+  return [poses = std::move(poses)](std::int64_t keyframe) -> std::optional<SE3> {
+    const auto found = poses.find(keyframe);
+    if (found == poses.end()) return std::nullopt;
+    return found->second;
+  };
+}
+
+}  // namespace
 
 void UrbanMapperOptions::check() const {
   check_ranges(*this);
@@ -137,11 +148,7 @@ KeyframePoses poses_of(const Map& map) {
       const Sim3 S = map.S_map_keyframe(keyframe.id);
       poses.emplace(keyframe.id, SE3(S.rotation(), S.translation()));
     }
-  return [poses = std::move(poses)](std::int64_t keyframe) -> std::optional<SE3> {
-    const auto found = poses.find(keyframe);
-    if (found == poses.end()) return std::nullopt;
-    return found->second;
-  };
+  return looked_up(std::move(poses));
 }
 
 KeyframePoses online_poses_of(const Map& map) {
@@ -151,11 +158,7 @@ KeyframePoses online_poses_of(const Map& map) {
   for (const Keyframe& keyframe : map.keyframes)
     if (const auto found = by_stamp.find(keyframe.stamp_ns); found != by_stamp.end())
       poses.emplace(keyframe.id, found->second);
-  return [poses = std::move(poses)](std::int64_t keyframe) -> std::optional<SE3> {
-    const auto found = poses.find(keyframe);
-    if (found == poses.end()) return std::nullopt;
-    return found->second;
-  };
+  return looked_up(std::move(poses));
 }
 
 std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double turn_rad) {
