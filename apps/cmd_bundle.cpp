@@ -17,13 +17,13 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct BundleArguments {
   std::string in, out, kernel = "none";
   bool json = false, force = false;
   BundleOptions options;
 };
 
-void run(Arguments arguments) {
+void run(BundleArguments arguments) {
   const auto& names = robust_kernel_names();
   arguments.options.kernel.kind = static_cast<RobustKernel::Kind>(
       std::find(names.begin(), names.end(), arguments.kernel) - names.begin());
@@ -67,8 +67,8 @@ void run(Arguments arguments) {
 }  // namespace
 
 void add_bundle_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<BundleArguments>();
+  BundleArguments& a = *arguments;
   CLI::App* command =
       app.add_subcommand("bundle", "Bundle adjustment of a problem in the form of BAL");
   command->footer("placegraph bundle problem-49-7776-pre.txt -o adjusted.txt --json");

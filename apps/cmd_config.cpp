@@ -15,7 +15,7 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct ConfigArguments {
   std::string config, out, of = "run";
   std::vector<std::string> settings;
   bool dump = false, markdown = false, force = false;
@@ -38,7 +38,7 @@ std::string plain_list(const std::vector<OptionEntry>& entries) {
 
 /// The options as they stand after the file and the settings, in the form asked for.
 template <class Options>
-std::string text_of(const Arguments& arguments) {
+std::string text_of(const ConfigArguments& arguments) {
   Options options;
   if (!arguments.config.empty()) read_options(arguments.config, options);
   for (const std::string& setting : arguments.settings) set_option(options, setting);
@@ -52,7 +52,7 @@ std::string text_of(const Arguments& arguments) {
   return plain_list(list_options(options));
 }
 
-void run(const Arguments& arguments) {
+void run(const ConfigArguments& arguments) {
   if (!arguments.out.empty()) require_free(arguments.out, arguments.force);
   const std::string text =
       arguments.of == "hover" ? text_of<HoverOptions>(arguments) : text_of<RunOptions>(arguments);
@@ -65,8 +65,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_config_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<ConfigArguments>();
+  ConfigArguments& a = *arguments;
   CLI::App* command =
       app.add_subcommand("config", "List every option of run, or write them as YAML");
   command->footer("placegraph config --dump > my.yaml");

@@ -20,7 +20,7 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct ConvertArguments {
   std::string in, out, to, times;
   bool force = false;
 };
@@ -39,7 +39,7 @@ bool is_pose_graph(const std::string& path) {
 }
 
 /// By --to, else by the extension of OUT.
-Form wanted_form(const Arguments& arguments) {
+Form wanted_form(const ConvertArguments& arguments) {
   static const std::map<std::string, Form> by_name = {{"kitti", TrajectoryFormat::kKitti},
                                                       {"tum", TrajectoryFormat::kTum},
                                                       {"euroc", TrajectoryFormat::kEuroc},
@@ -78,7 +78,7 @@ Trajectory poses_of(PoseGraph graph) {
   return trajectory;
 }
 
-void convert_graph(const Arguments& arguments, Form to) {
+void convert_graph(const ConvertArguments& arguments, Form to) {
   if (!arguments.times.empty()) throw ArgumentError("--times: a pose graph has none");
   const PoseGraph graph = read_pose_graph(arguments.in, {.connected = false});
   if (to == TrajectoryFormat::kKitti) {
@@ -92,7 +92,7 @@ void convert_graph(const Arguments& arguments, Form to) {
              graph.constraints.size(), arguments.out);
 }
 
-void convert_trajectory(const Arguments& arguments, TrajectoryFormat to) {
+void convert_trajectory(const ConvertArguments& arguments, TrajectoryFormat to) {
   const Trajectory trajectory = read_trajectory(arguments.in, arguments.times);
   if (to != TrajectoryFormat::kKitti && !trajectory.has_times) {
     throw ArgumentError(arguments.in + ": has no times, which " + arguments.out +
@@ -103,7 +103,7 @@ void convert_trajectory(const Arguments& arguments, TrajectoryFormat to) {
              trajectory.size(), arguments.out);
 }
 
-void run(const Arguments& arguments) {
+void run(const ConvertArguments& arguments) {
   const Form to = wanted_form(arguments);
   require_free(arguments.out, arguments.force);
   const bool graph = is_pose_graph(arguments.in);
@@ -122,8 +122,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_convert_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<ConvertArguments>();
+  ConvertArguments& a = *arguments;
   CLI::App* command = app.add_subcommand("convert",
                                          "Convert trajectories between KITTI, TUM and EuRoC form; "
                                          "pose graphs to g2o's, or to their poses");

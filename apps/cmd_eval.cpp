@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct EvalArguments {
   std::string truth;
   std::vector<std::string> estimates;
   std::vector<std::string> times;
@@ -93,7 +93,7 @@ std::string short_name(const std::string& estimate, const std::vector<std::strin
   return estimate;
 }
 
-std::vector<Job> jobs_of(const Arguments& arguments) {
+std::vector<Job> jobs_of(const EvalArguments& arguments) {
   std::string truth = arguments.truth;
   const bool one_folder =
       arguments.estimates.size() == 1 && fs::is_directory(arguments.estimates.front());
@@ -119,7 +119,7 @@ Trajectory read(const std::string& path, const std::string& times) {
                                                                     : read_trajectory(path);
 }
 
-EvaluationResult judge(const Job& job, const Arguments& arguments) {
+EvaluationResult judge(const Job& job, const EvalArguments& arguments) {
   const std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
   const std::string estimate_times = arguments.times.empty() ? "" : arguments.times.back();
   const Trajectory estimate = read(job.estimate, estimate_times);
@@ -132,21 +132,21 @@ EvaluationResult judge(const Job& job, const Arguments& arguments) {
   return evaluate(truth, estimate, arguments.options, job.name);
 }
 
-void check_outputs(const Arguments& arguments) {
+void check_outputs(const EvalArguments& arguments) {
   for (const std::string& path : {arguments.csv, arguments.latex, arguments.plot})
     if (!path.empty()) require_free(path, arguments.force);
   require_plot_name(arguments.plot);
   require(arguments.times.size() <= 2, "--times: one file for all, or two: ground truth, estimate");
 }
 
-void write_outputs(const Arguments& arguments, const std::vector<EvaluationResult>& results) {
+void write_outputs(const EvalArguments& arguments, const std::vector<EvaluationResult>& results) {
   if (!arguments.csv.empty()) write_file(arguments.csv, to_csv(results));
   if (!arguments.latex.empty()) write_file(arguments.latex, to_latex(results));
   if (arguments.plot.empty()) return;
   write_plot(arguments.plot, plot_of(results));
 }
 
-void run(Arguments arguments) {
+void run(EvalArguments arguments) {
   arguments.options.alignment = choice<Alignment>(kAlignments, arguments.align);
   arguments.options.association = choice<Association>(kAssociations, arguments.associate);
   arguments.options.check();
@@ -171,8 +171,8 @@ void run(Arguments arguments) {
 }  // namespace
 
 void add_eval_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<EvalArguments>();
+  EvalArguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
       "eval", "Judge estimated trajectories against ground truth (KITTI, TUM or EuRoC form)");
   command->footer("placegraph eval poses.txt trajectory_optimized.kitti --align se3 --plot e.png");

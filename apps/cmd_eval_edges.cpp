@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Arguments {
+struct EvalEdgesArguments {
   std::string truth, run;
   bool json = false;
 };
@@ -39,7 +39,7 @@ std::map<std::int64_t, SE3> true_places(const Trajectory& truth, const RunMap& m
   return result;
 }
 
-void run(const Arguments& arguments) {
+void run(const EvalEdgesArguments& arguments) {
   fs::path truth = arguments.truth;
   if (fs::is_directory(truth)) truth /= "poses.txt";
   const RunMap map = read_run_map(arguments.run);
@@ -65,8 +65,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_eval_edges_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<EvalEdgesArguments>();
+  EvalEdgesArguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
       "eval-edges", "Judge whether the edges of a run's place graph know what they claim");
   command->footer("placegraph eval-edges town/poses.txt out/town");

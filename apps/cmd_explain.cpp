@@ -24,7 +24,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Arguments {
+struct ExplainArguments {
   std::string map;
   std::int64_t frame = 0;
   bool as_json = false;
@@ -220,7 +220,7 @@ void print(const json& told) {
                loop["probability"].get<double>(), loop["inliers"].get<int>());
 }
 
-void explain(const Arguments& arguments) {
+void explain(const ExplainArguments& arguments) {
   const StoredMap stored = read_stored_map(arguments.map);
   const auto told = explain_frame(stored.map, arguments.frame);
   if (!told) throw NoAnswer(arguments.map + ": has no frame " + std::to_string(arguments.frame));
@@ -248,8 +248,8 @@ void explain(const Arguments& arguments) {
 }  // namespace
 
 void add_explain_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<ExplainArguments>();
+  ExplainArguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
       "explain",
       "Where one frame of a map is, how that is known, what it sees and what was refused");

@@ -23,7 +23,7 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct FlowArguments {
   std::string from, to, method = "dis", out, drawing, truth, camera;
   std::vector<std::string> settings;
   std::vector<double> gyro, turn, normal;
@@ -39,7 +39,7 @@ Eigen::Vector3d vector_of(const char* option, const std::vector<double>& values)
 }
 
 /// What is known beside the images; throws ArgumentError for what does not fit together.
-CueSetting cue_setting(const Arguments& arguments) {
+CueSetting cue_setting(const FlowArguments& arguments) {
   require(!arguments.camera.empty(), "--cues: need the camera, --calib");
   require(arguments.gyro.empty() || arguments.dt_s > 0, "--gyro: needs --dt");
   require(arguments.dt_s == 0 || (arguments.dt_s >= 1e-6 && arguments.dt_s <= 1e4),
@@ -72,7 +72,7 @@ std::int64_t known_pixels(const Image& flow) {
   return count;
 }
 
-void flow(const Arguments& arguments) {
+void flow(const FlowArguments& arguments) {
   for (const std::string& file : {arguments.out, arguments.drawing})
     if (!file.empty()) require_free(file, arguments.force);
   if (!arguments.out.empty()) require_flow_extension(arguments.out);
@@ -129,8 +129,8 @@ void flow(const Arguments& arguments) {
 }  // namespace
 
 void add_flow_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<FlowArguments>();
+  FlowArguments& a = *arguments;
   CLI::App* command = app.add_subcommand("flow", "Optical flow between two images");
   command->footer("placegraph flow a.png b.png --method horn-schunck --out f.flo --draw f.png");
   command->add_option("FROM", a.from, "first image")->required();

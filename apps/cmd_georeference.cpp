@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct GeoreferenceArguments {
   std::string graph, gps, out, times, lever_arm, origin, clock_offset;
   std::vector<std::string> settings;
   bool as_json = false, force = false;
@@ -46,7 +46,7 @@ Eigen::Vector3d three_numbers(const std::string& flag, const std::string& text) 
   return numbers;
 }
 
-GeoreferenceOptions options_of(const Arguments& arguments) {
+GeoreferenceOptions options_of(const GeoreferenceArguments& arguments) {
   GeoreferenceOptions options;
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   if (arguments.lever_arm == "estimate") options.estimate_lever_arm = true;
@@ -55,7 +55,7 @@ GeoreferenceOptions options_of(const Arguments& arguments) {
   return options;
 }
 
-void set_what_is_known(const Arguments& arguments, GeoreferenceInput& input) {
+void set_what_is_known(const GeoreferenceArguments& arguments, GeoreferenceInput& input) {
   if (!arguments.lever_arm.empty() && arguments.lever_arm != "estimate")
     input.lever_arm = three_numbers("--lever-arm", arguments.lever_arm);
   if (!arguments.origin.empty()) {
@@ -137,10 +137,10 @@ void print_summary(const GeoreferenceResult& result, const std::string& folder) 
   fmt::print("{} nodes on the earth, written to {}\n", result.graph.nodes.size(), folder);
 }
 
-void run(const Arguments& arguments) {
+void run(const GeoreferenceArguments& arguments) {
   const GeoreferenceOptions options = options_of(arguments);
   require_free_folder(arguments.out, arguments.force);
-  GeoreferenceInput input = read_map(arguments.graph, arguments.times);
+  GeoreferenceInput input = read_georeference_input(arguments.graph, arguments.times);
   set_what_is_known(arguments, input);
   input.fixes = read_oxts(arguments.gps);
   const OutputFolder folder(arguments.out);
@@ -168,8 +168,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_georeference_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<GeoreferenceArguments>();
+  GeoreferenceArguments& a = *arguments;
   CLI::App* command = app.add_subcommand("georeference", "Put a map onto the earth by GPS");
   command->footer(
       "placegraph georeference out/run --gps 2011_09_26_drive_0095_sync --out out/earth");

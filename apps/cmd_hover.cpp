@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Arguments {
+struct HoverArguments {
   std::string flight, out, markers, true_markers, config;
   std::vector<std::string> settings, blind;
   std::optional<double> markers_until_s;
@@ -53,7 +53,7 @@ TimeSpan parse_span(const std::string& text) {
   throw ArgumentError("--blind: '" + text + "' is not of the form FROM:TO in seconds");
 }
 
-HoverRunOptions options_of(const Arguments& arguments, const ImuNoise& noise) {
+HoverRunOptions options_of(const HoverArguments& arguments, const ImuNoise& noise) {
   HoverRunOptions options;
   PositionFilterOptions& filter = options.hover.filter;
   filter.gyro_noise = noise.gyro;
@@ -245,7 +245,7 @@ struct Flight {
   std::vector<BodyState> truth;  ///< empty: there is none
 };
 
-Flight open_flight(const Arguments& arguments) {
+Flight open_flight(const HoverArguments& arguments) {
   require(is_euroc(arguments.flight),
           arguments.flight + ": is no folder with mav0/cam0/data.csv (EuRoC's layout)");
   Flight flight{open_euroc_body(arguments.flight), {}, {}, {}, {}, {}};
@@ -284,7 +284,7 @@ struct Flown {
   json summary;
 };
 
-Flown fly(const Arguments& arguments, const Flight& flight) {
+Flown fly(const HoverArguments& arguments, const Flight& flight) {
   const EurocBody& body = flight.body;
   Flown flown;
   const Stopwatch watch;
@@ -335,7 +335,7 @@ void write_results(const std::string& folder, const Flown& flown, const MarkerLa
   write_file(path("result.json"), flown.summary.dump(1) + "\n");
 }
 
-void run(const Arguments& arguments) {
+void run(const HoverArguments& arguments) {
   require_free_folder(arguments.out, arguments.force);
   const Flight flight = open_flight(arguments);
   const OutputFolder folder(arguments.out);
@@ -356,8 +356,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_hover_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<HoverArguments>();
+  HoverArguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
       "hover", "Where a flying robot was, by flow, inertial sensor and markers.");
   command->footer("placegraph hover out/flight --out out/hover");

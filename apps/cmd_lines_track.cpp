@@ -24,7 +24,7 @@ struct Sighting {
 };
 using Tracks = std::map<std::int64_t, std::vector<Sighting>>;
 
-struct Arguments {
+struct LinesTrackArguments {
   std::string sequence, out, sensor = "auto", cues = "lines";
   std::vector<std::string> settings;
   bool as_json = false, force = false;
@@ -63,7 +63,7 @@ std::string text_of(const Tracks& tracks) {
   return text;
 }
 
-void track(const Arguments& arguments) {
+void track(const LinesTrackArguments& arguments) {
   if (!arguments.out.empty()) require_free(arguments.out, arguments.force);
   RunOptions options;
   for (const std::string& setting : arguments.settings) set_option(options, setting);
@@ -114,8 +114,8 @@ void track(const Arguments& arguments) {
 }  // namespace
 
 void add_lines_track_command(CLI::App& lines) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<LinesTrackArguments>();
+  LinesTrackArguments& a = *arguments;
   CLI::App* command = lines.add_subcommand(
       "track", "Follow straight edges through a sequence; with true poses, count wrong ones");
   command->footer("placegraph lines track SEQUENCE -o tracks.txt");

@@ -25,7 +25,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Arguments {
+struct LocalizeArguments {
   std::string map, images, out;
   std::vector<int> range;
   std::vector<std::string> settings;
@@ -33,7 +33,7 @@ struct Arguments {
 };
 
 /// Views are compared by the cues they were described with, features as the run did.
-LocalizerOptions options_of(const Arguments& arguments, const StoredMap& stored,
+LocalizerOptions options_of(const LocalizeArguments& arguments, const StoredMap& stored,
                             const std::string& path) {
   LocalizerOptions options;
   if (stored.origin.view_options.empty())
@@ -88,7 +88,7 @@ std::shared_ptr<Dataset> dataset_of(const std::string& path, std::size_t images)
   }
 }
 
-void run(const Arguments& arguments) {
+void run(const LocalizeArguments& arguments) {
   require_free(arguments.out, arguments.force);
   const std::string path = map_path_of(arguments.map);
   StoredMap stored = read_stored_map(arguments.map);
@@ -143,8 +143,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_localize_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<LocalizeArguments>();
+  LocalizeArguments& a = *arguments;
   CLI::App* command = app.add_subcommand("localize", "Place new images in a saved map.");
   command->footer("placegraph localize out/town images --out placed.txt --sequence");
   command->add_option("MAP", a.map, "map.db, or the folder of placegraph run with it")->required();

@@ -30,7 +30,7 @@ const std::map<std::string, LoopFileFormat> kFormats = {{"scores", LoopFileForma
                                                         {"ibow", LoopFileFormat::kIbow},
                                                         {"run", LoopFileFormat::kRun}};
 
-struct Arguments {
+struct LoopsArguments {
   std::vector<std::string> predictions, names;
   std::vector<LoopFileFormat> formats = {LoopFileFormat::kScores};
   std::string gt, poses, log, plot;
@@ -51,7 +51,7 @@ struct Protocol {
   std::string text;
 };
 
-Protocol protocol_of(const Arguments& arguments) {
+Protocol protocol_of(const LoopsArguments& arguments) {
   Protocol protocol;
   if (!arguments.poses.empty()) {
     RevisitOptions revisit = arguments.revisit;
@@ -84,7 +84,7 @@ void require_known(const std::string& path, const std::vector<LoopPrediction>& p
           fmt::format("image {}, and the poses are of {}", std::max(p.query, p.candidate), images));
 }
 
-std::vector<Judgement> judge(const Arguments& arguments, const Protocol& protocol) {
+std::vector<Judgement> judge(const LoopsArguments& arguments, const Protocol& protocol) {
   std::vector<Judgement> judgements;
   for (std::size_t i = 0; i < arguments.predictions.size(); ++i) {
     const std::string& path = arguments.predictions[i];
@@ -193,7 +193,7 @@ std::string to_log(const std::vector<Judgement>& judgements) {
   return text;
 }
 
-void write_outputs(const Arguments& arguments, const std::vector<Judgement>& judgements,
+void write_outputs(const LoopsArguments& arguments, const std::vector<Judgement>& judgements,
                    const Protocol& protocol) {
   if (!arguments.log.empty()) write_file(arguments.log, to_log(judgements));
   if (arguments.plot.empty()) return;
@@ -204,7 +204,7 @@ void write_outputs(const Arguments& arguments, const std::vector<Judgement>& jud
   write_file(arguments.plot, arguments.plot.ends_with(".svg") ? to_svg(plot) : to_png(plot));
 }
 
-void check(const Arguments& arguments) {
+void check(const LoopsArguments& arguments) {
   for (const std::string& path : {arguments.log, arguments.plot})
     if (!path.empty()) require_free(path, arguments.force);
   require_plot_name(arguments.plot);
@@ -217,7 +217,7 @@ void check(const Arguments& arguments) {
   arguments.revisit.check();
 }
 
-void run(const Arguments& arguments) {
+void run(const LoopsArguments& arguments) {
   check(arguments);
   const Protocol protocol = protocol_of(arguments);
   const std::vector<Judgement> judgements = judge(arguments, protocol);
@@ -237,8 +237,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_loops_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<LoopsArguments>();
+  LoopsArguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
       "loops", "Judge what place recognizers found: precision, recall, the curve between them");
   command->footer("placegraph loops --predictions found.txt --format scores --gt gt.txt --json");

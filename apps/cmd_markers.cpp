@@ -25,7 +25,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Arguments {
+struct MarkersArguments {
   std::string image, camera, layout, out, drawing, origin = "centre";
   std::string dictionary = MarkerLayout().dictionary;
   double side_m = 0;
@@ -44,14 +44,14 @@ struct Found {
   MarkerPoses poses;
 };
 
-Camera camera_of(const Arguments& arguments) {
+Camera camera_of(const MarkersArguments& arguments) {
   Camera camera = read_calib(arguments.camera);
   camera.cx -= arguments.shift_px();
   camera.cy -= arguments.shift_px();
   return camera;
 }
 
-double side_of(const Arguments& arguments, const MarkerLayout& layout, int id) {
+double side_of(const MarkersArguments& arguments, const MarkerLayout& layout, int id) {
   for (const PlacedMarker& marker : layout.markers)
     if (marker.id == id) return marker.side_m;
   if (const auto unplaced = layout.unplaced_sides_m.find(id);
@@ -98,7 +98,7 @@ ordered_json found_json(const Found& found, double shift_px) {
   return json;
 }
 
-ordered_json report(const Arguments& arguments, const std::vector<Found>& markers,
+ordered_json report(const MarkersArguments& arguments, const std::vector<Found>& markers,
                     const MarkerAnswer& answer, double cpu_ms) {
   ordered_json json = {{"in", arguments.image},
                        {"dictionary", arguments.dictionary},
@@ -119,7 +119,7 @@ ordered_json report(const Arguments& arguments, const std::vector<Found>& marker
   return json;
 }
 
-void print(const Arguments& arguments, const std::vector<Found>& markers,
+void print(const MarkersArguments& arguments, const std::vector<Found>& markers,
            const MarkerAnswer& answer, double cpu_ms) {
   fmt::print("{}: {} markers of {}\n", arguments.image, markers.size(), arguments.dictionary);
   for (const Found& found : markers) {
@@ -145,7 +145,7 @@ void print(const Arguments& arguments, const std::vector<Found>& markers,
   fmt::print("  {:.1f} ms CPU\n", cpu_ms);
 }
 
-void draw(const Arguments& arguments, const Image& grey, const std::vector<Found>& markers,
+void draw(const MarkersArguments& arguments, const Image& grey, const std::vector<Found>& markers,
           const Camera& camera) {
   std::vector<DrawnMarker> drawn;
   for (const Found& found : markers) {
@@ -157,7 +157,7 @@ void draw(const Arguments& arguments, const Image& grey, const std::vector<Found
   write_file(arguments.drawing, std::string(png.begin(), png.end()));
 }
 
-void detect(Arguments arguments) {
+void detect(MarkersArguments arguments) {
   require(std::isfinite(arguments.side_m), "--side: must be a finite number");
   for (const std::string& file : {arguments.out, arguments.drawing})
     if (!file.empty()) require_free(file, arguments.force);
@@ -208,8 +208,8 @@ void add_markers_command(CLI::App& app) {
   CLI::App* markers = app.add_subcommand("markers", "Square markers of images");
   markers->footer("placegraph markers detect image.png --calib K.txt --side 0.2 --draw found.png");
   markers->require_subcommand(1);
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<MarkersArguments>();
+  MarkersArguments& a = *arguments;
   CLI::App* command = markers->add_subcommand(
       "detect", "Find markers: corners below a tenth of a pixel, both poses that explain them");
   command->footer("placegraph markers detect image.png --calib K.txt --side 0.2 --draw found.png");

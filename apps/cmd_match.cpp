@@ -46,15 +46,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kCues = {"tiny", "colour", "gradients", "gabor", "corners"};
+const std::vector<std::string> kMatchCues = {"tiny", "colour", "gradients", "gabor", "corners"};
 
 /// In the order of PlaceCode.
 const std::vector<std::string> kCodes = {"bow", "bow_float", "llc", "landmarks"};
 const char* const kMultiCue = "cues";
 
-struct Arguments {
+struct MatchArguments {
   std::string folder, out, codes = kMultiCue, vocabulary;
-  std::vector<std::string> cues = kCues;
+  std::vector<std::string> cues = kMatchCues;
   std::optional<int> min_age;
   bool sequence = false, force = false;
   std::vector<std::string> settings;
@@ -82,7 +82,7 @@ std::vector<Query> listed_queries(const std::string& path, int images) {
   return queries;
 }
 
-std::vector<Query> queries_of(const Arguments& arguments, int images) {
+std::vector<Query> queries_of(const MatchArguments& arguments, int images) {
   const std::string listed = (fs::path(arguments.folder) / "gt.txt").string();
   if (!arguments.min_age && fs::exists(listed)) return listed_queries(listed, images);
   constexpr int kMinAge = 300;
@@ -118,7 +118,7 @@ LookUp by_cues(const PlaceRecognizerOptions& options) {
   };
 }
 
-LookUp by_codes(const Arguments& arguments) {
+LookUp by_codes(const MatchArguments& arguments) {
   const auto code = static_cast<PlaceCode>(
       std::find(kCodes.begin(), kCodes.end(), arguments.codes) - kCodes.begin());
   std::optional<WordTree> words;
@@ -137,7 +137,7 @@ LookUp by_codes(const Arguments& arguments) {
   };
 }
 
-std::vector<LoopPrediction> match(const Arguments& arguments,
+std::vector<LoopPrediction> match(const MatchArguments& arguments,
                                   const std::vector<std::string>& images,
                                   const std::vector<Query>& queries, bool colour,
                                   const LookUp& look_up) {
@@ -171,7 +171,7 @@ std::vector<LoopPrediction> match(const Arguments& arguments,
   return found;
 }
 
-void select_cues(Arguments& arguments) {
+void select_cues(MatchArguments& arguments) {
   const auto keep = [&](const char* name, double& weight) {
     if (std::find(arguments.cues.begin(), arguments.cues.end(), name) == arguments.cues.end())
       weight = 0;
@@ -184,7 +184,7 @@ void select_cues(Arguments& arguments) {
   keep("corners", cues.corners);
 }
 
-void run(Arguments arguments) {
+void run(MatchArguments arguments) {
   require_free(arguments.out, arguments.force);
   for (const std::string& setting : arguments.settings) set_option(arguments.options, setting);
   arguments.options.check();
@@ -211,8 +211,8 @@ void run(Arguments arguments) {
 }  // namespace
 
 void add_match_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<MatchArguments>();
+  MatchArguments& a = *arguments;
   CLI::App* command =
       app.add_subcommand("match", "Find for each image the older one that shows the same place");
   command->footer("placegraph match places/corridor --out found.txt --sequence");
@@ -233,7 +233,7 @@ void add_match_command(CLI::App& app) {
       ->check(CLI::Range(1, 1'000'000'000));
   command->add_option("--cues", a.cues, "tiny, colour, gradients, gabor, corners: those that count")
       ->delimiter(',')
-      ->check(CLI::IsMember(kCues))
+      ->check(CLI::IsMember(kMatchCues))
       ->default_str("all");
   std::vector<std::string> codes = kCodes;
   codes.insert(codes.begin(), kMultiCue);

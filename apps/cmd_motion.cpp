@@ -37,7 +37,7 @@ const std::vector<std::string>& models() {
   return names;
 }
 
-struct Arguments {
+struct MotionArguments {
   std::string in, calib, out, model = "auto", gravity;
   bool json = false, force = false;
   std::uint64_t seed = 1;
@@ -100,12 +100,12 @@ Verticals verticals_of(const std::string& text) {
 }
 
 template <class Options>
-void adopt(const Arguments& arguments, Options& options) {
+void adopt(const MotionArguments& arguments, Options& options) {
   if (arguments.threshold_px) options.threshold_px = *arguments.threshold_px;
   if (arguments.min_inliers) options.ransac.min_inliers = *arguments.min_inliers;
 }
 
-Answer by_two_views(const Arguments& arguments, const Camera& camera, const MatchFile& file,
+Answer by_two_views(const MotionArguments& arguments, const Camera& camera, const MatchFile& file,
                     Random& random) {
   RelativePoseOptions options;
   const auto& names = relative_pose_model_names();
@@ -128,7 +128,7 @@ Answer by_two_views(const Arguments& arguments, const Camera& camera, const Matc
   return answer;
 }
 
-Answer by_gravity(const Arguments& arguments, const Camera& camera, const MatchFile& file,
+Answer by_gravity(const MotionArguments& arguments, const Camera& camera, const MatchFile& file,
                   Random& random) {
   const Verticals down = verticals_of(arguments.gravity);
   GravityPoseOptions options;
@@ -146,7 +146,7 @@ Answer by_gravity(const Arguments& arguments, const Camera& camera, const MatchF
   return answer;
 }
 
-Answer by_circle(const Arguments& arguments, const Camera& camera, const MatchFile& file) {
+Answer by_circle(const MotionArguments& arguments, const Camera& camera, const MatchFile& file) {
   CircularMotionOptions options;
   if (arguments.threshold_px) options.threshold_px = *arguments.threshold_px;
   if (arguments.min_inliers) options.min_inliers = *arguments.min_inliers;
@@ -174,8 +174,8 @@ Answer by_circle(const Arguments& arguments, const Camera& camera, const MatchFi
   return answer;
 }
 
-Answer by_seen_points(const Arguments& arguments, const Camera& camera, const SeenPointFile& file,
-                      Random& random) {
+Answer by_seen_points(const MotionArguments& arguments, const Camera& camera,
+                      const SeenPointFile& file, Random& random) {
   Pose3d2dOptions options;
   adopt(arguments, options);
   const Pose3d2dResult found = estimate_pose_3d2d(camera, file.points, file.px, options, random);
@@ -192,7 +192,7 @@ Answer by_seen_points(const Arguments& arguments, const Camera& camera, const Se
   return answer;
 }
 
-Answer by_clouds(const Arguments& arguments, const PointPairFile& file, Random& random) {
+Answer by_clouds(const MotionArguments& arguments, const PointPairFile& file, Random& random) {
   require(arguments.noise_m > 0, "--noise: must be positive");
   require(!arguments.threshold_px, "--threshold: is of pixels, and 3d3d has none");
   Pose3d3dOptions options;
@@ -230,7 +230,7 @@ ordered_json rows_json(const Matrix& matrix) {
   return rows;
 }
 
-ordered_json answer_json(const Arguments& arguments, const Answer& answer, double cpu_ms) {
+ordered_json answer_json(const MotionArguments& arguments, const Answer& answer, double cpu_ms) {
   ordered_json json;
   json["in"] = arguments.in;
   json["matches"] = answer.matches;
@@ -261,7 +261,7 @@ ordered_json answer_json(const Arguments& arguments, const Answer& answer, doubl
   return json;
 }
 
-void print(const Arguments& arguments, const Answer& answer, double cpu_ms) {
+void print(const MotionArguments& arguments, const Answer& answer, double cpu_ms) {
   constexpr double kDeg = 180 / M_PI;
   fmt::print("{}: {}, {} of {} matches\n", arguments.in, answer.model, answer.inliers.size(),
              answer.matches);
@@ -291,7 +291,7 @@ void print(const Arguments& arguments, const Answer& answer, double cpu_ms) {
   fmt::print("  {:.1f} ms CPU\n", cpu_ms);
 }
 
-void run(const Arguments& arguments) {
+void run(const MotionArguments& arguments) {
   const std::string& model = arguments.model;
   require(model == "3d3d" || !arguments.calib.empty(), "--calib is required for --model " + model);
   require(model != "gravity" || !arguments.gravity.empty(),
@@ -344,8 +344,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_motion_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<MotionArguments>();
+  MotionArguments& a = *arguments;
   CLI::App* command =
       app.add_subcommand("motion", "How a camera moved between two views of matched points");
   command->footer("placegraph motion matches.txt --calib K.txt --json");

@@ -29,7 +29,7 @@ OptionEntry backend_option(const std::string& path) {
   throw ArgumentError("no option of the backend: " + path);
 }
 
-struct Arguments {
+struct OptimizeArguments {
   std::string in, out, plot, cost = "log";
   std::string engine = backend_option("engine").value, start = backend_option("start").value,
               robust = backend_option("robust.method").value;
@@ -85,7 +85,8 @@ int doubtful_edges(const GraphSolution& solution) {
 }
 
 /// One line where the least squares of a graph with loops look like those of a wrong graph.
-void warn_of_misfit(const Arguments& arguments, const GraphSolution& solution, const Costs& costs) {
+void warn_of_misfit(const OptimizeArguments& arguments, const GraphSolution& solution,
+                    const Costs& costs) {
   constexpr double kMuch = 10;  // times what is expected
   const int dof = degrees_of_freedom(solution.graph.kind());
   const auto free = static_cast<double>(solution.graph.constraints.size()) -
@@ -125,7 +126,7 @@ void describe_certificate(const GraphSolution& solution, Json& json) {
   json["certificate_cpu_ms"] = solution.certificate_cpu_ms;
 }
 
-Json describe(const Arguments& arguments, const Costs& before, const Costs& after,
+Json describe(const OptimizeArguments& arguments, const Costs& before, const Costs& after,
               const GraphSolution& solution) {
   const char* const kinds[] = {"SE2", "SE3", "Sim3"};
   Json json;
@@ -155,7 +156,7 @@ Json describe(const Arguments& arguments, const Costs& before, const Costs& afte
   return json;
 }
 
-void print(const Arguments& arguments, const Json& json) {
+void print(const OptimizeArguments& arguments, const Json& json) {
   const auto number = [&](const char* key) { return json[key].get<double>(); };
   fmt::print("{}: {}, {} nodes, {} constraints, minimized in the {} convention\n", arguments.in,
              json["kind"].get<std::string>(), json["nodes"].get<int>(),
@@ -188,8 +189,8 @@ void print(const Arguments& arguments, const Json& json) {
              arguments.out);
 }
 
-void draw(const Arguments& arguments, const PoseGraph& before, const GraphSolution& solution,
-          const Costs& costs) {
+void draw(const OptimizeArguments& arguments, const PoseGraph& before,
+          const GraphSolution& solution, const Costs& costs) {
   std::vector<int> rejected;
   for (const RejectedEdge& edge : solution.rejected) rejected.push_back(edge.constraint);
   Plot plot = plot_of(before, solution.graph, rejected);
@@ -206,7 +207,7 @@ Enum chosen(const std::string& path, const std::string& name) {
   return static_cast<Enum>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-void check(Arguments& arguments) {
+void check(OptimizeArguments& arguments) {
   PoseGraphOptions& options = arguments.task.options;
   options.rotation_error =
       arguments.cost == "g2o" ? RotationError::kQuaternion : RotationError::kLog;
@@ -227,7 +228,7 @@ void check(Arguments& arguments) {
   if (!arguments.plot.empty()) require_free(arguments.plot, arguments.force);
 }
 
-void run(Arguments arguments) {
+void run(OptimizeArguments arguments) {
   check(arguments);
   PoseGraph start = read_pose_graph(arguments.in, {.connected = !arguments.task.split});
   const Costs before = costs_of(start);
@@ -262,8 +263,8 @@ void run(Arguments arguments) {
 }  // namespace
 
 void add_optimize_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<OptimizeArguments>();
+  OptimizeArguments& a = *arguments;
   CLI::App* command =
       app.add_subcommand("optimize", "Optimize a pose graph in the form of g2o, TORO or iSAM");
   command->footer("placegraph optimize sphere.g2o -o optimized.g2o --cost g2o --plot sphere.png");

@@ -26,14 +26,14 @@ namespace fs = std::filesystem;
 
 /// In the order of PlaceMachineKind, and of PlaceCueVectors.
 const std::vector<std::string> kMachines = {"kernel", "svm", "adaboost"};
-const std::vector<std::string> kCues = {"colours", "quarters", "edges", "tiny", "gabor"};
+const std::vector<std::string> kPlaceCues = {"colours", "quarters", "edges", "tiny", "gabor"};
 
-struct Arguments {
+struct PlacesArguments {
   std::string folder, out;
   std::optional<int> train;
   double reject = 0, max_entropy = 1;
   std::string classifier = kMachines.front();
-  std::vector<std::string> cues = kCues;
+  std::vector<std::string> cues = kPlaceCues;
   bool sequence = false, force = false;
 };
 
@@ -42,7 +42,7 @@ struct Halves {
 };
 
 // The candidates of gt.txt are the training half, its queries the other.
-Halves halves_of(const Arguments& arguments, int images) {
+Halves halves_of(const PlacesArguments& arguments, int images) {
   Halves halves;
   const std::string listed = (fs::path(arguments.folder) / "gt.txt").string();
   if (arguments.train) {
@@ -72,11 +72,11 @@ PlaceCueVectors read_view(const std::string& path, const std::vector<std::string
   const GreyAndColour image = read_image(path);
   PlaceCueVectors view = describe_for_classes(image.colour.empty() ? image.grey : image.colour);
   for (std::size_t m = 0; m < view.size(); ++m)
-    if (std::find(cues.begin(), cues.end(), kCues[m]) == cues.end()) view[m].resize(0);
+    if (std::find(cues.begin(), cues.end(), kPlaceCues[m]) == cues.end()) view[m].resize(0);
   return view;
 }
 
-void require_some_cue(const Arguments& arguments, const PlaceCueVectors& view) {
+void require_some_cue(const PlacesArguments& arguments, const PlaceCueVectors& view) {
   const auto known = [](const Eigen::VectorXf& cue) { return cue.size() > 0; };
   require(std::any_of(view.begin(), view.end(), known),
           arguments.folder + ": grey images, and --cues asks for colours alone");
@@ -87,7 +87,7 @@ void require_some_cue(const Arguments& arguments, const PlaceCueVectors& view) {
     warn(arguments.folder + ": grey images; places are told without the colour cues");
 }
 
-void classify(const Arguments& arguments) {
+void classify(const PlacesArguments& arguments) {
   require_free(arguments.out, arguments.force);
   const fs::path inside = fs::path(arguments.folder) / "images";
   const std::vector<std::string> images =
@@ -130,8 +130,9 @@ void classify(const Arguments& arguments) {
   }
   write_file(arguments.out, lines);
   std::string weights;
-  for (std::size_t m = 0; m < kCues.size(); ++m)
-    weights += fmt::format("{}{} {:.2g}", m == 0 ? "" : ", ", kCues[m], classifier.weights()[m]);
+  for (std::size_t m = 0; m < kPlaceCues.size(); ++m)
+    weights +=
+        fmt::format("{}{} {:.2g}", m == 0 ? "" : ", ", kPlaceCues[m], classifier.weights()[m]);
   fmt::print(
       "{} views learned, {} told, {} refused; weights of {}; on left out parts accuracy {:.3f}, "
       "log loss {:.3f}; written to {}\n",
@@ -145,8 +146,8 @@ void add_places_command(CLI::App& app) {
   CLI::App* places = app.add_subcommand("places", "Labelled places");
   places->footer("placegraph places classify house --out told.txt");
   places->require_subcommand(1);
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<PlacesArguments>();
+  PlacesArguments& a = *arguments;
   CLI::App* command = places->add_subcommand(
       "classify", "Learn the labels of some images and tell those of the others");
   command->footer("placegraph places classify house --out told.txt --sequence");
@@ -176,7 +177,7 @@ void add_places_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--cues", a.cues, "colours, quarters, edges, tiny, gabor: those that count")
       ->delimiter(',')
-      ->check(CLI::IsMember(kCues))
+      ->check(CLI::IsMember(kPlaceCues))
       ->default_str("all");
   command->add_flag("--sequence", a.sequence, "add the evidence of the images before each");
   command->add_flag("--force", a.force, "overwrite files");

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Arguments {
+struct PlanesArguments {
   std::string in, out, calibration, motion;
   bool json = false, force = false;
   std::uint64_t seed = 1;
@@ -68,7 +68,7 @@ ordered_json motion_json(const MotionFromPlanesResult& result) {
   return json;
 }
 
-void print(const Arguments& arguments, int matches, const PlanarRegionsResult& result,
+void print(const PlanesArguments& arguments, int matches, const PlanarRegionsResult& result,
            const ordered_json& motion, double cpu_ms) {
   if (arguments.json) {
     ordered_json json;
@@ -94,7 +94,7 @@ void print(const Arguments& arguments, int matches, const PlanarRegionsResult& r
   fmt::print("  {:.1f} ms CPU\n", cpu_ms);
 }
 
-void run(const Arguments& arguments) {
+void run(const PlanesArguments& arguments) {
   arguments.regions.check();
   arguments.planes_motion.check();
   require(arguments.motion.empty() || !arguments.calibration.empty(), "--motion: needs --calib");
@@ -138,8 +138,8 @@ void add_planes_command(CLI::App& app) {
   planes->footer("placegraph planes depth.png --calib K.txt --depth-scale 0.001 --out planes.png");
   planes->require_subcommand(0, 1);
   add_cloud_planes(*planes);
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<PlanesArguments>();
+  PlanesArguments& a = *arguments;
   CLI::App* command = planes->add_subcommand(
       "two-view", "Label the point matches of two views by the plane they lie on");
   command->footer(

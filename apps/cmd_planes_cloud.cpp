@@ -29,7 +29,7 @@ using nlohmann::ordered_json;
 const std::vector<std::string> kMethods = {"cuts", "ransac", "growing"};
 constexpr int kMostLabels = 255;  ///< of an 8-bit image
 
-struct Arguments {
+struct PlanesCloudArguments {
   std::string in, out, calibration, method = "cuts", model, truth;
   double depth_scale = 0.001;
   bool json = false, force = false;
@@ -46,7 +46,7 @@ bool is_image(const std::string& path) {
   return extension == ".png" || extension == ".pgm" || extension == ".tif" || extension == ".tiff";
 }
 
-PointCloud read_depth_cloud(const Arguments& arguments) {
+PointCloud read_depth_cloud(const PlanesCloudArguments& arguments) {
   require(!arguments.calibration.empty(), "--calib: a depth image needs its camera");
   require(std::isfinite(arguments.depth_scale) && arguments.depth_scale > 0,
           "--depth-scale: " + std::to_string(arguments.depth_scale) + " is not above 0");
@@ -60,7 +60,7 @@ PointCloud read_depth_cloud(const Arguments& arguments) {
   return cloud_of_depth(depth, camera, step_m);
 }
 
-std::vector<int> read_truth(const Arguments& arguments, std::size_t points) {
+std::vector<int> read_truth(const PlanesCloudArguments& arguments, std::size_t points) {
   std::vector<int> labels;
   if (is_image(arguments.truth)) {
     const Image image = read_image_as_stored(arguments.truth);
@@ -83,7 +83,7 @@ std::vector<int> read_truth(const Arguments& arguments, std::size_t points) {
   return labels;
 }
 
-void write_labels(const Arguments& arguments, const PointCloud& cloud,
+void write_labels(const PlanesCloudArguments& arguments, const PointCloud& cloud,
                   const std::vector<int>& labels) {
   if (!cloud.organised()) {
     std::string text;
@@ -126,8 +126,8 @@ ordered_json check_json(const PlaneCheck& check) {
           {"extra_pieces", check.extra_pieces}};
 }
 
-void print(const Arguments& arguments, const PointCloud& cloud, const CloudPlanesResult& result,
-           const ordered_json& check, double cpu_ms) {
+void print(const PlanesCloudArguments& arguments, const PointCloud& cloud,
+           const CloudPlanesResult& result, const ordered_json& check, double cpu_ms) {
   const auto on_planes = std::count_if(result.labels.begin(), result.labels.end(),
                                        [](int label) { return label > 0; });
   const auto measured = std::count_if(cloud.points.begin(), cloud.points.end(),
@@ -166,7 +166,7 @@ void print(const Arguments& arguments, const PointCloud& cloud, const CloudPlane
   fmt::print("  {:.1f} ms CPU\n", cpu_ms);
 }
 
-void run(const Arguments& arguments) {
+void run(const PlanesCloudArguments& arguments) {
   require(!arguments.in.empty(), "planes: CLOUD or a subcommand is required");
   require(!arguments.out.empty(), "planes: --out is required");
   CloudPlanesOptions options = arguments.options;
@@ -197,8 +197,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_cloud_planes(CLI::App& planes) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<PlanesCloudArguments>();
+  PlanesCloudArguments& a = *arguments;
   planes
       .add_option("CLOUD", a.in,
                   "16-bit depth PNG, PLY (ascii, binary little endian), KITTI's .bin, or text with "

@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Arguments {
+struct RouteArguments {
   std::string map, out, plot;
   std::int64_t from = 0, to = 0;
   bool backtrack = false, force = false;
@@ -89,7 +89,7 @@ Plot route_plot(const Route& route, const RunMap& map) {
   return plot;
 }
 
-void run(const Arguments& arguments) {
+void run(const RouteArguments& arguments) {
   for (const std::string& path : {arguments.out, arguments.plot})
     if (!path.empty()) require_free(path, arguments.force);
   require_plot_name(arguments.plot);
@@ -105,8 +105,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_route_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<RouteArguments>();
+  RouteArguments& a = *arguments;
   CLI::App* command =
       app.add_subcommand("route", "The shortest way over the places of a map, or the way back");
   command->footer(

@@ -36,7 +36,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Arguments {
+struct RunArguments {
   std::string sequence, out, resume, config, odometry, draw;
   std::vector<std::string> settings;
   std::optional<std::string> sensor, cues, scene, elements;
@@ -62,7 +62,7 @@ void set_scene(const std::string& list, SceneOptions& options) {
 }
 
 /// Defaults (or what a run that goes on was begun with) < file < --set < explicit flags.
-RunOptions options_of(const Arguments& arguments, RunOptions options = {}) {
+RunOptions options_of(const RunArguments& arguments, RunOptions options = {}) {
   if (!arguments.config.empty()) read_options(arguments.config, options);
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
@@ -171,7 +171,7 @@ void print_stages(const json& summary) {
 
 /// A run that was broken off goes on with the sequence and the options it was begun with; takes
 /// them into `arguments`. Throws ArgumentError where a flag says otherwise.
-RunOptions options_of_resumed(Arguments& arguments) {
+RunOptions options_of_resumed(RunArguments& arguments) {
   require(arguments.out.empty() ||
               fs::weakly_canonical(arguments.out) == fs::weakly_canonical(arguments.resume),
           "--out: a run that goes on writes into the folder it is resumed from");
@@ -197,7 +197,7 @@ RunOptions options_of_resumed(Arguments& arguments) {
 }
 
 /// What the run is to do, its output folder checked.
-RunOptions prepare(Arguments& arguments) {
+RunOptions prepare(RunArguments& arguments) {
   if (!arguments.resume.empty()) return options_of_resumed(arguments);
   require(!arguments.sequence.empty() && !arguments.out.empty(),
           "SEQUENCE and --out are needed, or --resume");
@@ -218,7 +218,7 @@ std::shared_ptr<const SceneModel> surfaces_of(const SlamOptions& options) {
 
 /// Draws the floor plan and labels the places by its rooms; what result.json says of it. Where
 /// there is no plan the run is good all the same.
-json map_scene(const Arguments& arguments, const RunOptions& options, const Dataset& dataset,
+json map_scene(const RunArguments& arguments, const RunOptions& options, const Dataset& dataset,
                RunResult& run) {
   const IndoorMap plan =
       plan_of_map(run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.indoor);
@@ -234,7 +234,7 @@ json map_scene(const Arguments& arguments, const RunOptions& options, const Data
 
 /// Writes the map of the street; what result.json says of it. Where there is none the run is good
 /// all the same.
-json map_street(const Arguments& arguments, const RunOptions& options, const Dataset& dataset,
+json map_street(const RunArguments& arguments, const RunOptions& options, const Dataset& dataset,
                 const RunResult& run) {
   const UrbanMapper mapper = urban_mapper_of(
       run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.urban,
@@ -247,7 +247,7 @@ json map_street(const Arguments& arguments, const RunOptions& options, const Dat
   return describe_semantic_map(semantic, mapper, run.map, dataset, arguments.sequence);
 }
 
-void run(Arguments arguments) {
+void run(RunArguments arguments) {
   const RunOptions options = prepare(arguments);
   if (options.scene.semantics)
     check_urban_models(options.scene.urban,
@@ -332,7 +332,7 @@ void run(Arguments arguments) {
 }  // namespace
 
 void add_run_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<RunArguments>();
   CLI::App* command = app.add_subcommand("run", "Images in, trajectory and place graph out.");
   command->footer("placegraph run kitti/sequences/00 --camera-height 1.65 --out out/kitti00");
   command->add_option("SEQUENCE", arguments->sequence, "folder or video; see docs/datasets.md");

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct SceneCheckArguments {
   std::string labels, data, classes;
   bool surfaces = false, confusion = false, json = false;
 };
@@ -45,7 +45,7 @@ Image confidence_of(const fs::path& path, const Image& labels) {
   return confidence;
 }
 
-LabelCheck compare(const Arguments& a, const LabelledSet& set,
+LabelCheck compare(const SceneCheckArguments& a, const LabelledSet& set,
                    const std::vector<std::string>& names) {
   LabelCheck check(static_cast<int>(names.size()));
   for (const LabelledPicture& picture : set.train) {
@@ -64,7 +64,7 @@ LabelCheck compare(const Arguments& a, const LabelledSet& set,
   return check;
 }
 
-void check_labels(const Arguments& a) {
+void check_labels(const SceneCheckArguments& a) {
   const LabelledSet set = read_labelled_set(a.data);
   const std::vector<std::string> names =
       names_of(a.classes.empty() ? set.classes : read_class_list(a.classes), a.surfaces);
@@ -105,8 +105,8 @@ void check_labels(const Arguments& a) {
 void add_scene_check_command(CLI::App& scene) {
   CLI::App* command = scene.add_subcommand("check", "Judge label images by those that people made");
   command->footer("placegraph scene check labels camvid/val");
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<SceneCheckArguments>();
+  SceneCheckArguments& a = *arguments;
   command
       ->add_option("LABELS", a.labels,
                    "folder of `scene label` or `scene surfaces`; confidences in it are judged too")

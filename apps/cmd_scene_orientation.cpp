@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-struct Arguments {
+struct SceneOrientationArguments {
   std::string in, camera, out, drawing;
   int every = 1;
   std::uint64_t seed = 1;
@@ -44,7 +44,7 @@ struct Seen {
   OrientationMap map;
 };
 
-Seen see(const Image& image, const Camera& camera, const Arguments& arguments) {
+Seen see(const Image& image, const Camera& camera, const SceneOrientationArguments& arguments) {
   Seen seen;
   seen.segments = segments_of(detect_segments(image, {}));
   Random random(arguments.seed);
@@ -93,7 +93,7 @@ void write_image(const std::string& path, const Image& image) {
   file.commit();
 }
 
-void run_image(const Arguments& arguments) {
+void run_image(const SceneOrientationArguments& arguments) {
   require(!arguments.camera.empty(), "--calib: an image needs its camera");
   for (const std::string& path : {arguments.out, arguments.drawing})
     if (!path.empty()) require_free(path, arguments.force);
@@ -156,7 +156,7 @@ class PlaneTruth {
   std::vector<Eigen::Vector3d> normals_;
 };
 
-void run_sequence_of_images(const Arguments& arguments) {
+void run_sequence_of_images(const SceneOrientationArguments& arguments) {
   const auto dataset = open_dataset(arguments.in);
   for (const std::string& path : {arguments.out, arguments.drawing})
     if (!path.empty()) require_free_folder(path, arguments.force);
@@ -204,7 +204,7 @@ void run_sequence_of_images(const Arguments& arguments) {
   if (told == 0) throw NoAnswer(arguments.in + ": no image shows a rectangular world");
 }
 
-void run(const Arguments& arguments) {
+void run(const SceneOrientationArguments& arguments) {
   arguments.options.check();
   require(arguments.every >= 1, "--every: must be at least 1");
   if (fs::is_directory(arguments.in))
@@ -216,8 +216,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_scene_orientation_command(CLI::App& scene) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<SceneOrientationArguments>();
+  SceneOrientationArguments& a = *arguments;
   CLI::App* command = scene.add_subcommand(
       "orientation", "How the surface behind each pixel is turned, from straight edges");
   command->footer(

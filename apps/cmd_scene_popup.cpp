@@ -24,7 +24,7 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct ScenePopupArguments {
   std::string image, out, calib, model, surfaces, draw, mask;
   double height_m = 1.5, farthest_m = 100;
   std::vector<double> box;
@@ -34,7 +34,7 @@ struct Arguments {
 };
 
 /// Without calibration: a lens of about 58 degrees across that looks through the middle.
-Camera camera_for(const Arguments& a, const Image& image) {
+Camera camera_for(const ScenePopupArguments& a, const Image& image) {
   if (!a.calib.empty()) {
     const Camera camera = read_calib_without_distortion(a.calib, "scene popup");
     require_size(a.image, image, camera.width, camera.height);
@@ -97,7 +97,7 @@ void write_png(const std::string& path, const Image& image) {
   write_file(path, {bytes.begin(), bytes.end()});
 }
 
-Image surfaces_for(const Arguments& a, const Image& picture) {
+Image surfaces_for(const ScenePopupArguments& a, const Image& picture) {
   if (a.surfaces.empty())
     return classify_surfaces(load_scene_model(SceneModel::Kind::kSurfaces, a.model),
                              view_scene(picture))
@@ -109,7 +109,7 @@ Image surfaces_for(const Arguments& a, const Image& picture) {
   return surfaces;
 }
 
-void pop_up_image(const Arguments& a) {
+void pop_up_image(const ScenePopupArguments& a) {
   for (const std::string* path : {&a.out, &a.draw, &a.mask})
     if (!path->empty()) require_free(*path, a.force);
   require(a.draw.empty() == a.box.empty(),
@@ -160,8 +160,8 @@ void add_scene_popup_command(CLI::App& scene) {
   command->footer(
       "placegraph scene popup street.png --calib K.txt --camera-height 1.65 --out street.ply --box "
       "1,12,0.6,0.6,1.8 --draw overlay.png");
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<ScenePopupArguments>();
+  ScenePopupArguments& a = *arguments;
   command->add_option("IMAGE", a.image, "image, without distortion")->required();
   command->add_option("--out", a.out, "write the mesh, PLY, in metres of the camera's frame")
       ->required();

@@ -16,7 +16,7 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct SynthArguments {
   SyntheticOptions world;
   SequenceWriterOptions writer;
   std::string out, difficulty = "standard", size;
@@ -35,7 +35,7 @@ void parse_size(const std::string& text, SyntheticOptions& options) {
           "--size: '" + text + "' is not of the form 1241x376");
 }
 
-void run(Arguments arguments) {
+void run(SynthArguments arguments) {
   SyntheticOptions& options = arguments.world;
   options.difficulty = synthetic::difficulty_from(arguments.difficulty);
   if (!arguments.size.empty()) parse_size(arguments.size, options);
@@ -73,8 +73,8 @@ void run(Arguments arguments) {
 }  // namespace
 
 void add_synth_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<SynthArguments>();
+  SynthArguments& a = *arguments;
   CLI::App* command = app.add_subcommand("synth", "Render a sequence with exact ground truth");
   command->footer("placegraph synth town-loop --out out/town-loop --difficulty standard");
   command

@@ -17,7 +17,7 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct SynthGraphArguments {
   std::string world, out;
   std::optional<int> poses, closures;
   std::optional<double> loop_share, laps, translation_noise_m, rotation_noise_rad;
@@ -28,7 +28,7 @@ struct Arguments {
 
 /// The options of all worlds have these in common.
 template <class Options>
-Options common_options(const Arguments& arguments) {
+Options common_options(const SynthGraphArguments& arguments) {
   Options options;
   options.seed = arguments.seed;
   if (arguments.poses) options.poses = *arguments.poses;
@@ -37,7 +37,7 @@ Options common_options(const Arguments& arguments) {
   return options;
 }
 
-void refuse_foreign(const Arguments& arguments, bool loop_share, bool loops) {
+void refuse_foreign(const SynthGraphArguments& arguments, bool loop_share, bool loops) {
   const std::string where = " is no option of " + arguments.world;
   require(loop_share || !arguments.loop_share, "--loop-share" + where);
   require(loops || !arguments.closures, "--closures" + where);
@@ -45,7 +45,7 @@ void refuse_foreign(const Arguments& arguments, bool loop_share, bool loops) {
   require(loops || !arguments.spatial, "--3d" + where);
 }
 
-PoseGraph disturbed_file(const Arguments& arguments) {
+PoseGraph disturbed_file(const SynthGraphArguments& arguments) {
   require(std::filesystem::exists(arguments.world),
           arguments.world +
               ": neither manhattan-walk, grid-world nor long-loop, nor a file that is there");
@@ -61,7 +61,7 @@ PoseGraph disturbed_file(const Arguments& arguments) {
   return graph;
 }
 
-PoseGraph make_graph(const Arguments& arguments) {
+PoseGraph make_graph(const SynthGraphArguments& arguments) {
   if (arguments.world == "manhattan-walk") {
     refuse_foreign(arguments, true, false);
     auto options = common_options<synthetic::ManhattanWalkOptions>(arguments);
@@ -85,7 +85,7 @@ PoseGraph make_graph(const Arguments& arguments) {
   return disturbed_file(arguments);
 }
 
-void run(const Arguments& arguments) {
+void run(const SynthGraphArguments& arguments) {
   require_free(arguments.out, arguments.force);
   PoseGraph graph = make_graph(arguments);
   synthetic::add_false_loops(graph, arguments.false_loops, arguments.seed);
@@ -98,8 +98,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_synth_graph_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<SynthGraphArguments>();
+  SynthGraphArguments& a = *arguments;
   CLI::App* command =
       app.add_subcommand("synth-graph", "Make a pose graph that starts from drifted odometry");
   command->footer("placegraph synth-graph manhattan-walk --poses 20000 -o walk.g2o");
@@ -117,8 +117,7 @@ void add_synth_graph_command(CLI::App& app) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--closures", a.closures, "long-loop: how many loops")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--laps", a.laps, "long-loop: how often round")
-      ->check(CLI::Range(1e-6, 1e6));
+  command->add_option("--laps", a.laps, "long-loop: how often round")->check(CLI::Range(1e-6, 1e6));
   command->add_flag("--3d", a.spatial, "long-loop: in space");
   command->add_option("--translation-noise", a.translation_noise_m, "of a measurement [m]")
       ->check(CLI::Range(1e-9, 1e9));

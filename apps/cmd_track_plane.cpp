@@ -26,7 +26,7 @@ namespace {
 using Eigen::Vector2d;
 using nlohmann::ordered_json;
 
-struct Arguments {
+struct TrackPlaneArguments {
   std::string in, corners, image, calibration, normal, out, draw, trajectory;
   bool calibrated = false, json = false, force = false;
   PlaneTrackerOptions options;
@@ -60,7 +60,7 @@ std::vector<Vector2d> corners_of(const std::string& text, const Image& image) {
 }
 
 /// The camera of a file, or the sequence's own; nothing where none was asked for.
-std::optional<Camera> camera_of(const Arguments& arguments, const FrameSource& source,
+std::optional<Camera> camera_of(const TrackPlaneArguments& arguments, const FrameSource& source,
                                 const Image& image) {
   if (!arguments.calibrated) return std::nullopt;
   if (arguments.calibration.empty()) {
@@ -78,7 +78,7 @@ std::optional<Camera> camera_of(const Arguments& arguments, const FrameSource& s
   return camera;
 }
 
-std::optional<Eigen::Vector3d> normal_of(const Arguments& arguments) {
+std::optional<Eigen::Vector3d> normal_of(const TrackPlaneArguments& arguments) {
   if (arguments.normal.empty()) return std::nullopt;
   const std::vector<double> values = numbers_of("--normal", arguments.normal, 3);
   const Eigen::Vector3d normal(values[0], values[1], values[2]);
@@ -86,7 +86,7 @@ std::optional<Eigen::Vector3d> normal_of(const Arguments& arguments) {
   return normal.normalized();
 }
 
-void print(const Arguments& arguments, const PlaneTracker& tracker,
+void print(const TrackPlaneArguments& arguments, const PlaneTracker& tracker,
            const std::vector<PlaneTrack>& tracks, double cpu_ms) {
   const auto tracked = static_cast<std::size_t>(
       std::count_if(tracks.begin(), tracks.end(),
@@ -140,7 +140,7 @@ void draw(const std::string& path, const FrameSource& source,
   }
 }
 
-void run(Arguments& arguments) {
+void run(TrackPlaneArguments& arguments) {
   PlaneTrackerOptions& options = arguments.options;
   options.check();
   require(arguments.trajectory.empty() || arguments.calibrated, "--trajectory: needs --calib");
@@ -204,8 +204,8 @@ void add_choice(CLI::App& command, const std::string& name, Enum& value,
 }  // namespace
 
 void add_track_plane_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<TrackPlaneArguments>();
+  TrackPlaneArguments& a = *arguments;
   CLI::App* command = app.add_subcommand("track-plane", "Follow a planar region of an image");
   command->footer(
       "placegraph track-plane sequence --template 100,80,300,80,300,220,100,220 --out track.txt");

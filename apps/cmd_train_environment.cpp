@@ -25,7 +25,7 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct TrainEnvironmentArguments {
   std::string data, out, model;
   std::vector<std::uint64_t> seeds{11, 12}, left_out{14};
   int frames = 14;
@@ -205,7 +205,7 @@ nlohmann::ordered_json judge(const EnvironmentModel& model, const Samples& sampl
   return json;
 }
 
-void train(const Arguments& arguments) {
+void train(const TrainEnvironmentArguments& arguments) {
   require_free(arguments.out, arguments.force);
   const SceneEye eye(std::make_shared<const SceneModel>(
                          load_scene_model(SceneModel::Kind::kSurfaces, arguments.model)),
@@ -245,8 +245,8 @@ void train(const Arguments& arguments) {
 }  // namespace
 
 void add_train_environment_command(CLI::App& train_command) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<TrainEnvironmentArguments>();
+  TrainEnvironmentArguments& a = *arguments;
   CLI::App* command = train_command.add_subcommand(
       "environment", "What kind of surroundings a view shows: frontend/scene/environment.txt");
   command->footer("placegraph train environment camvid --out environment.txt");

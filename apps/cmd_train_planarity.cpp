@@ -22,7 +22,7 @@ namespace {
 
 using synthetic::LabelledCloud;
 
-struct Arguments {
+struct TrainPlanarityArguments {
   std::string out;
   std::vector<std::string> worlds = {"corridor-loop", "warehouse", "town-loop"};
   int frames = 12, clouds = 300, rounds = 60;
@@ -57,7 +57,7 @@ void add_samples(const LabelledCloud& labelled, const CloudPlanesOptions& option
 }
 
 /// Frames of a rendered world with the noise of a depth camera or of stereo.
-void add_world(const std::string& name, const Arguments& arguments, Random& random,
+void add_world(const std::string& name, const TrainPlanarityArguments& arguments, Random& random,
                Lesson& lesson) {
   SyntheticOptions world_options;
   world_options.world = name;
@@ -97,7 +97,7 @@ Score score_of(const PlanarityModel& model, const std::vector<PlanaritySample>& 
   return score;
 }
 
-void train(const Arguments& arguments) {
+void train(const TrainPlanarityArguments& arguments) {
   require(arguments.clouds >= 10, "--clouds: fewer than 10");
   require_free(arguments.out, arguments.force);
   // Every fourth cloud is left out of training and judged.
@@ -144,8 +144,8 @@ void train(const Arguments& arguments) {
 }  // namespace
 
 void add_train_planarity_command(CLI::App& train_command) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<TrainPlanarityArguments>();
+  TrainPlanarityArguments& a = *arguments;
   CLI::App* command = train_command.add_subcommand(
       "planarity", "Which segments of a point cloud are planes: for `planes --model`");
   command->footer("placegraph train planarity --out planarity.txt --clouds 300");

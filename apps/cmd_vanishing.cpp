@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Arguments {
+struct VanishingArguments {
   std::string in, camera;
   bool json = false;
   std::uint64_t seed = 1;
@@ -44,7 +44,7 @@ ordered_json frame_json(const ManhattanFrame& frame) {
           {"axis_of_segment", frame.axis}};
 }
 
-ordered_json scene_json(const Arguments& arguments, std::size_t segments,
+ordered_json scene_json(const VanishingArguments& arguments, std::size_t segments,
                         const SceneDirections& scene, double cpu_ms) {
   const VanishingPoints& vanishing = scene.vanishing;
   ordered_json json;
@@ -82,7 +82,7 @@ ordered_json scene_json(const Arguments& arguments, std::size_t segments,
   return json;
 }
 
-void print(const Arguments& arguments, std::size_t segments, const SceneDirections& scene,
+void print(const VanishingArguments& arguments, std::size_t segments, const SceneDirections& scene,
            double cpu_ms) {
   const VanishingPoints& vanishing = scene.vanishing;
   fmt::print("{}: {} segments, {} vanishing points, {} rectangular worlds\n", arguments.in,
@@ -106,7 +106,7 @@ void print(const Arguments& arguments, std::size_t segments, const SceneDirectio
   fmt::print("  {:.1f} ms CPU\n", cpu_ms);
 }
 
-void run(const Arguments& arguments) {
+void run(const VanishingArguments& arguments) {
   arguments.options.check();
   const std::vector<LineSegment> segments = read_segment_columns(arguments.in);
   const Camera camera = read_calib_without_distortion(arguments.camera, "segments need");
@@ -126,8 +126,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 void add_vanishing_command(CLI::App& app) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<VanishingArguments>();
+  VanishingArguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
       "vanishing", "Find in which directions the straight edges of an image point");
   command->footer("placegraph vanishing segments.txt --calib K.txt --json");

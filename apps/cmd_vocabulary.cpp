@@ -24,7 +24,7 @@ namespace {
 
 const std::vector<std::string> kKinds = {"binary", "float"};
 
-struct Arguments {
+struct VocabularyArguments {
   std::vector<std::string> folders;
   std::string out, kind = "binary";
   int words = 10000, descriptors = 200'000;
@@ -50,7 +50,7 @@ VocabularyOptions tree_of(int words) {
   return options;
 }
 
-std::vector<std::string> images_of(const Arguments& arguments) {
+std::vector<std::string> images_of(const VocabularyArguments& arguments) {
   std::vector<std::string> images;
   for (const std::string& folder : arguments.folders)
     for (std::string& image : list_images(image_folder_of(folder)))
@@ -84,7 +84,7 @@ std::vector<float> idf_of(const std::vector<int>& end, int words, const WordOf& 
   return idf;
 }
 
-WordTree train_binary(const Arguments& arguments, const std::vector<std::string>& images,
+WordTree train_binary(const VocabularyArguments& arguments, const std::vector<std::string>& images,
                       std::size_t share) {
   Lesson<std::vector<BinaryDescriptor>> lesson;
   Progress progress("describing", static_cast<std::int64_t>(images.size()), "images");
@@ -106,7 +106,7 @@ WordTree train_binary(const Arguments& arguments, const std::vector<std::string>
 }
 
 // Of key-points and of the grid, half and half: one vocabulary serves words, codes and landmarks.
-WordTree train_float(const Arguments& arguments, const std::vector<std::string>& images,
+WordTree train_float(const VocabularyArguments& arguments, const std::vector<std::string>& images,
                      std::size_t share) {
   std::vector<FloatDescriptors> parts;
   Lesson<FloatDescriptors> lesson;
@@ -142,7 +142,7 @@ WordTree train_float(const Arguments& arguments, const std::vector<std::string>&
   return vocabulary.tree();
 }
 
-void train(const Arguments& arguments) {
+void train(const VocabularyArguments& arguments) {
   require_free(arguments.out, arguments.force);
   cv::setNumThreads(1);
   const std::vector<std::string> images = thinned(images_of(arguments), arguments.descriptors);
@@ -171,8 +171,8 @@ void add_vocabulary_command(CLI::App& app) {
   CLI::App* vocabulary = app.add_subcommand("vocabulary", "Visual words for `match --codes`");
   vocabulary->footer("placegraph vocabulary train streets houses --out words.pgw");
   vocabulary->require_subcommand(1);
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<VocabularyArguments>();
+  VocabularyArguments& a = *arguments;
   CLI::App* command =
       vocabulary->add_subcommand("train", "Learn visual words from the images of some folders");
   command->footer("placegraph vocabulary train streets houses --out words.pgw --kind float");

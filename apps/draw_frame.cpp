@@ -8,15 +8,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/output.h"
+#include "apps/subpixel.h"
 
 namespace placegraph::apps {
 namespace {
-
-constexpr int kShift = 4;  // sixteenths of a pixel
-
-cv::Point sixteenths(const Eigen::Vector2d& px) {
-  return {cvRound(px.x() * (1 << kShift)), cvRound(px.y() * (1 << kShift))};
-}
 
 std::string directions(const FrameView& view) {
   if (view.directed.empty()) return "";

@@ -2,18 +2,9 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "apps/subpixel.h"
+
 namespace placegraph::apps {
-namespace {
-
-constexpr int kShift = 4;  // sixteenths of a pixel
-
-cv::Point fixed(const Eigen::Vector2d& px) {
-  constexpr double kUnit = 1 << kShift;
-  return {cvRound(kUnit * px.x()), cvRound(kUnit * px.y())};
-}
-
-}  // namespace
-
 Image draw_markers(const Image& grey, const std::vector<DrawnMarker>& markers,
                    const Camera& camera) {
   Image drawing;
@@ -22,16 +13,18 @@ Image draw_markers(const Image& grey, const std::vector<DrawnMarker>& markers,
   for (const DrawnMarker& marker : markers) {
     const SquareCorners& corners = marker.sighting.corners_px;
     for (int k = 0; k < 4; ++k)
-      cv::line(drawing, fixed(corners[k]), fixed(corners[(k + 1) % 4]), outline, 1, cv::LINE_AA,
-               kShift);
-    cv::circle(drawing, fixed(corners[0]), 3 << kShift, outline, 1, cv::LINE_AA, kShift);
+      cv::line(drawing, sixteenths(corners[k]), sixteenths(corners[(k + 1) % 4]), outline, 1,
+               cv::LINE_AA, kShift);
+    cv::circle(drawing, sixteenths(corners[0]), 3 << kShift, outline, 1, cv::LINE_AA, kShift);
     if (marker.T_cam_marker) {
       const auto origin = camera.project(marker.T_cam_marker->translation());
       for (int axis = 0; origin && axis < 3; ++axis) {
         const auto tip =
             camera.project(*marker.T_cam_marker *
                            Eigen::Vector3d(marker.side_m / 2 * Eigen::Vector3d::Unit(axis)));
-        if (tip) cv::line(drawing, fixed(*origin), fixed(*tip), axes[axis], 2, cv::LINE_AA, kShift);
+        if (tip)
+          cv::line(drawing, sixteenths(*origin), sixteenths(*tip), axes[axis], 2, cv::LINE_AA,
+                   kShift);
       }
     }
     const Eigen::Vector2d middle = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;

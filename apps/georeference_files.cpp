@@ -74,7 +74,7 @@ json numbers(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
 
 }  // namespace
 
-GeoreferenceInput read_map(const std::string& path, const std::string& times_path) {
+GeoreferenceInput read_georeference_input(const std::string& path, const std::string& times_path) {
   if (fs::is_directory(path)) {
     require(times_path.empty(), "--times: the folder of a run has its own");
     return read_run(path);

@@ -13,7 +13,7 @@ namespace placegraph::apps {
 ///  - a pose graph in any form read_pose_graph knows; `times_path`: line i, from 0, is the time of
 ///    the node with id i.
 /// Throws FileError, and ArgumentError if `times_path` is missing or superfluous.
-GeoreferenceInput read_map(const std::string& path, const std::string& times_path);
+GeoreferenceInput read_georeference_input(const std::string& path, const std::string& times_path);
 
 /// A graph that .g2o can hold: Sim(3) nodes lose their scale, which their edges take over;
 /// positions are left out.

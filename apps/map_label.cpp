@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Arguments {
+struct MapLabelArguments {
   std::string map, house, names;
   std::vector<int> range;
   PlaceLabelOptions options;
@@ -89,7 +89,8 @@ std::function<Frame(const Keyframe&)> frames_of(const StoredMap& stored) {
   };
 }
 
-PlaceClassifier learn(const Arguments& arguments, bool colour, int& places, cv::Size& size) {
+PlaceClassifier learn(const MapLabelArguments& arguments, bool colour, int& places,
+                      cv::Size& size) {
   const std::string path = (fs::path(arguments.house) / "labels.txt").string();
   const ImageRange images = images_of(arguments.house, arguments.range);
   const auto known = read_labels(path);
@@ -113,7 +114,7 @@ PlaceClassifier learn(const Arguments& arguments, bool colour, int& places, cv::
   return PlaceClassifier::train(std::move(views), labels, PlaceClassifierOptions());
 }
 
-void label(const Arguments& arguments) {
+void label(const MapLabelArguments& arguments) {
   arguments.options.check();
   StoredMap stored = read_map(map_path_of(arguments.map));
   Map& map = stored.map;
@@ -161,8 +162,8 @@ void label(const Arguments& arguments) {
 }  // namespace
 
 void add_map_label_command(CLI::App& map) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<MapLabelArguments>();
+  MapLabelArguments& a = *arguments;
   CLI::App* command = map.add_subcommand(
       "label", "Labels the places of a saved map by a classifier learned from labelled images.");
   command->footer("placegraph map label out/office rooms --names rooms/names.txt");

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct MapLearnArguments {
   std::string images, out;
   std::vector<int> range;
   std::vector<std::string> settings;
@@ -28,7 +28,7 @@ struct Arguments {
   bool force = false;
 };
 
-void learn(Arguments arguments) {
+void learn(MapLearnArguments arguments) {
   require_free(arguments.out, arguments.force);
   for (const std::string& setting : arguments.settings) set_option(arguments.options, setting);
   arguments.options.check();
@@ -75,8 +75,8 @@ Frame read_frame(const ImageRange& images, std::size_t index) {
 }
 
 void add_map_learn_command(CLI::App& map) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<MapLearnArguments>();
+  MapLearnArguments& a = *arguments;
   CLI::App* command =
       map.add_subcommand("learn", "A map of how places look, from images without a camera.");
   command->footer("placegraph map learn places/corridor --range 0 110 --out corridor.db");

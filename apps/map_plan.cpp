@@ -16,13 +16,13 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct MapPlanArguments {
   std::string map, out;
   std::vector<std::string> settings;
   bool as_json = false, force = false;
 };
 
-void draw_plan(const Arguments& arguments) {
+void draw_plan(const MapPlanArguments& arguments) {
   IndoorMapperOptions options;
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   options.check();
@@ -48,8 +48,8 @@ void draw_plan(const Arguments& arguments) {
 }  // namespace
 
 void add_map_plan_command(CLI::App& map) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<MapPlanArguments>();
+  MapPlanArguments& a = *arguments;
   CLI::App* command = map.add_subcommand("plan", "Draws the floor plan of an indoor map.");
   command->footer("placegraph map plan out/office --out out/office-plan");
   command->add_option("MAP", a.map, "map.db, or the folder of placegraph run with it")->required();

@@ -17,14 +17,14 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct MapSemanticArguments {
   std::string map, out, georeference;
   std::vector<std::string> settings;
   UrbanModelPaths models;
   bool as_json = false, force = false;
 };
 
-void write_map_of_street(const Arguments& a) {
+void write_map_of_street(const MapSemanticArguments& a) {
   UrbanMapperOptions options;
   for (const std::string& setting : a.settings) set_option(options, setting);
   options.check();
@@ -63,8 +63,8 @@ void write_map_of_street(const Arguments& a) {
 }  // namespace
 
 void add_map_semantic_command(CLI::App& map) {
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<MapSemanticArguments>();
+  MapSemanticArguments& a = *arguments;
   CLI::App* command = map.add_subcommand("semantic", "What is where in the streets of a map.");
   command->footer("placegraph map semantic out/town --out out/town-semantic");
   command->add_option("MAP", a.map, "map.db, or the folder of placegraph run with it")->required();

@@ -26,7 +26,7 @@
 namespace placegraph::apps {
 namespace {
 
-struct Arguments {
+struct TrainSceneArguments {
   std::string data, out, holdout, update;
   int threads = 2, every = 1;
   bool force = false, json = false, ablation = false;
@@ -61,7 +61,7 @@ SceneModel blank_model(SceneModel::Kind kind, const std::vector<SceneClass>& cla
 /// Cuts up every picture as often as there are variants; those of one variant follow each other.
 std::vector<SceneExample> make_examples(const LabelledSet& set,
                                         const std::vector<LabelledPicture>& pictures,
-                                        const SceneModel& model, const Arguments& a) {
+                                        const SceneModel& model, const TrainSceneArguments& a) {
   const int count = static_cast<int>(pictures.size()), variants = a.options.variants;
   std::vector<int> block;
   int in_block = 0;
@@ -132,7 +132,8 @@ nlohmann::json json_of(const LabelCheck& check, const SceneModel& model) {
 
 /// What each part brings, a part more a line.
 nlohmann::json ablation(const SceneModel& model, const LabelledSet& set,
-                        const std::vector<LabelledPicture>& pictures, const Arguments& a) {
+                        const std::vector<LabelledPicture>& pictures,
+                        const TrainSceneArguments& a) {
   struct Step {
     const char* name;
     LabellerOptions options;
@@ -150,7 +151,7 @@ nlohmann::json ablation(const SceneModel& model, const LabelledSet& set,
   return rows;
 }
 
-std::string origin_of(const Arguments& a, std::size_t pictures, const SceneModel* base) {
+std::string origin_of(const TrainSceneArguments& a, std::size_t pictures, const SceneModel* base) {
   std::string origin =
       fmt::format("{} pictures, {} variants, {} trees, seed {}", pictures, a.options.variants,
                   a.options.forest.trees, a.options.forest.seed);
@@ -166,7 +167,7 @@ void print_losses(const LabelCheck& before, const LabelCheck& after, const Scene
                  base.classes[static_cast<std::size_t>(c)], before.accuracy(c), after.accuracy(c));
 }
 
-void write_card(const Arguments& a, const SceneModel& model, const std::string& result) {
+void write_card(const TrainSceneArguments& a, const SceneModel& model, const std::string& result) {
   std::string classes;
   for (const std::string& name : model.classes) classes += " " + name;
   write_file(a.out + ".md",
@@ -178,7 +179,7 @@ void write_card(const Arguments& a, const SceneModel& model, const std::string& 
                                      a.options.forest.trees)));
 }
 
-void train(const Arguments& a, SceneModel::Kind kind) {
+void train(const TrainSceneArguments& a, SceneModel::Kind kind) {
   require_free(a.out, a.force);
   cv::setNumThreads(1);
   LabelledSet set = read_labelled_set(a.data);
@@ -231,8 +232,8 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
   CLI::App* command = train_command.add_subcommand(name, about);
   command->footer("placegraph train " + name + " camvid --out " + name +
                   ".pgscene --holdout 0001TP");
-  auto arguments = std::make_shared<Arguments>();
-  Arguments& a = *arguments;
+  auto arguments = std::make_shared<TrainSceneArguments>();
+  TrainSceneArguments& a = *arguments;
   command
       ->add_option(
           "DATA", a.data,
