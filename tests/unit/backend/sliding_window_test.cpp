@@ -339,32 +339,6 @@ TEST(SlidingWindow, CoincidentKeyframesGiveFiniteResults) {
   EXPECT_TRUE(window.relative_information(0, 7).allFinite());
 }
 
-TEST(SlidingWindow, TwoRunsGiveTheSameBits) {
-  const auto run = [] {
-    Random random(11);
-    WindowWorldOptions options;
-    options.stereo = true;
-    options.noise_px = 0.7;
-    options.keyframes = 10;
-    const WindowWorld world = make_window_world(options, random);
-    SlidingWindowOptions window_options;
-    window_options.max_keyframes = 7;
-    SlidingWindow window(window_options, world.camera);
-    fill_window(window, world, random, 0.05, 0.01, 0.1);
-    EXPECT_TRUE(window.optimize().outcome);
-    window.marginalize();
-    EXPECT_TRUE(window.optimize().outcome);
-    return window;
-  };
-  const SlidingWindow a = run();
-  // Other addresses: nothing may depend on where things lie.
-  const std::vector<std::vector<double>> holes(100, std::vector<double>(777));
-  const SlidingWindow b = run();
-  for (const std::int64_t id : a.keyframes()) EXPECT_EQ(a.pose(id).matrix(), b.pose(id).matrix());
-  for (const std::int64_t id : a.landmarks()) EXPECT_EQ(*a.landmark(id), *b.landmark(id));
-  EXPECT_EQ(a.relative_information(4, 6), b.relative_information(4, 6));
-}
-
 TEST(SlidingWindow, ResidualIsTheReprojectionErrorInPixels) {
   SlidingWindow window({}, test::window_camera());
   window.add_keyframe(3, SE3());
