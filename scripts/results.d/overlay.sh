@@ -1,0 +1,19 @@
+# A box that stands in the pictures of rendered towns, against where it truly would be seen.
+# OVERLAY_FRAMES other than 40 a town.
+frames=${OVERLAY_FRAMES:-40}
+build_bench bench_overlay_study
+heading "Contextual overlay"
+command_line "build/release/tests/bench/bench_overlay_study configs/models/surfaces.pgscene OUT SEED $frames"
+columns world frames boxes figure target measured met
+for seed in 1 5; do
+  say "overlay: town $seed"
+  build/release/tests/bench/bench_overlay_study configs/models/surfaces.pgscene "$out/overlay-$seed" $seed "$frames" > "$out/overlay-$seed.log"
+  # told FIGURE
+  told() { sed -n "s/^$1	//p" "$out/overlay-${seed}_targets.tsv"; }
+  # figure NAME TARGET OPERATOR BOUND WHICH
+  figure() { cells "town-loop, seed $seed" "$frames" "$(told boxes)" "$1" "$2 $3" "$(told "$4")" "$(verdict "$(told "$4")" "$2" "$3")"; }
+  figure "horizon, median error [deg]" "<=" 1 "horizon, median error \[deg\]"
+  figure "foot of the box, median error [px]" "<=" 3 "foot, median error \[px\]"
+  figure "pixels of the box rightly seen or hidden" ">=" 0.9 "pixels right"
+  cells "town-loop, seed $seed" "$frames" "$(told boxes)" "of those truly hidden" "" "$(told "hidden pixels right")" ""
+done
