@@ -54,11 +54,9 @@ RansacResult<Model> ransac(int n, int sample_size, double threshold_squared,
   }
   const auto consider = [&](const Model& model) {
     double score = 0;
-    int inliers = 0;
     for (int i = 0; i < n && score < best.score; ++i) {
       const double e = squared_error(model, i);
       score += e < threshold_squared ? e : threshold_squared;  // NaN counts as an outlier
-      inliers += e < threshold_squared;
     }
     if (!(score < best.score)) return false;
     best.score = score;
