@@ -30,8 +30,13 @@ using synthetic::Face;
 using synthetic::Scene;
 using synthetic::SurfaceClass;
 
-/// Height coordinate of the road or pavement at (x, z) of the scene (y down).
-std::optional<double> street_y(const Scene& scene, const Vector2d& place) {
+struct Street {
+  double y;  ///< scene frame, down
+  bool is_road;
+};
+
+/// The road or pavement at (x, z) of the scene.
+std::optional<Street> street_at(const Scene& scene, const Vector2d& place) {
   for (const synthetic::Part& part : scene.parts)
     for (const Face& face : part.faces) {
       if (face.label != SurfaceClass::kRoad && face.label != SurfaceClass::kPavement) continue;
@@ -45,9 +50,10 @@ std::optional<double> street_y(const Scene& scene, const Vector2d& place) {
       }
       if (!left && !right) continue;
       const Vector3d& a = face.corners[0];
-      return a.y() -
-             (face.normal.x() * (place.x() - a.x()) + face.normal.z() * (place.y() - a.z())) /
-                 face.normal.y();
+      return Street{
+          a.y() - (face.normal.x() * (place.x() - a.x()) + face.normal.z() * (place.y() - a.z())) /
+                      face.normal.y(),
+          face.label == SurfaceClass::kRoad};
     }
   return std::nullopt;
 }
@@ -74,8 +80,8 @@ struct TrueBox {
 };
 
 struct Score {
-  std::vector<double> horizon_deg;  ///< by frame
-  std::vector<double> foot_px;      ///< by box
+  std::vector<double> horizon_deg;                     ///< by frame
+  std::vector<double> plane_px, road_px, pavement_px;  ///< off the true foot, by box
   std::int64_t right = 0, pixels = 0, hidden_right = 0, hidden = 0;
 };
 
@@ -130,9 +136,9 @@ void judge_frame(const SyntheticWorld& world, std::size_t k, const SceneModel& m
   for (const double ahead : {7.0, 10.0, 14.0, 19.0})
     for (const double right : {-6.0, -3.5, -1.0, 1.0, 3.5, 6.0}) {
       Vector3d p = T_scene_cam * Vector3d(ground_place(truth, right, ahead));
-      const std::optional<double> y = street_y(tour.scene, {p.x(), p.z()});
-      if (!y) continue;
-      p.y() = *y;
+      const std::optional<Street> street = street_at(tour.scene, {p.x(), p.z()});
+      if (!street) continue;
+      p.y() = street->y;
       const bool taken = std::any_of(tour.scene.solids.begin(), tour.scene.solids.end(),
                                      [&](const synthetic::Footprint& solid) {
                                        return solid.distance({p.x(), p.z()}) < 0.5;
@@ -141,8 +147,10 @@ void judge_frame(const SyntheticWorld& world, std::size_t k, const SceneModel& m
       const Vector2d foot = seen_at(truth.camera, box.foot_cam);
       if (taken || foot.x() < 20 || foot.x() > bgr.cols - 20 || foot.y() > bgr.rows - 10) continue;
       box.size = {right, ahead, 0.6, 0.6, 1.8};
-      score.foot_px.push_back(
-          (seen_at(view.camera, ground_place(view, right, ahead)) - foot).norm());
+      const Vector2d told = seen_at(view.camera, ground_place(view, right, ahead));
+      const Vector3d level = ground_place(truth, right, ahead);
+      score.plane_px.push_back((told - seen_at(truth.camera, level)).norm());
+      (street->is_road ? score.road_px : score.pavement_px).push_back((told - foot).norm());
       Image mask;
       picture = overlay_box(draw.empty() ? bgr : picture, popup, view, box.size, &mask);
       judge_pixels(box, truth.camera, frame.depth, mask, score);
@@ -169,9 +177,12 @@ void run(int count, char** arguments) {
     fmt::print("{}: {:.4g}\n", figure, value);
   };
   tell("frames", static_cast<double>(frames));
-  tell("boxes", static_cast<double>(score.foot_px.size()));
+  tell("boxes", static_cast<double>(score.plane_px.size()));
   tell("horizon, median error [deg]", median_of(score.horizon_deg));
-  tell("foot, median error [px]", median_of(score.foot_px));
+  tell("boxes on the road", static_cast<double>(score.road_px.size()));
+  tell("foot on a level plane, median error [px]", median_of(score.plane_px));
+  tell("foot on the road, median error [px]", median_of(score.road_px));
+  tell("foot on the pavement, median error [px]", median_of(score.pavement_px));
   tell("pixels of boxes", static_cast<double>(score.pixels));
   tell("pixels right", static_cast<double>(score.right) / static_cast<double>(score.pixels));
   tell("hidden pixels", static_cast<double>(score.hidden));
