@@ -2,7 +2,6 @@
 
 #include <placegraph/eval/floor_plan_check.h>
 #include <placegraph/eval/floor_plan_plot.h>
-#include <placegraph/eval/umeyama.h>
 #include <placegraph/io/dataset.h>
 #include <placegraph/io/indoor_map_file.h>
 #include <placegraph/io/map_database.h>
@@ -13,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/output.h"
+#include "apps/run_judgement.h"
 
 namespace placegraph::apps {
 namespace {
@@ -49,36 +49,6 @@ json check_json(const FloorPlanCheck& check) {
           {"doors_found", check.doors_found},
           {"doors_false", check.doors_false},
           {"doors_state_right", check.doors_state_right}};
-}
-
-/// T_truth_map: identity, as both begin at the first camera, and the one that fits the positions.
-SE3 fitted(const Trajectory& truth, const Map& map) {
-  std::vector<Eigen::Vector3d> from, to;
-  const Trajectory estimate = map.trajectory_optimized();
-  for (std::size_t i = 0; i < estimate.size(); ++i) {
-    const auto frame = static_cast<std::size_t>(map.frames[i].frame);
-    if (!estimate.poses[i].T_world_body || frame >= truth.size() ||
-        !truth.poses[frame].T_world_body)
-      continue;
-    from.emplace_back(estimate.poses[i].T_world_body->translation());
-    to.emplace_back(truth.poses[frame].T_world_body->translation());
-  }
-  const AlignmentResult fit = umeyama(from, to, false);
-  if (!fit.outcome) return {};
-  return {fit.R_truth_estimate, fit.t_truth_estimate};
-}
-
-/// T_truth_map by the first frame of the run.
-SE3 by_first_pose(const Trajectory& truth, const Map& map) {
-  const Trajectory estimate = map.trajectory_optimized();
-  for (std::size_t i = 0; i < estimate.size(); ++i) {
-    const auto frame = static_cast<std::size_t>(map.frames[i].frame);
-    if (!estimate.poses[i].T_world_body || frame >= truth.size() ||
-        !truth.poses[frame].T_world_body)
-      continue;
-    return SE3(*truth.poses[frame].T_world_body) * SE3(*estimate.poses[i].T_world_body).inverse();
-  }
-  return {};
 }
 
 }  // namespace
@@ -138,10 +108,12 @@ json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& d
         frame < truth->size() && truth->poses[frame].T_world_body)
       poses.emplace_back(*truth->poses[frame].T_world_body);
   const SE3 T_map_plan(plan.R_plan_map.inverse(), Eigen::Vector3d::Zero());
-  summary["check"]["origin"] =
-      check_json(check_floor_plan(plan, building, by_first_pose(*truth, map) * T_map_plan, poses));
-  summary["check"]["se3"] =
-      check_json(check_floor_plan(plan, building, fitted(*truth, map) * T_map_plan, poses));
+  summary["check"]["origin"] = check_json(check_floor_plan(
+      plan, building, fit_by_first_pose(*truth, map, map.trajectory_optimized()) * T_map_plan,
+      poses));
+  summary["check"]["se3"] = check_json(check_floor_plan(
+      plan, building, fit_by_positions(*truth, map, map.trajectory_optimized()) * T_map_plan,
+      poses));
   return summary;
 }
 

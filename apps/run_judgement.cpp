@@ -3,6 +3,7 @@
 #include <placegraph/eval/evaluate.h>
 #include <placegraph/eval/loop_check.h>
 #include <placegraph/eval/place_check.h>
+#include <placegraph/eval/umeyama.h>
 
 #include <nlohmann/json.hpp>
 
@@ -71,6 +72,18 @@ double path_length_m(const Trajectory& truth) {
   return length;
 }
 
+/// True and estimated poses of the frames that have both.
+std::vector<std::pair<SE3, SE3>> known_pairs(const Trajectory& truth, const Map& map,
+                                             const Trajectory& estimate) {
+  std::vector<std::pair<SE3, SE3>> pairs;
+  for (std::size_t i = 0; i < estimate.size() && i < map.frames.size(); ++i) {
+    const auto frame = static_cast<std::size_t>(map.frames[i].frame);
+    if (estimate.poses[i].T_world_body && frame < truth.size() && truth.poses[frame].T_world_body)
+      pairs.emplace_back(*truth.poses[frame].T_world_body, *estimate.poses[i].T_world_body);
+  }
+  return pairs;
+}
+
 }  // namespace
 
 Trajectory truth_of_frames(const Trajectory& truth, const Map& map) {
@@ -78,6 +91,23 @@ Trajectory truth_of_frames(const Trajectory& truth, const Map& map) {
   for (const FrameRecord& frame : map.frames)
     result.poses.push_back(truth.poses.at(static_cast<std::size_t>(frame.frame)));
   return result;
+}
+
+SE3 fit_by_first_pose(const Trajectory& truth, const Map& map, const Trajectory& estimate) {
+  const auto pairs = known_pairs(truth, map, estimate);
+  if (pairs.empty()) return {};
+  return pairs.front().first * pairs.front().second.inverse();
+}
+
+SE3 fit_by_positions(const Trajectory& truth, const Map& map, const Trajectory& estimate) {
+  std::vector<Eigen::Vector3d> from, to;
+  for (const auto& [T_truth_cam, T_map_cam] : known_pairs(truth, map, estimate)) {
+    from.push_back(T_map_cam.translation());
+    to.push_back(T_truth_cam.translation());
+  }
+  const AlignmentResult fit = umeyama(from, to, false);
+  if (!fit.outcome) return {};
+  return {fit.R_truth_estimate, fit.t_truth_estimate};
 }
 
 json judge_run(const Trajectory& truth, const RunResult& run, const Trajectory& optimized) {

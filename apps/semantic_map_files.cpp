@@ -18,6 +18,7 @@
 #include "apps/json_file.h"
 #include "apps/output.h"
 #include "apps/progress.h"
+#include "apps/run_judgement.h"
 #include "apps/scene_models.h"
 
 namespace placegraph::apps {
@@ -47,18 +48,6 @@ json check_json(const SemanticMapCheck& check, const SemanticMap& map) {
           {"top", score_json(check.top)},
           {"unjudged", check.unjudged},
           {"confusion", confusion}};
-}
-
-/// T_truth_map by the first frame of the run that has a pose.
-SE3 by_first_pose(const Trajectory& truth, const Map& map, const Trajectory& estimate) {
-  for (std::size_t i = 0; i < estimate.size() && i < map.frames.size(); ++i) {
-    const auto frame = static_cast<std::size_t>(map.frames[i].frame);
-    if (!estimate.poses[i].T_world_body || frame >= truth.size() ||
-        !truth.poses[frame].T_world_body)
-      continue;
-    return SE3(*truth.poses[frame].T_world_body) * SE3(*estimate.poses[i].T_world_body).inverse();
-  }
-  return {};
 }
 
 std::vector<std::pair<std::int64_t, std::vector<float>>> shares_by_place(const UrbanMapper& mapper,
@@ -170,13 +159,14 @@ json describe_semantic_map(const SemanticMap& semantic, const UrbanMapper& mappe
   const auto& truth = dataset.ground_truth();
   if (!fs::exists(truth_path) || !truth || truth->size() != dataset.size()) return summary;
   const LabelledMesh scene = read_labelled_mesh(truth_path.string());
-  summary["check"]["optimized"] = check_json(
-      check_semantic_map(semantic, scene, by_first_pose(*truth, map, map.trajectory_optimized())),
-      semantic);
+  summary["check"]["optimized"] =
+      check_json(check_semantic_map(semantic, scene,
+                                    fit_by_first_pose(*truth, map, map.trajectory_optimized())),
+                 semantic);
   const SemanticMap before = mapper.fuse(online_poses_of(map));
   if (before.outcome)
     summary["check"]["online"] = check_json(
-        check_semantic_map(before, scene, by_first_pose(*truth, map, map.trajectory_online)),
+        check_semantic_map(before, scene, fit_by_first_pose(*truth, map, map.trajectory_online)),
         before);
   return summary;
 }

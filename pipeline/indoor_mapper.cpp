@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/indoor_mapper.h>
+#include <placegraph/pipeline/map_keyframes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,23 +13,6 @@
 
 namespace placegraph {
 namespace {
-
-/// The pose of a keyframe's camera; lengths of its points are metres already.
-SE3 camera_pose(const Map& map, std::int64_t keyframe) {
-  const Sim3 S = map.S_map_keyframe(keyframe);
-  return {S.rotation(), S.translation()};
-}
-
-/// Keyframes of the first component and what is joined to it.
-std::set<std::int64_t> connected_keyframes(const Map& map) {
-  const std::vector<int> components = map.place_graph.joined_components();
-  std::set<std::int64_t> places, keyframes;
-  for (std::size_t i = 0; i < components.size(); ++i)
-    if (components[i] == 0) places.insert(map.place_graph.places[i].id);
-  for (const Keyframe& keyframe : map.keyframes)
-    if (places.count(keyframe.place)) keyframes.insert(keyframe.id);
-  return keyframes;
-}
 
 /// Sights laid out in one frame, and what comes of it.
 class Fusion {
@@ -346,18 +330,9 @@ IndoorMap map_indoors(const Map& map, const Calibration& calibration,
                       const std::function<Frame(const Keyframe&)>& frame_of,
                       const IndoorMapperOptions& options) {
   IndoorMapper mapper(options, calibration);
-  std::optional<SE3> last;
-  for (const Keyframe& keyframe : map.keyframes) {
-    const SE3 T_map_cam = camera_pose(map, keyframe.id);
-    if (last) {
-      const SE3 step = last->inverse() * T_map_cam;
-      if (step.translation().norm() < options.min_step_m &&
-          step.rotation().log().norm() < options.min_turn_deg * M_PI / 180)
-        continue;
-    }
-    last = T_map_cam;
-    mapper.add(keyframe.id, frame_of(keyframe));
-  }
+  for (const Keyframe* keyframe :
+       keyframes_apart(map, options.min_step_m, options.min_turn_deg * M_PI / 180))
+    mapper.add(keyframe->id, frame_of(*keyframe));
   return mapper.fuse(map);
 }
 

@@ -8,18 +8,6 @@
 #include <set>
 
 namespace placegraph {
-namespace {
-
-KeyframePoses looked_up(std::map<std::int64_t, SE3> poses) {
-  return [poses = std::move(poses)](std::int64_t keyframe) -> std::optional<SE3> {
-    const auto found = poses.find(keyframe);
-    if (found == poses.end()) return std::nullopt;
-    return found->second;
-  };
-}
-
-}  // namespace
-
 void UrbanMapperOptions::check() const {
   check_ranges(*this);
   stereo.check();
@@ -137,53 +125,13 @@ SemanticMap UrbanMapper::fuse(const KeyframePoses& T_map_cam, const Eigen::Vecto
   return grid.map();
 }
 
-KeyframePoses poses_of(const Map& map) {
-  const std::vector<int> components = map.place_graph.joined_components();
-  std::set<std::int64_t> places;
-  for (std::size_t i = 0; i < components.size(); ++i)
-    if (components[i] == 0) places.insert(map.place_graph.places[i].id);
-  std::map<std::int64_t, SE3> poses;
-  for (const Keyframe& keyframe : map.keyframes)
-    if (places.count(keyframe.place)) {
-      const Sim3 S = map.S_map_keyframe(keyframe.id);
-      poses.emplace(keyframe.id, SE3(S.rotation(), S.translation()));
-    }
-  return looked_up(std::move(poses));
-}
-
-KeyframePoses online_poses_of(const Map& map) {
-  std::map<std::int64_t, SE3> by_stamp, poses;
-  for (const StampedPose& pose : map.trajectory_online.poses)
-    if (pose.T_world_body) by_stamp.emplace(pose.stamp_ns, SE3(*pose.T_world_body));
-  for (const Keyframe& keyframe : map.keyframes)
-    if (const auto found = by_stamp.find(keyframe.stamp_ns); found != by_stamp.end())
-      poses.emplace(keyframe.id, found->second);
-  return looked_up(std::move(poses));
-}
-
-std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double turn_rad) {
-  std::vector<const Keyframe*> chosen;
-  std::optional<SE3> last;
-  for (const Keyframe& keyframe : map.keyframes) {
-    const Sim3 S = map.S_map_keyframe(keyframe.id);
-    const SE3 T_map_cam(S.rotation(), S.translation());
-    if (last) {
-      const SE3 step = last->inverse() * T_map_cam;
-      if (step.translation().norm() < step_m && step.rotation().log().norm() < turn_rad) continue;
-    }
-    last = T_map_cam;
-    chosen.push_back(&keyframe);
-  }
-  return chosen;
-}
-
 void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions& options,
                    const std::function<Frame(const Keyframe&)>& frame_of,
                    const std::function<void(std::size_t, std::size_t)>& progress) {
   const auto chosen = keyframes_apart(map, options.min_step_m, options.min_turn_deg * M_PI / 180);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const Sim3 S = map.S_map_keyframe(chosen[i]->id);
-    mapper.add(chosen[i]->id, frame_of(*chosen[i]), SE3(S.rotation(), S.translation()));
+    const std::int64_t id = chosen[i]->id;
+    mapper.add(id, frame_of(*chosen[i]), camera_pose(map, id));
     if (progress) progress(i + 1, chosen.size());
   }
 }

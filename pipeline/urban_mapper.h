@@ -4,6 +4,7 @@
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/semantic_map.h>
+#include <placegraph/pipeline/map_keyframes.h>
 
 #include <functional>
 #include <optional>
@@ -21,10 +22,6 @@ struct UrbanMapperOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, UrbanMapperOptions& options);
-
-/// Where a keyframe's camera stands, in whatever frame the map shall be in; nothing where that is
-/// not known.
-using KeyframePoses = std::function<std::optional<SE3>(std::int64_t keyframe)>;
 
 /// A map of what is where in a street, from the keyframes of a stereo map. What a keyframe tells is
 /// kept in its own frame; `fuse` lays all of it out with the poses of the map as it stands, so that
@@ -64,14 +61,6 @@ class UrbanMapper {
   };
   std::optional<Last> last_;
 };
-
-/// The poses of the first component of a map and what is joined to it.
-KeyframePoses poses_of(const Map& map);
-/// As each keyframe stood when its frame had been processed, before later loops moved it.
-KeyframePoses online_poses_of(const Map& map);
-
-/// Keyframes that are far enough from the one used before, in their order.
-std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double turn_rad);
 
 /// Adds the keyframes of a map that is done, reading their frames by `frame_of`.
 void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions& options,

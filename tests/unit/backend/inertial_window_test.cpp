@@ -2,8 +2,8 @@
 #include <placegraph/backend/inertial_window.h>
 #include <placegraph/graph/core/error.h>
 
-#include "tests/support/swaying_body.h"
 #include "tests/support/seed.h"
+#include "tests/support/swaying_body.h"
 
 namespace placegraph {
 namespace {
@@ -16,13 +16,15 @@ InertialWindow after_two_seconds(const SwayingBody& flight, Random& random,
                                  const InertialWindowOptions& options = {}) {
   InertialWindow window(options, flight.T_body_cam);
   window.start(flight.start(random));
+  int refused = 0;
   for (int k = 1; k <= 400; ++k) {
     EXPECT_TRUE(window.add(flight.imu(k / 200.0, random)));
     if (k % 10 != 0) continue;
     const double t = k / 200.0;
-    EXPECT_TRUE(window.add(flight.flow(t - 0.05, t, random)));
-    EXPECT_TRUE(window.add(flight.marker(t, random)));
+    refused += !window.add(flight.flow(t - 0.05, t, random));
+    refused += !window.add(flight.marker(t, random));
   }
+  EXPECT_LE(refused, 2) << "of eighty, gated at one in a thousand";
   return window;
 }
 

@@ -77,16 +77,23 @@ TEST(MotionFromPlanes, StatesTheUncertaintyOfTheMotionTruly) {
 }
 
 TEST(MotionFromPlanes, KeepsBothReadingsOfOnePlane) {
+  // Where points of the plane would lie behind a camera in the other reading, there is one.
   Random random = seeded_random(83);
-  const PlanesWorld world = make_planes_world(1, 100, 0, 0.1, kMotion, random);
-  const MotionFromPlanesResult result =
-      motion_from_planes(world.camera, world.matches, true_regions(world, 0.1), {});
-  ASSERT_TRUE(result.outcome) << result.outcome.reason;
-  ASSERT_EQ(result.readings.size(), 2u);
-  EXPECT_NEAR(result.readings[0].cost, result.readings[1].cost, 1e-3);
-  const double least = std::min(angle_rad(result.readings[0].T_cur_ref, kMotion),
-                                angle_rad(result.readings[1].T_cur_ref, kMotion));
-  EXPECT_LT(least, 5e-3);
+  int with_both = 0;
+  for (int w = 0; w < 10; ++w) {
+    const PlanesWorld world = make_planes_world(1, 100, 0, 0.1, kMotion, random);
+    const MotionFromPlanesResult result =
+        motion_from_planes(world.camera, world.matches, true_regions(world, 0.1), {});
+    ASSERT_TRUE(result.outcome) << result.outcome.reason;
+    double least = 1;
+    for (const PlanesReading& reading : result.readings)
+      least = std::min(least, angle_rad(reading.T_cur_ref, kMotion));
+    EXPECT_LT(least, 5e-3);
+    if (result.readings.size() != 2) continue;
+    ++with_both;
+    EXPECT_NEAR(result.readings[0].cost, result.readings[1].cost, 1e-3);
+  }
+  EXPECT_GE(with_both, 3);
 }
 
 TEST(MotionFromPlanes, SaysThatTheCameraOnlyTurned) {
