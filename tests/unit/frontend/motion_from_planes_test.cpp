@@ -80,7 +80,7 @@ TEST(MotionFromPlanes, KeepsBothReadingsOfOnePlane) {
   // Where points of the plane would lie behind a camera in the other reading, there is one.
   Random random = seeded_random(83);
   int with_both = 0;
-  for (int w = 0; w < 10; ++w) {
+  for (int w = 0; w < 40; ++w) {
     const PlanesWorld world = make_planes_world(1, 100, 0, 0.1, kMotion, random);
     const MotionFromPlanesResult result =
         motion_from_planes(world.camera, world.matches, true_regions(world, 0.1), {});
