@@ -28,8 +28,9 @@ TEST(PlanarRegions, FindsOneOrTwoPlanesAmongOutliers) {
   }
 }
 
-TEST(PlanarRegions, FindsAtLeastHalfOfThreeOrFourPlanesAndNoneThatIsNotThere) {
-  // In 20 worlds each, all three were found 10 times and all four 6 times, at least two always.
+TEST(PlanarRegions, TakesPlanesForOneOnlyWhereOneHomographyExplainsThem) {
+  // Every other wall of the zigzag is nearly parallel; where two are about as far, too (a third to
+  // a half of such worlds), one homography has all their matches within the noise.
   Random random = seeded_random(74);
   for (const int planes : {3, 4, 3}) {
     const PlanesWorld world = make_planes_world(planes, 40, 40, 0.5, kMotion, random);
@@ -37,6 +38,7 @@ TEST(PlanarRegions, FindsAtLeastHalfOfThreeOrFourPlanesAndNoneThatIsNotThere) {
     ASSERT_TRUE(result.outcome) << result.outcome.reason;
     EXPECT_GE(result.regions.size(), 2U);
     EXPECT_LE(result.regions.size(), static_cast<std::size_t>(planes));
+    EXPECT_LT(result.noise.sigma_px, 0.65);
     const double missed = planes - static_cast<double>(result.regions.size());
     EXPECT_LT(misclassification(world.labels, result.labels), 0.05 + missed / (planes + 1));
   }
