@@ -5,6 +5,7 @@
 #include "apps/subpixel.h"
 
 namespace placegraph::apps {
+
 Image draw_markers(const Image& grey, const std::vector<DrawnMarker>& markers,
                    const Camera& camera) {
   Image drawing;

@@ -108,12 +108,11 @@ json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& d
         frame < truth->size() && truth->poses[frame].T_world_body)
       poses.emplace_back(*truth->poses[frame].T_world_body);
   const SE3 T_map_plan(plan.R_plan_map.inverse(), Eigen::Vector3d::Zero());
+  const Trajectory estimate = map.trajectory_optimized();
   summary["check"]["origin"] = check_json(check_floor_plan(
-      plan, building, fit_by_first_pose(*truth, map, map.trajectory_optimized()) * T_map_plan,
-      poses));
+      plan, building, fit_by_first_pose(*truth, map, estimate) * T_map_plan, poses));
   summary["check"]["se3"] = check_json(check_floor_plan(
-      plan, building, fit_by_positions(*truth, map, map.trajectory_optimized()) * T_map_plan,
-      poses));
+      plan, building, fit_by_positions(*truth, map, estimate) * T_map_plan, poses));
   return summary;
 }
 

@@ -15,6 +15,7 @@ for seed in 1 5; do
   figure "horizon, median error [deg]" "<=" 1 "horizon, median error \[deg\]"
   figure "foot of the box on a level plane, median error [px]" "<=" 3 "foot on a level plane, median error \[px\]"
   figure "on the road as it is, uneven, median error [px]" "<=" 3 "foot on the road, median error \[px\]"
+  cells "town-loop, seed $seed" "$frames" "$(told boxes)" "the same by the true horizon" "" "$(told "foot on the road by the true horizon, median error \[px\]")" ""
   figure "pixels of the box rightly seen or hidden" ">=" 0.9 "pixels right"
   cells "town-loop, seed $seed" "$frames" "$(told boxes)" "on the pavement, higher than the camera's height is of, median error [px]" "" "$(told "foot on the pavement, median error \\[px\\]")" ""
   cells "town-loop, seed $seed" "$frames" "$(told boxes)" "of those truly hidden" "" "$(told "hidden pixels right")" ""

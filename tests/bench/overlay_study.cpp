@@ -15,11 +15,13 @@
 #include <placegraph/io/synthetic/synthetic_world.h>
 #include <placegraph/io/synthetic/tours.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 namespace placegraph {
 namespace {
@@ -82,6 +84,7 @@ struct TrueBox {
 struct Score {
   std::vector<double> horizon_deg;                     ///< by frame
   std::vector<double> plane_px, road_px, pavement_px;  ///< off the true foot, by box
+  std::vector<double> best_road_px;                    ///< the true horizon's
   std::int64_t right = 0, pixels = 0, hidden_right = 0, hidden = 0;
 };
 
@@ -148,8 +151,9 @@ void judge_frame(const SyntheticWorld& world, std::size_t k, const SceneModel& m
       if (taken || foot.x() < 20 || foot.x() > bgr.cols - 20 || foot.y() > bgr.rows - 10) continue;
       box.size = {right, ahead, 0.6, 0.6, 1.8};
       const Vector2d told = seen_at(view.camera, ground_place(view, right, ahead));
-      const Vector3d level = ground_place(truth, right, ahead);
-      score.plane_px.push_back((told - seen_at(truth.camera, level)).norm());
+      const Vector2d level = seen_at(truth.camera, ground_place(truth, right, ahead));
+      score.plane_px.push_back((told - level).norm());
+      if (street->is_road) score.best_road_px.push_back((level - foot).norm());
       (street->is_road ? score.road_px : score.pavement_px).push_back((told - foot).norm());
       Image mask;
       picture = overlay_box(draw.empty() ? bgr : picture, popup, view, box.size, &mask);
@@ -164,8 +168,9 @@ void run(int count, char** arguments) {
   const std::string prefix = arguments[2];
   SyntheticOptions options;
   options.seed = count > 3 ? std::strtoull(arguments[3], nullptr, 10) : 1;
-  const auto frames = static_cast<std::size_t>(count > 4 ? std::atoi(arguments[4]) : 40);
-  require(frames > 0, "FRAMES: must be positive");
+  const int asked = count > 4 ? std::atoi(arguments[4]) : 40;
+  require(asked > 0, "FRAMES: must be positive");
+  const auto frames = static_cast<std::size_t>(asked);
   const SyntheticWorld world(options);
   Score score;
   for (std::size_t i = 0; i < frames; ++i)
@@ -182,6 +187,7 @@ void run(int count, char** arguments) {
   tell("boxes on the road", static_cast<double>(score.road_px.size()));
   tell("foot on a level plane, median error [px]", median_of(score.plane_px));
   tell("foot on the road, median error [px]", median_of(score.road_px));
+  tell("foot on the road by the true horizon, median error [px]", median_of(score.best_road_px));
   tell("foot on the pavement, median error [px]", median_of(score.pavement_px));
   tell("pixels of boxes", static_cast<double>(score.pixels));
   tell("pixels right", static_cast<double>(score.right) / static_cast<double>(score.pixels));
