@@ -99,93 +99,93 @@ void warn_of_misfit(const OptimizeArguments& arguments, const GraphSolution& sol
                arguments.in.c_str(), costs.log / expected);
 }
 
-void describe_steps(std::vector<double> cpu_ms, Json& json) {
+void describe_steps(std::vector<double> cpu_ms, Json& report) {
   if (cpu_ms.empty()) return;
   std::sort(cpu_ms.begin(), cpu_ms.end());
   const std::size_t count = cpu_ms.size();
-  json["steps"] = count;
-  json["step_cpu_ms_mean"] =
+  report["steps"] = count;
+  report["step_cpu_ms_mean"] =
       std::accumulate(cpu_ms.begin(), cpu_ms.end(), 0.0) / static_cast<double>(count);
-  json["step_cpu_ms_p95"] = cpu_ms[(count * 95 + 99) / 100 - 1];
-  json["step_cpu_ms_max"] = cpu_ms.back();
+  report["step_cpu_ms_p95"] = cpu_ms[(count * 95 + 99) / 100 - 1];
+  report["step_cpu_ms_max"] = cpu_ms.back();
 }
 
-void describe_certificate(const GraphSolution& solution, Json& json) {
-  json["refined_from_certified"] = solution.refined_from_certified;
-  json["certified"] = solution.certificate && solution.certificate->certified;
-  json["certified_problem"] = nullptr;
+void describe_certificate(const GraphSolution& solution, Json& report) {
+  report["refined_from_certified"] = solution.refined_from_certified;
+  report["certified"] = solution.certificate && solution.certificate->certified;
+  report["certified_problem"] = nullptr;
   if (!solution.certificate) return;
   const ChordalIsotropicCertificate& certificate = *solution.certificate;
-  json["certified_problem"] = ChordalIsotropicCertificate::kProblem;
-  json["certificate_gap"] = certificate.relative_gap;
-  json["certificate_cost"] = certificate.cost;
-  json["certificate_cost_of_estimate"] = certificate.cost_of_estimate;
-  json["certificate_lower_bound"] = certificate.lower_bound;
-  json["smallest_eigenvalue"] = certificate.smallest_eigenvalue;
-  json["eigenvalue_scale"] = certificate.eigenvalue_scale;
-  json["certificate_cpu_ms"] = solution.certificate_cpu_ms;
+  report["certified_problem"] = ChordalIsotropicCertificate::kProblem;
+  report["certificate_gap"] = certificate.relative_gap;
+  report["certificate_cost"] = certificate.cost;
+  report["certificate_cost_of_estimate"] = certificate.cost_of_estimate;
+  report["certificate_lower_bound"] = certificate.lower_bound;
+  report["smallest_eigenvalue"] = certificate.smallest_eigenvalue;
+  report["eigenvalue_scale"] = certificate.eigenvalue_scale;
+  report["certificate_cpu_ms"] = solution.certificate_cpu_ms;
 }
 
 Json describe(const OptimizeArguments& arguments, const Costs& before, const Costs& after,
               const GraphSolution& solution) {
   const char* const kinds[] = {"SE2", "SE3", "Sim3"};
-  Json json;
-  json["in"] = arguments.in;
-  json["out"] = arguments.out;
-  json["cost"] = arguments.cost;
-  json["engine"] = arguments.engine;
-  json["start"] = solution.start;
-  json["robust"] = arguments.robust;
-  json["kind"] = kinds[static_cast<int>(solution.graph.kind())];
-  json["nodes"] = solution.graph.nodes.size();
-  json["constraints"] = solution.graph.constraints.size();
-  json["components"] = solution.components;
-  json["chi2_g2o_initial"] = before.g2o;
-  json["chi2_log_initial"] = before.log;
-  json["chi2_g2o"] = after.g2o;
-  json["chi2_log"] = after.log;
-  json["iterations"] = solution.iterations;
-  json["cpu_ms"] = solution.cpu_ms;
-  json["wall_ms"] = solution.wall_ms;
-  json["peak_mb"] = solution.peak_mb;
-  describe_certificate(solution, json);
-  describe_steps(solution.step_cpu_ms, json);
-  json["rejected"] = solution.rejected.size();
-  json["rejected_edges"] = rejected_edges(solution);
-  json["doubtful"] = doubtful_edges(solution);
-  return json;
+  Json report;
+  report["in"] = arguments.in;
+  report["out"] = arguments.out;
+  report["cost"] = arguments.cost;
+  report["engine"] = arguments.engine;
+  report["start"] = solution.start;
+  report["robust"] = arguments.robust;
+  report["kind"] = kinds[static_cast<int>(solution.graph.kind())];
+  report["nodes"] = solution.graph.nodes.size();
+  report["constraints"] = solution.graph.constraints.size();
+  report["components"] = solution.components;
+  report["chi2_g2o_initial"] = before.g2o;
+  report["chi2_log_initial"] = before.log;
+  report["chi2_g2o"] = after.g2o;
+  report["chi2_log"] = after.log;
+  report["iterations"] = solution.iterations;
+  report["cpu_ms"] = solution.cpu_ms;
+  report["wall_ms"] = solution.wall_ms;
+  report["peak_mb"] = solution.peak_mb;
+  describe_certificate(solution, report);
+  describe_steps(solution.step_cpu_ms, report);
+  report["rejected"] = solution.rejected.size();
+  report["rejected_edges"] = rejected_edges(solution);
+  report["doubtful"] = doubtful_edges(solution);
+  return report;
 }
 
-void print(const OptimizeArguments& arguments, const Json& json) {
-  const auto number = [&](const char* key) { return json[key].get<double>(); };
+void print(const OptimizeArguments& arguments, const Json& report) {
+  const auto number = [&](const char* key) { return report[key].get<double>(); };
   fmt::print("{}: {}, {} nodes, {} constraints, minimized in the {} convention\n", arguments.in,
-             json["kind"].get<std::string>(), json["nodes"].get<int>(),
-             json["constraints"].get<int>(), arguments.cost);
-  if (const int components = json["components"].get<int>(); components > 1)
+             report["kind"].get<std::string>(), report["nodes"].get<int>(),
+             report["constraints"].get<int>(), arguments.cost);
+  if (const int components = report["components"].get<int>(); components > 1)
     fmt::print("  {} components, each for itself\n", components);
   fmt::print("  chi2 (g2o: half-angle quaternion) {:.6f} -> {:.6f}\n", number("chi2_g2o_initial"),
              number("chi2_g2o"));
   fmt::print("  chi2 (logarithm)                  {:.6f} -> {:.6f}\n", number("chi2_log_initial"),
              number("chi2_log"));
-  if (!json["rejected_edges"].empty())
-    fmt::print("  {} constraints rejected\n", json["rejected_edges"].size());
-  if (const int doubtful = json["doubtful"].get<int>(); doubtful > 0 && arguments.robust != "none")
+  if (!report["rejected_edges"].empty())
+    fmt::print("  {} constraints rejected\n", report["rejected_edges"].size());
+  if (const int doubtful = report["doubtful"].get<int>(); doubtful > 0 && arguments.robust != "none")
     fmt::print("  {} constraints kept that lie beyond the 99.9 % bound of their chi2{}\n", doubtful,
                arguments.robust == "huber" || arguments.robust == "dcs"
                    ? "; the method gives them less weight, chi2 above counts them in full"
                    : "");
-  if (json.contains("certificate_gap"))
+  if (report.contains("certificate_gap"))
     fmt::print(
         "  {}: the isotropic chordal problem's minimum here lies at most {:.2g} above its "
         "global one (smallest eigenvalue {:.3g})\n",
-        json["certified"].get<bool>() ? "certified" : "not certified", number("certificate_gap"),
+        report["certified"].get<bool>() ? "certified" : "not certified", number("certificate_gap"),
         number("smallest_eigenvalue"));
-  if (json.contains("steps"))
+  if (report.contains("steps"))
     fmt::print("  {} steps of {:.2f} ms CPU on average, 95 % below {:.2f}, at most {:.2f}\n",
-               json["steps"].get<int>(), number("step_cpu_ms_mean"), number("step_cpu_ms_p95"),
+               report["steps"].get<int>(), number("step_cpu_ms_mean"), number("step_cpu_ms_p95"),
                number("step_cpu_ms_max"));
   fmt::print("  {} iterations, {:.1f} ms CPU, {:.1f} ms wall, {:.0f} MB at most; written to {}\n",
-             json["iterations"].get<int>(), number("cpu_ms"), number("wall_ms"), number("peak_mb"),
+             report["iterations"].get<int>(), number("cpu_ms"), number("wall_ms"), number("peak_mb"),
              arguments.out);
 }
 
@@ -253,11 +253,11 @@ void run(OptimizeArguments arguments) {
   if (!arguments.plot.empty()) draw(arguments, drawn, solution, after);
   if (!arguments.quiet) warn_of_misfit(arguments, solution, after);
   write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
-  const Json json = describe(arguments, before, after, solution);
+  const Json report = describe(arguments, before, after, solution);
   if (arguments.json)
-    std::puts(json.dump(2).c_str());
+    std::puts(report.dump(2).c_str());
   else
-    print(arguments, json);
+    print(arguments, report);
 }
 
 }  // namespace

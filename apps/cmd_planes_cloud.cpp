@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/plane_check.h>
 #include <placegraph/frontend/planes/cloud_planes.h>
+#include <placegraph/frontend/planes/cuboids.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/point_cloud_file.h>
@@ -30,13 +31,14 @@ const std::vector<std::string> kMethods = {"cuts", "ransac", "growing"};
 constexpr int kMostLabels = 255;  ///< of an 8-bit image
 
 struct PlanesCloudArguments {
-  std::string in, out, calibration, method = "cuts", model, truth;
+  std::string in, out, cuboids, calibration, method = "cuts", model, truth;
   double depth_scale = 0.001;
   bool json = false, force = false;
   std::vector<std::string> same;
   std::vector<int> none;
   PlaneCheckOptions check;
   CloudPlanesOptions options;
+  CuboidOptions cuboid_options;
 };
 
 bool is_image(const std::string& path) {
@@ -115,6 +117,28 @@ ordered_json plane_json(int id, const CloudPlane& plane) {
   return json;
 }
 
+/// Boxes and rooms: middle and axes in the sensor's frame, sides, and the plane that each side is.
+ordered_json cuboids_json(const std::vector<Cuboid>& cuboids) {
+  ordered_json list = ordered_json::array();
+  for (const Cuboid& cuboid : cuboids) {
+    const Eigen::Vector3d& middle = cuboid.T_sensor_cuboid.translation();
+    const Eigen::Matrix3d R = cuboid.T_sensor_cuboid.rotation().matrix();
+    ordered_json one;
+    one["kind"] = cuboid.kind == CuboidKind::kBox ? "box" : "room";
+    one["middle_m"] = {middle[0], middle[1], middle[2]};
+    one["size_m"] = {2 * cuboid.half[0], 2 * cuboid.half[1], 2 * cuboid.half[2]};
+    one["R_sensor_cuboid"] = ordered_json::array();
+    for (int row = 0; row < 3; ++row)
+      one["R_sensor_cuboid"].push_back({R(row, 0), R(row, 1), R(row, 2)});
+    constexpr const char* kSides[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+    for (std::size_t side = 0; side < cuboid.faces.size(); ++side)
+      if (cuboid.faces[side] >= 0) one["faces"][kSides[side]] = cuboid.faces[side] + 1;
+    one["points"] = cuboid.points;
+    list.push_back(one);
+  }
+  return list;
+}
+
 ordered_json check_json(const PlaneCheck& check) {
   return {{"planes", check.truth},
           {"correct", check.correct},
@@ -127,7 +151,8 @@ ordered_json check_json(const PlaneCheck& check) {
 }
 
 void print(const PlanesCloudArguments& arguments, const PointCloud& cloud,
-           const CloudPlanesResult& result, const ordered_json& check, double cpu_ms) {
+           const CloudPlanesResult& result, const ordered_json& check, const ordered_json& cuboids,
+           double cpu_ms) {
   const auto on_planes = std::count_if(result.labels.begin(), result.labels.end(),
                                        [](int label) { return label > 0; });
   const auto measured = std::count_if(cloud.points.begin(), cloud.points.end(),
@@ -146,6 +171,7 @@ void print(const PlanesCloudArguments& arguments, const PointCloud& cloud,
     for (std::size_t k = 0; k < result.planes.size(); ++k)
       json["planes"].push_back(plane_json(static_cast<int>(k) + 1, result.planes[k]));
     if (!check.is_null()) json["check"] = check;
+    if (!cuboids.is_null()) json["cuboids"] = cuboids;
     json["cpu_ms"] = cpu_ms;
     std::puts(json.dump(2).c_str());
     return;
@@ -163,6 +189,7 @@ void print(const PlanesCloudArguments& arguments, const PointCloud& cloud,
                check["planes"].get<int>(), check["correct"].get<int>(),
                check["over_segmented"].get<int>(), check["missed"].get<int>(),
                check["false"].get<int>());
+  if (!cuboids.is_null()) fmt::print("  {} boxes and rooms\n", cuboids.size());
   fmt::print("  {:.1f} ms CPU\n", cpu_ms);
 }
 
@@ -173,7 +200,12 @@ void run(const PlanesCloudArguments& arguments) {
   options.method = static_cast<CloudPlanesMethod>(
       std::find(kMethods.begin(), kMethods.end(), arguments.method) - kMethods.begin());
   options.check();
+  arguments.cuboid_options.check();
   require_free(arguments.out, arguments.force);
+  if (!arguments.cuboids.empty()) {
+    require(arguments.cuboids != arguments.out, "--cuboids: the same file as --out");
+    require_free(arguments.cuboids, arguments.force);
+  }
   const PlanarityModel planarity =
       arguments.model.empty() ? built_in_planarity() : read_planarity(arguments.model);
   const PointCloud cloud =
@@ -188,10 +220,18 @@ void run(const PlanesCloudArguments& arguments) {
   if (cloud.organised() && result.planes.size() > kMostLabels)
     warn(fmt::format("{} planes: an 8-bit image tells {} apart, the others are 0",
                      result.planes.size(), kMostLabels));
-  write_labels(arguments, cloud, result.labels);
-  ordered_json check;
+  ordered_json check, cuboids;
   if (!truth.empty()) check = check_json(check_planes(truth, result.labels, arguments.check));
-  print(arguments, cloud, result, check, cpu_ms);
+  if (!arguments.cuboids.empty()) {
+    if (!result.from_origin)
+      throw FileError(arguments.in,
+                      "--cuboids: not taken from the origin, which side of a plane "
+                      "is seen is not known");
+    cuboids = cuboids_json(find_cuboids(cloud, result, arguments.cuboid_options));
+  }
+  write_labels(arguments, cloud, result.labels);
+  if (!arguments.cuboids.empty()) write_file(arguments.cuboids, cuboids.dump(2) + '\n');
+  print(arguments, cloud, result, check, cuboids, cpu_ms);
 }
 
 }  // namespace
@@ -207,6 +247,15 @@ void add_cloud_planes(CLI::App& planes) {
   planes.add_option("-o,--out", a.out,
                     "plane of each pixel as 8-bit PNG, or of each point a line: 0 none, 1 the "
                     "largest");
+  CLI::Option* cuboids = planes.add_option(
+      "--cuboids", a.cuboids,
+      "write boxes and rooms that planes at right angles make, as JSON; the cloud must have been "
+      "taken from the origin");
+  planes
+      .add_option("--off-right-angle", a.cuboid_options.max_off_right_deg,
+                  "of two of their faces, at most [deg]")
+      ->needs(cuboids)
+      ->capture_default_str();
   add_calib_option(planes, a.calibration, std::string("camera of a depth image: ") + kCalibFile);
   planes
       .add_option("--depth-scale", a.depth_scale,

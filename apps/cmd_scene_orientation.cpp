@@ -107,22 +107,22 @@ void run_image(const SceneOrientationArguments& arguments) {
   const Image surfaces = indoor_surfaces(seen.map, camera, seen.R_cam_manhattan);
   if (!arguments.out.empty()) write_image(arguments.out, seen.map.labels);
   if (!arguments.drawing.empty()) write_image(arguments.drawing, draw(seen, camera));
-  ordered_json json = {{"in", arguments.in}, {"coverage", seen.map.coverage}};
+  ordered_json report = {{"in", arguments.in}, {"coverage", seen.map.coverage}};
   for (const IndoorSurface s :
        {IndoorSurface::kFloor, IndoorSurface::kCeiling, IndoorSurface::kWall})
-    json[to_string(s)] =
+    report[to_string(s)] =
         cv::countNonZero(surfaces == static_cast<int>(s)) / static_cast<double>(surfaces.total());
   const Eigen::Matrix3d R = seen.R_cam_manhattan.matrix();
-  json["vertical_axis"] = seen.map.vertical_axis;
-  json["R_cam_manhattan"] = ordered_json::array();
-  for (int i = 0; i < 3; ++i) json["R_cam_manhattan"].push_back({R(i, 0), R(i, 1), R(i, 2)});
-  json["cpu_ms"] = cpu_ms;
+  report["vertical_axis"] = seen.map.vertical_axis;
+  report["R_cam_manhattan"] = ordered_json::array();
+  for (int i = 0; i < 3; ++i) report["R_cam_manhattan"].push_back({R(i, 0), R(i, 1), R(i, 2)});
+  report["cpu_ms"] = cpu_ms;
   if (arguments.as_json)
-    std::puts(json.dump(2).c_str());
+    std::puts(report.dump(2).c_str());
   else
     fmt::print("{}: {:.0f} % told: floor {:.0f}, ceiling {:.0f}, walls {:.0f} %; {:.0f} ms CPU\n",
-               arguments.in, 100 * seen.map.coverage, 100 * json["floor"].get<double>(),
-               100 * json["ceiling"].get<double>(), 100 * json["wall"].get<double>(), cpu_ms);
+               arguments.in, 100 * seen.map.coverage, 100 * report["floor"].get<double>(),
+               100 * report["ceiling"].get<double>(), 100 * report["wall"].get<double>(), cpu_ms);
 }
 
 /// Exact surfaces of a rendered sequence, as far as its folder holds them.
@@ -185,16 +185,16 @@ void run_sequence_of_images(const SceneOrientationArguments& arguments) {
       write_image((fs::path(arguments.drawing) / name).string(), draw(seen, camera));
     if (truth.known()) truth.check(i, seen, check);
   }
-  ordered_json json = {{"in", arguments.in},
-                       {"images", images},
-                       {"told", told},
-                       {"coverage", coverage / std::max(1, images)},
-                       {"cpu_ms", cpu_ms / std::max(1, images)}};
+  ordered_json report = {{"in", arguments.in},
+                         {"images", images},
+                         {"told", told},
+                         {"coverage", coverage / std::max(1, images)},
+                         {"cpu_ms", cpu_ms / std::max(1, images)}};
   if (truth.known())
-    json["check"] = {
+    report["check"] = {
         {"pixels", check.judged}, {"coverage", check.coverage()}, {"accuracy", check.accuracy()}};
   if (arguments.as_json)
-    std::puts(json.dump(2).c_str());
+    std::puts(report.dump(2).c_str());
   else
     fmt::print(
         "{}: {} of {} images told, {:.1f} % of their pixels{}; {:.0f} ms CPU an image\n",

@@ -179,6 +179,7 @@ CloudPlanesResult find_cloud_planes(const PointCloud& cloud, const CloudPlanesOp
   CloudPlanesResult result;
   result.labels.assign(cloud.points.size(), 0);
   result.noise = points.noise;
+  result.from_origin = points.model.noise == PointNoise::kAlongRay;
   if (points.size() < kLeastPoints) {
     result.outcome =
         Outcome::failure(Outcome::Code::kTooFewData, std::to_string(points.size()) + " points, " +

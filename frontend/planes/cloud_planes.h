@@ -40,6 +40,7 @@ struct CloudPlanesResult {
   std::vector<CloudPlane> planes;  ///< the largest first
   std::vector<int> labels;         ///< of each point of the cloud: 0 none, k planes[k - 1]
   CloudNoise noise;                ///< as measured
+  bool from_origin = true;  ///< one surface along every ray: the sensor is where it should be
 };
 
 /// The planes of a cloud and what lies on them, at any scale. Super-points, normalized cuts

@@ -2,6 +2,7 @@
 #include <placegraph/frontend/planes/neighbour_tree.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
+#include <placegraph/graph/core/quantile.h>
 
 #include <algorithm>
 #include <array>
@@ -14,13 +15,6 @@ namespace {
 constexpr int kNeighbours = 8;        ///< of a point of a cloud that is no image
 constexpr int kNoisePatches = 1500;   ///< looked at
 constexpr double kLeastShare = 1e-5;  ///< of the depth: less noise than that is rounding
-
-double quantile(std::vector<double> values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 void take_points(const PointCloud& cloud, CloudPoints& points) {
   if (cloud.organised()) {
@@ -91,7 +85,7 @@ bool seen_from_origin(const std::vector<Eigen::Vector3d>& xyz, const NeighbourTr
     for (const int j : found)
       differences.push_back(std::abs(xyz[static_cast<std::size_t>(j)].norm() / range - 1));
   }
-  return !differences.empty() && quantile(differences, kShare) < kAlike;
+  return !differences.empty() && quantile_of(differences, kShare) < kAlike;
 }
 
 /// The points about one, itself first: of an image a square, otherwise neighbours of neighbours.
@@ -167,12 +161,12 @@ CloudNoise measure_noise(const CloudPoints& points, double step_m) {
     if (power > 0 && !along) continue;
     std::vector<double> units;
     for (const Reading& r : readings) units.push_back(r.sigma / std::pow(r.depth, power));
-    const double low = quantile(units, 0.15), high = quantile(units, 0.55);
+    const double low = quantile_of(units, 0.15), high = quantile_of(units, 0.55);
     const double spread = low > 0 ? high / low : std::numeric_limits<double>::max();
     if (!(spread < 0.9 * best)) continue;
     best = spread;
     noise.power = power;
-    noise.at_1m = quantile(units, kQuiet);
+    noise.at_1m = quantile_of(units, kQuiet);
   }
   return noise;
 }
@@ -209,7 +203,7 @@ double measure_shared(const CloudPoints& points) {
   }
   // Where few patches are flat, what is left is the surface's: no sensor shares more than it has.
   constexpr double kMost = 1;
-  return shares.empty() ? 0 : std::clamp(quantile(shares, kQuiet), 0.0, kMost);
+  return shares.empty() ? 0 : std::clamp(quantile_of(shares, kQuiet), 0.0, kMost);
 }
 
 }  // namespace

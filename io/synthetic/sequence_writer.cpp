@@ -52,20 +52,11 @@ std::string world_yaml(const SyntheticWorld& world) {
   return text + "]\n";
 }
 
-/// The class of every number in labels_0, for what learns and judges labels of streets.
+/// For what learns and judges labels of streets.
 std::string class_list() {
-  const auto surface = [](const std::string& name) {
-    if (name == "Sky") return "sky";
-    if (name == "Road" || name == "Pavement") return "ground";
-    return name == "Car" ? "object" : "vertical";
-  };
   std::string text;
-  for (int i = 0; i < static_cast<int>(synthetic::SurfaceClass::kCount); ++i) {
-    const auto label = static_cast<synthetic::SurfaceClass>(i);
-    const char* name = synthetic::urban_class_name(label);
-    text += name ? fmt::format("{} {} {}\n", i, name, surface(name))
-                 : fmt::format("{} {} -\n", i, to_string(label));
-  }
+  for (const SceneClass& c : SyntheticWorld::scene_classes())
+    text += fmt::format("{} {} {}\n", c.id, c.name, c.surface ? surface_name(*c.surface) : "-");
   return text;
 }
 

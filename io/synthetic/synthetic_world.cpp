@@ -202,6 +202,23 @@ std::vector<Eigen::Vector4d> SyntheticWorld::planes() const {
   return out;
 }
 
+std::vector<SceneClass> SyntheticWorld::scene_classes() {
+  const auto surface = [](const std::string& name) {
+    if (name == "Sky") return Surface::kSky;
+    if (name == "Road" || name == "Pavement") return Surface::kGround;
+    return name == "Car" ? Surface::kObject : Surface::kVertical;
+  };
+  std::vector<SceneClass> classes;
+  for (int i = 0; i < static_cast<int>(synthetic::SurfaceClass::kCount); ++i) {
+    const auto label = static_cast<synthetic::SurfaceClass>(i);
+    if (const char* urban = synthetic::urban_class_name(label))
+      classes.push_back({i, urban, surface(urban)});
+    else
+      classes.push_back({i, to_string(label), std::nullopt});
+  }
+  return classes;
+}
+
 LabelledMesh SyntheticWorld::static_mesh() const {
   LabelledMesh mesh;
   std::vector<int> number;

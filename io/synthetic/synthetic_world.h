@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/trajectory.h>
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/labelled_mesh.h>
+#include <placegraph/graph/scene_model.h>
 #include <placegraph/io/synthetic/sensor_model.h>
 
 #include <memory>
@@ -67,6 +68,9 @@ class SyntheticWorld {
   SyntheticFrame render(std::size_t index, const SyntheticContents& contents) const;
 
   static std::vector<std::string> class_names();
+  /// Which class of a street every label is, and its surface; none where people label no such
+  /// class.
+  static std::vector<SceneClass> scene_classes();
   /// Planes n . p = d of the static scene in the first camera's frame: (n, d); row 0 is unused.
   std::vector<Eigen::Vector4d> planes() const;
   /// A JSON text with rooms, walls and doors; empty outdoors.

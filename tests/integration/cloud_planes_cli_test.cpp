@@ -85,6 +85,22 @@ TEST_F(CloudPlanesCli, LabelsTheThreePlanesOfADepthImage) {
   EXPECT_EQ(read_file(dir / "again.png"), read_file(dir / "labels.png"));
 }
 
+TEST_F(CloudPlanesCli, TellsTheRoomThatPlanesMake) {
+  write_corner();
+  ASSERT_EQ(run("planes depth.png --calib K.txt --out labels.png --cuboids cuboids.json").code, 0);
+  const json cuboids = json::parse(read_file(dir / "cuboids.json"));
+  ASSERT_EQ(cuboids.size(), 1u);
+  EXPECT_EQ(cuboids[0]["kind"], "room");
+  EXPECT_EQ(cuboids[0]["faces"].size(), 3u);
+  EXPECT_EQ(cuboids[0]["R_sensor_cuboid"].size(), 3u);
+  EXPECT_EQ(cuboids[0]["size_m"].size(), 3u);
+  const std::string again = "planes depth.png --calib K.txt --out other.png --cuboids ";
+  expect_usage_error(again + "cuboids.json", "cuboids.json");
+  expect_usage_error(again + "new.json --off-right-angle 90", "max_off_right_deg");
+  expect_usage_error(again + "other.png", "the same file as --out");
+  EXPECT_FALSE(fs::exists(dir / "other.png"));
+}
+
 TEST_F(CloudPlanesCli, LabelsPointsOfEveryKindOfFile) {
   const test::SeenCloud seen = write_corner();
   for (const std::string file : {"cloud.txt", "cloud.bin", "cloud.ply"}) {
