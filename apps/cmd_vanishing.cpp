@@ -66,10 +66,14 @@ ordered_json scene_json(const VanishingArguments& arguments, std::size_t segment
                         {"segments", point.segments},
                         {"evidence_nats", point.evidence},
                         {"world", nullptr},
-                        {"axis", nullptr}};
-    if (scene.roles[i].axis >= 0) {
-      one["world"] = scene.roles[i].frame;
-      one["axis"] = scene.roles[i].axis;
+                        {"axis", nullptr},
+                        {"across", nullptr}};
+    const PointRole role = scene.roles[i];
+    if (role.axis >= 0) {
+      one["world"] = role.frame;
+      one["axis"] = role.axis;
+    } else if (role.across_axis >= 0) {
+      one["across"] = {{"world", role.across_frame}, {"axis", role.across_axis}};
     }
     json["points"].push_back(one);
   }
@@ -82,6 +86,13 @@ ordered_json scene_json(const VanishingArguments& arguments, std::size_t segment
   return json;
 }
 
+std::string role_text(const PointRole& role) {
+  if (role.axis >= 0) return fmt::format(", axis {} of world {}", role.axis, role.frame);
+  if (role.across_axis < 0) return "";
+  return fmt::format(", at right angles to axis {} of world {}", role.across_axis,
+                     role.across_frame);
+}
+
 void print(const VanishingArguments& arguments, std::size_t segments, const SceneDirections& scene,
            double cpu_ms) {
   const VanishingPoints& vanishing = scene.vanishing;
@@ -91,8 +102,7 @@ void print(const VanishingArguments& arguments, std::size_t segments, const Scen
     const Eigen::Vector3d& v = vanishing.points[i].direction;
     const PointRole role = scene.roles[i];
     fmt::print("  {:8.5f} {:8.5f} {:8.5f}  {} segments{}\n", v.x(), v.y(), v.z(),
-               vanishing.points[i].segments,
-               role.axis < 0 ? "" : fmt::format(", axis {} of world {}", role.axis, role.frame));
+               vanishing.points[i].segments, role_text(role));
   }
   for (std::size_t f = 0; f < scene.frames.size(); ++f) {
     const ManhattanFrame& frame = scene.frames[f];

@@ -8,6 +8,7 @@ namespace placegraph {
 namespace {
 
 constexpr double kDeg = M_PI / 180;
+constexpr double kSame = 0.9962;  ///< cosine of 5 degrees: axes nearer than that are one
 
 /// A direction across which something is known.
 using Basis = Eigen::Matrix<double, 3, 2>;
@@ -55,16 +56,17 @@ FittedDirection axis_direction(const VanishingEvidence& evidence, const Manhatta
 std::vector<std::pair<PointRole, FittedDirection>> axes_of(
     const VanishingEvidence& evidence, const std::vector<ManhattanFrame>& frames,
     const ManhattanOptions& options) {
-  const double same = std::cos(5 * kDeg);
   std::vector<std::pair<PointRole, FittedDirection>> axes;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     for (int a = 0; a < 3; ++a) {
       if (frames[f].segments[static_cast<std::size_t>(a)] < options.min_segments) continue;
       const Eigen::Vector3d axis = frames[f].R_cam_manhattan.matrix().col(a);
-      if (std::any_of(axes.begin(), axes.end(),
-                      [&](const auto& known) { return std::abs(known.second.v.dot(axis)) > same; }))
+      if (std::any_of(axes.begin(), axes.end(), [&](const auto& known) {
+            return std::abs(known.second.v.dot(axis)) > kSame;
+          }))
         continue;
-      axes.push_back({{static_cast<int>(f), a}, axis_direction(evidence, frames[f], a, options)});
+      axes.push_back({{.frame = static_cast<int>(f), .axis = a},
+                      axis_direction(evidence, frames[f], a, options)});
     }
   }
   return axes;
@@ -87,6 +89,26 @@ bool is_axis(const std::vector<int>& labels, int point, const std::vector<Manhat
   return false;
 }
 
+/// The axes of all worlds, one that two worlds share once, and which they are.
+std::pair<DirectionPrior, std::vector<PointRole>> prior_of(
+    const std::vector<ManhattanFrame>& frames, const SceneDirectionOptions& options) {
+  DirectionPrior prior;
+  prior.sigma_rad = options.off_right_deg * kDeg;
+  prior.free_share = options.free_share;
+  std::vector<PointRole> roles;
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    for (int a = 0; a < 3; ++a) {
+      const Eigen::Vector3d axis = frames[f].R_cam_manhattan.matrix().col(a);
+      if (std::any_of(prior.axes.begin(), prior.axes.end(), [&](const Eigen::Vector3d& known) {
+            return std::abs(known.dot(axis)) > kSame;
+          }))
+        continue;
+      prior.axes.push_back(axis);
+      roles.push_back({.across_frame = static_cast<int>(f), .across_axis = a});
+    }
+  return {prior, roles};
+}
+
 }  // namespace
 
 void SceneDirectionOptions::check() const { check_ranges(*this); }
@@ -94,6 +116,9 @@ void SceneDirectionOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, SceneDirectionOptions& options) {
   field.group("points", options.points, "vanishing points");
   field.group("manhattan", options.manhattan, "rectangular worlds");
+  field("off_right_deg", options.off_right_deg,
+        "deviation of further points from right angles to an axis", {0.01, 45});
+  field("free_share", options.free_share, "of further points, that lie anywhere", {0.01, 1});
 }
 
 SceneDirections find_scene_directions(const std::vector<LineSegment>& segments,
@@ -109,7 +134,9 @@ SceneDirections find_scene_directions(const std::vector<LineSegment>& segments,
   std::vector<FittedDirection> directions;
   for (const auto& axis : axes) directions.push_back(axis.second);
   VanishingModel model(evidence, options.points.point_cost, options.points.min_segments);
+  const auto [prior, roles_across] = prior_of(scene.frames, options);
   model = model.with_all(directions);
+  model.expect(prior);
   // The other points, as far as the axes have left something to them.
   for (std::size_t p = 0; p < scene.vanishing.points.size(); ++p) {
     if (is_axis(scene.vanishing.labels, static_cast<int>(p), scene.frames, options.manhattan))
@@ -123,10 +150,13 @@ SceneDirections find_scene_directions(const std::vector<LineSegment>& segments,
     search.grow(model, options.points.max_points);
     std::vector<int> order;
     scene.vanishing = vanishing_points(evidence, model, order);
-    for (const int z : order)
-      scene.roles.push_back(z < static_cast<int>(axes.size())
-                                ? axes[static_cast<std::size_t>(z)].first
-                                : PointRole{});
+    for (const int z : order) {
+      const auto at = static_cast<std::size_t>(z);
+      const int across = model.directions()[at].across_axis;
+      scene.roles.push_back(at < axes.size() ? axes[at].first
+                            : across < 0     ? PointRole{}
+                                             : roles_across[static_cast<std::size_t>(across)]);
+    }
   }
   spread_labels(evidence, segments.size(), scene.vanishing.labels);
   for (ManhattanFrame& frame : scene.frames) spread_labels(evidence, segments.size(), frame.axis);

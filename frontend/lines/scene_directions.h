@@ -6,13 +6,18 @@ namespace placegraph {
 struct SceneDirectionOptions {
   VanishingPointOptions points;
   ManhattanOptions manhattan;
+  double off_right_deg = 2;  ///< deviation of further points from right angles to an axis
+  double free_share = 0.25;  ///< of further points, that lie anywhere
   void check() const;
 };
 void visit(OptionVisitor& field, SceneDirectionOptions& options);
 
-/// Which axis of which rectangular world a vanishing point is; -1: of none.
+/// What a vanishing point is to the rectangular worlds of its scene.
 struct PointRole {
-  int frame = -1, axis = -1;
+  int frame = -1, axis = -1;  ///< it is this axis of this world; -1: of none
+  /// A point that is no axis: it lies at right angles to this axis of this world, as all level
+  /// directions do to the upright one (Atlanta worlds), and slopes of a roof to the ridge.
+  int across_frame = -1, across_axis = -1;
 };
 
 /// All that the segments of one image tell of the directions of its scene.

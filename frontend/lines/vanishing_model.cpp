@@ -66,11 +66,45 @@ FittedDirection fit_direction(const VanishingEvidence& evidence, const Eigen::Ve
   return fit;
 }
 
+void DirectionPrior::pull(FittedDirection& fit) const {
+  fit.across_axis = -1;
+  if (axes.empty()) return;
+  // Densities over that of anywhere on half the sphere, 1 / (2 pi): normal across half a great
+  // circle, 1 / pi along it. Both are integrated over what the lines leave open.
+  double sum = free_share, largest = free_share;
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const double off = std::asin(std::clamp(axes[a].dot(fit.v), -1.0, 1.0));
+    const double variance = sigma_rad * sigma_rad + axes[a].dot(fit.covariance * axes[a]);
+    const double density = (1 - free_share) / static_cast<double>(axes.size()) * 2 *
+                           std::exp(-0.5 * off * off / variance) / std::sqrt(2 * M_PI * variance);
+    sum += density;
+    if (density > largest) largest = density, fit.across_axis = static_cast<int>(a);
+  }
+  fit.precision_cost -= std::log(sum);
+  if (fit.across_axis < 0) return;
+  const Eigen::Vector3d& axis = axes[static_cast<std::size_t>(fit.across_axis)];
+  const Eigen::Vector3d toward = fit.covariance * axis;
+  const double own = axis.dot(toward), variance = sigma_rad * sigma_rad + own;
+  const double off = axis.dot(fit.v);
+  fit.precision_cost -= 0.5 * off * off * own / (variance * variance);
+  fit.v = (fit.v - toward * (off / variance)).normalized();
+  if (fit.v.z() < 0) fit.v = -fit.v;
+  const Eigen::Matrix3d P = Eigen::Matrix3d::Identity() - fit.v * fit.v.transpose();
+  fit.covariance = P * (fit.covariance - toward * toward.transpose() / variance) * P;
+}
+
 std::vector<int> VanishingModel::lines_of(int direction) const {
   std::vector<int> lines;
   for (std::size_t i = 0; i < of_.size(); ++i)
     if (of_[i] == direction) lines.push_back(static_cast<int>(i));
   return lines;
+}
+
+FittedDirection VanishingModel::fit(const Eigen::Vector3d& start,
+                                    const std::vector<int>& lines) const {
+  FittedDirection fitted = fit_direction(*evidence_, start, lines, 3);
+  if (fitted.ok) prior_.pull(fitted);
+  return fitted;
 }
 
 std::vector<double> VanishingModel::ratios(const Eigen::Vector3d& v) const {
@@ -140,10 +174,10 @@ std::optional<VanishingModel> VanishingModel::with(const Eigen::Vector3d& v) con
   for (int round = 0; round < 3; ++round) {
     const std::vector<int> lines = larger.lines_of(z);
     if (static_cast<int>(lines.size()) < min_lines_) return std::nullopt;
-    const FittedDirection fit = fit_direction(*evidence_, larger.directions_.back().v, lines, 3);
-    if (!fit.ok) return std::nullopt;
-    larger.directions_.back() = fit;
-    larger.ratios_.back() = ratios(fit.v);
+    const FittedDirection fitted = fit(larger.directions_.back().v, lines);
+    if (!fitted.ok) return std::nullopt;
+    larger.directions_.back() = fitted;
+    larger.ratios_.back() = ratios(fitted.v);
     larger.assign(2);
   }
   if (static_cast<int>(larger.lines_of(z).size()) < min_lines_) return std::nullopt;
@@ -152,6 +186,7 @@ std::optional<VanishingModel> VanishingModel::with(const Eigen::Vector3d& v) con
 
 VanishingModel VanishingModel::with_all(const std::vector<FittedDirection>& directions) const {
   VanishingModel other(*evidence_, cost_per_direction_, min_lines_);
+  other.prior_ = prior_;
   for (const FittedDirection& direction : directions) other.append(direction);
   other.of_.assign(static_cast<std::size_t>(evidence_->size()), -1);
   for (std::size_t i = 0; i < other.of_.size(); ++i) {
@@ -178,12 +213,11 @@ void VanishingModel::polish(int rounds) {
       if (directions_[static_cast<std::size_t>(z)].held) continue;
       const std::vector<int> lines = lines_of(z);
       const std::size_t row = static_cast<std::size_t>(z);
-      FittedDirection fit;
-      if (static_cast<int>(lines.size()) >= min_lines_)
-        fit = fit_direction(*evidence_, directions_[row].v, lines, 3);
-      if (fit.ok) {
-        directions_[row] = fit;
-        ratios_[row] = ratios(fit.v);
+      FittedDirection fitted;
+      if (static_cast<int>(lines.size()) >= min_lines_) fitted = fit(directions_[row].v, lines);
+      if (fitted.ok) {
+        directions_[row] = fitted;
+        ratios_[row] = ratios(fitted.v);
       } else {
         remove(z);
       }

@@ -2,6 +2,8 @@
 #include <placegraph/frontend/lines/vanishing_evidence.h>
 
 #include <Eigen/Dense>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace placegraph {
@@ -12,8 +14,24 @@ struct FittedDirection {
   bool held = false;                                     ///< it is not fitted anew with others
   Eigen::Vector3d v = Eigen::Vector3d::UnitZ();          ///< camera frame, z >= 0
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of v; zero along v
-  /// -log of the square root of the determinant across v [nats]: what stating it so finely costs.
+  /// What stating it so finely costs [nats]: -log of the square root of the determinant of the
+  /// covariance across v by its lines, less what a DirectionPrior says of it.
   double precision_cost = 0;
+  int across_axis = -1;  ///< of a DirectionPrior, that it lies at right angles to; -1: of none
+};
+
+/// What the axes of rectangular worlds say of further directions of the same scene: edges mostly
+/// lie at right angles to one of them, as level ones do to the upright, and slopes of a roof to the
+/// ridge.
+struct DirectionPrior {
+  std::vector<Eigen::Vector3d> axes;  ///< unit, camera frame; none: anywhere is as likely
+  double sigma_rad = 0.035;           ///< from right angles
+  double free_share = 0.25;           ///< of the directions that lie anywhere
+
+  /// Pulls a fit towards right angles to the axis that it most probably lies across, if it does
+  /// (FittedDirection::across_axis), and takes what the prior says of it off its precision_cost;
+  /// what its lines lose by the move, they tell themselves.
+  void pull(FittedDirection& fit) const;
 };
 
 /// Refines a direction over lines of the evidence by reweighted Gauss-Newton in the two directions
@@ -31,6 +49,9 @@ class VanishingModel {
   /// The evidence must outlive the model.
   VanishingModel(const VanishingEvidence& evidence, double cost_per_direction, int min_lines)
       : evidence_(&evidence), cost_per_direction_(cost_per_direction), min_lines_(min_lines) {}
+
+  /// Of the directions that are not held, from now on.
+  void expect(DirectionPrior prior) { prior_ = std::move(prior); }
 
   int size() const { return static_cast<int>(directions_.size()); }
   const std::vector<FittedDirection>& directions() const { return directions_; }
@@ -54,10 +75,12 @@ class VanishingModel {
   void append(const FittedDirection& direction);
   void remove(int direction);
   void assign(int rounds);
+  FittedDirection fit(const Eigen::Vector3d& start, const std::vector<int>& lines) const;
   std::vector<double> ratios(const Eigen::Vector3d& v) const;
 
   const VanishingEvidence* evidence_;
   double cost_per_direction_ = 0;
+  DirectionPrior prior_;
   int min_lines_ = 3;
   std::vector<FittedDirection> directions_;
   std::vector<std::vector<double>> ratios_;  ///< log_ratio of each line, a row a direction

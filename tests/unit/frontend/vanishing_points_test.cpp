@@ -161,6 +161,18 @@ TEST(SceneDirections, PointsOfAWorldAreItsAxes) {
       EXPECT_GT(std::abs(v.dot(R.matrix().col(scene.roles[i].axis))), 0.9999);
     } else {
       EXPECT_GT(std::abs(v.dot(oblique)), 0.9999);
+      // At right angles to the upright axis: of a world of its own with it, or told to lie across
+      // it.
+      const PointRole role = scene.roles[i];
+      const int frame = role.axis >= 0 ? role.frame : role.across_frame;
+      ASSERT_GE(frame, 0);
+      const Eigen::Matrix3d axes_seen =
+          scene.frames[static_cast<std::size_t>(frame)].R_cam_manhattan.matrix();
+      const Eigen::Vector3d upright = R * Eigen::Vector3d::UnitY();
+      EXPECT_GT((axes_seen.transpose() * upright).cwiseAbs().maxCoeff(), 0.999);
+      if (role.across_axis >= 0) {
+        EXPECT_GT(std::abs(axes_seen.col(role.across_axis).dot(upright)), 0.999);
+      }
     }
   }
   EXPECT_EQ(axes, 3);
@@ -172,6 +184,81 @@ TEST(SceneDirections, PointsOfAWorldAreItsAxes) {
              scene.roles[static_cast<std::size_t>(label)].axis == 0;
   }
   EXPECT_GE(right, 36);
+}
+
+TEST(SceneDirections, TellsWhichAxisFurtherPointsLieAcross) {
+  const Camera camera = test::vanishing_camera();
+  const SO3 R = SO3::exp({0.1, 0.5, 0.05});
+  // Level, 30 degrees off an axis, and nowhere at right angles. The level ones and the upright ones
+  // would be a second rectangular world, so one is asked for that has more lines.
+  SceneDirectionOptions options;
+  options.manhattan.min_evidence = 100;
+  const Eigen::Vector3d level = R * Eigen::Vector3d(0.5, 0, 0.866).normalized(),
+                        free = R * Eigen::Vector3d(1, 0.8, 1.2).normalized();
+  int told = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    auto segments = test::manhattan_segments(camera, R, 60, 10, 0.3, random);
+    test::add_edges(camera, level, 9, 0.3, random, segments);
+    test::add_edges(camera, free, 25, 0.3, random, segments);
+    const auto scene = find_scene_directions(segments, camera, options, random);
+    ASSERT_EQ(scene.frames.size(), 1u) << seed;
+    for (std::size_t i = 0; i < scene.roles.size(); ++i) {
+      const PointRole role = scene.roles[i];
+      if (role.across_axis < 0) continue;
+      const Eigen::Vector3d v = scene.vanishing.points[i].direction;
+      const Eigen::Vector3d axis =
+          scene.frames[static_cast<std::size_t>(role.across_frame)].R_cam_manhattan.matrix().col(
+              role.across_axis);
+      EXPECT_LT(std::abs(v.dot(axis)), 0.02) << seed;
+      told += std::abs(v.dot(level)) > 0.999;
+      EXPECT_LT(std::abs(v.dot(free)), 0.999) << seed;
+    }
+  }
+  EXPECT_GE(told, 36);
+}
+
+TEST(DirectionPrior, PullsToRightAnglesWhatIsNearThem) {
+  DirectionPrior prior;
+  prior.axes = {Eigen::Vector3d::UnitY()};
+  prior.sigma_rad = 0.02;
+  FittedDirection near;
+  near.v = Eigen::Vector3d(0.6, std::sin(0.02), 0.8).normalized();
+  near.covariance = 0.02 * 0.02 * (Eigen::Matrix3d::Identity() - near.v * near.v.transpose());
+  FittedDirection pulled = near;
+  prior.pull(pulled);
+  ASSERT_EQ(pulled.across_axis, 0);
+  EXPECT_NEAR(std::asin(pulled.v.y()), 0.01, 2e-4);
+  EXPECT_NEAR(pulled.covariance(1, 1), 0.5 * near.covariance(1, 1), 1e-6);
+  EXPECT_LT((pulled.covariance * pulled.v).norm(), 1e-12);
+  EXPECT_LT(pulled.precision_cost, near.precision_cost);
+
+  FittedDirection far = near;
+  far.v = Eigen::Vector3d(0.6, 0.5, 0.8).normalized();
+  pulled = far;
+  prior.pull(pulled);
+  ASSERT_EQ(pulled.across_axis, -1);
+  EXPECT_EQ(pulled.v, far.v);
+  EXPECT_EQ(pulled.covariance, far.covariance);
+  EXPECT_NEAR(pulled.precision_cost - far.precision_cost, std::log(4.0), 1e-6);
+}
+
+TEST(DirectionPrior, KeepsDirectionsBeforeTheCamera) {
+  DirectionPrior prior;
+  prior.axes = {Eigen::Vector3d(0, 1, 1).normalized()};
+  FittedDirection level;  // at the image plane's own angle: the pull takes it behind
+  level.v = Eigen::Vector3d(0.999, 0.03, 0.001).normalized();
+  level.covariance = 0.02 * 0.02 * (Eigen::Matrix3d::Identity() - level.v * level.v.transpose());
+  prior.pull(level);
+  ASSERT_EQ(level.across_axis, 0);
+  EXPECT_GE(level.v.z(), 0);
+}
+
+TEST(DirectionPrior, WithoutAxesSaysNothing) {
+  FittedDirection fit;
+  DirectionPrior{}.pull(fit);
+  EXPECT_EQ(fit.precision_cost, 0);
+  EXPECT_EQ(fit.v, Eigen::Vector3d::UnitZ());
 }
 
 }  // namespace
