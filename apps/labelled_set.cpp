@@ -41,8 +41,9 @@ LabelledSet read_labelled_set(const std::string& folder) {
   return set;
 }
 
-Image read_class_image(const std::string& path, const std::vector<SceneClass>& classes,
-                       const std::vector<std::string>& names, bool surfaces) {
+Image class_image(const Image& labels, const std::string& origin,
+                  const std::vector<SceneClass>& classes, const std::vector<std::string>& names,
+                  bool surfaces) {
   constexpr int kUnheard = -1;
   std::array<int, 256> table;
   table.fill(kUnheard);
@@ -52,20 +53,24 @@ Image read_class_image(const std::string& path, const std::vector<SceneClass>& c
     table[static_cast<std::size_t>(c.id)] =
         c.surface && at != names.end() ? static_cast<int>(at - names.begin()) : kVoid;
   }
-  const Image stored = read_image_as_stored(path);
-  if (stored.type() != CV_8UC1)
-    throw FileError(path, "no label image: one channel of 8 bits is needed");
-  Image result(stored.size(), CV_8UC1);
-  for (int v = 0; v < stored.rows; ++v)
-    for (int u = 0; u < stored.cols; ++u) {
-      const int label = table[stored.at<std::uint8_t>(v, u)];
-      if (label == kUnheard)
-        throw FileError(path, "class " + std::to_string(stored.at<std::uint8_t>(v, u)) + " at " +
-                                  std::to_string(u) + " " + std::to_string(v) +
-                                  " is not in CLASSES.txt");
-      result.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(label);
+  if (labels.type() != CV_8UC1)
+    throw FileError(origin, "no label image: one channel of 8 bits is needed");
+  Image result(labels.size(), CV_8UC1);
+  for (int v = 0; v < labels.rows; ++v)
+    for (int u = 0; u < labels.cols; ++u) {
+      const int number = table[labels.at<std::uint8_t>(v, u)];
+      if (number == kUnheard)
+        throw FileError(origin, "class " + std::to_string(labels.at<std::uint8_t>(v, u)) + " at " +
+                                    std::to_string(u) + " " + std::to_string(v) +
+                                    " is not in CLASSES.txt");
+      result.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(number);
     }
   return result;
+}
+
+Image read_class_image(const std::string& path, const std::vector<SceneClass>& classes,
+                       const std::vector<std::string>& names, bool surfaces) {
+  return class_image(read_image_as_stored(path), path, classes, names, surfaces);
 }
 
 }  // namespace placegraph::apps

@@ -23,9 +23,14 @@ struct LabelledSet {
 /// Throws FileError: no CLASSES.txt, no images, an image without labels.
 LabelledSet read_labelled_set(const std::string& folder);
 
-/// The labels of a picture as numbers into `names`, 255 where they are void. `surfaces`: by what
-/// surface a class is, else by its name. Throws FileError if the image is no label image or holds a
-/// number that is no class of the set.
+/// Labels numbered by `classes` as numbers into `names`, 255 where they are void. `surfaces`: by
+/// what surface a class is, else by its name. Throws FileError of `origin` if they are no label
+/// image or hold a number that is no class.
+Image class_image(const Image& labels, const std::string& origin,
+                  const std::vector<SceneClass>& classes, const std::vector<std::string>& names,
+                  bool surfaces);
+
+/// The same of a file.
 Image read_class_image(const std::string& path, const std::vector<SceneClass>& classes,
                        const std::vector<std::string>& names, bool surfaces);
 

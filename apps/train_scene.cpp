@@ -1,6 +1,7 @@
 #include "apps/train_scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <placegraph/eval/label_check.h>
 #include <placegraph/frontend/scene/scene_training.h>
 #include <placegraph/frontend/scene/scene_variants.h>
@@ -8,10 +9,12 @@
 #include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/image_file.h>
 #include <placegraph/io/scene_model_file.h>
+#include <placegraph/io/synthetic/synthetic_world.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
@@ -20,6 +23,7 @@
 #include "apps/labelled_set.h"
 #include "apps/output.h"
 #include "apps/progress.h"
+#include "apps/rendered_streets.h"
 #include "apps/scene_models.h"
 #include "apps/usage.h"
 
@@ -28,7 +32,8 @@ namespace {
 
 struct TrainSceneArguments {
   std::string data, out, holdout, update;
-  int threads = 2, every = 1;
+  std::vector<std::uint64_t> rendered;
+  int rendered_frames = 25, threads = 2, every = 1;
   bool force = false, json = false, ablation = false;
   SceneTrainingOptions options;
 };
@@ -37,6 +42,13 @@ Image colour_of(const std::string& path) {
   const GreyAndColour read = read_image(path);
   return read.colour.empty() ? read.grey : read.colour;
 }
+
+/// A picture to learn from: itself, and its labels as numbers of the model's classes. Photographs
+/// are read when they are asked for, rendered ones are kept.
+struct LessonPicture {
+  std::string sequence;
+  std::function<std::pair<Image, Image>()> read;
+};
 
 /// The classes of the model: those of `base` first, then new ones of the set.
 SceneModel blank_model(SceneModel::Kind kind, const std::vector<SceneClass>& classes,
@@ -58,30 +70,57 @@ SceneModel blank_model(SceneModel::Kind kind, const std::vector<SceneClass>& cla
   return model;
 }
 
-/// Cuts up every picture as often as there are variants; those of one variant follow each other.
-std::vector<SceneExample> make_examples(const LabelledSet& set,
-                                        const std::vector<LabelledPicture>& pictures,
-                                        const SceneModel& model, const TrainSceneArguments& a) {
-  const int count = static_cast<int>(pictures.size()), variants = a.options.variants;
+/// Photographs of the set, then rendered streets.
+std::vector<LessonPicture> make_lesson(const LabelledSet& set,
+                                       const std::vector<LabelledPicture>& pictures,
+                                       const SceneModel& model, const TrainSceneArguments& a) {
+  const bool surfaces = model.kind == SceneModel::Kind::kSurfaces;
+  const auto& names = model.classes;
+  std::vector<LessonPicture> lesson;
+  for (const LabelledPicture& picture : pictures)
+    lesson.push_back({picture.sequence, [&set, &names, picture, surfaces] {
+                        return std::pair(
+                            colour_of(picture.image),
+                            read_class_image(picture.labels, set.classes, names, surfaces));
+                      }});
+  for (const RenderedPicture& picture : render_streets(a.rendered, a.rendered_frames, a.threads))
+    lesson.push_back({picture.sequence, [&names, picture, surfaces] {
+                        return std::pair(
+                            picture.image,
+                            class_image(picture.labels, picture.sequence,
+                                        SyntheticWorld::scene_classes(), names, surfaces));
+                      }});
+  return lesson;
+}
+
+/// Which of them are alike: so many of a drive one after the other (`block`), and never of two sequences.
+std::vector<int> blocks_of(const std::vector<LessonPicture>& lesson, const TrainSceneArguments& a) {
   std::vector<int> block;
   int in_block = 0;
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const bool same = i > 0 && pictures[i].sequence == pictures[i - 1].sequence;
+  for (std::size_t i = 0; i < lesson.size(); ++i) {
+    const bool same = i > 0 && lesson[i].sequence == lesson[i - 1].sequence;
     const bool full = ++in_block > std::max(1, a.options.block / a.every);
     if (!same || full) in_block = 1;
     block.push_back(i == 0 ? 0 : block.back() + (!same || full ? 1 : 0));
   }
-  const bool surfaces = model.kind == SceneModel::Kind::kSurfaces;
+  return block;
+}
+
+/// Cuts up every picture as often as there are variants; those of one variant follow each other.
+std::vector<SceneExample> make_examples(const std::vector<LessonPicture>& lesson,
+                                        const SceneModel& model, const TrainSceneArguments& a) {
+  const int count = static_cast<int>(lesson.size()), variants = a.options.variants;
+  const std::vector<int> block = blocks_of(lesson, a);
   std::vector<SceneExample> examples(static_cast<std::size_t>(count * variants));
   Progress progress("looking", count * variants, "pictures");
   constexpr int kPart = 16;  // between two lines of progress
   for (int begin = 0; begin < count * variants; begin += kPart) {
     parallel_for(std::min(kPart, count * variants - begin), a.threads, [&](int k) {
-      const auto at = static_cast<std::size_t>(begin + k), which = at % pictures.size();
-      const std::size_t variant = at / pictures.size();
-      Image bgr = scene_picture(colour_of(pictures[which].image));
-      Image labels = fit_labels(
-          read_class_image(pictures[which].labels, set.classes, model.classes, surfaces), bgr);
+      const auto at = static_cast<std::size_t>(begin + k), which = at % lesson.size();
+      const std::size_t variant = at / lesson.size();
+      const auto [picture, classes] = lesson[which].read();
+      Image bgr = scene_picture(picture);
+      Image labels = fit_labels(classes, bgr);
       if (variant > 0) {
         Random random(a.options.forest.seed, at);
         SceneVariant drawn = vary_scene(bgr, labels, 255, variant % 2 == 1, random);
@@ -156,6 +195,10 @@ std::string origin_of(const TrainSceneArguments& a, std::size_t pictures, const 
       fmt::format("{} pictures, {} variants, {} trees, seed {}", pictures, a.options.variants,
                   a.options.forest.trees, a.options.forest.seed);
   if (!a.holdout.empty()) origin += ", without " + a.holdout;
+  if (!a.rendered.empty())
+    origin += fmt::format("; beside them {} views of rendered streets of seeds {}",
+                          a.rendered.size() * static_cast<std::size_t>(a.rendered_frames),
+                          fmt::join(a.rendered, ","));
   return base ? base->origin + "; then " + origin : origin;
 }
 
@@ -170,13 +213,17 @@ void print_losses(const LabelCheck& before, const LabelCheck& after, const Scene
 void write_card(const TrainSceneArguments& a, const SceneModel& model, const std::string& result) {
   std::string classes;
   for (const std::string& name : model.classes) classes += " " + name;
+  const std::string rendered = a.rendered.empty()
+                                   ? ""
+                                   : fmt::format(" --rendered {} --rendered-frames {}",
+                                                 fmt::join(a.rendered, ","), a.rendered_frames);
   write_file(a.out + ".md",
              fmt::format("# {}\n\nData: {}.\nClasses:{}.\nHeld out: {}.\n\n    placegraph train {} "
                          "DATA --out MODEL{}{}\n",
                          name_of(model.kind), model.origin, classes, result, name_of(model.kind),
                          a.holdout.empty() ? "" : " --holdout " + a.holdout,
-                         fmt::format(" --variants {} --trees {}", a.options.variants,
-                                     a.options.forest.trees)));
+                         rendered + fmt::format(" --variants {} --trees {}", a.options.variants,
+                                                a.options.forest.trees)));
 }
 
 void train(const TrainSceneArguments& a, SceneModel::Kind kind) {
@@ -199,18 +246,19 @@ void train(const TrainSceneArguments& a, SceneModel::Kind kind) {
   SceneModel model = blank_model(kind, set.classes, base ? &*base : nullptr);
   model.origin = origin_of(a, learned.size(), base ? &*base : nullptr);
   const Stopwatch watch;
-  std::vector<SceneExample> examples = make_examples(set, learned, model, a);
+  const std::vector<LessonPicture> lesson = make_lesson(set, learned, model, a);
+  std::vector<SceneExample> examples = make_examples(lesson, model, a);
   model = train_scene_model(
       std::move(model), std::move(examples), a.options, a.threads,
       [](const std::string& doing) { fmt::print(stderr, "{}\n", doing); }, base ? &*base : nullptr);
   write_scene_model(a.out, model);
   std::string result = "nothing";
   nlohmann::json report = {
-      {"out", a.out}, {"pictures", learned.size()}, {"seconds", watch.wall_ms() / 1e3}};
+      {"out", a.out}, {"pictures", lesson.size()}, {"seconds", watch.wall_ms() / 1e3}};
   if (!a.json)
     fmt::print(
         "{}: learned from {} pictures in {:.0f} s; smoothness {}, relations {}, sharpness {}\n",
-        a.out, learned.size(), watch.wall_ms() / 1e3, model.smoothness, model.relation_weight,
+        a.out, lesson.size(), watch.wall_ms() / 1e3, model.smoothness, model.relation_weight,
         model.sharpness);
   if (!held.empty()) {
     const LabelCheck check = judge(model, set, held, a.threads);
@@ -260,7 +308,16 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
       ->capture_default_str();
   command->add_option("--class-power", a.options.class_power, "rare classes weigh as share^-power")
       ->capture_default_str();
-  command->add_option("--every", a.every, "learn from every n-th picture only")
+  command
+      ->add_option("--rendered", a.rendered,
+                   "seeds of rendered towns to learn from too, joined by commas, whose classes are "
+                   "known exactly; those of even seeds have traffic and bad light")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--rendered-frames", a.rendered_frames, "views of each")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--every", a.every, "learn from every n-th photograph only")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--seed", a.options.forest.seed, "of what is drawn")->capture_default_str();

@@ -1,6 +1,7 @@
 #include <placegraph/frontend/lines/manhattan_frame.h>
 #include <placegraph/frontend/scene/environment.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/quantile.h>
 
 #include <algorithm>
 #include <charconv>
@@ -28,12 +29,6 @@ enum Evidence : std::size_t {
   kSide,
   kAbove
 };
-
-double quantile(std::vector<double>& values, double share) {
-  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + at, values.end());
-  return values[static_cast<std::size_t>(at)];
-}
 
 double log_of(double length) { return std::log10(std::max(1e-2, length)); }
 
@@ -145,12 +140,12 @@ void EnvironmentEvidence::see(const std::vector<Eigen::Vector3d>& points_cam, bo
     above.push_back(-p.y());
   }
   if (depth.size() < kFewest) return;
-  const double middle = quantile(depth, 0.5), high = quantile(above, 0.95);
-  values[kSpread] = std::log10(quantile(depth, 0.9) / quantile(depth, 0.1));
+  const double middle = quantile_of(depth, 0.5), high = quantile_of(above, 0.95);
+  values[kSpread] = std::log10(quantile_of(depth, 0.9) / quantile_of(depth, 0.1));
   values[kTall] = high / middle;
   if (!metric) return;
   values[kDepth] = log_of(middle);
-  values[kSide] = log_of(quantile(side, 0.5));
+  values[kSide] = log_of(quantile_of(side, 0.5));
   values[kAbove] = log_of(high);
 }
 

@@ -69,6 +69,12 @@ SceneVariant vary_scene(const Image& bgr, const Image& labels, std::uint8_t void
   cv::warpAffine(variant.bgr, variant.bgr, place, bgr.size(), cv::INTER_LINEAR, cv::BORDER_REFLECT);
   cv::warpAffine(variant.labels, variant.labels, place, bgr.size(), cv::INTER_NEAREST,
                  cv::BORDER_CONSTANT, cv::Scalar(void_label));
+  constexpr double kGreyShare = 1.0 / 3;  // many drives are recorded without colour
+  if (random.uniform(0, 1) < kGreyShare) {
+    Image grey;
+    cv::cvtColor(variant.bgr, grey, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(grey, variant.bgr, cv::COLOR_GRAY2BGR);
+  }
   return variant;
 }
 

@@ -12,8 +12,9 @@ struct SceneVariant {
 };
 
 /// Draws exposure, contrast, colour of the light, clouds and shadows (smooth factors), noise of the
-/// sensor, zoom and shift, and mirrors every other one. `labels` of type CV_8UC1; pixels that come
-/// from outside become `void_label`. The same `random` gives the same picture.
+/// sensor, zoom and shift, takes the colour from about a third, and mirrors where `mirror` says so.
+/// `labels` of type CV_8UC1; pixels that come from outside become `void_label`. The same `random`
+/// gives the same picture.
 SceneVariant vary_scene(const Image& bgr, const Image& labels, std::uint8_t void_label, bool mirror,
                         Random& random);
 

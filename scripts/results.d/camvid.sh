@@ -3,7 +3,8 @@ title="Surfaces and classes of streets: CamVid"
 s=$data/scene/camvid
 [ -d "$s" ] || { absent "$title"; return 0; }
 heading "$title"
-command_line "placegraph train surfaces|urban \$DATA/scene/camvid --holdout SEQUENCE --ablation --out MODEL"
+rendered="--rendered 11,12,13 --rendered-frames 25" # as for the models that come with the program
+command_line "placegraph train surfaces|urban \$DATA/scene/camvid --holdout SEQUENCE $rendered --ablation --out MODEL"
 command_line "placegraph scene surfaces|label SEQUENCE --model MODEL --confidence --out LABELS"
 command_line "placegraph scene check LABELS SEQUENCE [--surfaces]"
 
@@ -24,7 +25,7 @@ for sequence in 0001TP 0006R0 0016E5; do
   for kind in surfaces urban; do
     [ -n "${REUSE_RUNS:-}" ] && [ -f "$folder.$kind.pgscene" ] && [ -f "$folder.$kind.json" ] && continue
     say "learning $kind without $sequence"
-    $placegraph train $kind "$s" --holdout $sequence --out "$folder.$kind.pgscene" --ablation --force --json > "$folder.$kind.json" 2> "$folder.$kind.log"
+    $placegraph train $kind "$s" --holdout $sequence $rendered --out "$folder.$kind.pgscene" --ablation --force --json > "$folder.$kind.json" 2> "$folder.$kind.log"
   done
   labelled "$sequence" "$folder" "$folder.surfaces.pgscene" "$folder.urban.pgscene"
 done

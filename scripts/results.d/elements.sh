@@ -1,10 +1,12 @@
 # Every combination of the elements of navigation, with what each brings and what only two together do.
-# ELEMENTS_FRAMES (150) says how long the clips are, ELEMENTS_WORLDS which are run.
+# ELEMENTS_FRAMES (150) says how long the clips are, ELEMENTS_ROUND (620) that of the corridor, which
+# comes round and so has places to recognize; ELEMENTS_WORLDS which are run.
 frames=${ELEMENTS_FRAMES:-150}
+round=${ELEMENTS_ROUND:-620}
 worlds=${ELEMENTS_WORLDS:-town corridor k0095}
 title="Elements: every combination on a rendered town, a rendered corridor and a real drive"
 heading "$title"
-command_line "ELEMENTS_FRAMES=$frames ELEMENTS_WORLDS=\"$worlds\" scripts/results elements"
+command_line "ELEMENTS_FRAMES=$frames ELEMENTS_ROUND=$round ELEMENTS_WORLDS=\"$worlds\" scripts/results elements"
 command_line "placegraph run SEQUENCE --scene none --elements motion[,spatial][,geometry][,context][,semantics] --out OUT"
 # places_told FILE KIND: share of the places of a run labelled as what they are [%]
 places_told() {
@@ -64,8 +66,8 @@ for world in $worlds; do
       render elements-town town-loop --difficulty standard --frames "$frames" --mono
       combinations town "Town-loop, $frames frames, one eye, camera height 1.65 m" "$out/elements-town-world" street --sensor mono --camera-height 1.65 ;;
     corridor)
-      render elements-corridor corridor-loop --difficulty standard --frames "$frames"
-      combinations corridor "Corridor-loop, $frames frames, RGB-D" "$out/elements-corridor-world" corridor --sensor rgbd ;;
+      render elements-round corridor-loop --difficulty standard --depth --mono --frames "$round"
+      combinations round "Corridor-loop, $round frames, RGB-D" "$out/elements-round-world" corridor --sensor rgbd ;;
     k0095)
       s=$data/sequences/kitti0095_mono268
       [ -d "$s" ] || continue

@@ -1,5 +1,5 @@
 # With and without: labels of surfaces in motion, on what is real and what is rendered.
-title="Masks from labels of surfaces: with and without (surfaces.pgscene, learned from CamVid)"
+title="Masks from labels of surfaces: with and without (configs/models/surfaces.pgscene)"
 heading "$title"
 command_line "placegraph run SEQUENCE [--set semantics.enabled=true ...] --out OUT; the judgement in its result.json"
 columns sequence run posed keyframes "ATE [m] origin" "ATE [m] sim3" "scale error [%]" "t_rel [%]" "CPU [ms a frame]"

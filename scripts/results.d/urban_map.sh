@@ -9,7 +9,7 @@ command_line "placegraph run \$DATA/sequences/kitti06_stereo51 --sensor stereo -
 echo >> "$rows"
 echo "Cells of 0.3 m whose class is one that truly stands there, of all that are known, by the first pose: nothing is fitted. \`before\`" >> "$rows"
 echo "lays the sights out by the poses as they stood when each frame was done, \`after\` by those of the finished map, with its loops. The" >> "$rows"
-echo "models are those that come with the program, learned from photographs in colour (CamVid); the town is grey." >> "$rows"
+echo "models are those that come with the program, learned from photographs (CamVid) and from rendered towns of other seeds." >> "$rows"
 columns world labels correction cells "right [%]" "of most surface [%]" "nothing there [%]" "top view right [%]" target met
 # score FILE CORRECTION GROUP FIELD
 score() {

@@ -70,6 +70,20 @@ TEST_F(SceneCli, TrainsLabelsAndJudges) {
   EXPECT_THAT(layout.out, HasSubstr("vertical"));
 }
 
+TEST_F(SceneCli, LearnsFromRenderedStreetsToo) {
+  make_set();
+  train("surfaces");
+  const std::string without = read_file(dir / "surfaces.pgscene");
+  train("surfaces", "--force --rendered 11,12 --rendered-frames 2");
+  EXPECT_TRUE(read_file(dir / "surfaces.pgscene") != without);
+  EXPECT_THAT(read_file(dir / "surfaces.pgscene.md"),
+              HasSubstr("beside them 4 views of rendered streets of seeds 11,12"));
+  EXPECT_THAT(read_file(dir / "surfaces.pgscene.md"), HasSubstr("--rendered-frames 2"));
+  expect_usage_error("train surfaces set --out m.pgscene --rendered x", "--rendered");
+  expect_usage_error("train surfaces set --out m.pgscene --rendered 11 --rendered-frames 9999",
+                     "--rendered-frames: a town has");
+}
+
 TEST_F(SceneCli, TeachesAClassThatAModelDoesNotKnow) {
   make_set();
   train("urban");
