@@ -48,8 +48,10 @@ struct RunArguments {
 
 std::string map_path(const std::string& folder) { return (fs::path(folder) / "map.db").string(); }
 
-/// "geometry,semantics", either alone, or "none".
-void set_scene(const std::string& list, SceneOptions& options) {
+/// "geometry,semantics", either alone, or "none". Geometry serves motion, too: rectangular worlds
+/// and planes in depth steady the poses that a floor plan is laid out by.
+void set_scene(const std::string& list, RunOptions& run) {
+  SceneOptions& options = run.scene;
   options.geometry = options.semantics = false;
   std::vector<std::string_view> names;
   split_comma(list, names);
@@ -59,6 +61,11 @@ void set_scene(const std::string& list, SceneOptions& options) {
     options.geometry = options.geometry || name == "geometry";
     options.semantics = options.semantics || name == "semantics";
   }
+  if (!options.geometry) return;
+  OdometryOptions& odometry = run.slam.odometry;
+  const Cues cues = parse_cues(odometry.cues);
+  if (cues.points && !cues.manhattan) odometry.cues += ",manhattan";
+  odometry.planes.enabled = true;
 }
 
 /// Defaults (or what a run that goes on was begun with) < file < --set < explicit flags.
@@ -67,7 +74,7 @@ RunOptions options_of(const RunArguments& arguments, RunOptions options = {}) {
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
   if (arguments.elements) set_elements(parse_elements(*arguments.elements), options);
-  if (arguments.scene) set_scene(*arguments.scene, options.scene);
+  if (arguments.scene) set_scene(*arguments.scene, options);
   if (arguments.cues) options.slam.odometry.cues = *arguments.cues;
   if (arguments.camera_height_m) {
     require(*arguments.camera_height_m > 0, "--camera-height: must be positive");
@@ -349,8 +356,9 @@ void add_run_command(CLI::App& app) {
                       "context, semantics; default: as the options say");
   command->add_option(
       "--scene", arguments->scene,
-      "geometry: a floor plan with walls, doors and rooms (docs/indoor.md); semantics: "
-      "what is where in a street (docs/urban_map.md); or both, joined by a comma");
+      "geometry: rectangular worlds and planes join the cues, and a floor plan with walls, doors "
+      "and rooms is drawn (docs/indoor.md); semantics: what is where in a street "
+      "(docs/urban_map.md); or both, joined by a comma");
   command->add_option("--camera-height", arguments->camera_height_m,
                       "height above the ground [m]: gives a single eye its scale");
   command->add_option("--odometry", arguments->odometry,

@@ -26,6 +26,8 @@ void visit(OptionVisitor& field, GroundScaleOptions& o) {
   field("pitching_sigma_deg", o.pitching_sigma_deg, "pitch and roll of one view about the mean",
         {0.01, 45});
   field("mounting_drift_deg", o.mounting_drift_deg, "of the mean between measurements", {0, 10});
+  field("level_sigma_deg", o.level_sigma_deg, "of a floor that edges show to be level",
+        {0.001, 45});
   field("min_baseline_heights", o.min_baseline_heights,
         "motion between the two views, in camera heights", {0.01, 10});
 }
@@ -54,7 +56,8 @@ std::vector<Eigen::Vector2d> GroundScale::outline_px() const {
   return outline;
 }
 
-GroundPlanePrior GroundScale::prior() const {
+GroundPlanePrior GroundScale::prior(const GroundSight& sight) const {
+  if (sight.level) return {{*sight.level, camera_height_m_}, options_.level_sigma_deg * M_PI / 180};
   const double frame = options_.pitching_sigma_deg * M_PI / 180;
   return {plane_cam(), std::sqrt(normal_variance_rad2_ + frame * frame)};
 }
@@ -90,19 +93,21 @@ std::optional<GroundScale::Length> GroundScale::believe(const GroundPlaneResult&
 }
 
 std::optional<GroundScale::Length> GroundScale::find(const Image& image_new, const Image& image_old,
-                                                     const SE3& T_old_new, const Image& mask_new) {
+                                                     const SE3& T_old_new,
+                                                     const GroundSight& sight) {
   recent_log_factors_.clear();
-  const auto length = believe(search_ground_plane(image_new, image_old, camera_, T_old_new,
-                                                  normal_cam_, options_.plane, mask_new));
+  const auto length =
+      believe(search_ground_plane(image_new, image_old, camera_, T_old_new,
+                                  sight.level.value_or(normal_cam_), options_.plane, sight.mask));
   recent_log_factors_.clear();  // it belongs to another unit
   return length;
 }
 
 std::optional<GroundScale::Length> GroundScale::follow(const Image& image_new,
                                                        const Image& image_old, const SE3& T_old_new,
-                                                       const Image& mask_new) {
-  return believe(align_ground_plane(image_new, image_old, camera_, T_old_new, prior(),
-                                    options_.plane, mask_new));
+                                                       const GroundSight& sight) {
+  return believe(align_ground_plane(image_new, image_old, camera_, T_old_new, prior(sight),
+                                    options_.plane, sight.mask));
 }
 
 }  // namespace placegraph

@@ -16,10 +16,18 @@ struct GroundScaleOptions {
   double mounting_sigma_deg = 3;      ///< pitch and roll of the camera before anything was seen
   double pitching_sigma_deg = 0.5;    ///< of a single view about the mean: the vehicle nods
   double mounting_drift_deg = 0.03;   ///< of the mean, from one measurement to the next
+  double level_sigma_deg = 0.03;      ///< of a floor that edges show to be level
   double min_baseline_heights = 0.6;  ///< motion between the two views; a shorter one tells little
   void check() const;
 };
 void visit(OptionVisitor& field, GroundScaleOptions& options);
+
+/// What else is known of the ground in a view.
+struct GroundSight {
+  Image mask;  ///< 0 = not the ground, CV_8UC1 of the image's size; empty: all may be
+  /// Its normal (unit, down, in the camera) where edges show it to be a level floor.
+  std::optional<Eigen::Vector3d> level;
+};
 
 /// Metric scale from the ground: follows the plane under a camera of known height over pairs of
 /// views and says what a motion's true length is. The mean normal in the camera (mounting pitch and
@@ -32,13 +40,13 @@ class GroundScale {
     double factor = 1;  ///< true length = factor * |t| of the motion handed over
     double sigma_relative = 1;
   };
-  /// For a motion whose scale is unknown; nothing if the road says nothing.
-  /// `mask_new`: 0 = not the ground, CV_8UC1 of the image's size or empty.
+  /// For a motion whose scale is unknown; nothing if the road says nothing. `sight` is of the new
+  /// view.
   std::optional<Length> find(const Image& image_new, const Image& image_old, const SE3& T_old_new,
-                             const Image& mask_new = {});
+                             const GroundSight& sight = {});
   /// For a motion whose scale is roughly right.
   std::optional<Length> follow(const Image& image_new, const Image& image_old, const SE3& T_old_new,
-                               const Image& mask_new = {});
+                               const GroundSight& sight = {});
   /// Outline in the image of the ground that is looked at.
   std::vector<Eigen::Vector2d> outline_px() const;
   double min_baseline_m() const { return options_.min_baseline_heights * camera_height_m_; }
@@ -47,7 +55,7 @@ class GroundScale {
 
  private:
   std::optional<Length> believe(const GroundPlaneResult& found);
-  GroundPlanePrior prior() const;
+  GroundPlanePrior prior(const GroundSight& sight) const;
   void learn(const GroundPlaneResult& found);
 
   GroundScaleOptions options_;

@@ -234,6 +234,7 @@ void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field("stereo_band_m", o.stereo_band_m, "walls.band_m for dense stereo", {0.02, 1});
   field("stereo_wall_sigma_m", o.stereo_wall_sigma_m, "walls.max_sigma_m for dense stereo",
         {0.001, 10});
+  field("one_eye_band_m", o.one_eye_band_m, "walls.band_m for one eye", {0.02, 1});
   field("min_step_m", o.min_step_m, "keyframes nearer to the last one used tell nothing new",
         {0, 10});
   field("min_turn_deg", o.min_turn_deg, "unless they are turned by so much", {0, 180});
@@ -258,8 +259,9 @@ std::vector<SurfacePoint> IndoorMapper::points_of_one_eye(const Image& image) co
   const ManhattanFrame& frame = scene.frames[0];
   const OrientationMap map = compute_orientation_map(segments, frame.axis, calibration_.camera,
                                                      frame.R_cam_manhattan, options_.orientation);
-  return surface_points_on_floor(map, calibration_.camera, frame.R_cam_manhattan,
-                                 *calibration_.camera_height_m, options_.floor);
+  return surface_points_on_floor(map, segments, frame.axis, calibration_.camera,
+                                 frame.R_cam_manhattan, *calibration_.camera_height_m,
+                                 options_.floor);
 }
 
 std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame) const {
@@ -312,6 +314,8 @@ IndoorMap IndoorMapper::fuse(const Map& map) const {
   if (!calibration_.depth && calibration_.baseline_m > 0) {
     options.walls.band_m = options.stereo_band_m;
     options.walls.max_sigma_m = options.stereo_wall_sigma_m;
+  } else if (!calibration_.depth) {
+    options.walls.band_m = options.one_eye_band_m;
   }
   Fusion fusion(options, map);
   fusion.lay_out(sights_);

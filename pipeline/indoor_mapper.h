@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/scene/floor_sight.h>
 #include <placegraph/frontend/scene/indoor_surfaces.h>
 #include <placegraph/frontend/scene/room_partition.h>
 #include <placegraph/graph/frame.h>
@@ -17,6 +18,7 @@ struct IndoorMapperOptions {
   int stereo_radius_px = 16;         ///< of patches of dense stereo, which is noisier than depth is
   double stereo_band_m = 0.1;        ///< as walls.band_m and ...
   double stereo_wall_sigma_m = 0.2;  ///< ... walls.max_sigma_m, for dense stereo
+  double one_eye_band_m = 0.1;       ///< as walls.band_m, for one eye
   double min_step_m = 0.15;          ///< keyframes nearer to the last one that was used, and ...
   double min_turn_deg = 5;           ///< ... turned by less, tell nothing new
   double cell_m = 0.05;              ///< of the cells that walls and rooms are found from

@@ -1,3 +1,4 @@
+#include <placegraph/frontend/scene/orientation_map.h>
 #include <placegraph/pipeline/manhattan_cue.h>
 
 #include <Eigen/Eigenvalues>
@@ -48,6 +49,7 @@ ManhattanCue::ManhattanCue(const ManhattanCueOptions& options, const Camera& cam
 void ManhattanCue::reset() {
   worlds_.reset();
   view_.clear();
+  sight_.reset();
 }
 
 /// Pixels of the whole image; a pixel of the halved one lies in the middle of four.
@@ -98,7 +100,8 @@ bool ManhattanCue::trusted(const ManhattanFrame& frame) const {
   return seen >= 2 && largest_sigma_rad(frame.covariance) < options_.max_sigma_deg * kDeg;
 }
 
-bool ManhattanCue::take(std::int64_t keyframe, const ManhattanFrame& frame, SlidingWindow& window) {
+bool ManhattanCue::take(std::int64_t keyframe, const std::vector<LineSegment>& segments,
+                        const ManhattanFrame& frame, SlidingWindow& window) {
   if (!trusted(frame)) return false;
   const auto world = worlds_.add(keyframe, frame.R_cam_manhattan, frame.covariance, window);
   if (log_) {
@@ -112,6 +115,7 @@ bool ManhattanCue::take(std::int64_t keyframe, const ManhattanFrame& frame, Slid
   for (std::size_t i = 0; i < view_.size(); ++i)
     if (world && frame.axis[i] >= 0 && view_[i].axis < 0)
       view_[i].world = *world, view_[i].axis = frame.axis[i];
+  if (world && !sight_) sight_ = Sight{segments, frame.axis, frame.R_cam_manhattan};
   return world.has_value();
 }
 
@@ -120,17 +124,49 @@ void ManhattanCue::observe(std::int64_t keyframe, const Image& image,
                            SlidingWindow& window) {
   const std::vector<LineSegment> segments = known ? *known : detect(image);
   view_.clear();
+  sight_.reset();
   for (const LineSegment& segment : segments) view_.push_back({segment});
   bool seen = false;
   for (const ManhattanWorlds::Expected& world : worlds_.expected(window, keyframe)) {
-    if (take(keyframe, track(segments, world), window)) seen = true;
+    if (take(keyframe, segments, track(segments, world), window)) seen = true;
     if (seen) break;
   }
   if (seen) return;
   Random random(seed_, keyframe);
   const SceneDirections scene =
       find_scene_directions(segments, camera_, options_.directions, random);
-  for (const ManhattanFrame& frame : scene.frames) take(keyframe, frame, window);
+  for (const ManhattanFrame& frame : scene.frames) take(keyframe, segments, frame, window);
+}
+
+GroundSight ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px) const {
+  if (!sight_ || outline_px.size() < 3) return {};
+  const OrientationMap map =
+      compute_orientation_map(sight_->segments, sight_->axis, camera_, sight_->R_cam_manhattan);
+  if (!map.outcome) return {};
+  const Image surfaces = indoor_surfaces(map, camera_, sight_->R_cam_manhattan);
+  const Image walls = surfaces == static_cast<int>(IndoorSurface::kWall);
+  Image outline(surfaces.size(), CV_8UC1, cv::Scalar(0));
+  std::vector<cv::Point> corners;
+  for (const Eigen::Vector2d& px : outline_px)
+    corners.emplace_back(static_cast<int>(px[0]), static_cast<int>(px[1]));
+  cv::fillConvexPoly(outline, corners, cv::Scalar(255));
+  const double inside = cv::countNonZero(outline), standing = cv::countNonZero(outline & walls);
+  constexpr double kStanding = 0.2;  // of what is taken for ground, that must stand upright
+  if (standing < kStanding * inside) return {};
+  const Image floor = surfaces == static_cast<int>(IndoorSurface::kFloor);
+  constexpr double kShown = 0.05;  // of the image, that floor must be to be all of the ground
+  if (cv::countNonZero(floor) > kShown * static_cast<double>(floor.total())) {
+    const Eigen::Vector3d vertical = sight_->R_cam_manhattan.matrix().col(map.vertical_axis);
+    return {floor, vertical.y() < 0 ? Eigen::Vector3d(-vertical) : vertical};
+  }
+  Image before(surfaces.size(), CV_8UC1, cv::Scalar(0));
+  for (int u = 0; u < surfaces.cols; ++u)
+    for (int v = surfaces.rows - 1; v >= 0; --v) {
+      const auto surface = static_cast<IndoorSurface>(surfaces.at<std::uint8_t>(v, u));
+      if (surface == IndoorSurface::kWall || surface == IndoorSurface::kCeiling) break;
+      before.at<std::uint8_t>(v, u) = 255;
+    }
+  return {before, std::nullopt};
 }
 
 }  // namespace placegraph

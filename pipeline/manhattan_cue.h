@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/pipeline/frame_view.h>
+#include <placegraph/pipeline/ground_scale.h>
 #include <placegraph/pipeline/manhattan_worlds.h>
 
 namespace placegraph {
@@ -45,20 +46,32 @@ class ManhattanCue {
                                  const SlidingWindow& window, std::int64_t keyframe) const;
   /// The edges of the last keyframe's image that were looked at, with their world and axis.
   const std::vector<FrameView::DirectedLine>& view() const { return view_; }
+  /// What the edges of the last keyframe tell of the ground, if walls stand in what is taken for it
+  /// (`outline_px`), as they do in corridors: where a floor is shown, it is that, and level; else
+  /// it is whatever may lie before the walls.
+  GroundSight ground(const std::vector<Eigen::Vector2d>& outline_px) const;
   void reset();
 
  private:
+  /// What the last keyframe saw of its world.
+  struct Sight {
+    std::vector<LineSegment> segments;
+    std::vector<int> axis;
+    SO3 R_cam_manhattan;
+  };
   std::vector<LineSegment> detect(const Image& image) const;
   ManhattanFrame track(const std::vector<LineSegment>& segments,
                        const ManhattanWorlds::Expected& world) const;
   bool trusted(const ManhattanFrame& frame) const;
-  bool take(std::int64_t keyframe, const ManhattanFrame& frame, SlidingWindow& window);
+  bool take(std::int64_t keyframe, const std::vector<LineSegment>& segments,
+            const ManhattanFrame& frame, SlidingWindow& window);
 
   ManhattanCueOptions options_;
   Camera camera_;
   std::uint64_t seed_;
   LogSink log_;
   ManhattanWorlds worlds_;
+  std::optional<Sight> sight_;
   std::vector<FrameView::DirectedLine> view_;
 };
 

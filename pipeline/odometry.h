@@ -248,7 +248,8 @@ class Odometry {
   Frame looked_at(const Frame& frame);
   void detect_points(const Frame& frame, const Image& given_mask);
   void leave_moving_things();
-  Image ground_mask(const Frame& frame) const;
+  Image labelled_ground(const Frame& frame) const;
+  GroundSight ground_sight(const Frame& frame) const;
   void observe_tracks(std::int64_t keyframe, const Frame& frame);
   void observe_lines(std::int64_t keyframe, const Frame& frame);
   void measure_scale(const Frame& frame, OdometryUpdate& update);

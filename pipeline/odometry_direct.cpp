@@ -205,7 +205,7 @@ void Odometry::align_keyframes(const Frame& frame, std::int64_t previous) {
   const auto span = times_.measure("surfaces");
   Random random(seed_, frame.id);
   surfaces_->see(frame);
-  surfaces_->restrict_ground(ground_mask(frame));
+  surfaces_->restrict_ground(labelled_ground(frame));
   const SE3 T_odom_cam = window_.pose(last_keyframe_);
   SE3 T_ref_cur;
   if (previous >= first_keyframe_ && surfaces_->has_reference()) {

@@ -92,7 +92,7 @@ void Odometry::measure_ground(const Frame& frame, OdometryUpdate& update) {
   if (old < 0) return;
   const double length = T_old_new.translation().norm();
   if (scale_known_) {
-    const auto measured = ground_->follow(frame.image, image_old, T_old_new, ground_mask(frame));
+    const auto measured = ground_->follow(frame.image, image_old, T_old_new, ground_sight(frame));
     if (!measured) return;
     const double distance_m = measured->factor * length;
     window_.add_distance({old, current, distance_m, measured->sigma_relative * distance_m});
@@ -102,7 +102,7 @@ void Odometry::measure_ground(const Frame& frame, OdometryUpdate& update) {
             " +- " + std::to_string(measured->sigma_relative * distance_m));
     return;
   }
-  const auto measured = ground_->find(frame.image, image_old, T_old_new, ground_mask(frame));
+  const auto measured = ground_->find(frame.image, image_old, T_old_new, ground_sight(frame));
   if (!measured) return;
   set_scale(measured->factor, update);
   const double distance_m = measured->factor * length;

@@ -58,9 +58,23 @@ void Odometry::leave_moving_things() {
   if (kept >= options_.min_unmasked_tracks) tracker_.keep(keep);
 }
 
-Image Odometry::ground_mask(const Frame& frame) const {
+/// 0 where labels of surfaces tell that the frame shows no ground; empty where they tell nothing.
+Image Odometry::labelled_ground(const Frame& frame) const {
   if (!sight_ || sight_->frame != frame.id) return {};
   return sight_->masks.ground;
+}
+
+/// What labels of surfaces and the edges of the last keyframe, this frame, tell of the ground.
+GroundSight Odometry::ground_sight(const Frame& frame) const {
+  GroundSight ground;
+  if (manhattan_ && (!assumed_ || assumed_->manhattan_world))
+    ground = manhattan_->ground(ground_->outline_px());
+  const Image labelled = labelled_ground(frame);
+  if (ground.mask.empty())
+    ground.mask = labelled;
+  else if (!labelled.empty())
+    ground.mask = ground.mask & labelled;
+  return ground;
 }
 
 std::vector<Eigen::Vector3d> Odometry::points_cam() const {

@@ -61,13 +61,6 @@ void visit(OptionVisitor& field, DenseStereoOptions& o) {
   field("window_px", o.window_px, "side of the matched blocks", {1, 21});
 }
 
-void visit(OptionVisitor& field, FloorSightOptions& o) {
-  field("max_range_m", o.max_range_m, "farther surfaces are not used", {0.1, 1000});
-  field("step_px", o.step_px, "between points", {1, 100});
-  field("sigma_boundary_px", o.sigma_boundary_px, "of the row where floor and wall meet",
-        {0.01, 100});
-}
-
 std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& depth_camera,
                                          const SE3& T_cam_depth, double sigma_at_1m,
                                          const SurfacePointOptions& options) {
@@ -121,83 +114,6 @@ Image dense_stereo(const Image& left, const Image& right, double fx, double base
       if (d >= 1) depth.at<float>(v, u) = static_cast<float>(fx * baseline_m / d);
     }
   return depth;
-}
-
-namespace {
-
-/// Where the floor ends in an image's column, coming from below.
-struct FloorEnd {
-  int row = -1;       ///< where it meets the wall
-  int wall_row = -1;  ///< lowest pixel of the wall
-  int axis = -1;
-};
-
-FloorEnd floor_end(const Image& labels, int u, int vertical, int horizon_row) {
-  const auto at = [&](int v) { return labels.at<std::uint8_t>(v, u) - 1; };
-  constexpr int kGap = 40;  // pixels without a label that may lie between
-  int floor_row = -1;
-  for (int v = labels.rows - 1; v > horizon_row; --v) {
-    const int axis = at(v);
-    if (axis == vertical) floor_row = v;
-    if (axis < 0 || axis == vertical) continue;
-    if (floor_row < 0 || floor_row - v > kGap) return {};
-    return {(floor_row + v) / 2, v, axis};
-  }
-  return {};
-}
-
-}  // namespace
-
-std::vector<SurfacePoint> surface_points_on_floor(const OrientationMap& map, const Camera& camera,
-                                                  const SO3& R_cam_manhattan, double height_m,
-                                                  const FloorSightOptions& options) {
-  options.check();
-  require(height_m > 0, "surface points: the camera's height must be positive");
-  std::vector<SurfacePoint> points;
-  if (!map.outcome) return points;
-  Eigen::Vector3d down = R_cam_manhattan.matrix().col(map.vertical_axis);
-  if (down[1] < 0) down = -down;
-  const auto ray_of = [&](int u, int v) {
-    return Eigen::Vector3d((u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1);
-  };
-  for (int u = options.step_px / 2; u < camera.width; u += options.step_px) {
-    // Where the horizon crosses the column.
-    const double slope = down[1] / camera.fy;
-    const int horizon =
-        static_cast<int>(camera.cy - (down[0] * (u - camera.cx) / camera.fx + down[2]) / slope);
-    const FloorEnd end = floor_end(map.labels, u, map.vertical_axis, std::max(0, horizon + 3));
-    for (int v = camera.height - 1; v > std::max(0, horizon + 3); v -= options.step_px) {
-      if (map.labels.at<std::uint8_t>(v, u) - 1 != map.vertical_axis) continue;
-      const Eigen::Vector3d ray = ray_of(u, v);
-      const double depth = height_m / down.dot(ray);
-      if (depth > options.max_range_m) break;
-      const double sigma = 0.02 * height_m;
-      points.push_back(
-          {(depth * ray).cast<float>(), (-down).cast<float>(), static_cast<float>(sigma)});
-    }
-    if (end.row < 0) continue;
-    const Eigen::Vector3d foot_ray = ray_of(u, end.row);
-    const double foot_depth = height_m / down.dot(foot_ray);
-    if (foot_depth > options.max_range_m || foot_depth <= 0) continue;
-    Eigen::Vector3d normal = R_cam_manhattan.matrix().col(end.axis);
-    if (normal.dot(foot_ray) > 0) normal = -normal;
-    const double distance = normal.dot(foot_depth * foot_ray);
-    // A row of error at the foot moves the wall so far.
-    const Eigen::Vector3d below = ray_of(u, end.row + 1);
-    const double shift = std::abs(normal.dot(height_m / down.dot(below) * below) - distance);
-    const double sigma = std::max(0.01, options.sigma_boundary_px * shift);
-    for (int v = end.wall_row; v >= 0; v -= options.step_px) {
-      if (map.labels.at<std::uint8_t>(v, u) - 1 != end.axis) break;
-      const Eigen::Vector3d ray = ray_of(u, v);
-      const double cosine = normal.dot(ray);
-      if (cosine > -0.05) break;
-      const double depth = distance / cosine;
-      if (depth <= 0 || depth > 2 * options.max_range_m) break;
-      points.push_back(
-          {(depth * ray).cast<float>(), normal.cast<float>(), static_cast<float>(sigma)});
-    }
-  }
-  return points;
 }
 
 }  // namespace placegraph

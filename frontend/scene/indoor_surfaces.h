@@ -1,5 +1,8 @@
 #pragma once
-#include <placegraph/frontend/scene/orientation_map.h>
+#include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/core/se3.h>
 #include <placegraph/graph/indoor_map.h>
 
 namespace placegraph {
@@ -32,20 +35,5 @@ void visit(OptionVisitor& field, DenseStereoOptions& options);
 /// Hirschmueller 2008, by OpenCV): CV_32FC1 [m], 0 = none.
 Image dense_stereo(const Image& left, const Image& right, double fx, double baseline_m,
                    const DenseStereoOptions& options = {});
-
-struct FloorSightOptions {
-  double max_range_m = 6;
-  int step_px = 8;
-  double sigma_boundary_px = 1.5;  ///< of the row where floor and wall meet
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, FloorSightOptions& options);
-
-/// The same from one image: floor pixels of an orientation map lie on the floor, `height_m` under
-/// the camera; walls stand where it ends below them, turned as their labels say, and reach as far
-/// up as the label does (METHODS: X = h x / (n . x)). Empty where the map shows no floor.
-std::vector<SurfacePoint> surface_points_on_floor(const OrientationMap& map, const Camera& camera,
-                                                  const SO3& R_cam_manhattan, double height_m,
-                                                  const FloorSightOptions& options = {});
 
 }  // namespace placegraph

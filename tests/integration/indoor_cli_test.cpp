@@ -67,5 +67,15 @@ TEST_F(IndoorCli, DrawsTheFloorPlanOfARun) {
   EXPECT_EQ(read_file(dir / "plan/floor_plan.json"), read_file(dir / "out/floor_plan.json"));
 }
 
+TEST_F(IndoorCli, OneEyeHasItsMetreFromTheFloorBetweenWalls) {
+  const CommandResult result = run(
+      "run " + walk() + " --sensor mono --camera-height 1.4 --scene geometry --out out --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json summary = json::parse(result.out);
+  EXPECT_EQ(summary["floor_plan"]["outcome"], "ok");
+  // Of 6 m; 9 cm where the walls beside it are taken for ground.
+  EXPECT_LT(summary["evaluation"]["origin"]["ate_rmse_m"].get<double>(), 0.05);
+}
+
 }  // namespace
 }  // namespace placegraph

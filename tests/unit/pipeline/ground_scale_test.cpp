@@ -88,11 +88,23 @@ TEST_F(GroundScaleOnARoad, LooksOnlyWhereTheMaskAllowsIt) {
   covered(van) = road(4 * kStep_m)(van);
   Image mask(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(255));
   mask(van).setTo(0);
-  const auto length = scale_.follow(covered, old_, T_old_new(1), mask);
+  const auto length = scale_.follow(covered, old_, T_old_new(1), {mask, {}});
   ASSERT_TRUE(length);
   EXPECT_NEAR(length->factor, 1, 0.03);
-  EXPECT_FALSE(scale_.follow(new_, old_, T_old_new(1), Image::zeros(mask.size(), CV_8UC1)));
-  EXPECT_THROW((void)scale_.follow(new_, old_, T_old_new(1), Image(4, 4, CV_8UC1)), ArgumentError);
+  EXPECT_FALSE(scale_.follow(new_, old_, T_old_new(1), {Image::zeros(mask.size(), CV_8UC1), {}}));
+  EXPECT_THROW((void)scale_.follow(new_, old_, T_old_new(1), {Image(4, 4, CV_8UC1), {}}),
+               ArgumentError);
+}
+
+TEST_F(GroundScaleOnARoad, TakesALevelFloorAsEdgesTellIt) {
+  const Eigen::Vector3d down = T_world_cam(0).rotation().inverse() * Eigen::Vector3d::UnitY();
+  const auto known = scale_.find(new_, old_, T_old_new(1), {{}, down});
+  ASSERT_TRUE(known);
+  EXPECT_NEAR(known->factor, 1, 0.01);
+  // One that is told two degrees wrong is believed, and so is what follows from it.
+  const Eigen::Vector3d wrong = SO3::exp({2 * M_PI / 180, 0, 0}) * down;
+  const auto misled = scale_.follow(new_, old_, T_old_new(1), {{}, wrong});
+  EXPECT_TRUE(!misled || std::abs(misled->factor - 1) > 0.03);
 }
 
 TEST_F(GroundScaleOnARoad, SaysNothingWithoutTextureAndRefusesNoHeight) {
