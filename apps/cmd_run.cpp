@@ -48,10 +48,8 @@ struct RunArguments {
 
 std::string map_path(const std::string& folder) { return (fs::path(folder) / "map.db").string(); }
 
-/// "geometry,semantics", either alone, or "none". Geometry serves motion, too: rectangular worlds
-/// and planes in depth steady the poses that a floor plan is laid out by.
-void set_scene(const std::string& list, RunOptions& run) {
-  SceneOptions& options = run.scene;
+/// "geometry,semantics", either alone, or "none".
+void set_scene(const std::string& list, SceneOptions& options) {
   options.geometry = options.semantics = false;
   std::vector<std::string_view> names;
   split_comma(list, names);
@@ -61,20 +59,19 @@ void set_scene(const std::string& list, RunOptions& run) {
     options.geometry = options.geometry || name == "geometry";
     options.semantics = options.semantics || name == "semantics";
   }
-  if (!options.geometry) return;
-  OdometryOptions& odometry = run.slam.odometry;
-  const Cues cues = parse_cues(odometry.cues);
-  if (cues.points && !cues.manhattan) odometry.cues += ",manhattan";
-  odometry.planes.enabled = true;
 }
 
 /// Defaults (or what a run that goes on was begun with) < file < --set < explicit flags.
 RunOptions options_of(const RunArguments& arguments, RunOptions options = {}) {
+  if (arguments.scene) set_scene(*arguments.scene, options.scene);
+  // What a plan asks of the motion gives way to all that is said of it.
+  const bool begins = arguments.resume.empty();
+  if (arguments.scene && options.scene.geometry && begins) steady_for_plan(options);
   if (!arguments.config.empty()) read_options(arguments.config, options);
   for (const std::string& setting : arguments.settings) set_option(options, setting);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
   if (arguments.elements) set_elements(parse_elements(*arguments.elements), options);
-  if (arguments.scene) set_scene(*arguments.scene, options);
+  if (arguments.scene) set_scene(*arguments.scene, options.scene);
   if (arguments.cues) options.slam.odometry.cues = *arguments.cues;
   if (arguments.camera_height_m) {
     require(*arguments.camera_height_m > 0, "--camera-height: must be positive");

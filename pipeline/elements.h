@@ -23,4 +23,8 @@ Elements parse_elements(const std::string& names);
 /// `context.enabled`; semantics `semantics.enabled` and `scene.semantics`.
 void set_elements(const Elements& elements, RunOptions& options);
 
+/// A floor plan is as good as its poses: adds `manhattan` to the cues, if points are among them,
+/// and planes in depth to the landmarks, as `placegraph run --scene geometry` does.
+void steady_for_plan(RunOptions& options);
+
 }  // namespace placegraph

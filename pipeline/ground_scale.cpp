@@ -26,8 +26,8 @@ void visit(OptionVisitor& field, GroundScaleOptions& o) {
   field("pitching_sigma_deg", o.pitching_sigma_deg, "pitch and roll of one view about the mean",
         {0.01, 45});
   field("mounting_drift_deg", o.mounting_drift_deg, "of the mean between measurements", {0, 10});
-  field("level_sigma_deg", o.level_sigma_deg, "of a floor that edges show to be level",
-        {0.001, 45});
+  field("level_sigma_deg", o.level_sigma_deg,
+        "of a floor that edges show to be level, beside that of the edges", {0.001, 45});
   field("min_baseline_heights", o.min_baseline_heights,
         "motion between the two views, in camera heights", {0.01, 10});
 }
@@ -56,14 +56,26 @@ std::vector<Eigen::Vector2d> GroundScale::outline_px() const {
   return outline;
 }
 
-GroundPlanePrior GroundScale::prior(const GroundSight& sight) const {
-  if (sight.level) return {{*sight.level, camera_height_m_}, options_.level_sigma_deg * M_PI / 180};
+/// Of a single view's normal about the camera's mounting.
+double GroundScale::sigma_of_view_rad() const {
   const double frame = options_.pitching_sigma_deg * M_PI / 180;
-  return {plane_cam(), std::sqrt(normal_variance_rad2_ + frame * frame)};
+  return std::sqrt(normal_variance_rad2_ + frame * frame);
+}
+
+bool GroundScale::may_be_ground(const Eigen::Vector3d& level) const {
+  return std::atan2(level.cross(normal_cam_).norm(), level.dot(normal_cam_)) <
+         3 * sigma_of_view_rad();
+}
+
+GroundPlanePrior GroundScale::prior(const GroundSight& sight) const {
+  if (sight.level)
+    return {{*sight.level, camera_height_m_},
+            std::hypot(options_.level_sigma_deg * M_PI / 180, sight.level_sigma_rad)};
+  return {plane_cam(), sigma_of_view_rad()};
 }
 
 /// The view's normal is the mean plus the vehicle's nodding; what the alignment reports is its
-/// posterior under prior(), from which the mean's posterior follows.
+/// posterior under prior() or a surer one, from which the mean's posterior follows.
 void GroundScale::learn(const GroundPlaneResult& found) {
   const double frame = options_.pitching_sigma_deg * M_PI / 180;
   const double before = normal_variance_rad2_ + frame * frame;
@@ -96,9 +108,16 @@ std::optional<GroundScale::Length> GroundScale::find(const Image& image_new, con
                                                      const SE3& T_old_new,
                                                      const GroundSight& sight) {
   recent_log_factors_.clear();
-  const auto length =
-      believe(search_ground_plane(image_new, image_old, camera_, T_old_new,
-                                  sight.level.value_or(normal_cam_), options_.plane, sight.mask));
+  GroundPlaneResult found =
+      search_ground_plane(image_new, image_old, camera_, T_old_new,
+                          sight.level.value_or(normal_cam_), options_.plane, sight.mask);
+  if (found.outcome && sight.level) {
+    GroundPlanePrior level = prior(sight);
+    level.plane_ref.distance_m = found.plane_ref.distance_m;
+    found = align_ground_plane(image_new, image_old, camera_, T_old_new, level, options_.plane,
+                               sight.mask);
+  }
+  const auto length = believe(found);
   recent_log_factors_.clear();  // it belongs to another unit
   return length;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/planes/ground_plane.h>
+#include <placegraph/pipeline/ground_sight.h>
 
 #include <deque>
 #include <optional>
@@ -16,18 +17,11 @@ struct GroundScaleOptions {
   double mounting_sigma_deg = 3;      ///< pitch and roll of the camera before anything was seen
   double pitching_sigma_deg = 0.5;    ///< of a single view about the mean: the vehicle nods
   double mounting_drift_deg = 0.03;   ///< of the mean, from one measurement to the next
-  double level_sigma_deg = 0.03;      ///< of a floor that edges show to be level
+  double level_sigma_deg = 0.03;      ///< of a floor that edges show to be level, beside theirs
   double min_baseline_heights = 0.6;  ///< motion between the two views; a shorter one tells little
   void check() const;
 };
 void visit(OptionVisitor& field, GroundScaleOptions& options);
-
-/// What else is known of the ground in a view.
-struct GroundSight {
-  Image mask;  ///< 0 = not the ground, CV_8UC1 of the image's size; empty: all may be
-  /// Its normal (unit, down, in the camera) where edges show it to be a level floor.
-  std::optional<Eigen::Vector3d> level;
-};
 
 /// Metric scale from the ground: follows the plane under a camera of known height over pairs of
 /// views and says what a motion's true length is. The mean normal in the camera (mounting pitch and
@@ -47,6 +41,9 @@ class GroundScale {
   /// For a motion whose scale is roughly right.
   std::optional<Length> follow(const Image& image_new, const Image& image_old, const SE3& T_old_new,
                                const GroundSight& sight = {});
+  /// Whether a level floor may be the ground: its normal is about where the camera's mounting, as
+  /// far as it is known, lets it be.
+  bool may_be_ground(const Eigen::Vector3d& level) const;
   /// Outline in the image of the ground that is looked at.
   std::vector<Eigen::Vector2d> outline_px() const;
   double min_baseline_m() const { return options_.min_baseline_heights * camera_height_m_; }
@@ -55,6 +52,7 @@ class GroundScale {
 
  private:
   std::optional<Length> believe(const GroundPlaneResult& found);
+  double sigma_of_view_rad() const;
   GroundPlanePrior prior(const GroundSight& sight) const;
   void learn(const GroundPlaneResult& found);
 

@@ -16,6 +16,29 @@ double largest_sigma_rad(const Eigen::Matrix3d& covariance) {
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()[2]);
 }
 
+Image filled(const std::vector<Eigen::Vector2d>& outline_px, const cv::Size& size) {
+  std::vector<cv::Point> corners;
+  for (const Eigen::Vector2d& px : outline_px) {
+    const Eigen::Vector2d near = px.cwiseMax(-1e5).cwiseMin(1e5);
+    corners.emplace_back(static_cast<int>(near[0]), static_cast<int>(near[1]));
+  }
+  Image inside(size, CV_8UC1, cv::Scalar(0));
+  cv::fillConvexPoly(inside, corners, cv::Scalar(255));
+  return inside;
+}
+
+/// What lies before the walls: of every column what is below the lowest of them.
+Image below_walls(const Image& surfaces) {
+  Image below(surfaces.size(), CV_8UC1, cv::Scalar(0));
+  for (int u = 0; u < surfaces.cols; ++u)
+    for (int v = surfaces.rows - 1; v >= 0; --v) {
+      const auto surface = static_cast<IndoorSurface>(surfaces.at<std::uint8_t>(v, u));
+      if (surface == IndoorSurface::kWall || surface == IndoorSurface::kCeiling) break;
+      below.at<std::uint8_t>(v, u) = 255;
+    }
+  return below;
+}
+
 }  // namespace
 
 void ManhattanCueOptions::check() const {
@@ -52,15 +75,18 @@ void ManhattanCue::reset() {
   sight_.reset();
 }
 
-/// Pixels of the whole image; a pixel of the halved one lies in the middle of four.
+/// Pixels of the whole image; one of the halved image covers about four.
 std::vector<LineSegment> ManhattanCue::detect(const Image& image) const {
   if (image.cols <= options_.max_width_px)
     return segments_of(detect_segments(image, options_.segments));
   Image half;
   cv::resize(image, half, {image.cols / 2, image.rows / 2}, 0, 0, cv::INTER_AREA);
+  const Eigen::Array2d scale(static_cast<double>(image.cols) / half.cols,
+                             static_cast<double>(image.rows) / half.rows);
   std::vector<LineSegment> segments = segments_of(detect_segments(half, options_.segments));
   for (LineSegment& segment : segments)
-    for (Eigen::Vector2d* end : {&segment.start, &segment.end}) *end = (2 * *end).array() + 0.5;
+    for (Eigen::Vector2d* end : {&segment.start, &segment.end})
+      *end = (end->array() + 0.5) * scale - 0.5;
   return segments;
 }
 
@@ -103,6 +129,7 @@ bool ManhattanCue::trusted(const ManhattanFrame& frame) const {
 bool ManhattanCue::take(std::int64_t keyframe, const std::vector<LineSegment>& segments,
                         const ManhattanFrame& frame, SlidingWindow& window) {
   if (!trusted(frame)) return false;
+  if (!sight_) sight_ = Sight{segments, frame.axis, frame.R_cam_manhattan, frame.covariance};
   const auto world = worlds_.add(keyframe, frame.R_cam_manhattan, frame.covariance, window);
   if (log_) {
     const Eigen::Vector3d w = frame.R_cam_manhattan.log();
@@ -115,7 +142,6 @@ bool ManhattanCue::take(std::int64_t keyframe, const std::vector<LineSegment>& s
   for (std::size_t i = 0; i < view_.size(); ++i)
     if (world && frame.axis[i] >= 0 && view_[i].axis < 0)
       view_[i].world = *world, view_[i].axis = frame.axis[i];
-  if (world && !sight_) sight_ = Sight{segments, frame.axis, frame.R_cam_manhattan};
   return world.has_value();
 }
 
@@ -144,29 +170,20 @@ GroundSight ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px)
       compute_orientation_map(sight_->segments, sight_->axis, camera_, sight_->R_cam_manhattan);
   if (!map.outcome) return {};
   const Image surfaces = indoor_surfaces(map, camera_, sight_->R_cam_manhattan);
-  const Image walls = surfaces == static_cast<int>(IndoorSurface::kWall);
-  Image outline(surfaces.size(), CV_8UC1, cv::Scalar(0));
-  std::vector<cv::Point> corners;
-  for (const Eigen::Vector2d& px : outline_px)
-    corners.emplace_back(static_cast<int>(px[0]), static_cast<int>(px[1]));
-  cv::fillConvexPoly(outline, corners, cv::Scalar(255));
-  const double inside = cv::countNonZero(outline), standing = cv::countNonZero(outline & walls);
-  constexpr double kStanding = 0.2;  // of what is taken for ground, that must stand upright
-  if (standing < kStanding * inside) return {};
-  const Image floor = surfaces == static_cast<int>(IndoorSurface::kFloor);
-  constexpr double kShown = 0.05;  // of the image, that floor must be to be all of the ground
-  if (cv::countNonZero(floor) > kShown * static_cast<double>(floor.total())) {
-    const Eigen::Vector3d vertical = sight_->R_cam_manhattan.matrix().col(map.vertical_axis);
-    return {floor, vertical.y() < 0 ? Eigen::Vector3d(-vertical) : vertical};
-  }
-  Image before(surfaces.size(), CV_8UC1, cv::Scalar(0));
-  for (int u = 0; u < surfaces.cols; ++u)
-    for (int v = surfaces.rows - 1; v >= 0; --v) {
-      const auto surface = static_cast<IndoorSurface>(surfaces.at<std::uint8_t>(v, u));
-      if (surface == IndoorSurface::kWall || surface == IndoorSurface::kCeiling) break;
-      before.at<std::uint8_t>(v, u) = 255;
-    }
-  return {before, std::nullopt};
+  const Image walls = surfaces == static_cast<int>(IndoorSurface::kWall),
+              floor = surfaces == static_cast<int>(IndoorSurface::kFloor);
+  const Image outline = filled(outline_px, surfaces.size());
+  const auto in_outline = [&](const Image& part) { return cv::countNonZero(outline & part); };
+  constexpr double kStanding = 0.2, kShown = 0.2;  // of what is taken for ground
+  const double all = cv::countNonZero(outline);
+  if (all == 0 || in_outline(walls) < kStanding * all) return {};
+  if (in_outline(floor) < kShown * all) return {below_walls(surfaces), std::nullopt};
+  // A tilt of the vertical: turns about the other axes.
+  Eigen::Vector3d tilts = sight_->covariance.diagonal();
+  tilts[map.vertical_axis] = 0;
+  const Eigen::Vector3d vertical = sight_->R_cam_manhattan.matrix().col(map.vertical_axis);
+  return {floor, vertical.y() < 0 ? Eigen::Vector3d(-vertical) : vertical,
+          std::sqrt(tilts.maxCoeff())};
 }
 
 }  // namespace placegraph

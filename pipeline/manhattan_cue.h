@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/pipeline/frame_view.h>
-#include <placegraph/pipeline/ground_scale.h>
+#include <placegraph/pipeline/ground_sight.h>
 #include <placegraph/pipeline/manhattan_worlds.h>
 
 namespace placegraph {
@@ -16,7 +16,7 @@ struct ManhattanCueOptions {
   int max_width_px = 800;    ///< wider images are halved before segments are looked for
   double max_sigma_deg = 1;  ///< about any axis: directions known less well are not believed
   /// A frame between keyframes that is posed by fewer points is turned by the worlds, too.
-  int few_points = 60;
+  int few_points = 1000;
   void check() const;
 };
 void visit(OptionVisitor& field, ManhattanCueOptions& options);
@@ -53,11 +53,12 @@ class ManhattanCue {
   void reset();
 
  private:
-  /// What the last keyframe saw of its world.
+  /// What the last keyframe saw of a rectangular world, known already or not.
   struct Sight {
     std::vector<LineSegment> segments;
     std::vector<int> axis;
     SO3 R_cam_manhattan;
+    Eigen::Matrix3d covariance;  ///< right tangent [rad^2]
   };
   std::vector<LineSegment> detect(const Image& image) const;
   ManhattanFrame track(const std::vector<LineSegment>& segments,

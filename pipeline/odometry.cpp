@@ -200,7 +200,7 @@ void Odometry::add_keyframe(const Frame& given, const SE3& T_odom_cam, OdometryU
   const std::int64_t previous = last_keyframe_;
   last_keyframe_ = id;
   if (surfaces_) align_keyframes(frame, previous);
-  if (manhattan_ && (!assumed_ || assumed_->manhattan_world)) look_at_directions(frame);
+  if (sees_worlds()) look_at_directions(frame);
   if (ground_ || floor_ || motion_) measure_scale(frame, update);
   if (planes_) look_at_planes(frame);
   refine_window();

@@ -248,6 +248,7 @@ class Odometry {
   Frame looked_at(const Frame& frame);
   void detect_points(const Frame& frame, const Image& given_mask);
   void leave_moving_things();
+  bool sees_worlds() const;
   Image labelled_ground(const Frame& frame) const;
   GroundSight ground_sight(const Frame& frame) const;
   void observe_tracks(std::int64_t keyframe, const Frame& frame);

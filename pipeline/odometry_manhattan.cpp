@@ -12,6 +12,7 @@ void Odometry::look_at_directions(const Frame& frame) {
     segments.emplace();
     for (const FrameView::Line& line : lines_->view(window_, window_.pose(last_keyframe_)))
       segments->push_back(line.segment);
+    if (segments->empty()) segments.reset();  // none are followed yet
   }
   manhattan_->observe(last_keyframe_, frame.image, segments, window_);
 }
@@ -19,8 +20,7 @@ void Odometry::look_at_directions(const Frame& frame) {
 /// What a frame that few points pose sees of the worlds.
 std::optional<ManhattanCue::Heading> Odometry::heading_of(const Frame& frame, const SE3& T_odom_cam,
                                                           int points) const {
-  if (!manhattan_ || points >= options_.manhattan.few_points) return std::nullopt;
-  if (assumed_ && !assumed_->manhattan_world) return std::nullopt;
+  if (!sees_worlds() || points >= options_.manhattan.few_points) return std::nullopt;
   return manhattan_->heading(frame.image, T_odom_cam.rotation(), window_, last_keyframe_);
 }
 

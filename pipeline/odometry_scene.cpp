@@ -64,11 +64,16 @@ Image Odometry::labelled_ground(const Frame& frame) const {
   return sight_->masks.ground;
 }
 
+/// Whether rectangular worlds are among the cues, and assumed to be there.
+bool Odometry::sees_worlds() const {
+  return manhattan_ && (!assumed_ || assumed_->manhattan_world);
+}
+
 /// What labels of surfaces and the edges of the last keyframe, this frame, tell of the ground.
 GroundSight Odometry::ground_sight(const Frame& frame) const {
   GroundSight ground;
-  if (manhattan_ && (!assumed_ || assumed_->manhattan_world))
-    ground = manhattan_->ground(ground_->outline_px());
+  if (sees_worlds()) ground = manhattan_->ground(ground_->outline_px());
+  if (ground.level && !ground_->may_be_ground(*ground.level)) ground = {};
   const Image labelled = labelled_ground(frame);
   if (ground.mask.empty())
     ground.mask = labelled;

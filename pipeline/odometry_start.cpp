@@ -128,7 +128,7 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   if (ground_ || motion_) {
     if (ground_) keyframe_frames_[ref] = reference_frame_;
     stamps_[ref] = reference_frame_.stamp_ns;
-    if (manhattan_ && (!assumed_ || assumed_->manhattan_world)) look_at_directions(labelled);
+    if (sees_worlds()) look_at_directions(labelled);
     measure_scale(labelled, update);
     update.rescale.reset();  // nobody has heard of these keyframes yet
     refine_window();

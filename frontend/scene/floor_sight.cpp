@@ -85,19 +85,19 @@ class FloorViewer {
     const int along = 3 - map_.vertical_axis - end.axis;
     const Eigen::Vector3d normal = R_.col(end.axis), top = ray(u, end.row);
     constexpr double kReach_px = 8, kAbove_px = 4;
-    double lowest = end.row - kAbove_px;
+    double lowest = std::max(end.row - kAbove_px, first_row(u) + 1.0);
     bool found = false;
     for (std::size_t i = 0; i < segments_.size(); ++i) {
       if (axis_[i] != along) continue;
       const Eigen::Vector2d a = segments_[i].start, way = segments_[i].end - a;
       if (std::abs(way[0]) < 1) continue;
-      const double share = (u - a[0]) / way[0], slack = kReach_px / std::abs(way[0]);
+      const double share = (u - a[0]) / way[0], slack = kReach_px / way.norm();
       if (share < -slack || share > 1 + slack) continue;
       const double row = a[1] + share * way[1];
       if (row < lowest || row > camera_.height - 1) continue;
       // How high above that foot the label's end would be on the wall.
       const double depth = normal.dot(on_floor(u, row)) / normal.dot(top);
-      if (height_m_ - depth * down_.dot(top) > options_.skirting_m) continue;
+      if (!(height_m_ - depth * down_.dot(top) <= options_.skirting_m)) continue;
       lowest = row, found = true;
     }
     return found ? lowest : end.row;
@@ -112,10 +112,12 @@ class FloorViewer {
     // A row of error at the foot moves the wall so far.
     const double shift = std::abs(normal.dot(on_floor(u, end.row + 1)) - distance);
     const auto sigma = static_cast<float>(std::max(0.01, options_.sigma_boundary_px * shift));
+    int told_row = end.wall_row;
     for (int v = end.wall_row; v >= 0; v -= options_.step_px) {
       const int axis = label(u, v);
-      if (axis < 0) continue;  // nothing is told
+      if (axis < 0 && 2 * (told_row - v) <= camera_.height) continue;
       if (axis != end.axis) break;
+      told_row = v;
       const double cosine = normal.dot(ray(u, v));
       if (cosine > -0.05) break;
       const double depth = distance / cosine;

@@ -73,7 +73,7 @@ TEST_F(IndoorCli, OneEyeHasItsMetreFromTheFloorBetweenWalls) {
   ASSERT_EQ(result.code, 0) << result.err;
   const json summary = json::parse(result.out);
   EXPECT_EQ(summary["floor_plan"]["outcome"], "ok");
-  // Of 6 m; 9 cm where the walls beside it are taken for ground.
+  // Of 6 m at a quarter of the pixels.
   EXPECT_LT(summary["evaluation"]["origin"]["ate_rmse_m"].get<double>(), 0.05);
 }
 

@@ -98,13 +98,28 @@ TEST_F(GroundScaleOnARoad, LooksOnlyWhereTheMaskAllowsIt) {
 
 TEST_F(GroundScaleOnARoad, TakesALevelFloorAsEdgesTellIt) {
   const Eigen::Vector3d down = T_world_cam(0).rotation().inverse() * Eigen::Vector3d::UnitY();
-  const auto known = scale_.find(new_, old_, T_old_new(1), {{}, down});
+  const auto found = scale_.find(new_, old_, T_old_new(1), {{}, down});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->factor, 1, 0.01);
+  GroundScale fresh({}, kCamera, kHeight_m);
+  const auto known = fresh.follow(new_, old_, T_old_new(1), {{}, down});
   ASSERT_TRUE(known);
   EXPECT_NEAR(known->factor, 1, 0.01);
-  // One that is told two degrees wrong is believed, and so is what follows from it.
-  const Eigen::Vector3d wrong = SO3::exp({2 * M_PI / 180, 0, 0}) * down;
-  const auto misled = scale_.follow(new_, old_, T_old_new(1), {{}, wrong});
-  EXPECT_TRUE(!misled || std::abs(misled->factor - 1) > 0.03);
+  // One that is a degree off is believed as well, and the length with it; not if it is told
+  // unsurely.
+  const Eigen::Vector3d wrong = SO3::exp({M_PI / 180, 0, 0}) * down;
+  const auto misled = fresh.follow(new_, old_, T_old_new(1), {{}, wrong});
+  const auto unsure = fresh.follow(new_, old_, T_old_new(1), {{}, wrong, 0.05});
+  ASSERT_TRUE(misled && unsure);
+  EXPECT_GT(std::abs(misled->factor - 1), 2 * std::abs(unsure->factor - 1));
+  EXPECT_GT(std::abs(misled->factor - 1), 0.02);
+}
+
+TEST_F(GroundScaleOnARoad, RefusesALevelThatItsMountingDoesNotAllow) {
+  const Eigen::Vector3d down = T_world_cam(0).rotation().inverse() * Eigen::Vector3d::UnitY();
+  EXPECT_TRUE(scale_.may_be_ground(down));
+  EXPECT_FALSE(scale_.may_be_ground(SO3::exp({20 * M_PI / 180, 0, 0}) * down));
+  EXPECT_FALSE(scale_.may_be_ground(-down));
 }
 
 TEST_F(GroundScaleOnARoad, SaysNothingWithoutTextureAndRefusesNoHeight) {
