@@ -9,6 +9,10 @@ namespace placegraph {
 namespace {
 
 constexpr double kAlong_m = 0.05;
+/// Beside a door where no wall is seen, rays do not pass over this length.
+constexpr double kUnseen_m = 0.4;
+/// Of the deviation of a point, by which a leaf is farther behind its wall than it has to be.
+constexpr double kRecessSigmas = 0.1;
 
 /// What one step along a wall's surface shows at the height of doors.
 struct Step {
@@ -72,7 +76,8 @@ class PlaneProfile {
       }
       std::size_t end = i;
       while (end < steps_.size() && !steps_[end].wall) ++end;
-      if (i > 0 && end < steps_.size()) judge(i, end, doors);
+      const bool between_walls = i > 0 && end < steps_.size();
+      if (!between_walls || !judge(i, end, doors)) find_crossed(i, end, doors);
       i = end;
     }
   }
@@ -109,7 +114,8 @@ class PlaneProfile {
 
   void take_points(const std::vector<PlacedPoint>& points) {
     find_reference(points);
-    std::vector<std::vector<double>> low(steps_.size()), high(steps_.size()), heads(steps_.size());
+    std::vector<std::vector<double>> low(steps_.size()), sigmas(steps_.size()),
+        heads(steps_.size());
     for (const PlacedPoint& p : points) {
       if (p.normal[plane_.axis] * plane_.sign < 0.9F || p.sigma > 0.1F) continue;
       const int step = step_of(p.point[1 - plane_.axis]);
@@ -119,15 +125,15 @@ class PlaneProfile {
       if (behind < -0.06 || behind > options_.max_recess_m) continue;
       if (p.point[2] > 0.25F && p.point[2] < options_.min_head_m - 0.1)
         for (int k = std::max(0, step - 1); k <= step + 1 && k < static_cast<int>(low.size()); ++k)
-          low[k].push_back(behind);
+          low[k].push_back(behind), sigmas[k].push_back(p.sigma);
       if (p.point[2] > options_.min_head_m && behind < 0.5 * options_.min_recess_m + 0.01)
         for (int k = std::max(0, step - 2); k <= step + 2 && k < static_cast<int>(low.size()); ++k)
           heads[k].push_back(p.point[2]);
     }
     for (std::size_t i = 0; i < steps_.size(); ++i) {
       if (low[i].size() >= 3) {
-        const double behind = median_of(low[i]);
-        steps_[i].wall = behind < options_.min_recess_m;
+        const double least = options_.min_recess_m + kRecessSigmas * median_of(sigmas[i]);
+        steps_[i].wall = median_of(low[i]) < least;
         steps_[i].recess = !steps_[i].wall;
       }
       if (heads[i].size() >= 3) {
@@ -167,13 +173,42 @@ class PlaneProfile {
     }
   }
 
-  /// A stretch without wall at the height of doors, wall at both its ends.
-  void judge(std::size_t begin, std::size_t end, std::vector<DoorPiece>& doors) const {
+  /// Where the camera went through a stretch without wall, beside a wall at one of its ends: the
+  /// other end is where rays do not pass any more, though too little is seen there to be a wall.
+  void find_crossed(std::size_t begin, std::size_t end, std::vector<DoorPiece>& doors) const {
+    const std::size_t unseen = static_cast<std::size_t>(kUnseen_m / kAlong_m);
+    const auto closed = [&](std::size_t from) {
+      const auto first = steps_.begin() + static_cast<std::ptrdiff_t>(from);
+      return std::none_of(first, first + static_cast<std::ptrdiff_t>(unseen),
+                          [](const Step& step) { return step.open; });
+    };
+    if (end - begin < unseen) return;
+    if (begin > 0) {
+      std::size_t to = begin;
+      while (to + unseen <= end && !closed(to)) ++to;
+      if (to + unseen <= end && crossed(begin, to)) judge(begin, to, doors);
+    }
+    if (end < steps_.size()) {
+      std::size_t from = end;
+      while (from >= begin + unseen && !closed(from - unseen)) --from;
+      if (from >= begin + unseen && crossed(from, end)) judge(from, end, doors);
+    }
+  }
+
+  /// Whether the camera went through these steps.
+  bool crossed(std::size_t begin, std::size_t end) const {
+    const double from = from_ + begin * kAlong_m, to = from_ + end * kAlong_m;
+    return std::any_of(crossings_.begin(), crossings_.end(),
+                       [&](double at) { return at > from && at < to; });
+  }
+
+  /// A stretch without wall at the height of doors, closed at both its ends: whether it is a door.
+  bool judge(std::size_t begin, std::size_t end, std::vector<DoorPiece>& doors) const {
     const double width = static_cast<double>(end - begin) * kAlong_m;
     DoorPiece door{
         plane_.axis, plane_.sign, plane_.offset_m, from_ + begin * kAlong_m, from_ + end * kAlong_m,
         0,           false};
-    if (width < options_.min_width_m - kAlong_m || width > options_.max_width_m) return;
+    if (width < options_.min_width_m - kAlong_m || width > options_.max_width_m) return false;
     door.offset_m -= plane_.sign * reference_[(begin + end) / 2];
     std::size_t open = 0, recess = 0, over = 0;
     std::vector<double> heads;
@@ -184,14 +219,14 @@ class PlaneProfile {
     const std::size_t count = end - begin;
     const bool head_seen = 2 * heads.size() >= count;
     if (head_seen) door.head_m = median_of(heads);
-    const bool crossed = std::any_of(crossings_.begin(), crossings_.end(),
-                                     [&](double at) { return at > door.from_m && at < door.to_m; });
     door.closed = recess > open;
     const bool head_fits = head_seen && door.head_m <= options_.max_head_m && 2 * over < count;
-    if (door.closed && head_fits && 3 * recess >= 2 * count && width < 1.6) doors.push_back(door);
-    if (!door.closed && 2 * open >= count &&
-        (head_fits || (!head_seen && crossed && width < 1.4 && 4 * over < count)))
-      doors.push_back(door);
+    const bool leaf = door.closed && head_fits && 3 * recess >= 2 * count && width < 1.6;
+    const bool passage =
+        !door.closed && 2 * open >= count &&
+        (head_fits || (!head_seen && crossed(begin, end) && width < 1.4 && 4 * over < count));
+    if (leaf || passage) doors.push_back(door);
+    return leaf || passage;
   }
 
   const Plane& plane_;

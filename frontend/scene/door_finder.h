@@ -21,7 +21,8 @@ struct DoorPiece {
 
 /// Doors along each wall's surface, and what lies between walls of one plane. Open ones: below a
 /// head nothing stands and rays pass, or, without a head, the `path` (camera positions, in order)
-/// goes through a gap of a door's width. Closed ones: a leaf as high and wide as doors are, set
+/// goes through a gap of a door's width, which on one of its sides may end where too little is seen
+/// to tell a wall and no ray passes. Closed ones: a leaf as high and wide as doors are, set
 /// back from a wall that goes on above or beside it. A door that both sides tell is told once.
 [[nodiscard]] std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
                                                 const std::vector<PlacedPoint>& points,

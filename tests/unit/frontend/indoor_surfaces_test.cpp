@@ -34,11 +34,13 @@ TEST(SurfacePoints, TellThePlaneOfADepthImage) {
 
 /// Looks from two rooms of 4 x 3 m beside each other, a wall at x = 4 with a door at y = 1 .. 1.9.
 struct TwoRooms {
+  double known_to;
   std::vector<PlacedPoint> points;
   std::vector<Eigen::Vector3d> path;
   VoxelEvidence voxels{{-0.5, -0.5, 0}, {8.5, 3.5, 2.6}, 0.05, 0.2};
 
-  TwoRooms() {
+  /// `known_to_m`: no points of the wall between are told farther along it.
+  explicit TwoRooms(double known_to_m = 3) : known_to(known_to_m) {
     for (double x = 0.3; x < 7.8; x += 0.5) path.emplace_back(x, 1.45, 1.4);
     for (int i = 0; i < static_cast<int>(path.size()); ++i) look(i);
   }
@@ -68,7 +70,9 @@ struct TwoRooms {
     for (const double y : {0.0, 3.0}) plane(1, y, false);
     for (const double z : {0.0, 2.6}) plane(2, z, false);
     const Eigen::Vector3d to = from + best * way;
-    points.push_back({to.cast<float>(), normal.cast<float>(), 0.005F, sight});
+    const bool between = normal[0] != 0 && std::abs(to[0] - 4) < 0.1;
+    if (!between || to[1] < known_to)
+      points.push_back({to.cast<float>(), normal.cast<float>(), 0.005F, sight});
     voxels.add_ray(from, to, 0.1, true);
   }
 };
@@ -93,6 +97,40 @@ TEST(FloorPlan, OfTwoRoomsHasTheirWallsTheDoorAndBoth) {
   const RoomPartition rooms = partition_rooms(scene.voxels, walls, doors, scene.path);
   ASSERT_EQ(rooms.rooms.size(), 2U);
   for (const auto& room : rooms.rooms) EXPECT_NEAR(room.area_m2, 3.95 * 3, 0.6);
+}
+
+TEST(FloorPlan, PartsRoomsAtADoorThatTheCameraTookBesideAWallThatIsHardlySeen) {
+  const TwoRooms scene(1.5);
+  const auto walls = find_walls(scene.points, scene.voxels);
+  for (const WallPiece& wall : walls)
+    if (wall.axis == 0 && std::abs(wall.offset_m - 4) < 0.1) EXPECT_LT(wall.to_m, 1.6);
+  const auto doors = find_doors(walls, scene.points, scene.voxels, scene.path);
+  ASSERT_EQ(doors.size(), 1U);
+  EXPECT_NEAR(0.5 * (doors[0].from_m + doors[0].to_m), 1.45, 0.1);  // two steps of the profile
+  EXPECT_EQ(partition_rooms(scene.voxels, walls, doors, scene.path).rooms.size(), 2U);
+}
+
+/// A wall of 5 m with a leaf 1 m wide, 3 cm behind it, by points of a deviation.
+std::vector<DoorPiece> doors_of_a_leaf(float sigma) {
+  WallPiece wall;
+  wall.to_m = 5;
+  VoxelEvidence voxels({-1, -1, 0}, {3, 6, 2.6}, 0.05, 0.2);
+  std::vector<PlacedPoint> points;
+  for (float y = 0; y < 5; y += 0.04F)
+    for (float z = 0.1F; z < 2.5F; z += 0.1F) {
+      const bool leaf = y > 2 && y < 3 && z < 2.05F;
+      points.push_back({{leaf ? -0.03F : 0.0F, y, z}, {1, 0, 0}, sigma, 0});
+    }
+  return find_doors({wall}, points, voxels, {{1, 1, 1}, {1, 4, 1}});
+}
+
+TEST(FloorPlan, TellsALeafOnlyWhereItsRecessStandsOutOfTheNoise) {
+  const auto sure = doors_of_a_leaf(0.005F);
+  ASSERT_EQ(sure.size(), 1U);
+  EXPECT_TRUE(sure[0].closed);
+  EXPECT_NEAR(sure[0].from_m, 2, 0.1);  // two steps of the profile
+  EXPECT_NEAR(sure[0].to_m, 3, 0.1);
+  EXPECT_TRUE(doors_of_a_leaf(0.09F).empty());
 }
 
 TEST(FloorPlan, HasNoWallWhereTheCameraWent) {
