@@ -11,6 +11,8 @@ namespace {
 constexpr double kAlong_m = 0.05;
 /// Beside a door where no wall is seen, rays do not pass over this length.
 constexpr double kUnseen_m = 0.4;
+/// Where less than both jambs and a head are seen, what is wider is a passage of another kind.
+constexpr double kWidest_m = 1.4;
 /// Of the deviation of a point, by which a leaf is farther behind its wall than it has to be.
 constexpr double kRecessSigmas = 0.1;
 
@@ -186,12 +188,12 @@ class PlaneProfile {
     if (begin > 0) {
       std::size_t to = begin;
       while (to + unseen <= end && !closed(to)) ++to;
-      if (to + unseen <= end && crossed(begin, to)) judge(begin, to, doors);
+      if (to + unseen <= end && crossed_door(begin, to)) judge(begin, to, doors);
     }
     if (end < steps_.size()) {
       std::size_t from = end;
       while (from >= begin + unseen && !closed(from - unseen)) --from;
-      if (from >= begin + unseen && crossed(from, end)) judge(from, end, doors);
+      if (from >= begin + unseen && crossed_door(from, end)) judge(from, end, doors);
     }
   }
 
@@ -200,6 +202,10 @@ class PlaneProfile {
     const double from = from_ + begin * kAlong_m, to = from_ + end * kAlong_m;
     return std::any_of(crossings_.begin(), crossings_.end(),
                        [&](double at) { return at > from && at < to; });
+  }
+
+  bool crossed_door(std::size_t begin, std::size_t end) const {
+    return static_cast<double>(end - begin) * kAlong_m < kWidest_m && crossed(begin, end);
   }
 
   /// A stretch without wall at the height of doors, closed at both its ends: whether it is a door.
@@ -224,7 +230,7 @@ class PlaneProfile {
     const bool leaf = door.closed && head_fits && 3 * recess >= 2 * count && width < 1.6;
     const bool passage =
         !door.closed && 2 * open >= count &&
-        (head_fits || (!head_seen && crossed(begin, end) && width < 1.4 && 4 * over < count));
+        (head_fits || (!head_seen && crossed(begin, end) && width < kWidest_m && 4 * over < count));
     if (leaf || passage) doors.push_back(door);
     return leaf || passage;
   }

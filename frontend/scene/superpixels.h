@@ -8,7 +8,7 @@
 namespace placegraph {
 
 struct SuperpixelOptions {
-  int side_px = 14;   ///< about the side of one
+  int side_px = 10;   ///< about the side of one
   double ruler = 20;  ///< the greater, the more compact
   int iterations = 5;
   void check() const;

@@ -82,3 +82,17 @@ optimize_often() {
 }
 # median_of NAME KEY: over the repeats that found a minimum
 median_of() { for json in "$out/$1".[0-9]*.json; do number "$json" "$2"; done | median; }
+# write_rounds COUNT FILE: poses of a drive COUNT times round a block, a pose a metre and each round
+# 0.3 m beside the last: 95 m, half a circle of 20 m radius, 95 m, half a circle
+write_rounds() {
+  LC_ALL=C awk -v count="$1" 'BEGIN {
+    pi = atan2(0, -1); r = 20; l = 95; arc = pi * r; round = 2 * (l + arc)
+    for (k = 0; k < count; k++) for (s = 0; s < round; s++) {
+      d = s; half_turn = 0; side = 0
+      if (d >= l + arc) { d -= l + arc; half_turn = pi; side = 1 }
+      if (d < l) { a = 0; x = 0; z = d } else { a = (d - l) / r; x = r * (1 - cos(a)); z = l + r * sin(a) }
+      if (side) { x = 2 * r - x; z = l - z }
+      a += half_turn; x += 0.3 * k * cos(a); z -= 0.3 * k * sin(a)
+      printf "%.9g 0 %.9g %.9g 0 1 0 0 %.9g 0 %.9g %.9g\n", cos(a), sin(a), x, -sin(a), cos(a), z
+    } }' > "$2"
+}

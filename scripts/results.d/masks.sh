@@ -48,3 +48,29 @@ fi
 frames=${MASKS_FRAMES:-150}
 render traffic town-loop --difficulty hard --frames "$frames" --mono --seed 3
 with_and_without traffic "town-loop seed 3, hard traffic, $frames frames, one eye" "$out/traffic-world" 50,100 --sensor mono --camera-height 1.65
+
+# Places: twice round a block, traffic and bad light in either round.
+write_rounds 2 "$out/masks-rounds.txt"
+render masks-rounds "$out/masks-rounds.txt" --difficulty hard --mono --size 620x188
+printf '\nPlaces recognized again: two rounds of a block of 316 m in hard traffic, half size, one eye. Revisits (within 5 m and 30 deg of a view 300 frames older) as the finished map tells them.\n' >> "$rows"
+command_line "placegraph synth rounds.txt --out WORLD --difficulty hard --mono --size 620x188"
+command_line "placegraph run WORLD --sensor mono --camera-height 1.65 [--set semantics.enabled=true ...] --out OUT"
+command_line "placegraph map export OUT --revisits known.txt; placegraph loops --predictions known.txt --poses WORLD/poses.txt --min-age 300 --json"
+columns run "loops, true" "loops, false" "loops looked at" "revisits, R@1" AP "recall at full precision" "ATE [m] origin"
+# places_row NAME TITLE ARGUMENTS...
+places_row() {
+  n=masks-rounds-$1; what=$2; shift 2
+  run "$n" "$out/masks-rounds-world" --sensor mono --camera-height 1.65 "$@"
+  $placegraph map export "$out/$n" --revisits "$out/$n-known.txt" --force
+  $placegraph loops --predictions "$out/$n-known.txt" --poses "$out/masks-rounds-world/poses.txt" --min-age 300 --json > "$out/$n-known.json"
+  judge "$n" "$out/masks-rounds-world" "$out/$n/trajectory_optimized.kitti" --align origin
+  f=$out/$n/result.json; j=$out/$n-known.json
+  cells "$what" "$(number "$f" true_loops)" "$(number "$f" false_loops)" "$(awk 'END { print NR - 1 }' "$out/$n/loops.csv")" \
+    "$(digits "$(number "$j" r_at_1)")" "$(digits "$(number "$j" ap)")" "$(digits "$(number "$j" recall_at_100p)")" "$(digits "$(number "$out/$n.json" ate_rmse_m)")"
+}
+only="--set semantics.enabled=true --set semantics.masks.ground=false"
+places_row none "no masks"
+places_row sky "sky only" $only --set semantics.masks.moving=false
+places_row moving "moving only" $only --set semantics.masks.sky=false
+places_row both "sky, moving" $only
+places_row all "sky, moving, ground" --set semantics.enabled=true

@@ -26,17 +26,7 @@ half() {
   esac
 }
 
-# Three rounds of 95 m, half a circle of 20 m radius, 95 m, half a circle; a pose a metre.
-LC_ALL=C awk 'BEGIN {
-  pi = atan2(0, -1); r = 20; l = 95; arc = pi * r; round = 2 * (l + arc)
-  for (k = 0; k < 3; k++) for (s = 0; s < round; s++) {
-    d = s; half_turn = 0; side = 0
-    if (d >= l + arc) { d -= l + arc; half_turn = pi; side = 1 }
-    if (d < l) { a = 0; x = 0; z = d } else { a = (d - l) / r; x = r * (1 - cos(a)); z = l + r * sin(a) }
-    if (side) { x = 2 * r - x; z = l - z }
-    a += half_turn; x += 0.3 * k * cos(a); z -= 0.3 * k * sin(a)
-    printf "%.9g 0 %.9g %.9g 0 1 0 0 %.9g 0 %.9g %.9g\n", cos(a), sin(a), x, -sin(a), cos(a), z
-  } }' > "$out/rounds.txt"
+write_rounds 3 "$out/rounds.txt"
 
 for drive in $drives; do half $drive "$data/kitti_gt/$drive/poses.txt"; done
 half rounds "$out/rounds.txt"
