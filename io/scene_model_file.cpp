@@ -16,7 +16,8 @@ static_assert(std::endian::native == std::endian::little,
               "numbers are written as they lie in memory");
 
 constexpr std::array<char, 8> kMagic = {'P', 'G', 'S', 'C', 'E', 'N', 'E', '\n'};
-constexpr std::uint32_t kVersion = 1;
+/// Of the bytes as of the features: 2 is that of superpixels of 10 pixels, 1 that of 14.
+constexpr std::uint32_t kVersion = 2;
 
 struct Header {
   std::array<char, 8> magic = kMagic;
@@ -186,7 +187,8 @@ SceneModel read_scene_model(const std::string& path) {
   for (std::uint32_t c = 0; c < classes; ++c) {
     model.classes.push_back(in.get_text());
     const auto surface = in.get<std::uint8_t>();
-    if (surface >= kSurfaceCount) throw FileError(path, fmt::format("a class of surface {}", surface));
+    if (surface >= kSurfaceCount)
+      throw FileError(path, fmt::format("a class of surface {}", surface));
     model.surfaces.push_back(static_cast<Surface>(surface));
   }
   model.origin = in.get_text();

@@ -235,6 +235,7 @@ void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field("stereo_wall_sigma_m", o.stereo_wall_sigma_m, "walls.max_sigma_m for dense stereo",
         {0.001, 10});
   field("stereo_turn_deg", o.stereo_turn_deg, "walls.max_turn_deg for dense stereo", {1, 44});
+  field("stereo_step_m", o.stereo_step_m, "walls.max_step_m for dense stereo", {0, 1});
   field("one_eye_band_m", o.one_eye_band_m, "walls.band_m for one eye", {0.02, 1});
   field("min_step_m", o.min_step_m, "keyframes nearer to the last one used tell nothing new",
         {0, 10});
@@ -316,7 +317,7 @@ IndoorMap IndoorMapper::fuse(const Map& map) const {
     options.walls.band_m = options.stereo_band_m;
     options.walls.max_sigma_m = options.stereo_wall_sigma_m;
     options.walls.max_turn_deg = options.stereo_turn_deg;
-    options.walls.max_step_m = std::max(options.walls.max_step_m, options.stereo_band_m);
+    options.walls.max_step_m = options.stereo_step_m;
   } else if (!calibration_.depth) {
     options.walls.band_m = options.one_eye_band_m;
   }

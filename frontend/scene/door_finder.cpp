@@ -13,7 +13,7 @@ constexpr double kAlong_m = 0.05;
 constexpr double kUnseen_m = 0.4;
 /// Where less than both jambs and a head are seen, what is wider is a passage of another kind.
 constexpr double kWidest_m = 1.4;
-/// Of the deviation of a point, by which a leaf is farther behind its wall than it has to be.
+/// So much of its points' deviation a leaf is farther behind its wall than min_recess_m.
 constexpr double kRecessSigmas = 0.1;
 
 /// What one step along a wall's surface shows at the height of doors.
@@ -21,6 +21,7 @@ struct Step {
   bool wall = false;           ///< the surface goes on down there
   bool recess = false;         ///< something stands a little behind it
   bool open = false;           ///< rays pass
+  bool faced = false;          ///< rays pass in front of it
   bool over = false;           ///< rays pass above where a head would be
   std::optional<double> head;  ///< lowest height of the surface above a door's
 };
@@ -70,7 +71,8 @@ class PlaneProfile {
     crossings(path);
   }
 
-  void find(std::vector<DoorPiece>& doors) const {
+  /// Those with wall at both sides into `doors`, those with one jamb into `half_seen`.
+  void find(std::vector<DoorPiece>& doors, std::vector<DoorPiece>& half_seen) const {
     for (std::size_t i = 0; i < steps_.size();) {
       if (steps_[i].wall) {
         ++i;
@@ -79,7 +81,12 @@ class PlaneProfile {
       std::size_t end = i;
       while (end < steps_.size() && !steps_[end].wall) ++end;
       const bool between_walls = i > 0 && end < steps_.size();
-      if (!between_walls || !judge(i, end, doors)) find_crossed(i, end, doors);
+      std::optional<DoorPiece> door;
+      if (between_walls) door = judge(i, end);
+      if (door)
+        doors.push_back(*door);
+      else
+        find_crossed(i, end, half_seen);
       i = end;
     }
   }
@@ -145,18 +152,30 @@ class PlaneProfile {
     }
   }
 
+  std::pair<int, int> cell_at(const VoxelEvidence& voxels, double along, double offset) const {
+    double at[2];
+    at[1 - plane_.axis] = along, at[plane_.axis] = offset;
+    return {voxels.column_of(at[0]), voxels.row_of(at[1])};
+  }
+
+  static int layers_passed(const VoxelEvidence& voxels, int c, int r, int first, int last) {
+    int passed = 0;
+    for (int l = first; voxels.contains(c, r) && l <= last; ++l)
+      passed += voxels.passes(c, r, l) >= 2 && voxels.passes(c, r, l) > 2 * voxels.hits(c, r, l);
+    return passed;
+  }
+
   void take_voxels(const VoxelEvidence& voxels) {
     const int first = std::max(0, voxels.layer_of(0.5)),
               last = std::min(voxels.layers() - 1, voxels.layer_of(options_.min_head_m - 0.2));
     for (std::size_t i = 0; i < steps_.size(); ++i) {
-      double at[2];
-      at[1 - plane_.axis] = from_ + (static_cast<double>(i) + 0.5) * kAlong_m;
-      at[plane_.axis] = plane_.offset_m - plane_.sign * (reference_[i] + 0.07);
-      const int c = voxels.column_of(at[0]), r = voxels.row_of(at[1]);
+      const double along = from_ + (static_cast<double>(i) + 0.5) * kAlong_m;
+      const double surface = plane_.offset_m - plane_.sign * reference_[i];
+      const auto [c, r] = cell_at(voxels, along, surface - plane_.sign * 0.07);
       if (!voxels.contains(c, r)) continue;
-      int passed = 0;
-      for (int l = first; l <= last; ++l)
-        passed += voxels.passes(c, r, l) >= 2 && voxels.passes(c, r, l) > 2 * voxels.hits(c, r, l);
+      const int passed = layers_passed(voxels, c, r, first, last);
+      const auto [front_c, front_r] = cell_at(voxels, along, surface + plane_.sign * 0.3);
+      steps_[i].faced = layers_passed(voxels, front_c, front_r, first, last) >= 2;
       for (int l = voxels.layer_of(options_.min_head_m) + 2; l < voxels.layers(); ++l)
         steps_[i].over |= voxels.passes(c, r, l) >= 2;
       steps_[i].open = passed >= 2 && 2 * passed >= last - first + 1;
@@ -176,25 +195,41 @@ class PlaneProfile {
   }
 
   /// Where the camera went through a stretch without wall, beside a wall at one of its ends: the
-  /// other end is where rays do not pass any more, though too little is seen there to be a wall.
+  /// other end is where something stops rays, though too little is seen of it to be a wall.
   void find_crossed(std::size_t begin, std::size_t end, std::vector<DoorPiece>& doors) const {
     const std::size_t unseen = static_cast<std::size_t>(kUnseen_m / kAlong_m);
-    const auto closed = [&](std::size_t from) {
+    const auto stops = [&](std::size_t from) {
       const auto first = steps_.begin() + static_cast<std::ptrdiff_t>(from);
-      return std::none_of(first, first + static_cast<std::ptrdiff_t>(unseen),
-                          [](const Step& step) { return step.open; });
+      const auto last = first + static_cast<std::ptrdiff_t>(unseen);
+      return std::none_of(first, last, [](const Step& step) { return step.open; }) &&
+             2 * std::count_if(first, last, [](const Step& step) { return step.faced; }) >=
+                 static_cast<std::ptrdiff_t>(unseen);
     };
-    if (end - begin < unseen) return;
-    if (begin > 0) {
+    const auto take = [&](std::size_t from, std::size_t to) {
+      if (static_cast<double>(to - from) * kAlong_m >= kWidest_m || !crossed(from, to)) return;
+      if (const auto door = judge(from, to); door && !door->closed) doors.push_back(*door);
+    };
+    if (jamb(begin, -1)) {
       std::size_t to = begin;
-      while (to + unseen <= end && !closed(to)) ++to;
-      if (to + unseen <= end && crossed_door(begin, to)) judge(begin, to, doors);
+      while (to + unseen <= end && !stops(to)) ++to;
+      if (to + unseen <= end) take(begin, to);
     }
-    if (end < steps_.size()) {
+    if (jamb(end, 1)) {
       std::size_t from = end;
-      while (from >= begin + unseen && !closed(from - unseen)) --from;
-      if (from >= begin + unseen && crossed_door(from, end)) judge(from, end, doors);
+      while (from >= begin + unseen && !stops(from - unseen)) --from;
+      if (from >= begin + unseen) take(from, end);
     }
+  }
+
+  /// Whether most of the steps before a place (`way` -1), or from it on (1), are wall.
+  bool jamb(std::size_t at, int way) const {
+    constexpr std::size_t kLong = 6, kLeast = 4;
+    const std::size_t from = way < 0 ? at - std::min(at, kLong) : at;
+    const std::size_t to = way < 0 ? at : std::min(steps_.size(), at + kLong);
+    return std::count_if(steps_.begin() + static_cast<std::ptrdiff_t>(from),
+                         steps_.begin() + static_cast<std::ptrdiff_t>(to), [](const Step& step) {
+                           return step.wall;
+                         }) >= static_cast<std::ptrdiff_t>(kLeast);
   }
 
   /// Whether the camera went through these steps.
@@ -204,17 +239,14 @@ class PlaneProfile {
                        [&](double at) { return at > from && at < to; });
   }
 
-  bool crossed_door(std::size_t begin, std::size_t end) const {
-    return static_cast<double>(end - begin) * kAlong_m < kWidest_m && crossed(begin, end);
-  }
-
-  /// A stretch without wall at the height of doors, closed at both its ends: whether it is a door.
-  bool judge(std::size_t begin, std::size_t end, std::vector<DoorPiece>& doors) const {
+  /// The door that a stretch without wall at the height of doors is, if it is one.
+  std::optional<DoorPiece> judge(std::size_t begin, std::size_t end) const {
     const double width = static_cast<double>(end - begin) * kAlong_m;
     DoorPiece door{
         plane_.axis, plane_.sign, plane_.offset_m, from_ + begin * kAlong_m, from_ + end * kAlong_m,
         0,           false};
-    if (width < options_.min_width_m - kAlong_m || width > options_.max_width_m) return false;
+    if (width < options_.min_width_m - kAlong_m || width > options_.max_width_m)
+      return std::nullopt;
     door.offset_m -= plane_.sign * reference_[(begin + end) / 2];
     std::size_t open = 0, recess = 0, over = 0;
     std::vector<double> heads;
@@ -231,8 +263,7 @@ class PlaneProfile {
     const bool passage =
         !door.closed && 2 * open >= count &&
         (head_fits || (!head_seen && crossed(begin, end) && width < kWidest_m && 4 * over < count));
-    if (leaf || passage) doors.push_back(door);
-    return leaf || passage;
+    return leaf || passage ? std::make_optional(door) : std::nullopt;
   }
 
   const Plane& plane_;
@@ -260,9 +291,10 @@ std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
                                   const std::vector<Eigen::Vector3d>& path,
                                   const DoorFinderOptions& options) {
   options.check();
-  std::vector<DoorPiece> doors, once;
+  std::vector<DoorPiece> doors, half_seen, once;
   for (const Plane& plane : planes_of(walls, options.max_width_m))
-    PlaneProfile(plane, points, voxels, path, options).find(doors);
+    PlaneProfile(plane, points, voxels, path, options).find(doors, half_seen);
+  doors.insert(doors.end(), half_seen.begin(), half_seen.end());
   for (const DoorPiece& door : doors) {
     const double middle = 0.5 * (door.from_m + door.to_m);
     const auto same = std::find_if(once.begin(), once.end(), [&](const DoorPiece& other) {

@@ -32,16 +32,23 @@ TEST(SurfacePoints, TellThePlaneOfADepthImage) {
   EXPECT_THROW((void)surface_points(Image(60, 80, CV_8UC1), camera, SE3(), 0.001), ArgumentError);
 }
 
-/// Looks from two rooms of 4 x 3 m beside each other, a wall at x = 4 with a door at y = 1 .. 1.9.
+/// Two rooms of 4 x 3 m beside each other, a wall at x = 4 with a door from y = 1 on, and how they
+/// are looked at.
+struct TwoRoomsOptions {
+  double door_to_m = 1.9, head_m = 2.05;
+  /// Points of the wall between are told within these only.
+  double told_from_m = 0, told_to_m = 3;
+  bool through = true;  ///< the camera goes through the door, or stays in either room
+};
 struct TwoRooms {
-  double known_to;
+  TwoRoomsOptions options;
   std::vector<PlacedPoint> points;
   std::vector<Eigen::Vector3d> path;
   VoxelEvidence voxels{{-0.5, -0.5, 0}, {8.5, 3.5, 2.6}, 0.05, 0.2};
 
-  /// `known_to_m`: no points of the wall between are told farther along it.
-  explicit TwoRooms(double known_to_m = 3) : known_to(known_to_m) {
-    for (double x = 0.3; x < 7.8; x += 0.5) path.emplace_back(x, 1.45, 1.4);
+  explicit TwoRooms(const TwoRoomsOptions& of = {}) : options(of) {
+    for (double x = 0.3; x < 7.8; x += 0.5)
+      if (options.through || x < 3.5) path.emplace_back(x, 1.45, 1.4);
     for (int i = 0; i < static_cast<int>(path.size()); ++i) look(i);
   }
   /// Rays to what is nearest: outer walls, the wall between (but through the door), floor, ceiling.
@@ -62,7 +69,7 @@ struct TwoRooms {
       const double t = (at - from[axis]) / way[axis];
       if (!(t > 1e-6) || t >= best) return;
       const Eigen::Vector3d p = from + t * way;
-      if (door && p[1] > 1 && p[1] < 1.9 && p[2] < 2.05) return;
+      if (door && p[1] > 1 && p[1] < options.door_to_m && p[2] < options.head_m) return;
       best = t, normal.setZero(), normal[axis] = way[axis] > 0 ? -1 : 1;
     };
     for (const double x : {0.0, 8.0}) plane(0, x, false);
@@ -71,7 +78,7 @@ struct TwoRooms {
     for (const double z : {0.0, 2.6}) plane(2, z, false);
     const Eigen::Vector3d to = from + best * way;
     const bool between = normal[0] != 0 && std::abs(to[0] - 4) < 0.1;
-    if (!between || to[1] < known_to)
+    if (!between || (to[1] > options.told_from_m && to[1] < options.told_to_m))
       points.push_back({to.cast<float>(), normal.cast<float>(), 0.005F, sight});
     voxels.add_ray(from, to, 0.1, true);
   }
@@ -99,15 +106,54 @@ TEST(FloorPlan, OfTwoRoomsHasTheirWallsTheDoorAndBoth) {
   for (const auto& room : rooms.rooms) EXPECT_NEAR(room.area_m2, 3.95 * 3, 0.6);
 }
 
+std::vector<DoorPiece> doors_of(const TwoRooms& scene) {
+  return find_doors(find_walls(scene.points, scene.voxels), scene.points, scene.voxels, scene.path);
+}
+
 TEST(FloorPlan, PartsRoomsAtADoorThatTheCameraTookBesideAWallThatIsHardlySeen) {
-  const TwoRooms scene(1.5);
-  const auto walls = find_walls(scene.points, scene.voxels);
-  for (const WallPiece& wall : walls)
-    if (wall.axis == 0 && std::abs(wall.offset_m - 4) < 0.1) EXPECT_LT(wall.to_m, 1.6);
-  const auto doors = find_doors(walls, scene.points, scene.voxels, scene.path);
-  ASSERT_EQ(doors.size(), 1U);
-  EXPECT_NEAR(0.5 * (doors[0].from_m + doors[0].to_m), 1.45, 0.1);  // two steps of the profile
-  EXPECT_EQ(partition_rooms(scene.voxels, walls, doors, scene.path).rooms.size(), 2U);
+  for (const auto& [from, to] : {std::pair{0.0, 1.05}, {1.85, 3.0}}) {  // one jamb or the other
+    const TwoRooms scene({.head_m = 1.95, .told_from_m = from, .told_to_m = to});
+    const auto walls = find_walls(scene.points, scene.voxels);
+    const auto doors = find_doors(walls, scene.points, scene.voxels, scene.path);
+    ASSERT_EQ(doors.size(), 1U) << from;
+    // Two steps of the profile; at the other jamb oblique rays come up to one farther.
+    EXPECT_NEAR(doors[0].from_m, 1, from == 0 ? 0.1 : 0.16);
+    EXPECT_NEAR(doors[0].to_m, 1.9, from == 0 ? 0.16 : 0.1);
+    EXPECT_FALSE(doors[0].closed);
+    EXPECT_EQ(partition_rooms(scene.voxels, walls, doors, scene.path).rooms.size(), 2U);
+  }
+}
+
+TEST(FloorPlan, TakesNoDoorOfOneJambThatTheCameraDidNotTakeOrThatIsTooWide) {
+  EXPECT_EQ(doors_of(TwoRooms({.head_m = 1.95, .told_to_m = 1.05})).size(), 1U);
+  EXPECT_TRUE(doors_of(TwoRooms({.head_m = 1.95, .told_to_m = 1.05, .through = false})).empty());
+  EXPECT_TRUE(doors_of(TwoRooms({.door_to_m = 2.55, .head_m = 1.95, .told_to_m = 1.05})).empty());
+}
+
+TEST(FloorPlan, TakesTheTurnOfANarrowCorridorForNoDoor) {
+  // 1.2 m wide: along x to the corner, then along y. The inner wall (y = 1.2, x < 3) ends at it.
+  VoxelEvidence voxels({-0.5, -0.5, 0}, {5, 5, 2.6}, 0.05, 0.2);
+  std::vector<Eigen::Vector3d> path;
+  for (double s = 0.2; s < 3.6; s += 0.2) path.emplace_back(s, 0.6, 1.4);
+  for (double s = 0.8; s < 4.4; s += 0.2) path.emplace_back(3.6, s, 1.4);
+  std::vector<PlacedPoint> points;
+  WallPiece inner;
+  inner.axis = 1, inner.sign = -1, inner.offset_m = 1.2, inner.to_m = 3;
+  for (float x = 0; x < 3; x += 0.04F)
+    for (float z = 0.1F; z < 1.8F; z += 0.1F)
+      points.push_back({{x, 1.2F, z}, {0, -1, 0}, 0.01F, 0});
+  for (const Eigen::Vector3d& from : path)
+    for (int a = 0; a < 360; ++a)  // rays end at the outer walls and the inner ones
+      for (const double z : {0.7, 1.0, 1.4, 1.7}) {
+        const Eigen::Vector3d way(std::cos(a * M_PI / 180), std::sin(a * M_PI / 180), 0);
+        Eigen::Vector3d to(from[0], from[1], z);
+        const auto inside = [](const Eigen::Vector3d& p) {
+          return p[0] > 0 && p[0] < 4.2 && p[1] > 0 && p[1] < 4.6 && (p[1] < 1.2 || p[0] > 3);
+        };
+        while (inside(to)) to += 0.02 * way;
+        voxels.add_ray({from[0], from[1], z}, to, 0.1, true);
+      }
+  EXPECT_TRUE(find_doors({inner}, points, voxels, path).empty());
 }
 
 /// A wall of 5 m with a leaf 1 m wide, 3 cm behind it, by points of a deviation.
@@ -124,7 +170,7 @@ std::vector<DoorPiece> doors_of_a_leaf(float sigma) {
   return find_doors({wall}, points, voxels, {{1, 1, 1}, {1, 4, 1}});
 }
 
-TEST(FloorPlan, TellsALeafOnlyWhereItsRecessStandsOutOfTheNoise) {
+TEST(FloorPlan, AsksForADeeperRecessOfALeafWherePointsAreRough) {
   const auto sure = doors_of_a_leaf(0.005F);
   ASSERT_EQ(sure.size(), 1U);
   EXPECT_TRUE(sure[0].closed);
