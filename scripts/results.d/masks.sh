@@ -49,7 +49,7 @@ frames=${MASKS_FRAMES:-150}
 render traffic town-loop --difficulty hard --frames "$frames" --mono --seed 3
 with_and_without traffic "town-loop seed 3, hard traffic, $frames frames, one eye" "$out/traffic-world" 50,100 --sensor mono --camera-height 1.65
 
-# Places: twice round a block, traffic and bad light in either round.
+# Places: twice round a block, with other traffic in either round.
 write_rounds 2 "$out/masks-rounds.txt"
 render masks-rounds "$out/masks-rounds.txt" --difficulty hard --mono --size 620x188
 printf '\nPlaces recognized again: two rounds of a block of 316 m in hard traffic, half size, one eye. Revisits (within 5 m and 30 deg of a view 300 frames older) as the finished map tells them.\n' >> "$rows"
