@@ -226,17 +226,12 @@ void IndoorMapperOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field.group("points", o.points, "surface points of a depth image");
-  field.group("stereo", o.stereo, "depth from both eyes");
-  field.group("floor", o.floor, "surfaces from one eye");
+  field.group("sweep", o.sweep, "depth from views of known motion");
+  field.group("views", o.views, "that depth is swept from");
+  field.group("floor", o.floor, "surfaces from one eye that has not moved");
   field.group("orientation", o.orientation, "orientation maps, for one eye");
-  field("stereo_sigma_px", o.stereo_sigma_px, "of a disparity", {0.01, 10});
-  field("stereo_radius_px", o.stereo_radius_px, "of patches of dense stereo", {2, 100});
-  field("stereo_band_m", o.stereo_band_m, "walls.band_m for dense stereo", {0.02, 1});
-  field("stereo_wall_sigma_m", o.stereo_wall_sigma_m, "walls.max_sigma_m for dense stereo",
-        {0.001, 10});
-  field("stereo_turn_deg", o.stereo_turn_deg, "walls.max_turn_deg for dense stereo", {1, 44});
-  field("stereo_step_m", o.stereo_step_m, "walls.max_step_m for dense stereo", {0, 1});
-  field("one_eye_band_m", o.one_eye_band_m, "walls.band_m for one eye", {0.02, 1});
+  field("swept_radius_px", o.swept_radius_px, "points.radius_px for depth from images", {2, 100});
+  field("swept_band_m", o.swept_band_m, "walls.band_m for depth from images", {0.02, 1});
   field("min_step_m", o.min_step_m, "keyframes nearer to the last one used tell nothing new",
         {0, 10});
   field("min_turn_deg", o.min_turn_deg, "unless they are turned by so much", {0, 180});
@@ -266,32 +261,43 @@ std::vector<SurfacePoint> IndoorMapper::points_of_one_eye(const Image& image) co
                                  options_.floor);
 }
 
-std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame) const {
-  const Camera& camera = calibration_.camera;
+std::vector<SurfacePoint> IndoorMapper::swept_points(const Image& image,
+                                                     const std::vector<SweptView>& views) const {
+  const SweptDepth swept = sweep_planes(image, calibration_.camera, views, options_.sweep);
+  const Camera& camera = swept.camera;
+  const int shrunk = calibration_.camera.width / camera.width;
+  SurfacePointOptions points = options_.points;
+  points.step_px = std::max(1, points.step_px / shrunk);
+  points.radius_px = std::max(2, options_.swept_radius_px / shrunk);
+  std::vector<SurfacePoint> seen =
+      surface_points(swept.depth_m, swept.sigma_inverse, camera, SE3(), points);
+  // What is no part of a plane may be a false match, whose ray would be seen to pass through walls.
+  std::erase_if(seen, [&](const SurfacePoint& p) {
+    if (p.normal.squaredNorm() > 0.5F) return false;
+    const auto px = camera.project(p.point.cast<double>());
+    return !px || !swept.certain.at<std::uint8_t>(cvRound((*px)[1]), cvRound((*px)[0]));
+  });
+  return seen;
+}
+
+std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame,
+                                                  std::vector<SweptView> views) const {
   if (calibration_.depth && !frame.depth.empty()) {
     const DepthCamera& depth = *calibration_.depth;
     // The patch tells its own noise; what a sensor's patches share is less than its pixels' noise.
     return surface_points(frame.depth, depth.camera, depth.T_cam_depth, 0.2 * depth.sigma_at_1m,
                           options_.points);
   }
-  if (calibration_.baseline_m > 0 && !frame.right.empty()) {
-    const Image depth =
-        dense_stereo(frame.image, frame.right, camera.fx, calibration_.baseline_m, options_.stereo);
-    SurfacePointOptions points = options_.points;
-    points.radius_px = options_.stereo_radius_px;
-    std::vector<SurfacePoint> seen =
-        surface_points(depth, camera, SE3(),
-                       options_.stereo_sigma_px / (camera.fx * calibration_.baseline_m), points);
-    // A false match is seldom part of a plane; its ray would be seen to pass through walls.
-    std::erase_if(seen, [](const SurfacePoint& p) { return p.normal.squaredNorm() < 0.5F; });
-    return seen;
-  }
+  if (calibration_.baseline_m > 0 && !frame.right.empty())
+    views.push_back({frame.right, SE3(SO3(), {-calibration_.baseline_m, 0, 0})});
+  if (!views.empty()) return swept_points(frame.image, views);
   if (calibration_.camera_height_m) return points_of_one_eye(frame.image);
   return {};
 }
 
-void IndoorMapper::add(std::int64_t keyframe, const Frame& frame) {
-  add(SurfaceSight{keyframe, points_of(frame)});
+void IndoorMapper::add(std::int64_t keyframe, const Frame& frame,
+                       const std::vector<SweptView>& views) {
+  add(SurfaceSight{keyframe, points_of(frame, views)});
 }
 
 void IndoorMapper::add(SurfaceSight sight) {
@@ -313,14 +319,7 @@ IndoorMap IndoorMapper::fuse(const Map& map) const {
                                     "depth, two eyes or the camera's height is needed");
   if (plan.outcome.code == Outcome::Code::kTooFewData) return plan;
   IndoorMapperOptions options = options_;
-  if (!calibration_.depth && calibration_.baseline_m > 0) {
-    options.walls.band_m = options.stereo_band_m;
-    options.walls.max_sigma_m = options.stereo_wall_sigma_m;
-    options.walls.max_turn_deg = options.stereo_turn_deg;
-    options.walls.max_step_m = options.stereo_step_m;
-  } else if (!calibration_.depth) {
-    options.walls.band_m = options.one_eye_band_m;
-  }
+  if (!calibration_.depth) options.walls.band_m = options.swept_band_m;
   Fusion fusion(options, map);
   fusion.lay_out(sights_);
   return fusion.fuse();
@@ -338,9 +337,13 @@ IndoorMap map_indoors(const Map& map, const Calibration& calibration,
                       const std::function<Frame(const Keyframe&)>& frame_of,
                       const IndoorMapperOptions& options) {
   IndoorMapper mapper(options, calibration);
+  NearbyViews nearby(map, frame_of, options.views);
   for (const Keyframe* keyframe :
-       keyframes_apart(map, options.min_step_m, options.min_turn_deg * M_PI / 180))
-    mapper.add(keyframe->id, frame_of(*keyframe));
+       keyframes_apart(map, options.min_step_m, options.min_turn_deg * M_PI / 180)) {
+    std::vector<SweptView> views;
+    if (!calibration.depth) views = nearby.of(*keyframe);
+    mapper.add(keyframe->id, nearby.frame(*keyframe), views);
+  }
   return mapper.fuse(map);
 }
 

@@ -4,6 +4,7 @@
 #include <placegraph/frontend/scene/room_partition.h>
 #include <placegraph/graph/frame.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/pipeline/nearby_views.h>
 
 #include <functional>
 
@@ -11,20 +12,16 @@ namespace placegraph {
 
 struct IndoorMapperOptions {
   SurfacePointOptions points;
-  DenseStereoOptions stereo;
+  PlaneSweepOptions sweep;
+  NearbyViewOptions views;  ///< that depth is swept from, beside the right eye's
   FloorSightOptions floor;
   OrientationMapOptions orientation;
-  double stereo_sigma_px = 0.25;     ///< of a disparity
-  int stereo_radius_px = 16;         ///< of patches of dense stereo, which is noisier than depth is
-  double stereo_band_m = 0.1;        ///< as walls.band_m, ...
-  double stereo_wall_sigma_m = 0.2;  ///< ... walls.max_sigma_m and ...
-  double stereo_turn_deg = 20;       ///< ... walls.max_turn_deg and ...
-  double stereo_step_m = 0.1;        ///< ... walls.max_step_m, for dense stereo
-  double one_eye_band_m = 0.1;       ///< as walls.band_m, for one eye
-  double min_step_m = 0.15;          ///< keyframes nearer to the last one that was used, and ...
-  double min_turn_deg = 5;           ///< ... turned by less, tell nothing new
-  double cell_m = 0.05;              ///< of the cells that walls and rooms are found from
-  double layer_m = 0.2;              ///< their height
+  int swept_radius_px = 16;   ///< as points.radius_px, of depth from images, and ...
+  double swept_band_m = 0.1;  ///< ... walls.band_m
+  double min_step_m = 0.15;   ///< keyframes nearer to the last one that was used, and ...
+  double min_turn_deg = 5;    ///< ... turned by less, tell nothing new
+  double cell_m = 0.05;       ///< of the cells that walls and rooms are found from
+  double layer_m = 0.2;       ///< their height
   WallFinderOptions walls;
   DoorFinderOptions doors;
   RoomPartitionOptions rooms;
@@ -32,18 +29,21 @@ struct IndoorMapperOptions {
 };
 void visit(OptionVisitor& field, IndoorMapperOptions& options);
 
-/// A floor plan with walls, doors and rooms from the keyframes of a map. What a keyframe tells of
-/// the surfaces around it is kept in its own frame; `fuse` lays all of it out with the poses of the
-/// map as it stands, so that after a loop closure the plan is simply fused again.
+/// A floor plan with walls, doors and rooms from the keyframes of a map. Depth is measured, or
+/// swept from views of known motion and from the other eye; what a keyframe tells of the surfaces
+/// around it is kept in its own frame; `fuse` lays all of it out with the poses of the map as it
+/// stands, so that after a loop closure the plan is simply fused again.
 class IndoorMapper {
  public:
   /// Throws ArgumentError for options or a calibration out of range. Sees depth where the
-  /// calibration has a depth camera, stereo where it has a baseline, else one eye: its floor is
-  /// `camera_height_m` below it, as far as the map's unit is the metre.
+  /// calibration has a depth camera; else both eyes where it has a baseline, or one, and the views
+  /// handed over with it. One eye that has not moved sees the floor of its orientation map
+  /// `camera_height_m` below it.
   IndoorMapper(const IndoorMapperOptions& options, const Calibration& calibration);
 
-  /// Takes the images of a keyframe; what was told of it before is replaced. Points are metric.
-  void add(std::int64_t keyframe, const Frame& frame);
+  /// Takes the images of a keyframe, and what the same (left) eye saw from nearby; what was told of
+  /// it before is replaced. Points are metric.
+  void add(std::int64_t keyframe, const Frame& frame, const std::vector<SweptView>& views = {});
   void add(SurfaceSight sight);
   const std::vector<SurfaceSight>& sights() const { return sights_; }
 
@@ -55,7 +55,9 @@ class IndoorMapper {
   [[nodiscard]] IndoorMap fuse(const Map& map) const;
 
  private:
-  std::vector<SurfacePoint> points_of(const Frame& frame) const;
+  std::vector<SurfacePoint> points_of(const Frame& frame, std::vector<SweptView> views) const;
+  std::vector<SurfacePoint> swept_points(const Image& image,
+                                         const std::vector<SweptView>& views) const;
   std::vector<SurfacePoint> points_of_one_eye(const Image& image) const;
   IndoorMapperOptions options_;
   Calibration calibration_;

@@ -61,12 +61,15 @@ void visit(OptionVisitor& field, DenseStereoOptions& o) {
   field("window_px", o.window_px, "side of the matched blocks", {1, 21});
 }
 
-std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& depth_camera,
-                                         const SE3& T_cam_depth, double sigma_at_1m,
+std::vector<SurfacePoint> surface_points(const Image& depth_m, const Image& sigma_inverse,
+                                         const Camera& depth_camera, const SE3& T_cam_depth,
                                          const SurfacePointOptions& options) {
   options.check();
-  require(depth_m.type() == CV_32FC1 && depth_m.cols == depth_camera.width &&
-              depth_m.rows == depth_camera.height,
+  const auto fits = [&](const Image& image) {
+    return image.type() == CV_32FC1 && image.cols == depth_camera.width &&
+           image.rows == depth_camera.height;
+  };
+  require(fits(depth_m) && fits(sigma_inverse),
           "surface points: a CV_32FC1 depth image of the camera's size is needed");
   std::vector<SurfacePoint> points;
   const Eigen::Matrix3d R = T_cam_depth.rotation().matrix();
@@ -79,6 +82,7 @@ std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& dep
       SurfacePoint point;
       point.point = (T_cam_depth * Eigen::Vector3d(z * ray)).cast<float>();
       const PatchPlane fit = fit_patch(depth_m, depth_camera, u, v, options.radius_px);
+      const double sigma_at_1m = sigma_inverse.at<float>(v, u);
       double sigma = sigma_at_1m * z * z;
       if (fit.good && fit.residual < options.max_residual + 2 * sigma_at_1m * z) {
         const Eigen::Vector3d normal = -fit.plane.normalized();
@@ -94,6 +98,13 @@ std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& dep
       points.push_back(point);
     }
   return points;
+}
+
+std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& depth_camera,
+                                         const SE3& T_cam_depth, double sigma_at_1m,
+                                         const SurfacePointOptions& options) {
+  return surface_points(depth_m, Image(depth_m.size(), CV_32FC1, cv::Scalar(sigma_at_1m)),
+                        depth_camera, T_cam_depth, options);
 }
 
 Image dense_stereo(const Image& left, const Image& right, double fx, double baseline_m,

@@ -18,8 +18,13 @@ void visit(OptionVisitor& field, SurfacePointOptions& options);
 
 /// Points of the surfaces in a depth image (CV_32FC1 [m], 0 = none) of `depth_camera`, in the frame
 /// that `T_cam_depth` leads to. Inverse depth is linear in the pixel on a plane: where a patch's
-/// are, its plane gives the normal. Deviations are those of the patch, at least
-/// `sigma_at_1m` z^2. Throws ArgumentError for an image of another size or type.
+/// are, its plane gives the normal. Deviations are those of the patch, at least those of inverse
+/// depth, `sigma_inverse` [1/m] (CV_32FC1, a pixel each). Throws ArgumentError for an image of
+/// another size or type.
+std::vector<SurfacePoint> surface_points(const Image& depth_m, const Image& sigma_inverse,
+                                         const Camera& depth_camera, const SE3& T_cam_depth,
+                                         const SurfacePointOptions& options = {});
+/// With deviations that are the same all over: `sigma_at_1m` z^2 [m].
 std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& depth_camera,
                                          const SE3& T_cam_depth, double sigma_at_1m,
                                          const SurfacePointOptions& options = {});

@@ -97,5 +97,70 @@ TEST(IndoorMapper, SaysWhyThereIsNoPlan) {
   EXPECT_FALSE(blind.fuse(map).outcome);
 }
 
+TEST(NearbyViews, AreANearerAndAFartherOneOnEachSide) {
+  std::vector<SE3> poses;
+  for (int i = 0; i < 40; ++i) poses.push_back(SE3(SO3(), Eigen::Vector3d(0, 0, 0.15 * i)));
+  // From the 30th on the camera looks elsewhere.
+  for (int i = 30; i < 40; ++i) poses[i] = SE3(SO3::exp({0, 1, 0}), poses[i].translation());
+  const Map map = map_of(poses);
+  int read = 0;
+  NearbyViews nearby(map,
+                     [&](const Keyframe& keyframe) {
+                       ++read;
+                       Frame frame;
+                       frame.image =
+                           Image(2, 2, CV_8UC1, cv::Scalar(static_cast<double>(keyframe.id)));
+                       return frame;
+                     },
+                     {0.25, 0.5, 20});
+  const auto of = [&](int keyframe) {
+    std::vector<int> views;
+    for (const SweptView& view : nearby.of(map.keyframes[keyframe])) {
+      const int id = view.image.at<std::uint8_t>(0, 0);
+      EXPECT_NEAR(view.T_view_cam.translation()[2], 0.15 * (keyframe - id), 1e-12);
+      views.push_back(id);
+    }
+    return views;
+  };
+  EXPECT_EQ(of(0), (std::vector<int>{2, 4}));
+  EXPECT_EQ(of(20), (std::vector<int>{18, 16, 22, 24}));
+  EXPECT_EQ(of(27), (std::vector<int>{25, 23, 29}));
+  read = 0;
+  (void)of(27);
+  EXPECT_EQ(nearby.frame(map.keyframes[27]).image.at<std::uint8_t>(0, 0), 27);
+  EXPECT_EQ(read, 1) << "frames are kept";
+}
+
+TEST(IndoorMapper, SweepsDepthForAnEyeThatHasMoved) {
+  const Camera camera{160, 120, 130, 130, 79.5, 59.5};
+  // A patterned wall 3 m ahead, from two places beside each other.
+  const auto view = [&](double x) {
+    Frame frame;
+    frame.image = Image(camera.height, camera.width, CV_8UC1);
+    for (int v = 0; v < camera.height; ++v)
+      for (int u = 0; u < camera.width; ++u) {
+        const Eigen::Vector3d p = 3 * *camera.unproject({u, v}) + Eigen::Vector3d(x, 0, 0);
+        double grey = 120;
+        for (int k = 1; k < 8; ++k)
+          grey += 20 * std::sin(9 * k * p.x() + k * k * p.y()) * std::cos(8 * k * p.y() - k);
+        frame.image.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(grey);
+      }
+    return frame;
+  };
+  const SE3 T_view_cam(SO3(), Eigen::Vector3d(-0.3, 0, 0));
+  IndoorMapper mapper({}, Calibration{.camera = camera, .depth = {}, .camera_height_m = {}});
+  mapper.add(0, view(0));
+  EXPECT_TRUE(mapper.sights()[0].points.empty());
+  mapper.add(0, view(0), {{view(0.3).image, T_view_cam}});
+  ASSERT_EQ(mapper.sights().size(), 1U);
+  ASSERT_GT(mapper.sights()[0].points.size(), 100U);
+  int flat = 0;
+  for (const SurfacePoint& p : mapper.sights()[0].points) {
+    EXPECT_NEAR(p.point[2], 3, 5 * p.sigma + 0.03);
+    flat += p.normal[2] < -0.95F;
+  }
+  EXPECT_GT(flat, 0.8 * mapper.sights()[0].points.size());
+}
+
 }  // namespace
 }  // namespace placegraph
