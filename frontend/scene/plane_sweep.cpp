@@ -195,7 +195,9 @@ class PlaneSweep {
     std::vector<Image> told(views_.size());
     const auto pixel_of = [&](const View& view, int u, int v, double inverse_depth) {
       const Eigen::Vector3d p = view.at(u, v, inverse_depth);
-      return cv::Point(cvRound(p[0] / p[2]), cvRound(p[1] / p[2]));
+      constexpr double kBehind = 0.01;  // of the view's camera, or nearly
+      return p[2] < kBehind ? cv::Point(-1, -1)
+                            : cv::Point(cvRound(p[0] / p[2]), cvRound(p[1] / p[2]));
     };
     const auto inside = [&](const cv::Point& p) {
       return p.x >= 0 && p.y >= 0 && p.x < camera_.width && p.y < camera_.height;
@@ -233,6 +235,7 @@ class PlaneSweep {
     });
   }
 
+  /// Pixels about which all tell their depth by themselves, and the same one.
   void mark_certain(const std::vector<Level>& found, SweptDepth& result) const {
     constexpr int kReach = 2;
     const auto at = [&](int u, int v) -> const Level& {
