@@ -222,7 +222,11 @@ class Fusion {
 
 }  // namespace
 
-void IndoorMapperOptions::check() const { check_ranges(*this); }
+void IndoorMapperOptions::check() const {
+  check_ranges(*this);
+  sweep.check();
+  views.check();
+}
 
 void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field.group("points", o.points, "surface points of a depth image");
@@ -230,7 +234,7 @@ void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field.group("views", o.views, "that depth is swept from");
   field.group("floor", o.floor, "surfaces from one eye that has not moved");
   field.group("orientation", o.orientation, "orientation maps, for one eye");
-  field("swept_radius_px", o.swept_radius_px, "points.radius_px for depth from images", {2, 100});
+  field("swept_radius_px", o.swept_radius_px, "points.radius_px for depth from images", {2, 50});
   field("swept_band_m", o.swept_band_m, "walls.band_m for depth from images", {0.02, 1});
   field("min_step_m", o.min_step_m, "keyframes nearer to the last one used tell nothing new",
         {0, 10});
@@ -290,7 +294,9 @@ std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame,
   }
   if (calibration_.baseline_m > 0 && !frame.right.empty())
     views.push_back({frame.right, SE3(SO3(), {-calibration_.baseline_m, 0, 0})});
-  if (!views.empty()) return swept_points(frame.image, views);
+  std::vector<SurfacePoint> swept;
+  if (!views.empty()) swept = swept_points(frame.image, views);
+  if (!swept.empty()) return swept;
   if (calibration_.camera_height_m) return points_of_one_eye(frame.image);
   return {};
 }
@@ -337,6 +343,7 @@ IndoorMap map_indoors(const Map& map, const Calibration& calibration,
                       const std::function<Frame(const Keyframe&)>& frame_of,
                       const IndoorMapperOptions& options) {
   IndoorMapper mapper(options, calibration);
+  if (!map.metric) return mapper.fuse(map);  // says so
   NearbyViews nearby(map, frame_of, options.views);
   for (const Keyframe* keyframe :
        keyframes_apart(map, options.min_step_m, options.min_turn_deg * M_PI / 180)) {

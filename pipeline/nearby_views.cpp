@@ -2,6 +2,7 @@
 #include <placegraph/pipeline/map_keyframes.h>
 #include <placegraph/pipeline/nearby_views.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace placegraph {
@@ -11,6 +12,11 @@ constexpr std::ptrdiff_t kFarthest = 10;  // keyframes before or after
 constexpr std::size_t kMostRead = 2 * kFarthest + 4;
 
 }  // namespace
+
+void NearbyViewOptions::check() const {
+  check_ranges(*this);
+  require(near_m <= far_m, "nearby views: far_m must not be below near_m");
+}
 
 void visit(OptionVisitor& field, NearbyViewOptions& o) {
   field("near_m", o.near_m, "how far the nearer ones have moved, at least", {0.001, 100});
@@ -36,9 +42,12 @@ const Frame& NearbyViews::frame(const Keyframe& keyframe) {
 
 std::vector<SweptView> NearbyViews::of(const Keyframe& keyframe) {
   std::vector<SweptView> views;
-  const auto index = &keyframe - map_.keyframes.data();
+  const auto found =
+      std::find_if(map_.keyframes.begin(), map_.keyframes.end(),
+                   [&](const Keyframe& other) { return other.id == keyframe.id; });
+  const auto index = found - map_.keyframes.begin();
   const auto count = static_cast<std::ptrdiff_t>(map_.keyframes.size());
-  require(index >= 0 && index < count, "nearby views: the keyframe must be one of the map's");
+  require(index < count, "nearby views: the keyframe must be one of the map's");
   if (!connected_.count(keyframe.id)) return views;
   const SE3 T_map_cam = camera_pose(map_, keyframe.id);
   for (const int way : {-1, 1}) {

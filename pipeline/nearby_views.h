@@ -16,7 +16,7 @@ struct NearbyViewOptions {
   double near_m = 0.2;   ///< how far the nearer views have moved, at least, and ...
   double far_m = 0.5;    ///< ... the farther ones; none has by twice as much
   double turn_deg = 20;  ///< how much they have turned, at most
-  void check() const { check_ranges(*this); }
+  void check() const;
 };
 void visit(OptionVisitor& field, NearbyViewOptions& options);
 
@@ -29,8 +29,9 @@ class NearbyViews {
 
   /// A keyframe's own frame. The reference holds until the next call.
   const Frame& frame(const Keyframe& keyframe);
-  /// Views from about a keyframe of the map, by the poses of the map; those nearest in time first,
-  /// none where the camera has not moved.
+  /// Views from about a keyframe of the map, by the poses of the map: those before it, nearest
+  /// first, then those after it; none where the camera has not moved. Throws ArgumentError for a
+  /// keyframe that is not the map's.
   std::vector<SweptView> of(const Keyframe& keyframe);
 
  private:

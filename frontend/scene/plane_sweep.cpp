@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -13,6 +12,8 @@ namespace placegraph {
 namespace {
 
 constexpr std::uint8_t kMostCost = 60;
+constexpr double kBehind =
+    0.01;  // what has less depth in a view, of that in the image, is not seen
 
 struct Level {
   double inverse_depth = 0;
@@ -22,11 +23,12 @@ struct Level {
 
 /// An image and its camera at half the size, as often as it takes.
 void shrink(Image& image, Camera& camera, int max_width_px) {
-  while (image.cols > max_width_px) {
+  while (image.cols > max_width_px && image.rows > 1) {
     cv::resize(image, image, {image.cols / 2, image.rows / 2}, 0, 0, cv::INTER_AREA);
+    const double across = 1.0 * image.cols / camera.width, down = 1.0 * image.rows / camera.height;
     camera.width = image.cols, camera.height = image.rows;
-    camera.fx /= 2, camera.fy /= 2;
-    camera.cx = (camera.cx + 0.5) / 2 - 0.5, camera.cy = (camera.cy + 0.5) / 2 - 0.5;
+    camera.fx *= across, camera.fy *= down;
+    camera.cx = (camera.cx + 0.5) * across - 0.5, camera.cy = (camera.cy + 0.5) * down - 0.5;
   }
 }
 
@@ -113,15 +115,28 @@ class PlaneSweep {
 
   void choose_levels() {
     const double low = 1 / options_.max_depth_m, high = 1 / options_.min_depth_m;
+    const double middle = 0.5 * (low + high);
     double fastest = 0;
     for (const View& view : views_)
-      for (const double u : {0.0, 0.5, 1.0})
-        for (const double v : {0.0, 0.5, 1.0})
-          fastest = std::max(fastest, view.rate(u * (camera_.width - 1), v * (camera_.height - 1),
-                                                0.5 * (low + high)));
+      for (const double across : {0.0, 0.5, 1.0})
+        for (const double down : {0.0, 0.5, 1.0}) {
+          const double u = across * (camera_.width - 1), v = down * (camera_.height - 1);
+          if (view.at(u, v, middle)[2] >= kBehind)
+            fastest = std::max(fastest, view.rate(u, v, middle));
+        }
     levels_ = static_cast<int>(
         std::clamp(fastest * (high - low) / options_.step_px, 0.0, 1.0 * options_.max_planes));
     step_ = (high - low) / std::max(1, levels_ - 1);
+  }
+
+  /// Takes out what lies behind a view, by the homography of a plane.
+  static void hide_behind(const Eigen::Matrix3d& H, Image& warped) {
+    const auto depth = [&](int u, int v) { return H(2, 0) * u + H(2, 1) * v + H(2, 2); };
+    const int u = warped.cols - 1, v = warped.rows - 1;
+    if (std::min({depth(0, 0), depth(u, 0), depth(0, v), depth(u, v)}) >= kBehind) return;
+    for (int y = 0; y <= v; ++y)
+      for (int x = 0; x <= u; ++x)
+        if (depth(x, y) < kBehind) warped.at<std::uint8_t>(y, x) = 0;
   }
 
   CostVolume costs() const {
@@ -137,6 +152,7 @@ class PlaneSweep {
                             H(2, 2));
         cv::warpPerspective(view.image, warped, h, reference_.size(),
                             cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
+        hide_behind(H, warped);
         cv::absdiff(reference_, warped, cost);
         cv::min(cost, kMostCost, cost);
         cost.setTo(kMostCost, warped == 0);
@@ -160,6 +176,15 @@ class PlaneSweep {
     return volume;
   }
 
+  /// Of the costs of a pixel, at the levels where views show it.
+  double mean_where_seen(const std::uint8_t* cost) const {
+    double sum = 0;
+    int seen = 0;
+    for (int d = 0; d < levels_; ++d)
+      if (cost[d] < kMostCost) sum += cost[d], ++seen;
+    return seen ? sum / seen : 0;
+  }
+
   /// The level of each pixel, if no other is about as good; inverse depth 0 where there is none.
   std::vector<Level> winners(const CostVolume& volume,
                              const std::vector<std::uint16_t>& sums) const {
@@ -177,25 +202,24 @@ class PlaneSweep {
         const double bend = sum[best - 1] + sum[best + 1] - 2.0 * sum[best];
         const double shift = bend > 0 ? 0.5 * (sum[best - 1] - sum[best + 1]) / bend : 0;
         const std::uint8_t* cost = volume.costs.data() + volume.at(u, v);
-        const double mean = std::accumulate(cost, cost + levels_, 0.0) / levels_;
         found[static_cast<std::size_t>(v) * camera_.width + u] = {
-            inverse_depth(best + shift), 1.0 * sum[best], cost[best] < options_.distinct * mean};
+            inverse_depth(best + shift), 1.0 * sum[best],
+            cost[best] < options_.distinct * mean_where_seen(cost)};
         fine.at<std::int16_t>(v, u) = static_cast<std::int16_t>(std::lround(16 * (best + shift)));
       }
     constexpr int kSpeckle_px = 50, kSpeckleRange = 32;
     cv::filterSpeckles(fine, 0, kSpeckle_px, kSpeckleRange);
     for (std::size_t i = 0; i < found.size(); ++i)
-      if (reinterpret_cast<const std::int16_t*>(fine.data)[i] == 0) found[i] = {};
+      if (fine.ptr<std::int16_t>()[i] == 0) found[i] = {};
     return found;
   }
 
-  /// Keeps what the better half of the views agrees to: where a point is seen there, no other one
-  /// has better claims to the pixel.
+  /// Keeps what the better half of the views agrees to: the pixel of a point there goes to the
+  /// point with the least costs of all that fall on it, and that is this one or has its depth.
   void agree(const std::vector<Level>& found, SweptDepth& result) const {
     std::vector<Image> told(views_.size());
     const auto pixel_of = [&](const View& view, int u, int v, double inverse_depth) {
       const Eigen::Vector3d p = view.at(u, v, inverse_depth);
-      constexpr double kBehind = 0.01;  // of the view's camera, or nearly
       return p[2] < kBehind ? cv::Point(-1, -1)
                             : cv::Point(cvRound(p[0] / p[2]), cvRound(p[1] / p[2]));
     };
@@ -229,9 +253,12 @@ class PlaneSweep {
         information += std::pow(views_[i].rate(u, v, level.inverse_depth) / options_.sigma_px, 2);
         ++agreed;
       }
-      if (agreed < kept_ || !(information > 0)) return;
+      // About the point that the camera moves to nothing tells a depth.
+      constexpr double kMostDeviation = 0.2;  // of a depth, as a share of it
+      const double sigma = 1 / std::sqrt(information);
+      if (agreed < kept_ || !(sigma < kMostDeviation * level.inverse_depth)) return;
       result.depth_m.at<float>(v, u) = static_cast<float>(1 / level.inverse_depth);
-      result.sigma_inverse.at<float>(v, u) = static_cast<float>(1 / std::sqrt(information));
+      result.sigma_inverse.at<float>(v, u) = static_cast<float>(sigma);
     });
   }
 
@@ -267,6 +294,7 @@ class PlaneSweep {
 void PlaneSweepOptions::check() const {
   check_ranges(*this);
   require(min_depth_m < max_depth_m, "plane sweep: max_depth_m must be above min_depth_m");
+  require(window_px % 2 == 1 && block_px % 2 == 1, "plane sweep: windows must be odd");
 }
 
 void visit(OptionVisitor& field, PlaneSweepOptions& o) {
@@ -289,6 +317,7 @@ void visit(OptionVisitor& field, PlaneSweepOptions& o) {
 SweptDepth sweep_planes(const Image& image, const Camera& camera,
                         const std::vector<SweptView>& views, const PlaneSweepOptions& options) {
   options.check();
+  camera.check();
   require(camera.distortion == Distortion::kNone,
           "plane sweep: a camera without distortion is needed");
   const auto fits = [&](const Image& i) {

@@ -14,7 +14,7 @@ struct PlaneSweepOptions {
   double step_px = 1;        ///< between two planes, where a view moves most
   int max_planes = 192;      ///< farther apart where more would be needed
   int window_px = 9;         ///< over which brightness and contrast are made alike
-  double noise_share = 2.7;  ///< contrast below so many deviations of the noise counts for little
+  double noise_share = 2.7;  ///< contrast below so many deviations of noise (and 1) counts little
   int block_px = 5;          ///< over which costs are averaged
   PathCosts paths;
   double uniqueness = 0.05;  ///< by which a depth must be better than any other
@@ -41,9 +41,10 @@ struct SweptDepth {
 /// Depth of the pixels of an image from views of known motion: planes are swept through space, what
 /// they would show is compared with the image (Collins 1996), the better half of the views counts,
 /// as the others may not see the surface (Kang, Szeliski & Chai 2001), and neighbouring pixels have
-/// neighbouring depths (sum_over_paths). Kept is what no other depth explains as well, and what one
-/// of the views agrees to. Empty depth where no view has moved. Throws ArgumentError for images of
-/// another size or type, and cameras with distortion.
+/// neighbouring depths (sum_over_paths). Kept is what no other depth explains as well, what the
+/// better half of the views agrees to, and what they tell to a fifth of it. All depths are 0 where
+/// no view has moved. Throws ArgumentError for images of another size or type, and cameras with
+/// distortion.
 [[nodiscard]] SweptDepth sweep_planes(const Image& image, const Camera& camera,
                                       const std::vector<SweptView>& views,
                                       const PlaneSweepOptions& options = {});

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/scene/semi_global.h>
+#include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 #include <array>
@@ -45,6 +46,10 @@ std::uint16_t extend(const std::uint8_t* cost, const std::uint16_t* before, std:
 }  // namespace
 
 std::vector<std::uint16_t> sum_over_paths(const CostVolume& volume, const PathCosts& penalty) {
+  constexpr int kMostPenalty = 4000;  // sums of eight paths fit
+  require(penalty.step >= 0 && penalty.jump >= 0 && penalty.step <= kMostPenalty &&
+              penalty.jump <= kMostPenalty,
+          "semi-global matching: penalties must be from 0 to 4000");
   std::vector<std::uint16_t> sums(volume.costs.size(), 0);
   const int width = volume.width, height = volume.height, levels = volume.levels;
   for (const int way : {1, -1}) {

@@ -37,7 +37,7 @@ void VoxelEvidence::add_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& 
     if (value < 255) ++value;
   };
   std::size_t cell = 0, last = std::numeric_limits<std::size_t>::max();
-  const int steps = static_cast<int>((length - short_m) / cell_);
+  const int steps = static_cast<int>(std::max(0.0, length - short_m) / cell_);
   for (int k = 0; k < steps; ++k) {
     if (!cell_of(from + (k * cell_ / length) * way, cell) || cell == last) continue;
     count(passes_[cell]);

@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/core.hpp>
 
@@ -118,12 +119,27 @@ TEST(PlaneSweep, TellsTheDepthOfAWallAndHowWell) {
 }
 
 TEST(PlaneSweep, IsCertainOnlyWhereThePixelsTellTheDepth) {
-  const SweptDepth swept = sweep_planes(view_of_wall(kWall, SE3(), 1, 0), test_camera(),
-                                        {{view_of_wall(kWall, kSideways, 1, 0), kSideways}});
   const cv::Rect blank(10, 10, 50, 100), patterned(95, 10, 50, 100);
-  EXPECT_LT(cv::countNonZero(swept.certain(blank)), 0.01 * blank.area());
-  EXPECT_GT(cv::countNonZero(swept.certain(patterned)), 0.1 * patterned.area());
-  EXPECT_EQ(cv::countNonZero(swept.certain & (swept.depth_m == 0)), 0);
+  /// Share of the depths in both parts that is certain.
+  const auto certain = [&](const PlaneSweepOptions& options) {
+    const SweptDepth swept =
+        sweep_planes(view_of_wall(kWall, SE3(), 1, 0), test_camera(),
+                     {{view_of_wall(kWall, kSideways, 1, 0), kSideways}}, options);
+    EXPECT_EQ(cv::countNonZero(swept.certain & (swept.depth_m == 0)), 0);
+    std::array<double, 2> shares{};
+    for (const auto& [share, part] : {std::pair{&shares[0], blank}, {&shares[1], patterned}}) {
+      const int told = cv::countNonZero(swept.depth_m(part));
+      EXPECT_GT(told, 0.2 * part.area());  // of the blank part by its neighbours
+      *share = 1.0 * cv::countNonZero(swept.certain(part)) / told;
+    }
+    return shares;
+  };
+  const auto [of_blank, of_patterned] = certain({});
+  EXPECT_LT(of_blank, 0.08);
+  EXPECT_GT(of_patterned, 0.12);
+  PlaneSweepOptions credulous;
+  credulous.distinct = 1;
+  EXPECT_GT(certain(credulous)[0], 3 * of_blank);
 }
 
 TEST(PlaneSweep, HalvesWideImagesAndTheirCamera) {
@@ -140,9 +156,67 @@ TEST(PlaneSweep, HalvesWideImagesAndTheirCamera) {
   EXPECT_GT(cv::countNonZero(swept.depth_m), 0.6 * 80 * 60);
 }
 
+TEST(PlaneSweep, HalvesOddSizes) {
+  Camera odd = test_camera();
+  odd.width = 161, odd.height = 121;
+  PlaneSweepOptions options;
+  options.max_width_px = 100;
+  const auto wider = [&](const Image& image) {
+    Image result;
+    cv::copyMakeBorder(image, result, 0, 1, 0, 1, cv::BORDER_REPLICATE);
+    return result;
+  };
+  const SweptDepth swept =
+      sweep_planes(wider(view_of_wall(kWall, SE3())), odd,
+                   {{wider(view_of_wall(kWall, kSideways)), kSideways}}, options);
+  ASSERT_EQ(swept.depth_m.size(), cv::Size(80, 60));
+  // The corners of the image stay where they were.
+  for (const auto& [small, large] :
+       {std::pair{Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(-0.5, -0.5)},
+        {Eigen::Vector2d(79.5, 59.5), Eigen::Vector2d(160.5, 120.5)}})
+    EXPECT_LT((*swept.camera.unproject(small) - *odd.unproject(large)).norm(), 1e-12);
+  int told = 0, near = 0;
+  for (int v = 0; v < 60; ++v)
+    for (int u = 0; u < 80; ++u) {
+      const double z = swept.depth_m.at<float>(v, u);
+      if (z <= 0) continue;
+      const Eigen::Vector3d ray = *swept.camera.unproject({1.0 * u, 1.0 * v});
+      const double truth = kWall.dot(ray) / kWall.dot(Eigen::Vector3d(0, 0, 3));
+      ++told;
+      near += std::abs(1 / z - truth) < 4 * swept.sigma_inverse.at<float>(v, u);
+    }
+  EXPECT_GT(told, 0.6 * 80 * 60);
+  EXPECT_GT(near, 0.95 * told);
+}
+
+/// A camera that moves straight ahead tells nothing of the pixel that it moves to.
+TEST(PlaneSweep, TellsLittleAboutThePointMovedTo) {
+  const SE3 ahead(SO3(), Eigen::Vector3d(0, 0, -0.4));
+  const SweptDepth swept = sweep_planes(view_of_wall(kWall, SE3()), test_camera(),
+                                        {{view_of_wall(kWall, ahead), ahead}});
+  const cv::Rect middle(76, 56, 8, 8);  // the epipole is at (79.5, 59.5)
+  EXPECT_EQ(cv::countNonZero(swept.depth_m(middle)), 0);
+  EXPECT_GT(cv::countNonZero(swept.depth_m), 0.4 * 160 * 120);
+  EXPECT_GT(swept.sigma_inverse.at<float>(60, 100), swept.sigma_inverse.at<float>(60, 140));
+}
+
+/// What a view has passed is not seen in it, neither where it would be nor behind its back.
+TEST(PlaneSweep, DoesNotSeeWhatLiesBehindAView) {
+  const SE3 beyond(SO3(), Eigen::Vector3d(0, 0, -4));  // a metre behind the wall
+  const SweptDepth swept = sweep_planes(view_of_wall(kWall, SE3()), test_camera(),
+                                        {{view_of_wall(kWall, SE3()), beyond}});
+  for (int v = 0; v < 120; ++v)
+    for (int u = 0; u < 160; ++u)
+      if (const float z = swept.depth_m.at<float>(v, u); z > 0) {
+        EXPECT_GT(z, 4);
+      }
+}
+
 TEST(PlaneSweep, TellsNothingWhereNothingMoved) {
   const Image image = view_of_wall(kWall, SE3());
-  EXPECT_EQ(cv::countNonZero(sweep_planes(image, test_camera(), {}).depth_m), 0);
+  const SweptDepth alone = sweep_planes(image, test_camera(), {});
+  EXPECT_EQ(alone.depth_m.size(), cv::Size(160, 120));
+  EXPECT_EQ(cv::countNonZero(alone.depth_m), 0);
   const SE3 turn(SO3::exp({0, 0.1, 0}), Eigen::Vector3d::Zero());
   EXPECT_EQ(cv::countNonZero(
                 sweep_planes(image, test_camera(), {{view_of_wall(kWall, turn), turn}}).depth_m),
@@ -158,6 +232,9 @@ TEST(PlaneSweep, RefusesWhatItCannotSweep) {
                ArgumentError);
   PlaneSweepOptions options;
   options.min_depth_m = options.max_depth_m;
+  EXPECT_THROW((void)sweep_planes(image, test_camera(), {}, options), ArgumentError);
+  options = {};
+  options.window_px = 8;
   EXPECT_THROW((void)sweep_planes(image, test_camera(), {}, options), ArgumentError);
 }
 
