@@ -317,13 +317,11 @@ void IndoorMapper::add(SurfaceSight sight) {
 }
 
 IndoorMap IndoorMapper::fuse(const Map& map) const {
-  IndoorMap plan;
-  if (!map.metric)
-    plan.outcome = Outcome::failure(Outcome::Code::kTooFewData, "the map's unit is not the metre");
-  else if (!calibration_.depth && calibration_.baseline_m <= 0 && !calibration_.camera_height_m)
-    plan.outcome = Outcome::failure(Outcome::Code::kTooFewData,
-                                    "depth, two eyes or the camera's height is needed");
-  if (plan.outcome.code == Outcome::Code::kTooFewData) return plan;
+  if (!map.metric) {
+    IndoorMap none;
+    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "the map's unit is not the metre");
+    return none;
+  }
   IndoorMapperOptions options = options_;
   if (!calibration_.depth) options.walls.band_m = options.swept_band_m;
   Fusion fusion(options, map);

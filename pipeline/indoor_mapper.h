@@ -49,8 +49,7 @@ class IndoorMapper {
 
   /// The plan by the poses of `map` (its first component and what is joined to it). Rooms list the
   /// places whose anchor stands in them.
-  /// Outcomes: too few data (no points, a map whose unit is not the metre, or one eye
-  /// of unknown height), degenerate (see
+  /// Outcomes: too few data (no points, or a map whose unit is not the metre), degenerate (see
   /// find_building_axes; no wall).
   [[nodiscard]] IndoorMap fuse(const Map& map) const;
 

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/indoor_mapper.h>
 
 namespace placegraph {
@@ -92,9 +93,31 @@ TEST(IndoorMapper, SaysWhyThereIsNoPlan) {
   EXPECT_EQ(mapper.fuse(map).outcome.code, Outcome::Code::kTooFewData);
   map.metric = false;
   EXPECT_EQ(mapper.fuse(map).outcome.reason, "the map's unit is not the metre");
-  IndoorMapper blind({}, Calibration{.camera = camera, .depth = {}, .camera_height_m = {}});
-  map.metric = true;
-  EXPECT_FALSE(blind.fuse(map).outcome);
+  EXPECT_EQ(map_indoors(map, Calibration{.camera = camera, .depth = {}, .camera_height_m = {}},
+                        [](const Keyframe&) -> Frame { throw ArgumentError("no frame is needed"); })
+                .outcome.reason,
+            "the map's unit is not the metre");
+}
+
+/// Keyframes whose frames are of the grey of their number, and which ones were read.
+struct GreyFrames {
+  std::vector<std::int64_t> read;
+  NearbyViews views_of(const Map& map) {
+    return {map,
+            [this](const Keyframe& keyframe) {
+              read.push_back(keyframe.id);
+              Frame frame;
+              frame.image = Image(2, 2, CV_8UC1, cv::Scalar(static_cast<double>(keyframe.id)));
+              return frame;
+            },
+            {0.25, 0.5, 20}};
+  }
+};
+
+std::vector<int> numbers_of(const std::vector<SweptView>& views) {
+  std::vector<int> numbers;
+  for (const SweptView& view : views) numbers.push_back(view.image.at<std::uint8_t>(0, 0));
+  return numbers;
 }
 
 TEST(NearbyViews, AreANearerAndAFartherOneOnEachSide) {
@@ -103,32 +126,50 @@ TEST(NearbyViews, AreANearerAndAFartherOneOnEachSide) {
   // From the 30th on the camera looks elsewhere.
   for (int i = 30; i < 40; ++i) poses[i] = SE3(SO3::exp({0, 1, 0}), poses[i].translation());
   const Map map = map_of(poses);
-  int read = 0;
-  NearbyViews nearby(map,
-                     [&](const Keyframe& keyframe) {
-                       ++read;
-                       Frame frame;
-                       frame.image =
-                           Image(2, 2, CV_8UC1, cv::Scalar(static_cast<double>(keyframe.id)));
-                       return frame;
-                     },
-                     {0.25, 0.5, 20});
+  GreyFrames frames;
+  NearbyViews nearby = frames.views_of(map);
   const auto of = [&](int keyframe) {
-    std::vector<int> views;
-    for (const SweptView& view : nearby.of(map.keyframes[keyframe])) {
-      const int id = view.image.at<std::uint8_t>(0, 0);
-      EXPECT_NEAR(view.T_view_cam.translation()[2], 0.15 * (keyframe - id), 1e-12);
-      views.push_back(id);
-    }
-    return views;
+    const std::vector<SweptView> views = nearby.of(map.keyframes[keyframe]);
+    const std::vector<int> numbers = numbers_of(views);
+    for (std::size_t i = 0; i < views.size(); ++i)
+      EXPECT_NEAR(views[i].T_view_cam.translation()[2], 0.15 * (keyframe - numbers[i]), 1e-12);
+    return numbers;
   };
   EXPECT_EQ(of(0), (std::vector<int>{2, 4}));
   EXPECT_EQ(of(20), (std::vector<int>{18, 16, 22, 24}));
   EXPECT_EQ(of(27), (std::vector<int>{25, 23, 29}));
-  read = 0;
+  frames.read.clear();
   (void)of(27);
   EXPECT_EQ(nearby.frame(map.keyframes[27]).image.at<std::uint8_t>(0, 0), 27);
-  EXPECT_EQ(read, 1) << "frames are kept";
+  EXPECT_EQ(frames.read, std::vector<std::int64_t>{27}) << "frames are kept";
+}
+
+TEST(NearbyViews, AreOnlyThoseThatHaveMovedALittle) {
+  // It stands still, goes on in small steps, and then leaps.
+  std::vector<SE3> poses(3);
+  for (const double z : {0.1, 0.3, 2.3, 2.6}) poses.push_back(SE3(SO3(), Eigen::Vector3d(0, 0, z)));
+  const Map map = map_of(poses);
+  GreyFrames frames;
+  NearbyViews nearby = frames.views_of(map);
+  EXPECT_EQ(numbers_of(nearby.of(map.keyframes[0])), std::vector<int>{4});
+  EXPECT_EQ(numbers_of(nearby.of(map.keyframes[4])), std::vector<int>{2});
+  EXPECT_EQ(numbers_of(nearby.of(map.keyframes[5])), std::vector<int>{6});
+}
+
+TEST(NearbyViews, AreOfTheMapThatHangsTogether) {
+  std::vector<SE3> poses;
+  for (int i = 0; i < 6; ++i) poses.push_back(SE3(SO3(), Eigen::Vector3d(0, 0, 0.3 * i)));
+  Map map = map_of(poses);
+  for (int i = 3; i < 6; ++i) map.place_graph.places[i].component = 1;  // lost, and never found
+  GreyFrames frames;
+  NearbyViews nearby = frames.views_of(map);
+  EXPECT_EQ(numbers_of(nearby.of(map.keyframes[2])), (std::vector<int>{1, 0}));
+  EXPECT_TRUE(nearby.of(map.keyframes[3]).empty());
+  const Keyframe copy = map.keyframes[2];
+  EXPECT_EQ(nearby.of(copy).size(), 2U);
+  Keyframe other = copy;
+  other.id = 17;
+  EXPECT_THROW((void)nearby.of(other), ArgumentError);
 }
 
 TEST(IndoorMapper, SweepsDepthForAnEyeThatHasMoved) {
@@ -154,12 +195,16 @@ TEST(IndoorMapper, SweepsDepthForAnEyeThatHasMoved) {
   mapper.add(0, view(0), {{view(0.3).image, T_view_cam}});
   ASSERT_EQ(mapper.sights().size(), 1U);
   ASSERT_GT(mapper.sights()[0].points.size(), 100U);
-  int flat = 0;
+  const double count = static_cast<double>(mapper.sights()[0].points.size());
+  int flat = 0, right = 0;
   for (const SurfacePoint& p : mapper.sights()[0].points) {
-    EXPECT_NEAR(p.point[2], 3, 5 * p.sigma + 0.03);
+    right += std::abs(p.point[2] - 3) < 5 * p.sigma + 0.03;
     flat += p.normal[2] < -0.95F;
   }
-  EXPECT_GT(flat, 0.8 * mapper.sights()[0].points.size());
+  EXPECT_GT(right, 0.95 * count);
+  EXPECT_GT(flat, 0.8 * count);
+  EXPECT_EQ(mapper.fuse(map_of({SE3()})).outcome.code, Outcome::Code::kDegenerate)
+      << "a wall alone is no building, but one eye of unknown height may see one";
 }
 
 }  // namespace
