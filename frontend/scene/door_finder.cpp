@@ -9,7 +9,7 @@ namespace placegraph {
 namespace {
 
 constexpr double kAlong_m = 0.05;
-/// Beside a door where no wall is seen, rays do not pass over this length.
+/// A door ends where nothing tells of it over this length, or no ray passes where no wall is seen.
 constexpr double kUnseen_m = 0.4;
 /// Where less than both jambs and a head are seen, what is wider is a passage of another kind.
 constexpr double kWidest_m = 1.4;
@@ -263,7 +263,24 @@ class PlaneProfile {
     const bool passage =
         !door.closed && 2 * open >= count &&
         (head_fits || (!head_seen && crossed(begin, end) && width < kWidest_m && 4 * over < count));
-    return leaf || passage ? std::make_optional(door) : std::nullopt;
+    if (!leaf && !passage) return std::nullopt;
+    trim(begin, end, door);
+    return door;
+  }
+
+  /// Ends a door where what tells of it ends: the passage, or the leaf. What lies between there and
+  /// the next wall that is seen may be wall that is not.
+  void trim(std::size_t begin, std::size_t end, DoorPiece& door) const {
+    const auto tells = [&](const Step& step) { return door.closed ? step.recess : step.open; };
+    std::size_t first = begin, last = end;
+    while (first < end && !tells(steps_[first])) ++first;
+    while (last > first && !tells(steps_[last - 1])) --last;
+    const auto far = [](std::size_t steps) {
+      return static_cast<double>(steps) * kAlong_m > kUnseen_m;
+    };
+    if (static_cast<double>(last - first) * kAlong_m < options_.min_width_m) return;
+    if (far(first - begin)) door.from_m = from_ + first * kAlong_m;
+    if (far(end - last)) door.to_m = from_ + last * kAlong_m;
   }
 
   const Plane& plane_;

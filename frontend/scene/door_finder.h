@@ -23,8 +23,9 @@ struct DoorPiece {
 /// head nothing stands and rays pass, or, without a head, the `path` (camera positions, in order)
 /// goes through a gap of a door's width. Where the path goes through, one jamb is enough if the gap
 /// ends within 1.4 m, where rays that come so far are stopped for 0.4 m. Closed ones: a leaf as
-/// high and wide as doors are, set back from a wall that goes on above or beside it. A door that
-/// both sides tell is told once.
+/// high and wide as doors are, set back from a wall that goes on above or beside it. Where the wall
+/// beside is seen only 0.4 m farther on or more, a door ends where its passage or leaf does. A door
+/// that both sides tell is told once.
 [[nodiscard]] std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
                                                 const std::vector<PlacedPoint>& points,
                                                 const VoxelEvidence& voxels,

@@ -156,8 +156,9 @@ TEST(FloorPlan, TakesTheTurnOfANarrowCorridorForNoDoor) {
   EXPECT_TRUE(find_doors({inner}, points, voxels, path).empty());
 }
 
-/// A wall of 5 m with a leaf 1 m wide, 3 cm behind it, by points of a deviation.
-std::vector<DoorPiece> doors_of_a_leaf(float sigma) {
+/// A wall of 5 m with a leaf 1 m wide, 3 cm behind it, by points of a deviation; the wall beside
+/// the leaf is seen from `wall_again_m` on, and above it.
+std::vector<DoorPiece> doors_of_a_leaf(float sigma, float wall_again_m = 3) {
   WallPiece wall;
   wall.to_m = 5;
   VoxelEvidence voxels({-1, -1, 0}, {3, 6, 2.6}, 0.05, 0.2);
@@ -165,6 +166,7 @@ std::vector<DoorPiece> doors_of_a_leaf(float sigma) {
   for (float y = 0; y < 5; y += 0.04F)
     for (float z = 0.1F; z < 2.5F; z += 0.1F) {
       const bool leaf = y > 2 && y < 3 && z < 2.05F;
+      if (y > 3 && y < wall_again_m && z < 2.05F) continue;
       points.push_back({{leaf ? -0.03F : 0.0F, y, z}, {1, 0, 0}, sigma, 0});
     }
   return find_doors({wall}, points, voxels, {{1, 1, 1}, {1, 4, 1}});
@@ -177,6 +179,13 @@ TEST(FloorPlan, AsksForADeeperRecessOfALeafWherePointsAreRough) {
   EXPECT_NEAR(sure[0].from_m, 2, 0.1);  // two steps of the profile
   EXPECT_NEAR(sure[0].to_m, 3, 0.1);
   EXPECT_TRUE(doors_of_a_leaf(0.09F).empty());
+}
+
+TEST(FloorPlan, EndsADoorAtItsLeafWhereTheWallBesideItIsNotSeen) {
+  const auto doors = doors_of_a_leaf(0.005F, 3.57F);
+  ASSERT_EQ(doors.size(), 1U);
+  EXPECT_NEAR(doors[0].from_m, 2, 0.1);
+  EXPECT_NEAR(doors[0].to_m, 3, 0.1);
 }
 
 TEST(FloorPlan, HasNoWallWhereTheCameraWent) {
