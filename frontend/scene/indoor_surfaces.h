@@ -11,7 +11,7 @@ struct SurfacePointOptions {
   int step_px = 8;             ///< between points
   int radius_px = 8;           ///< of the patch whose plane gives the normal
   double max_residual = 0.01;  ///< of inverse depths from it, relative, rms, beside noise
-  double max_range_m = 12;
+  double max_range_m = 15;
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, SurfacePointOptions& options);

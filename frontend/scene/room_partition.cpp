@@ -10,6 +10,7 @@ namespace placegraph {
 namespace {
 
 constexpr double kBehind_m = 0.12;  ///< how thick a surface is taken to be, away from its viewer
+const std::array<cv::Point, 4> kAround{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 class Partitioner {
  public:
@@ -64,7 +65,10 @@ class Partitioner {
     cv::Mat1i kernels;
     int count = cv::connectedComponents(wide, kernels, 4, CV_32S);
     grow(space, kernels);
-    complete(kernels, count);
+    const std::vector<char> entered = entered_of(kernels, count);
+    for (int k = 1; k < count; ++k)
+      if (entered[k]) fill_shadows(kernels, k, entered);
+    complete(kernels, entered);
     RoomPartition result;
     result.room_of_cell = Image(space.size(), CV_32SC1, cv::Scalar(0));
     for (int k = 1; k < count; ++k) add_room(kernels == k, distance, result);
@@ -88,8 +92,7 @@ class Partitioner {
     while (!front.empty()) {
       std::vector<cv::Point> next;
       for (const cv::Point& p : front)
-        for (const cv::Point& d :
-             {cv::Point(1, 0), cv::Point(-1, 0), cv::Point(0, 1), cv::Point(0, -1)}) {
+        for (const cv::Point& d : kAround) {
           const cv::Point q = p + d;
           if (q.x < 0 || q.y < 0 || q.x >= rooms.cols || q.y >= rooms.rows) continue;
           if (!space(q) || rooms(q)) continue;
@@ -98,6 +101,67 @@ class Partitioner {
         }
       front.swap(next);
     }
+  }
+
+  /// Whether the path leads through each label.
+  std::vector<char> entered_of(const cv::Mat1i& rooms, int count) const {
+    std::vector<char> entered(static_cast<std::size_t>(count), 0);
+    for (const cv::Point& p : path_)
+      if (p.x >= 0 && p.y >= 0 && p.x < rooms.cols && p.y < rooms.rows && rooms(p))
+        entered[rooms(p)] = 1;
+    return entered;
+  }
+
+  /// A mask with all that lies between two of its cells along an axis, no barrier in between, and
+  /// is as wide as a neck.
+  cv::Mat1b span(const cv::Mat1b& own, const cv::Mat1b& barrier) const {
+    cv::Mat1b grown = own.clone();
+    const auto join = [&](cv::Mat1b& joined, cv::Point p, cv::Point step, int length) {
+      for (int i = 0, last = -1; i < length; ++i, p += step) {
+        if (barrier(p)) last = -1;
+        if (!grown(p)) continue;
+        if (last >= 0)
+          for (int k = last + 1; k < i; ++k) joined(p - (i - k) * step) = 255;
+        last = i;
+      }
+    };
+    const Image neck = disc(std::max(1, cells(0.5 * options_.neck_m)));
+    for (int before = -1, now = cv::countNonZero(grown); now != before;) {
+      cv::Mat1b joined = grown.clone();
+      for (int r = 0; r < own.rows; ++r) join(joined, {0, r}, {1, 0}, own.cols);
+      for (int c = 0; c < own.cols; ++c) join(joined, {c, 0}, {0, 1}, own.rows);
+      cv::morphologyEx(joined, joined, cv::MORPH_OPEN, neck);
+      grown |= joined;
+      before = now, now = cv::countNonZero(grown);
+    }
+    return grown;
+  }
+
+  /// What furniture hides of a room lies between cells of it that are seen and borders mostly on
+  /// such; what walls take much of the border of is another room's.
+  void fill_shadows(cv::Mat1i& rooms, int room, const std::vector<char>& entered) const {
+    const cv::Mat1b own = rooms == room;
+    cv::Mat1b barrier = blocked_.clone();
+    for (std::size_t k = 1; k < entered.size(); ++k)
+      if (entered[k] && static_cast<int>(k) != room)
+        barrier.setTo(255, rooms == static_cast<int>(k));
+    const cv::Mat1b shadows = span(own, barrier) & ~own;
+    cv::Mat1i parts;
+    const auto count = static_cast<std::size_t>(cv::connectedComponents(shadows, parts, 4, CV_32S));
+    std::vector<int> open(count, 0), wall(count, 0), unseen(count, 0);
+    for (int r = 1; r + 1 < rooms.rows; ++r)
+      for (int c = 1; c + 1 < rooms.cols; ++c)
+        if (const int part = parts(r, c))
+          for (const cv::Point& d : kAround) {
+            const cv::Point q = cv::Point(c, r) + d;
+            if (parts(q) != part) ++(blocked_(q) ? wall : own(q) ? open : unseen)[part];
+          }
+    for (int r = 0; r < rooms.rows; ++r)
+      for (int c = 0; c < rooms.cols; ++c)
+        if (const int part = parts(r, c);
+            part && open[part] > unseen[part] &&
+            wall[part] <= options_.walled_share * (wall[part] + open[part]))
+          rooms(r, c) = room;
   }
 
   /// Number of the strip between cuts of every column or row; -1 outside of all.
@@ -113,10 +177,7 @@ class Partitioner {
   }
 
   /// Boxes between the lines of walls that are mostly one entered room's become its own.
-  void complete(cv::Mat1i& rooms, int count) const {
-    std::vector<char> entered(static_cast<std::size_t>(count), 0);
-    for (const cv::Point& p : path_)
-      if (p.x >= 0 && p.y >= 0 && p.x < rooms.cols && p.y < rooms.rows) entered[rooms(p)] = 1;
+  void complete(cv::Mat1i& rooms, const std::vector<char>& entered) const {
     const std::vector<int> column = strips(cuts_[0], rooms.cols),
                            row = strips(cuts_[1], rooms.rows);
     std::map<std::pair<int, int>, std::map<int, int>> boxes;  // cells by room, -1: all
@@ -137,14 +198,14 @@ class Partitioner {
       }
   }
 
-  /// Whether walls run along most of a hole's border.
+  /// Whether walls run along much of a hole's border.
   bool walled(const std::vector<cv::Point>& hole) const {
     int near = 0;
     for (const cv::Point& p : hole) {
       const cv::Rect about(p.x - 2, p.y - 2, 5, 5);
       near += cv::countNonZero(blocked_(about & cv::Rect({0, 0}, blocked_.size()))) > 0;
     }
-    return 2 * near > static_cast<int>(hole.size());
+    return near > options_.walled_share * static_cast<double>(hole.size());
   }
 
   std::vector<Eigen::Vector2d> polygon(const std::vector<cv::Point>& contour) const {
@@ -201,6 +262,8 @@ void visit(OptionVisitor& field, RoomPartitionOptions& o) {
   field("closing_m", o.closing_m, "unseen cells so near to free ones are free", {0, 5});
   field("completed_share", o.completed_share,
         "of a box between walls that is seen free: then all of it is", {0, 1});
+  field("walled_share", o.walled_share,
+        "of the border of an unseen part of a room: with more walls it is not the room's", {0, 1});
   field("outline_m", o.outline_m, "tolerance of a room's outline", {0.01, 5});
 }
 

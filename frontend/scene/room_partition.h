@@ -9,7 +9,8 @@ struct RoomPartitionOptions {
   double neck_m = 0.7;           ///< free space narrower than this parts rooms
   double closing_m = 0.15;       ///< unseen cells so near to free ones are free
   double completed_share = 0.5;  ///< of a box between walls that is seen free: all of it is
-  double outline_m = 0.08;       ///< tolerance of a room's outline
+  double walled_share = 0.2;  ///< of an unseen part's border: with more, it is no part of the room
+  double outline_m = 0.08;    ///< tolerance of a room's outline
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, RoomPartitionOptions& options);
@@ -27,8 +28,8 @@ struct RoomPartition {
 };
 
 /// The free space (cells that rays pass at any height) parted at walls, at doors, and where it is
-/// narrower than a neck; holes that no walls surround, as furniture leaves them, belong to the
-/// room.
+/// narrower than a neck; what lies unseen between cells of a room that the path enters, as
+/// furniture hides it, belongs to the room unless walls take much of its border.
 [[nodiscard]] RoomPartition partition_rooms(const VoxelEvidence& voxels,
                                             const std::vector<WallPiece>& walls,
                                             const std::vector<DoorPiece>& doors,

@@ -188,6 +188,44 @@ TEST(FloorPlan, EndsADoorAtItsLeafWhereTheWallBesideItIsNotSeen) {
   EXPECT_NEAR(doors[0].to_m, 3, 0.1);
 }
 
+/// The area [m2] told of a hall of 8 x 6 m that is seen but for 4 x 3 m in the middle of a side.
+double area_of_a_hall(const std::vector<WallPiece>& walls) {
+  VoxelEvidence voxels({-0.5, -0.5, 0}, {8.5, 6.5, 2.6}, 0.05, 0.1);
+  const auto see = [&](double from, double to, double y) {
+    for (int k = 0; k < 4; ++k) voxels.add_ray({from, y, 1}, {to, y, 1}, 0, false);
+  };
+  for (double y = 0.025; y < 6; y += 0.05) {
+    see(0.025, y < 3 ? 2 : 8, y);
+    see(6.025, 8, y);
+  }
+  const RoomPartition told = partition_rooms(voxels, walls, {}, {{1, 5, 1}});
+  EXPECT_EQ(told.rooms.size(), 1U);
+  return told.rooms.empty() ? 0 : told.rooms[0].area_m2;
+}
+
+WallPiece wall_of(int axis, int sign, double offset, double from, double to) {
+  WallPiece wall;
+  wall.axis = axis, wall.sign = sign, wall.offset_m = offset, wall.from_m = from, wall.to_m = to;
+  return wall;
+}
+
+TEST(FloorPlan, GivesARoomWhatFurnitureHides) {
+  EXPECT_NEAR(area_of_a_hall({}), 48, 1.5);
+  EXPECT_NEAR(area_of_a_hall({wall_of(0, -1, 2.1, 1, 2)}), 47, 1.5);  // one face of a rack
+}
+
+TEST(FloorPlan, GivesARoomNothingThatWallsPartFromIt) {
+  // All round, but for an open door on either side.
+  EXPECT_NEAR(area_of_a_hall({wall_of(0, -1, 2.1, 0, 1), wall_of(0, -1, 2.1, 2, 3),
+                              wall_of(0, 1, 5.9, 0, 1), wall_of(0, 1, 5.9, 2, 3),
+                              wall_of(1, 1, 2.9, 2, 6)}),
+              36, 1.5);
+  // Walls along most of it that leave both ends open.
+  EXPECT_NEAR(area_of_a_hall({wall_of(1, 1, 0.75, 2, 6), wall_of(1, 1, 1.5, 2, 6),
+                              wall_of(1, 1, 2.25, 2, 6), wall_of(1, 1, 2.95, 2, 6)}),
+              36, 1.5);
+}
+
 TEST(FloorPlan, HasNoWallWhereTheCameraWent) {
   WallPiece wall;
   wall.from_m = 0, wall.to_m = 5, wall.offset_m = 2;
