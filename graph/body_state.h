@@ -1,8 +1,11 @@
 #pragma once
 #include <placegraph/graph/core/se3.h>
+#include <placegraph/graph/sighting.h>
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
+#include <optional>
 
 namespace placegraph {
 
@@ -15,6 +18,14 @@ struct BodyState {
   /// Errors of position and velocity (world axes), attitude (right tangent), gyro's and
   /// accelerometer's bias, three each.
   Eigen::Matrix<double, 15, 15> covariance = Eigen::Matrix<double, 15, 15>::Zero();
+};
+
+/// The body at one time as an estimator expects it, before the measurement of that time is used.
+struct BodyExpectation {
+  std::optional<BodyState> state;  ///< empty: the estimator has no estimate at that time
+  /// Squared Mahalanobis distance of a pose measured at that time from the expectation, in both
+  /// covariances (chi^2, six degrees of freedom); nothing if the estimator cannot tell.
+  std::function<std::optional<double>(const PoseSighting&)> deviation2;
 };
 
 }  // namespace placegraph

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/lines/floor_from_lines.h>
+#include <placegraph/pipeline/floor_scale_options.h>
 #include <placegraph/pipeline/ground_scale.h>
 
 #include <deque>
@@ -7,15 +8,6 @@
 #include <set>
 
 namespace placegraph {
-
-struct FloorScaleOptions {
-  FloorFromLinesOptions floor;
-  double sigma_relative = 0.01;      ///< of a single height: the floor is not flat, the camera bobs
-  double max_log_jump = 0.12;        ///< from the median of the last scales; more is not believed
-  double max_sigma_at_first = 0.04;  ///< of the height that gives the unit, relative
-  void check() const;
-};
-void visit(OptionVisitor& field, FloorScaleOptions& options);
 
 /// Metric scale from lines on the floor under a camera of known height.
 class FloorScale {

@@ -308,9 +308,9 @@ void Hover::take_marks(const HoverSights& sights, HoverFrame& result) {
         R_body_cam * turn_between(previous_ns_, sights.stamp_ns).R_1_2 * R_body_cam.inverse();
   }
   // Whoever is contradicted persistently is not asked any more.
-  const bool expected = filter_.started() && filter_.at(sights.stamp_ns).outcome &&
-                        contradicted_ < options_.restart_after;
-  const MarkerAnswer answer = markers_->observe(view, expected ? &filter_ : nullptr);
+  const BodyExpectation expectation = filter_.expectation(sights.stamp_ns);
+  const bool expected = expectation.state && contradicted_ < options_.restart_after;
+  const MarkerAnswer answer = markers_->observe(view, expected ? &expectation : nullptr);
   result.markers = answer.outcome;
   if (!answer.outcome) return;
   result.markers_seen = answer.markers;

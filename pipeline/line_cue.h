@@ -9,7 +9,7 @@
 #include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/graph/frame.h>
 #include <placegraph/pipeline/depth_nearby.h>
-#include <placegraph/pipeline/floor_scale.h>
+#include <placegraph/pipeline/floor_scale_options.h>
 #include <placegraph/pipeline/frame_view.h>
 
 #include <map>

@@ -96,19 +96,18 @@ std::vector<SeenSquare> MarkerFilter::known_squares(const MarkerView& view) cons
 }
 
 std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view, MarkerAnswer& answer,
-                                                    const PositionFilter* expected) const {
+                                                    const BodyExpectation* expected) const {
   const SE3 T_cam_body = T_body_cam_.inverse();
   std::optional<KnownCamera> known;
-  if (expected)
-    if (const auto at = expected->at(view.stamp_ns); at.outcome) {
-      // Errors of the state's position and attitude as a right tangent of the camera's pose.
-      Eigen::Matrix<double, 6, 15> J = Eigen::Matrix<double, 6, 15>::Zero();
-      J.block<3, 3>(0, 0) = at.state.T_world_body.rotation().matrix().transpose();
-      J.block<3, 3>(3, 6).setIdentity();
-      J = T_cam_body.adjoint() * J;
-      known =
-          KnownCamera{at.state.T_world_body * T_body_cam_, J * at.state.covariance * J.transpose()};
-    }
+  if (expected && expected->state) {
+    // Errors of the state's position and attitude as a right tangent of the camera's pose.
+    const BodyState& state = *expected->state;
+    Eigen::Matrix<double, 6, 15> J = Eigen::Matrix<double, 6, 15>::Zero();
+    J.block<3, 3>(0, 0) = state.T_world_body.rotation().matrix().transpose();
+    J.block<3, 3>(3, 6).setIdentity();
+    J = T_cam_body.adjoint() * J;
+    known = KnownCamera{state.T_world_body * T_body_cam_, J * state.covariance * J.transpose()};
+  }
   const MarkerExplanations explanations =
       explain_markers(camera_, known_squares(view), view.beacons, layout_.beacons_world,
                       chi_squared_quantile(options_.gate, 8), options_.beacons, known);
@@ -129,7 +128,7 @@ std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view, Mark
 }
 
 /// What the views so far, the turn between them, the direction of up and the filter say to each.
-void MarkerFilter::weigh(const MarkerView& view, const PositionFilter* expected,
+void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected,
                          std::vector<MarkerHypothesis>& hypotheses) const {
   // Errors of corners outlive a view: what was said before counts less with every one.
   constexpr double kKept = 0.8;
@@ -168,7 +167,7 @@ void MarkerFilter::weigh(const MarkerView& view, const PositionFilter* expected,
           log_likelihood(std::pow(angle / (options_.gravity_sigma_deg * kRad), 2), 2);
     }
   }
-  if (!expected) return;
+  if (!expected || !expected->deviation2) return;
   // A filter that expects none of them is lost itself, and says nothing.
   std::vector<double> deviation2(hypotheses.size());
   double least = std::numeric_limits<double>::infinity();
@@ -184,7 +183,7 @@ void MarkerFilter::weigh(const MarkerView& view, const PositionFilter* expected,
     hypotheses[i].nats += log_likelihood(deviation2[i], 6);
 }
 
-MarkerAnswer MarkerFilter::observe(const MarkerView& view, const PositionFilter* expected) {
+MarkerAnswer MarkerFilter::observe(const MarkerView& view, const BodyExpectation* expected) {
   MarkerAnswer answer;
   if (view.stamp_ns <= last_ns_ ||
       1e-9 * static_cast<double>(view.stamp_ns - last_ns_) > options_.memory_s)

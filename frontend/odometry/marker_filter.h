@@ -1,8 +1,10 @@
 #pragma once
 #include <placegraph/frontend/odometry/beacon_pose.h>
 #include <placegraph/frontend/odometry/marker_detector.h>
-#include <placegraph/frontend/odometry/position_filter.h>
 #include <placegraph/frontend/odometry/square_pose.h>
+#include <placegraph/graph/body_state.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/marker_layout.h>
 
 #include <optional>
@@ -66,9 +68,9 @@ class MarkerFilter {
   MarkerFilter(const MarkerFilterOptions& options, MarkerLayout layout, const Camera& camera,
                const SE3& T_body_cam);
 
-  /// Views come in the order of their times. `expected`, if given, has begun and reaches to the
-  /// view's time; without it the layout and the sensors decide.
-  MarkerAnswer observe(const MarkerView& view, const PositionFilter* expected = nullptr);
+  /// Views come in the order of their times. `expected`, if given, is the body as another estimator
+  /// expects it at the view's time; without it the layout and the sensors decide.
+  MarkerAnswer observe(const MarkerView& view, const BodyExpectation* expected = nullptr);
   /// Where a camera at this pose would see the layout's markers, wholly or but for what the pose
   /// leaves open (right tangent of T_world_body): for MarkerDetector::detect_near.
   std::vector<ExpectedSquare> expected_squares(const SE3& T_world_body,
@@ -78,8 +80,8 @@ class MarkerFilter {
  private:
   std::vector<SeenSquare> known_squares(const MarkerView& view) const;
   std::vector<MarkerHypothesis> explain(const MarkerView& view, MarkerAnswer& answer,
-                                        const PositionFilter* expected) const;
-  void weigh(const MarkerView& view, const PositionFilter* expected,
+                                        const BodyExpectation* expected) const;
+  void weigh(const MarkerView& view, const BodyExpectation* expected,
              std::vector<MarkerHypothesis>& hypotheses) const;
 
   MarkerFilterOptions options_;

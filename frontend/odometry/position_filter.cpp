@@ -304,6 +304,13 @@ std::optional<double> PositionFilter::deviation2(const PoseSighting& sighting) c
   return found->residual.dot(S.ldlt().solve(found->residual));
 }
 
+BodyExpectation PositionFilter::expectation(std::int64_t stamp_ns) const {
+  BodyExpectation expected;
+  if (const Answer answer = at(stamp_ns); answer.outcome) expected.state = answer.state;
+  expected.deviation2 = [this](const PoseSighting& sighting) { return deviation2(sighting); };
+  return expected;
+}
+
 PositionFilter::Answer PositionFilter::at(std::int64_t stamp_ns) const {
   Answer answer;
   if (events_.empty()) {

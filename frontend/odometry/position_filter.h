@@ -65,6 +65,9 @@ class PositionFilter {
   /// data (out of reach of the inertial samples, before the history), degenerate (the position is
   /// not known to `max_position_sigma_m`).
   Answer at(std::int64_t stamp_ns) const;
+  /// `at` and `deviation2` for an estimator that does not know this filter, such as MarkerFilter.
+  /// The filter must outlive it.
+  BodyExpectation expectation(std::int64_t stamp_ns) const;
 
  private:
   using Measurement = std::variant<std::monostate, ImuSample, PoseSighting, FlowSighting>;

@@ -118,14 +118,15 @@ TEST(MarkerFilter, LeavesOutAMarkerThatWasMoved) {
 TEST(MarkerFilter, DecidesByWhatThePositionFilterExpects) {
   Random random = seeded_random(6);
   const MarkerLayout layout = layout_of(1);
-  PositionFilter expected({}, kBodyCam);
+  PositionFilter filter({}, kBodyCam);
   BodyState state;
   state.stamp_ns = 900'000'000;
   state.T_world_body = (kFar * kBodyCam.inverse()).plus(Vector6d::Constant(0.01));
   state.covariance.diagonal().setConstant(0.02 * 0.02);
-  expected.start(state);
-  const MarkerAnswer answer =
-      filter_for(layout).observe(view_from(layout, kFar, 1, random), &expected);
+  filter.start(state);
+  const MarkerView view = view_from(layout, kFar, 1, random);
+  const BodyExpectation expected = filter.expectation(view.stamp_ns);
+  const MarkerAnswer answer = filter_for(layout).observe(view, &expected);
   ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
   EXPECT_LT(angle_rad(answer.sighting.T_world_body, kFar * kBodyCam.inverse()), 0.1);
 }
@@ -162,14 +163,15 @@ TEST(MarkerFilter, BeginsByBeaconsWhereThereIsNoMarker) {
   EXPECT_EQ(answer.beacons, 5);
   EXPECT_LT(distance_m(answer.sighting.T_world_body, T * kBodyCam.inverse()), 0.01);
   // Three are enough where a filter expects the camera there.
-  PositionFilter expected({}, kBodyCam);
+  PositionFilter other({}, kBodyCam);
   BodyState state;
   state.T_world_body = T * kBodyCam.inverse();
   state.covariance.diagonal().setConstant(0.01 * 0.01);
-  expected.start(state);
+  other.start(state);
   view.beacons.resize(3);
   view.stamp_ns = 2;
   EXPECT_EQ(filter.observe(view).outcome.code, Code::kTooFewData);
+  const BodyExpectation expected = other.expectation(view.stamp_ns);
   const MarkerAnswer helped = filter.observe(view, &expected);
   ASSERT_TRUE(helped.outcome) << helped.outcome.reason;
   EXPECT_EQ(helped.beacons, 3);
