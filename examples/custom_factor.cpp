@@ -1,5 +1,5 @@
 // A factor of one's own: three beacons measure the range to a robot, whose odometry joins in.
-#include <placegraph/backend/factor_graph.h>
+#include <placegraph/backend/factor_graph/factor_graph.h>
 #include <placegraph/backend/factors/relative_pose.h>
 
 #include <cmath>

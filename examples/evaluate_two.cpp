@@ -1,9 +1,9 @@
 /// Judges two estimated trajectories against one ground truth and says which is better:
 /// evaluate_two TRUTH FIRST SECOND
-#include <placegraph/eval/evaluate.h>
-#include <placegraph/eval/report.h>
+#include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/eval/trajectory/report.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/trajectory_file.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cstdio>
 #include <vector>

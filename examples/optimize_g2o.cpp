@@ -1,7 +1,7 @@
 // Optimizes a pose graph: optimize_g2o IN.g2o OUT.g2o
-#include <placegraph/backend/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/g2o.h>
+#include <placegraph/io/graphs/g2o.h>
 
 #include <cstdio>
 

@@ -1,8 +1,8 @@
 /// Runs the system over a recorded sequence, frame by frame as a robot would, prints where the
 /// camera is and writes the trajectory: run_folder SEQUENCE OUT.tum
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/dataset.h>
-#include <placegraph/io/trajectory_file.h>
+#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <cstdio>

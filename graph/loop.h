@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/sim3.h>
+#include <placegraph/graph/geometry/sim3.h>
 
 #include <cstdint>
 

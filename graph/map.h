@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/trajectory.h>
+#include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/loop_model.h>
 #include <placegraph/graph/place_graph.h>
 #include <placegraph/graph/place_view.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/constraint.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/loop.h>
 
 #include <map>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/frame.h>
-#include <placegraph/io/rectification.h>
+#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/io/datasets/rectification.h>
 
 namespace placegraph {
 

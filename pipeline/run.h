@@ -1,9 +1,9 @@
 #pragma once
-#include <placegraph/io/dataset.h>
-#include <placegraph/io/map_database.h>
-#include <placegraph/pipeline/indoor_mapper.h>
+#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/scene/indoor_mapper.h>
 #include <placegraph/pipeline/slam.h>
-#include <placegraph/pipeline/urban_mapper.h>
+#include <placegraph/pipeline/scene/urban_mapper.h>
 
 #include <functional>
 #include <string>
@@ -66,7 +66,7 @@ struct RunResult {
   std::vector<EnvironmentSight> environments;
 };
 
-/// Where a run saves its map as it goes (io/map_database.h): after every new place and at the end.
+/// Where a run saves its map as it goes (io/map/map_database.h): after every new place and at the end.
 struct MapFile {
   std::string path;
   std::string sequence;  ///< as it can be opened again

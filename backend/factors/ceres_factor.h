@@ -1,6 +1,6 @@
 #pragma once
 #include <ceres/sized_cost_function.h>
-#include <placegraph/backend/factor.h>
+#include <placegraph/backend/factors/factor.h>
 #include <placegraph/backend/factors/variable_manifold.h>
 
 namespace placegraph {

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/backend/factor.h>
+#include <placegraph/backend/factors/factor.h>
 #include <placegraph/backend/factors/point_in_camera.h>
-#include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/geometry/camera.h>
 
 namespace placegraph {
 

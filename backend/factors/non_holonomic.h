@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/factor.h>
+#include <placegraph/backend/factors/factor.h>
 
 namespace placegraph {
 

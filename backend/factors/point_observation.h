@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/factor.h>
+#include <placegraph/backend/factors/factor.h>
 #include <placegraph/backend/factors/inverse_depth.h>
 #include <placegraph/backend/factors/point_in_camera.h>
 #include <placegraph/backend/factors/reprojection.h>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/lie.h>
+#include <placegraph/graph/geometry/lie.h>
 
 namespace placegraph {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <ceres/sized_cost_function.h>
 #include <placegraph/backend/factors/point_in_camera.h>
-#include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/geometry/camera.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <ceres/manifold.h>
-#include <placegraph/backend/variable.h>
+#include <placegraph/backend/factors/variable.h>
 
 #include <algorithm>
 #include <cmath>

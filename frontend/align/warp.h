@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/planes/homography.h>
-#include <placegraph/graph/core/se2.h>
+#include <placegraph/graph/geometry/se2.h>
 
 #include <optional>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 

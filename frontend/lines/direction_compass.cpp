@@ -1,5 +1,5 @@
 #include <placegraph/frontend/lines/direction_compass.h>
-#include <placegraph/graph/core/so3.h>
+#include <placegraph/graph/geometry/so3.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/image.h>
-#include <placegraph/graph/core/line_segment.h>
+#include <placegraph/graph/geometry/line_segment.h>
 
 #include <optional>
 #include <vector>

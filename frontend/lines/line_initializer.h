@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/lines/pose_from_lines.h>
-#include <placegraph/frontend/lines/vanishing_points.h>
+#include <placegraph/frontend/vanishing/vanishing_points.h>
 
 #include <cstdint>
 #include <map>

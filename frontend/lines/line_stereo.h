@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/features/stereo_matcher.h>
-#include <placegraph/frontend/lines/edge_refinement.h>
-#include <placegraph/frontend/lines/segment_flow.h>
+#include <placegraph/frontend/segments/edge_refinement.h>
+#include <placegraph/frontend/segments/segment_flow.h>
 
 #include <optional>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/lines/segment_detector.h>
-#include <placegraph/frontend/lines/segment_flow.h>
+#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/segments/segment_flow.h>
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/graph/core/line3.h>
+#include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/core/plane3.h>
+#include <placegraph/graph/geometry/plane3.h>
 
 #include <array>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/planes/homography.h>
 #include <placegraph/frontend/planes/planar_regions.h>
-#include <placegraph/graph/core/se3.h>
+#include <placegraph/graph/geometry/se3.h>
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include <placegraph/frontend/lines/manhattan_frame.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/frontend/scene/environment.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/quantile.h>

@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/scene/scene_masks.h>
-#include <placegraph/graph/core/camera.h>
-#include <placegraph/graph/core/line_segment.h>
-#include <placegraph/graph/environment.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/line_segment.h>
+#include <placegraph/graph/scene/environment.h>
 
 #include <Eigen/Core>
 #include <array>

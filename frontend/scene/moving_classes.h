@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/scene_model.h>
+#include <placegraph/graph/scene/scene_model.h>
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/graph/core/camera.h>
+#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/image.h>
-#include <placegraph/graph/scene_model.h>
+#include <placegraph/graph/scene/scene_model.h>
 
 #include <optional>
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/scene/scene_labeller.h>
+#include <placegraph/frontend/labels/scene_labeller.h>
 #include <placegraph/graph/core/options.h>
 
 #include <array>

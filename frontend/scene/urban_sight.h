@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/scene/urban_geometry.h>
-#include <placegraph/frontend/scene/urban_labels.h>
-#include <placegraph/graph/semantic_map.h>
+#include <placegraph/frontend/labels/urban_geometry.h>
+#include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/graph/scene/semantic_map.h>
 
 #include <string>
 #include <vector>

@@ -24,7 +24,7 @@
 #include <tuple>
 
 #include "tests/bench/rate_plot.h"
-#include "tests/support/warped_template.h"
+#include "tests/support/scenes/warped_template.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
-#include <placegraph/backend/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 
-#include "tests/support/window_world.h"
+#include "tests/support/scenes/window_world.h"
 
 namespace {
 

@@ -2,13 +2,13 @@
 // and beacons are measured where they truly are, with noise. Consistency over many seeds, and drift
 // after the last marker.
 #include <fmt/format.h>
-#include <placegraph/eval/body_state_error.h>
+#include <placegraph/eval/trajectory/body_state_error.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/support/hover_sights.h"
+#include "tests/support/scenes/hover_sights.h"
 
 namespace placegraph {
 namespace {

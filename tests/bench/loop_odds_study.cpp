@@ -1,14 +1,14 @@
-// Fits the coefficients of pipeline/loop_odds to candidates of runs whose truth is known.
+// Fits the coefficients of pipeline/places/loop_probability to candidates of runs whose truth is known.
 //   bench_loop_odds_study MAP TRUTH RADIUS [MAP TRUTH RADIUS ...]
 // MAP: map.db of a run; TRUTH: a pose per frame of its sequence; two views show one place where
 // their true positions are within RADIUS [m] and their headings within 40 deg. Every run weighs
 // alike. Prints for each fate its candidates, how many are true, and its constant.
 #include <fmt/format.h>
-#include <placegraph/eval/same_view.h>
+#include <placegraph/eval/loops/same_view.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/map_database.h>
-#include <placegraph/io/trajectory_file.h>
-#include <placegraph/pipeline/loop_odds.h>
+#include <placegraph/io/map/map_database.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/pipeline/places/loop_probability.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -3,8 +3,8 @@
 //   bench_marker_study OUT_PREFIX [SEEDS=3] [APRILTAG_SIM_FOLDER]
 // writes OUT_PREFIX.md (tables) and OUT_PREFIX_targets.tsv (figure, tab, value).
 #include <fmt/format.h>
-#include <placegraph/frontend/odometry/marker_filter.h>
-#include <placegraph/frontend/odometry/marker_pose.h>
+#include <placegraph/frontend/markers/marker_filter.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 #include <ctime>
 #include <fstream>
 
-#include "tests/support/apriltag_sim.h"
-#include "tests/support/marker_scene.h"
+#include "tests/support/scenes/apriltag_sim.h"
+#include "tests/support/scenes/marker_scene.h"
 
 namespace {
 

@@ -1,13 +1,13 @@
 // What commands say of pairs of images, held against what people marked: planes of point matches
 // and matches of segments.
 #include <fmt/format.h>
-#include <placegraph/io/text_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <cstdio>
 #include <exception>
 #include <sstream>
 
-#include "tests/support/planes_world.h"
+#include "tests/support/scenes/planes_world.h"
 #include "tests/support/segment_groups.h"
 
 namespace placegraph {

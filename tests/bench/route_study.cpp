@@ -4,15 +4,15 @@
 // The map is made of the first MAP_FRAMES frames; the way back is replayed with frames of later
 // passes where there are any. Prints figure, tab, value.
 #include <fmt/format.h>
-#include <placegraph/eval/route_check.h>
-#include <placegraph/eval/statistics.h>
+#include <placegraph/eval/loops/route_check.h>
+#include <placegraph/eval/trajectory/statistics.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/run.h>
 
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/support/way_back.h"
+#include "tests/support/scenes/way_back.h"
 
 namespace placegraph {
 namespace {

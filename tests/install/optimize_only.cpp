@@ -1,6 +1,6 @@
 // Optimizes a square of four poses whose odometry drifts and whose loop closes it: graph and
 // backend of the installed library.
-#include <placegraph/backend/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 
 #include <cstdio>
 #include <numbers>

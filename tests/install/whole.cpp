@@ -1,9 +1,9 @@
 // Writes a trajectory, reads it back and judges it, then asks for a data set that is not there: io,
 // eval and graph of the installed library.
-#include <placegraph/eval/evaluate.h>
+#include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/dataset.h>
-#include <placegraph/io/trajectory_file.h>
+#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cmath>
 #include <cstdio>

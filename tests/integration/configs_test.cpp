@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/yaml_config.h>
+#include <placegraph/io/config/yaml_config.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
 
-#include "tests/support/street_files.h"
+#include "tests/support/scenes/street_files.h"
 
 namespace placegraph {
 namespace {

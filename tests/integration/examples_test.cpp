@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/g2o.h>
-#include <placegraph/io/trajectory_file.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
 #include <sys/wait.h>
 
-#include "tests/support/street_files.h"
+#include "tests/support/scenes/street_files.h"
 #include "tests/support/trajectories.h"
 
 namespace placegraph {

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/evaluate.h>
+#include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/pipeline/run.h>
 
 #include "tests/support/data.h"
-#include "tests/support/scene.h"
+#include "tests/support/scenes/scene.h"
 
 namespace placegraph {
 namespace {

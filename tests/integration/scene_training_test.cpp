@@ -1,13 +1,13 @@
 // Models of scenes, learned from drawn streets.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/scene/scene_training.h>
-#include <placegraph/frontend/scene/surface_classifier.h>
-#include <placegraph/frontend/scene/urban_labels.h>
+#include <placegraph/frontend/labels/scene_training.h>
+#include <placegraph/frontend/labels/surface_classifier.h>
+#include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/core.hpp>
 
-#include "tests/support/scene_pictures.h"
+#include "tests/support/scenes/scene_pictures.h"
 
 namespace placegraph {
 namespace {

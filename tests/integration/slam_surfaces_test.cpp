@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/evaluate.h>
+#include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/run.h>
 
-#include "tests/support/street.h"
+#include "tests/support/scenes/street.h"
 
 namespace placegraph {
 namespace {

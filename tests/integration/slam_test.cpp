@@ -1,13 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/evaluate.h>
+#include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/run.h>
 
 #include <opencv2/core/utility.hpp>
 
 #include "tests/support/map_bits.h"
-#include "tests/support/street.h"
+#include "tests/support/scenes/street.h"
 
 namespace placegraph {
 namespace {

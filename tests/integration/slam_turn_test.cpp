@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/evaluate.h>
+#include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
 
-#include "tests/support/street.h"
+#include "tests/support/scenes/street.h"
 
 namespace placegraph {
 namespace {

@@ -1,15 +1,15 @@
 // The way back in a small rendered town: a map is made of a round and a bit, and the way back over
 // its places is replayed with frames that it does not keep.
 #include <gtest/gtest.h>
-#include <placegraph/eval/route_check.h>
-#include <placegraph/io/synthetic/synthetic_world.h>
-#include <placegraph/io/trajectory_file.h>
+#include <placegraph/eval/loops/route_check.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/run.h>
 
 #include <opencv2/core.hpp>
 
 #include "tests/support/temporary_folder.h"
-#include "tests/support/way_back.h"
+#include "tests/support/scenes/way_back.h"
 
 namespace placegraph {
 namespace {

@@ -1,9 +1,9 @@
 // Vanishing points of real segments against those that people marked.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/lines/scene_directions.h>
-#include <placegraph/io/camera_file.h>
-#include <placegraph/io/segment_file.h>
-#include <placegraph/io/text_file.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/io/datasets/camera_file.h>
+#include <placegraph/io/measurements/segment_file.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <iostream>

@@ -1,5 +1,5 @@
 // The smallest program that uses the backend: what is bound when it is loaded is what is tested.
-#include <placegraph/backend/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 
 int main() {
   placegraph::PoseGraph graph;

@@ -4,7 +4,7 @@
 #   graph/core <- graph <- {frontend, backend, io, eval} <- pipeline <- apps, tests
 #   Ceres and CHOLMOD in no header outside backend; OpenGV in no header
 #   OpenCV in headers only through graph/core/image.h, in graph and backend not at all
-#   GeographicLib only in graph/core/geodesy.cpp
+#   GeographicLib only in graph/geometry/geodesy.cpp
 #   libraries neither print nor end the process
 set -eu
 cd "$1"
@@ -76,11 +76,11 @@ line ~ /^[ \t]*#[ \t]*include/ {
     else if (file != "graph/core/image.h" && (here == "core" || here == "graph" || here == "backend"))
       complain(here " may not use OpenCV: " path)
   }
-  if ((project == "graph/core/image.h" || project == "graph/frame.h") &&
+  if ((project == "graph/core/image.h" || project == "graph/measurements/frame.h") &&
       (here == "backend" || (!header && (here == "core" || here == "graph"))))
     complain(here " must do without OpenCV: " path)
-  if (tolower(path) ~ /geographiclib/ && file != "graph/core/geodesy.cpp")
-    complain("GeographicLib outside graph/core/geodesy.cpp: " path)
+  if (tolower(path) ~ /geographiclib/ && file != "graph/geometry/geodesy.cpp")
+    complain("GeographicLib outside graph/geometry/geodesy.cpp: " path)
 }
 
 header && here != "backend" && tolower(line) ~ /(^|[^a-z])(ceres|cholmod)/ {

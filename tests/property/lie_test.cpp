@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/lie.h>
+#include <placegraph/graph/geometry/lie.h>
 #include <tests/support/seed.h>
 
 #include <algorithm>

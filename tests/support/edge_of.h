@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/pose_graph.h>
+#include <placegraph/graph/pose_graph/pose_graph.h>
 
 namespace placegraph::test {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <gtest/gtest.h>
-#include <placegraph/backend/factor.h>
+#include <placegraph/backend/factors/factor.h>
 
 #include <vector>
 

@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/backend/georeference.h>
+#include <placegraph/backend/georeference/georeference.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/kitti_raw.h>
-#include <placegraph/io/trajectory_file.h>
+#include <placegraph/io/datasets/kitti_raw.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/place_mapper.h>
+#include <placegraph/pipeline/places/place_mapper.h>
 
-#include "tests/support/scene.h"
+#include "tests/support/scenes/scene.h"
 
 namespace placegraph::test {
 

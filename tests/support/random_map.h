@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/map_database.h>
+#include <placegraph/io/map/map_database.h>
 
 namespace placegraph::test {
 

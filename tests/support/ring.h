@@ -1,5 +1,5 @@
 #pragma once
-#include "tests/support/pose_walk.h"
+#include "tests/support/scenes/pose_walk.h"
 
 namespace placegraph::test {
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/bundle_adjustment.h>
-#include <placegraph/io/bal.h>
+#include <placegraph/backend/factor_graph/bundle_adjustment.h>
+#include <placegraph/io/graphs/bal.h>
 
 #include "tests/support/data.h"
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/georeference.h>
+#include <placegraph/backend/georeference/georeference.h>
 
 #include "tests/support/data.h"
 #include "tests/support/gps_scenario.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/pose_graph_optimizer.h>
-#include <placegraph/io/g2o.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/io/graphs/g2o.h>
 
 #include <algorithm>
 #include <ostream>

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
 
-#include "tests/support/pose_walk.h"
+#include "tests/support/scenes/pose_walk.h"
 
 /// The two engines are independent of each other: each is the other's oracle.
 namespace placegraph {

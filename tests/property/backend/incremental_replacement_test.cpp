@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/incremental_optimizer.h>
-#include <placegraph/backend/pose_graph_optimizer.h>
+#include <placegraph/backend/incremental/incremental_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>
 
-#include "tests/support/growing_walk.h"
+#include "tests/support/scenes/growing_walk.h"
 
 /// Constraints that are replaced and removed all the time, against the batch optimum.
 namespace placegraph {

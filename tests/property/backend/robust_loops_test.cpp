@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 
 #include <set>
 
-#include "tests/support/looped_walk.h"
+#include "tests/support/scenes/looped_walk.h"
 
 namespace placegraph {
 namespace {

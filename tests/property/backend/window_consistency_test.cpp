@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <ostream>
 
-#include "tests/support/window_world.h"
+#include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
 namespace {

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/evaluate.h>
+#include <placegraph/eval/trajectory/evaluate.h>
 
 #include <functional>
 

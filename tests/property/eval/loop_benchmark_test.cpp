@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/loop_benchmark.h>
+#include <placegraph/eval/loops/loop_benchmark.h>
 #include <placegraph/graph/core/random.h>
 
 #include <algorithm>

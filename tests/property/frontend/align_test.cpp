@@ -3,7 +3,7 @@
 #include <placegraph/frontend/align/grey_pyramid.h>
 
 #include "tests/support/seed.h"
-#include "tests/support/warped_template.h"
+#include "tests/support/scenes/warped_template.h"
 
 namespace placegraph {
 namespace {

@@ -1,7 +1,7 @@
 // Boxes and rooms of generated scenes, as a depth camera sees them.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/planes/cuboids.h>
-#include <placegraph/io/synthetic/cloud_scene.h>
+#include <placegraph/frontend/cloud_planes/cuboids.h>
+#include <placegraph/io/synthetic/worlds/cloud_scene.h>
 
 #include <algorithm>
 #include <iostream>

@@ -1,8 +1,8 @@
 // Vanishing points and rectangular worlds of generated scenes.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/lines/scene_directions.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 
-#include "tests/support/manhattan_scene.h"
+#include "tests/support/scenes/manhattan_scene.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/odometry/marker_filter.h>
-#include <placegraph/frontend/odometry/marker_pose.h>
+#include <placegraph/frontend/markers/marker_filter.h>
+#include <placegraph/frontend/markers/marker_pose.h>
 
 #include <iostream>
 
-#include "tests/support/marker_scene.h"
-#include "tests/support/scene.h"
+#include "tests/support/scenes/marker_scene.h"
+#include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/support/board.h"
+#include "tests/support/scenes/board.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {

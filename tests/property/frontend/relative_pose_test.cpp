@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/odometry/circular_motion.h>
-#include <placegraph/frontend/odometry/epipolar_error.h>
-#include <placegraph/frontend/odometry/pose_3d3d.h>
-#include <placegraph/frontend/odometry/pose_gravity.h>
+#include <placegraph/frontend/relative_pose/circular_motion.h>
+#include <placegraph/frontend/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/relative_pose/pose_3d3d.h>
+#include <placegraph/frontend/relative_pose/pose_gravity.h>
 
-#include "tests/support/scene.h"
+#include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {

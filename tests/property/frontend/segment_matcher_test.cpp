@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/lines/segment_matcher.h>
+#include <placegraph/frontend/segments/segment_matcher.h>
 
 #include "tests/support/seed.h"
-#include "tests/support/tiles.h"
+#include "tests/support/scenes/tiles.h"
 
 namespace placegraph {
 namespace {

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/g2o.h>
+#include <placegraph/io/graphs/g2o.h>
 
 #include "tests/support/temporary_folder.h"
 

@@ -1,5 +1,5 @@
-#include <placegraph/io/dataset.h>
-#include <placegraph/io/synthetic/sequence_writer.h>
+#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/synthetic/writers/sequence_writer.h>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>

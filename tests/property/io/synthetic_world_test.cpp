@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/io/synthetic/synthetic_world.h>
-#include <placegraph/io/synthetic/tours.h>
-#include <placegraph/io/synthetic/town_builder.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/synthetic/worlds/tours.h>
+#include <placegraph/io/synthetic/worlds/town_builder.h>
 
 #include <algorithm>
 #include <opencv2/core.hpp>

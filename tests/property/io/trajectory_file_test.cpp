@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/trajectory_file.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
 
 #include "tests/support/temporary_folder.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/body_state_error.h>
+#include <placegraph/eval/trajectory/body_state_error.h>
 
-#include "tests/support/hover_sights.h"
+#include "tests/support/scenes/hover_sights.h"
 
 namespace placegraph {
 namespace {

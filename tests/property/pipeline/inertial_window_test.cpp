@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/inertial_window.h>
-#include <placegraph/frontend/odometry/position_filter.h>
+#include <placegraph/backend/inertial/inertial_window.h>
+#include <placegraph/backend/inertial/error_state_filter.h>
 
 #include <Eigen/LU>
 #include <iostream>
 
-#include "tests/support/swaying_body.h"
+#include "tests/support/scenes/swaying_body.h"
 
 namespace placegraph {
 namespace {

@@ -1,0 +1,144 @@
+#include "apps/graph/cmd_convert.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/graphs/pose_graph_file.h>
+#include <placegraph/io/files/text_file.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+namespace {
+
+struct ConvertArguments {
+  std::string in, out, to, times;
+  bool force = false;
+};
+
+/// What a file holds; g2o, or one of the trajectory forms.
+using Form = std::optional<TrajectoryFormat>;
+constexpr Form kG2o = std::nullopt;
+
+/// By the first tag, of g2o's, TORO's or iSAM's form.
+bool is_pose_graph(const std::string& path) {
+  TextFile file(path);
+  std::string_view line;
+  if (!file.next_data(line)) return false;
+  return line.starts_with("VERTEX") || line.starts_with("EDGE") || line.starts_with("ODOMETRY") ||
+         line.starts_with("FIX") || line.starts_with("PARAMS_");
+}
+
+/// By --to, else by the extension of OUT.
+Form wanted_form(const ConvertArguments& arguments) {
+  static const std::map<std::string, Form> by_name = {{"kitti", TrajectoryFormat::kKitti},
+                                                      {"tum", TrajectoryFormat::kTum},
+                                                      {"euroc", TrajectoryFormat::kEuroc},
+                                                      {"g2o", kG2o}};
+  static const std::map<std::string, Form> by_extension = {{".kitti", TrajectoryFormat::kKitti},
+                                                           {".txt", TrajectoryFormat::kKitti},
+                                                           {".tum", TrajectoryFormat::kTum},
+                                                           {".csv", TrajectoryFormat::kEuroc},
+                                                           {".g2o", kG2o}};
+  if (!arguments.to.empty()) return by_name.at(arguments.to);
+  const std::string extension = std::filesystem::path(arguments.out).extension().string();
+  const auto found = by_extension.find(extension);
+  if (found != by_extension.end()) return found->second;
+  throw ArgumentError(arguments.out +
+                      ": the extension says no form (.kitti .txt .tum .csv .g2o); " +
+                      "name it with --to");
+}
+
+/// T_world_node without the scale it may have; in the plane z = 0.
+Eigen::Isometry3d rigid(const Pose& pose) {
+  if (const SE2* planar = std::get_if<SE2>(&pose))
+    return SE3(SO3::exp({0, 0, planar->rotation().angle()}), position_of(pose)).isometry();
+  if (const SE3* T = std::get_if<SE3>(&pose)) return T->isometry();
+  return SE3(std::get<Sim3>(pose).rotation(), position_of(pose)).isometry();
+}
+
+/// The poses in the order of their ids.
+Trajectory poses_of(PoseGraph graph) {
+  std::sort(graph.nodes.begin(), graph.nodes.end(),
+            [](const PoseNode& a, const PoseNode& b) { return a.id < b.id; });
+  Trajectory trajectory;
+  trajectory.has_times = false;
+  for (const PoseNode& node : graph.nodes)
+    trajectory.poses.push_back(
+        {static_cast<std::int64_t>(trajectory.size()), rigid(node.T_world_node)});
+  return trajectory;
+}
+
+void convert_graph(const ConvertArguments& arguments, Form to) {
+  if (!arguments.times.empty()) throw ArgumentError("--times: a pose graph has none");
+  const PoseGraph graph = read_pose_graph(arguments.in, {.connected = false});
+  if (to == TrajectoryFormat::kKitti) {
+    write_trajectory(arguments.out, poses_of(graph), *to);
+    fmt::print("{}: {} poses in the order of their ids, written to {}\n", arguments.in,
+               graph.nodes.size(), arguments.out);
+    return;
+  }
+  write_g2o(arguments.out, graph);
+  fmt::print("{}: {} nodes, {} constraints, written to {}\n", arguments.in, graph.nodes.size(),
+             graph.constraints.size(), arguments.out);
+}
+
+void convert_trajectory(const ConvertArguments& arguments, TrajectoryFormat to) {
+  const Trajectory trajectory = read_trajectory(arguments.in, arguments.times);
+  if (to != TrajectoryFormat::kKitti && !trajectory.has_times) {
+    throw ArgumentError(arguments.in + ": has no times, which " + arguments.out +
+                        " needs; give them with --times");
+  }
+  write_trajectory(arguments.out, trajectory, to);
+  fmt::print("{}: {} poses of {} frames, written to {}\n", arguments.in, trajectory.posed(),
+             trajectory.size(), arguments.out);
+}
+
+void run(const ConvertArguments& arguments) {
+  const Form to = wanted_form(arguments);
+  require_free(arguments.out, arguments.force);
+  const bool graph = is_pose_graph(arguments.in);
+  if (!graph && to == kG2o)
+    throw ArgumentError(arguments.in + ": is a trajectory, which does not become a pose graph");
+  if (graph && to != kG2o && to != TrajectoryFormat::kKitti)
+    throw ArgumentError(arguments.in + ": is a pose graph; its poses have no times, which " +
+                        arguments.out + " needs");
+  if (graph) {
+    convert_graph(arguments, to);
+  } else {
+    convert_trajectory(arguments, *to);
+  }
+}
+
+}  // namespace
+
+void add_convert_command(CLI::App& app) {
+  auto arguments = std::make_shared<ConvertArguments>();
+  ConvertArguments& a = *arguments;
+  CLI::App* command = app.add_subcommand("convert",
+                                         "Convert trajectories between KITTI, TUM and EuRoC form; "
+                                         "pose graphs to g2o's, or to their poses");
+  command->footer("placegraph convert poses.txt poses.tum --times times.txt");
+  command->add_option("IN", a.in, "file to read; what it is, is seen from its content")
+      ->required()
+      ->check(CLI::ExistingFile);
+  command->add_option("OUT", a.out, "file to write (.kitti .txt: KITTI, .tum, .csv: EuRoC, .g2o)")
+      ->required();
+  command->add_option("--to", a.to, "form of OUT, whatever its extension")
+      ->check(CLI::IsMember({"kitti", "tum", "euroc", "g2o"}));
+  command->add_option("--times", a.times, "times of a KITTI trajectory, one [s] a line")
+      ->check(CLI::ExistingFile);
+  command->add_flag("--force", a.force, "overwrite OUT");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,187 @@
+#include "apps/map/map_label.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/measurements/label_file.h>
+#include <placegraph/io/files/text_file.h>
+#include <placegraph/pipeline/map/place_labeller.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/results/map_file.h"
+#include "apps/map/map_learn.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct MapLabelArguments {
+  std::string map, house, names;
+  std::vector<int> range;
+  PlaceLabelOptions options;
+  bool as_json = false;
+};
+
+const Image& picture(const Frame& frame, bool colour) {
+  return colour ? frame.colour : frame.image;
+}
+
+/// Views are compared part by part: all must be of one shape.
+Image sized(const Image& image, const cv::Size& size) {
+  Image result;
+  cv::resize(image, result, size, 0, 0, cv::INTER_AREA);
+  return result;
+}
+
+/// Whether it is UTF-8 without control characters.
+bool is_text(const std::string& line) {
+  try {
+    (void)json(line).dump();
+  } catch (const json::exception&) {
+    return false;
+  }
+  return std::none_of(line.begin(), line.end(),
+                      [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+}
+
+/// One name a line, the first of label 0.
+std::vector<std::string> read_names(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw FileError(path, "cannot be read");
+  std::vector<std::string> names;
+  for (std::string line; std::getline(file, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    const int number = static_cast<int>(names.size()) + 1;
+    if (line.empty()) throw FileError(path, number, "an empty line names nothing");
+    if (!is_text(line)) throw FileError(path, number, "is no UTF-8 text");
+    names.push_back(line);
+  }
+  return names;
+}
+
+/// The images of a map's keyframes, from where the map was made.
+std::function<Frame(const Keyframe&)> frames_of(const StoredMap& stored) {
+  if (!stored.origin.calibration) {
+    const ImageRange images = images_of(stored.origin.sequence, {});
+    const std::int64_t count = static_cast<std::int64_t>(images.paths.size());
+    for (const Keyframe& keyframe : stored.map.keyframes)
+      if (keyframe.frame >= count)
+        throw FileError(stored.origin.sequence,
+                        fmt::format("has {} images, and keyframe {} of the map is of image {}",
+                                    count, keyframe.id, keyframe.frame));
+    return [images](const Keyframe& keyframe) {
+      return read_frame(images, static_cast<std::size_t>(keyframe.frame));
+    };
+  }
+  const std::shared_ptr<Dataset> dataset = open_dataset(stored.origin.sequence);
+  return [dataset, sensor = stored.origin.sensor](const Keyframe& keyframe) {
+    return dataset->frame(static_cast<std::size_t>(keyframe.frame), sensor);
+  };
+}
+
+PlaceClassifier learn(const MapLabelArguments& arguments, bool colour, int& places,
+                      cv::Size& size) {
+  const std::string path = (fs::path(arguments.house) / "labels.txt").string();
+  const ImageRange images = images_of(arguments.house, arguments.range);
+  const auto known = read_labels(path);
+  std::vector<PlaceCueVectors> views;
+  std::vector<int> labels;
+  for (std::size_t i = 0; i < images.paths.size(); ++i) {
+    const auto label = known.find(images.first + static_cast<std::int64_t>(i));
+    if (label == known.end()) continue;
+    const Frame frame = read_frame(images, i);
+    if (colour && frame.colour.empty())
+      throw FileError(images.paths[i], "is grey, and the map's images have colour");
+    if (size.empty()) size = frame.image.size();
+    views.push_back(describe_for_classes(sized(picture(frame, colour), size)));
+    labels.push_back(label->second);
+  }
+  if (labels.empty()) throw FileError(path, "labels none of the images");
+  places = *std::max_element(labels.begin(), labels.end()) + 1;
+  constexpr int kMostPlaces = 10000;
+  if (places > kMostPlaces)
+    throw FileError(path, fmt::format("label {}: at most {} places", places - 1, kMostPlaces));
+  return PlaceClassifier::train(std::move(views), labels, PlaceClassifierOptions());
+}
+
+void label(const MapLabelArguments& arguments) {
+  arguments.options.check();
+  StoredMap stored = read_map(map_path_of(arguments.map));
+  Map& map = stored.map;
+  if (!stored.finished)
+    throw NoAnswer(arguments.map + ": its run was broken off; run --resume goes on with it first");
+  if (map.keyframes.empty()) throw NoAnswer(arguments.map + ": has no keyframes");
+  const auto frame_of = frames_of(stored);
+  const bool colour = !frame_of(map.keyframes.front()).colour.empty();
+  int places = 0;
+  cv::Size size;
+  const PlaceClassifier classifier = learn(arguments, colour, places, size);
+  std::vector<std::string> names;
+  if (!arguments.names.empty()) names = read_names(arguments.names);
+  require(names.empty() || static_cast<int>(names.size()) >= places,
+          fmt::format("--names: {} names for {} labels", names.size(), places));
+  const std::vector<PlaceLabel> labels = label_places(
+      map, classifier,
+      [&](const Keyframe& keyframe) { return sized(picture(frame_of(keyframe), colour), size); },
+      arguments.options);
+  json list = json::array();
+  int labelled = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const PlaceLabel& of = labels[i];
+    std::vector<std::string>& written = map.place_graph.places[i].labels;
+    written.clear();
+    if (of.label >= 0) {
+      const auto number = static_cast<std::size_t>(of.label);
+      written.push_back(names.empty() ? std::to_string(of.label) : names[number]);
+      ++labelled;
+    }
+    list.push_back({{"place", of.place},
+                    {"label", written.empty() ? json(nullptr) : json(written.front())},
+                    {"probability", of.probability},
+                    {"views", of.views}});
+  }
+  write_map(map_path_of(arguments.map), stored);
+  if (arguments.as_json)
+    fmt::print("{}\n", json{{"places", list}}.dump(1));
+  else
+    fmt::print("{}: {} of {} places labelled ({} views; accuracy on left out parts {:.3f})\n",
+               map_path_of(arguments.map), labelled, labels.size(), map.keyframes.size(),
+               classifier.cross_validated_accuracy());
+}
+
+}  // namespace
+
+void add_map_label_command(CLI::App& map) {
+  auto arguments = std::make_shared<MapLabelArguments>();
+  MapLabelArguments& a = *arguments;
+  CLI::App* command = map.add_subcommand(
+      "label", "Labels the places of a saved map by a classifier learned from labelled images.");
+  command->footer("placegraph map label out/office rooms --names rooms/names.txt");
+  command->add_option("MAP", a.map, "map.db, or the folder of placegraph run with it")->required();
+  command
+      ->add_option("ROOMS", a.house, "a folder with images and labels.txt (`image label` a line)")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--range", a.range, "first and last image to learn from")->expected(2);
+  command->add_option("--names", a.names, "one name a line, the first of label 0")
+      ->check(CLI::ExistingFile);
+  command
+      ->add_option("--min-probability", a.options.min_probability,
+                   "a place's views must say so on average")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_flag("--json", a.as_json, "for machines");
+  command->callback([arguments] { label(*arguments); });
+}
+
+}  // namespace placegraph::apps

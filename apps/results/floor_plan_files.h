@@ -1,0 +1,33 @@
+#pragma once
+#include <placegraph/graph/scene/indoor_map.h>
+#include <placegraph/graph/map.h>
+#include <placegraph/pipeline/scene/indoor_mapper.h>
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace placegraph {
+class Dataset;
+}
+
+namespace placegraph::apps {
+
+/// The floor plan of a map whose images are those of `dataset`; `lens_k1` is the distortion that
+/// was taken out of them.
+IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Dataset& dataset,
+                      Sensor sensor, double lens_k1, const IndoorMapperOptions& options);
+
+/// Writes floor_plan.json, floor_plan.svg and floor_plan.png into a folder.
+void write_floor_plan(const std::string& folder, const IndoorMap& plan, const Map& map,
+                      const std::string& title);
+
+/// What result.json says of a plan: counts, and, where the sequence's folder holds the true plan
+/// (floorplan.json) and true poses, how far it is off, by the first pose ("origin") and after the
+/// alignment of the trajectory ("se3").
+nlohmann::json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& dataset,
+                                   const std::string& sequence);
+
+/// Writes the places' labels into a saved map.
+void save_labels(const std::string& map_file, const PlaceGraph& places);
+
+}  // namespace placegraph::apps

@@ -1,0 +1,21 @@
+#include "apps/results/map_file.h"
+
+#include <filesystem>
+
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+
+std::string map_path_of(const std::string& file_or_folder) {
+  const std::filesystem::path path(file_or_folder);
+  return std::filesystem::is_directory(path) ? (path / "map.db").string() : file_or_folder;
+}
+
+StoredMap read_stored_map(const std::string& file_or_folder) {
+  const std::string path = map_path_of(file_or_folder);
+  StoredMap stored = read_map(path);
+  if (!stored.finished) warn(path + ": its run was broken off; run --resume goes on with it");
+  return stored;
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,186 @@
+#include "apps/results/run_files.h"
+
+#include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/eval/plots/plot.h>
+#include <placegraph/graph/pose_graph/constraint_source.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/place_transitions.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "apps/support/json_file.h"
+#include "apps/results/run_judgement.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::int64_t> lost_frames(const Map& map, const Trajectory& trajectory) {
+  std::vector<std::int64_t> lost;
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    if (!trajectory.poses[i].T_world_body) lost.push_back(map.frames[i].frame);
+  return lost;
+}
+
+PlotCurve curve_of(const Trajectory& trajectory, const std::string& name) {
+  PlotCurve curve{name, {}, false};
+  for (const StampedPose& pose : trajectory.poses) {
+    curve.positions_m.emplace_back();
+    if (pose.T_world_body) curve.positions_m.back() = pose.T_world_body->translation();
+  }
+  return curve;
+}
+
+/// Of the places that are in the frame of the map.
+std::vector<Eigen::Vector3d> place_positions(const Map& map, const AlignmentResult& alignment) {
+  const std::vector<int> components = map.place_graph.joined_components();
+  std::vector<Eigen::Vector3d> positions;
+  for (std::size_t i = 0; i < components.size(); ++i)
+    if (components[i] == 0)
+      positions.push_back(
+          alignment.apply(map.place_graph.places[i].T_map_place.isometry()).translation());
+  return positions;
+}
+
+Sim3 similarity_of(const SE2&) { throw ArgumentError("a place graph is not planar"); }
+Sim3 similarity_of(const SE3& T) { return Sim3(T); }
+Sim3 similarity_of(const Sim3& S) { return S; }
+
+}  // namespace
+
+std::string places_json(const Map& map) {
+  json places = json::array();
+  for (const Place& place : map.place_graph.places) {
+    json members = json::array();
+    for (const PlaceMember& member : place.members) {
+      const Keyframe* keyframe = map.find_keyframe(member.keyframe);
+      json entry = {{"keyframe", member.keyframe},
+                    {"T_place_keyframe", pose_json(member.T_place_keyframe)},
+                    {"scale", member.scale}};
+      if (keyframe) {
+        entry["frame"] = keyframe->frame;
+        entry["stamp_ns"] = keyframe->stamp_ns;
+      }
+      members.push_back(entry);
+    }
+    places.push_back({{"id", place.id},
+                      {"anchor_keyframe", place.anchor_keyframe},
+                      {"component", place.component},
+                      {"T_map_place", pose_json(place.T_map_place)},
+                      {"scale", place.scale},
+                      {"members", members},
+                      {"labels", place.labels},
+                      {"visual_words", place.appearance.words.size()}});
+  }
+  json edges = json::array();
+  for (const RelativePoseConstraint& c : map.place_graph.constraints)
+    edges.push_back({{"from", c.from}, {"to", c.to}, {"source", to_string(c.source)}});
+  json transitions = json::array();
+  for (const PlaceTransition& t : place_transitions(map))
+    transitions.push_back({{"from", t.from}, {"to", t.to}, {"count", t.count}});
+  json loops = json::array();
+  for (const LoopRecord& loop : map.loops)
+    if (loop.accepted)
+      loops.push_back({{"query_frame", loop.query_frame},
+                       {"match_frame", loop.match_frame},
+                       {"T_match_query", pose_json(loop.T_match_query)}});
+  return json{{"places", places}, {"edges", edges}, {"transitions", transitions}, {"loops", loops}}
+             .dump(1) +
+         "\n";
+}
+
+std::string loops_csv(const Map& map) {
+  std::ostringstream csv;
+  csv << "query,match,inliers,accepted,stage,model,lines,likeness,probability\n";
+  for (const LoopRecord& loop : map.loops)
+    csv << loop.query_frame << ',' << loop.match_frame << ',' << loop.inliers << ','
+        << (loop.accepted ? 1 : 0) << ',' << loop.stage << ',' << to_string(loop.model) << ','
+        << loop.lines << ',' << loop.likeness << ',' << loop.probability << '\n';
+  return csv.str();
+}
+
+json describe_motion(const PlaceGraph& graph) {
+  std::vector<double> deviations;
+  for (const RelativePoseConstraint& constraint : graph.constraints) {
+    if (constraint.source != ConstraintSource::kOther) continue;
+    const Sim3 S_from_to =
+        std::visit([](const auto& T) { return similarity_of(T); }, constraint.T_from_to);
+    const Sim3 S_seen = graph.find(constraint.from)->S_map_place().inverse() *
+                        graph.find(constraint.to)->S_map_place();
+    const Eigen::VectorXd error =
+        (S_from_to.inverse() * S_seen).log().head(constraint.information.rows());
+    deviations.push_back(
+        std::sqrt(error.dot(constraint.information * error) / static_cast<double>(error.size())));
+  }
+  json motion = {{"constraints", deviations.size()}, {"median_deviation", nullptr}};
+  if (deviations.empty()) return motion;
+  const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
+  std::nth_element(deviations.begin(), middle, deviations.end());
+  motion["median_deviation"] = *middle;
+  return motion;
+}
+
+json describe_run(const RunResult& run, const Trajectory& optimized) {
+  const Map& map = run.map;
+  std::set<int> components;
+  for (const Place& place : map.place_graph.places) components.insert(place.component);
+  const auto accepted = std::count_if(map.loops.begin(), map.loops.end(),
+                                      [](const LoopRecord& loop) { return loop.accepted; });
+  return {{"sensor", to_string(run.sensor)},
+          {"frames", map.frames.size()},
+          {"posed", optimized.posed()},
+          {"posed_online", map.trajectory_online.posed()},
+          {"lost_frames", lost_frames(map, optimized)},
+          {"lost_frames_online", lost_frames(map, map.trajectory_online)},
+          {"keyframes", map.keyframes.size()},
+          {"places", map.place_graph.places.size()},
+          {"components", components.size()},
+          {"loops_checked", map.loops.size()},
+          {"loops_accepted", accepted},
+          {"metric", map.metric},
+          {"lens_k1", run.lens_k1}};
+}
+
+std::string run_plot(const RunResult& run, const Trajectory& optimized,
+                     const Trajectory* ground_truth, const std::string& title) {
+  Plot plot;
+  if (ground_truth) {
+    EvaluationOptions options;
+    options.association = Association::kIndex;
+    options.alignment = run.map.metric ? Alignment::kOrigin : Alignment::kSim3;
+    std::vector<EvaluationResult> results;
+    for (const auto& [trajectory, name] :
+         {std::pair(&run.map.trajectory_online, "online"), std::pair(&optimized, "optimized")}) {
+      EvaluationResult result =
+          evaluate(truth_of_frames(*ground_truth, run.map), *trajectory, options, name);
+      if (result.outcome) results.push_back(std::move(result));
+    }
+    if (!results.empty()) {
+      plot = plot_of(results);
+      plot.places_m = place_positions(run.map, results.back().alignment);
+    }
+  }
+  if (plot.curves.empty()) {
+    plot.curves = {curve_of(run.map.trajectory_online, "online"), curve_of(optimized, "optimized")};
+    plot.places_m = place_positions(run.map, {});
+    const PlotCurve& curve = plot.curves.back();
+    for (const LoopRecord& loop : run.map.loops) {
+      if (!loop.accepted) continue;
+      std::optional<Eigen::Vector3d> ends[2];
+      for (std::size_t i = 0; i < run.map.frames.size(); ++i) {
+        if (run.map.frames[i].frame == loop.query_frame) ends[0] = curve.positions_m[i];
+        if (run.map.frames[i].frame == loop.match_frame) ends[1] = curve.positions_m[i];
+      }
+      if (ends[0] && ends[1]) plot.links_m.emplace_back(*ends[0], *ends[1]);
+    }
+  }
+  plot.title = title;
+  return to_png(plot);
+}
+
+}  // namespace placegraph::apps

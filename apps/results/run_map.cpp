@@ -1,0 +1,93 @@
+#include "apps/results/run_map.h"
+
+#include <placegraph/graph/pose_graph/constraint_source.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/map/map_database.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/json_file.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+Place place_of(const json& entry, RunMap& map) {
+  Place place;
+  place.id = entry.at("id").get<std::int64_t>();
+  place.anchor_keyframe = entry.at("anchor_keyframe").get<std::int64_t>();
+  place.component = entry.at("component").get<int>();
+  place.T_map_place = pose_of(entry.at("T_map_place"));
+  place.scale = entry.at("scale").get<double>();
+  place.labels = entry.at("labels").get<std::vector<std::string>>();
+  for (const json& member : entry.at("members")) {
+    place.members.push_back({member.at("keyframe").get<std::int64_t>(),
+                             pose_of(member.at("T_place_keyframe")),
+                             member.at("scale").get<double>()});
+    if (member.contains("frame"))
+      map.frame_of_keyframe[place.members.back().keyframe] = member.at("frame").get<std::int64_t>();
+  }
+  return place;
+}
+
+/// places.json names the edges of graph.g2o in their order.
+void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
+  const char* mismatch = "its edges are not those of graph.g2o";
+  require(edges.size() == written.constraints.size(), mismatch);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const auto* edge = std::get_if<RelativePoseConstraint>(&written.constraints[i]);
+    require(edge && edges[i].at("from") == edge->from && edges[i].at("to") == edge->to, mismatch);
+    require(map.graph.find(edge->from) && map.graph.find(edge->to), mismatch);
+    map.graph.constraints.push_back(*edge);
+    const auto source = constraint_source(edges[i].at("source").get<std::string>());
+    require(source.has_value(), "an edge's source is no source");
+    map.graph.constraints.back().source = *source;
+  }
+}
+
+}  // namespace
+
+std::int64_t RunMap::anchor_frame(const Place& place) const {
+  const auto frame = frame_of_keyframe.find(place.anchor_keyframe);
+  require(frame != frame_of_keyframe.end(),
+          "place " + std::to_string(place.id) + " has no frame of its anchor");
+  return frame->second;
+}
+
+namespace {
+
+RunMap run_map_of(StoredMap stored, const std::string& path) {
+  require(stored.origin.calibration.has_value(),
+          path + ": is a map of images without a camera, in which nothing has a pose");
+  RunMap map;
+  for (const Keyframe& keyframe : stored.map.keyframes)
+    map.frame_of_keyframe[keyframe.id] = keyframe.frame;
+  map.graph = std::move(stored.map.place_graph);
+  return map;
+}
+
+}  // namespace
+
+RunMap read_run_map(const std::string& folder) {
+  if (std::filesystem::is_regular_file(folder)) return run_map_of(read_map(folder), folder);
+  const std::filesystem::path root(folder);
+  const std::string path = (root / "places.json").string();
+  const PoseGraph written = read_g2o((root / "graph.g2o").string());
+  const json document = read_json(path);
+  RunMap map;
+  try {
+    for (const json& entry : document.at("places"))
+      map.graph.places.push_back(place_of(entry, map));
+    take_edges(document.at("edges"), written, map);
+  } catch (const json::exception& error) {
+    throw FileError(path, std::string("is not what placegraph run writes: ") + error.what());
+  } catch (const ArgumentError& error) {
+    throw FileError(path, std::string("is not what placegraph run writes: ") + error.what());
+  }
+  return map;
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,174 @@
+#include "apps/results/semantic_map_files.h"
+
+#include <placegraph/eval/scene/semantic_map_check.h>
+#include <placegraph/eval/plots/semantic_map_plot.h>
+#include <placegraph/frontend/scene/moving_classes.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/scene/labelled_mesh_file.h>
+#include <placegraph/io/scene/semantic_map_file.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/pipeline/lens_correction.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/json_file.h"
+#include "apps/support/output.h"
+#include "apps/support/progress.h"
+#include "apps/results/run_judgement.h"
+#include "apps/support/scene_models.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json score_json(const SemanticMapCheck::Score& score) {
+  const double n = std::max<double>(1, static_cast<double>(score.cells));
+  return {{"cells", score.cells},
+          {"right_share", score.share()},
+          {"most_share", static_cast<double>(score.most) / n},
+          {"nothing_share", static_cast<double>(score.nothing) / n}};
+}
+
+json check_json(const SemanticMapCheck& check, const SemanticMap& map) {
+  json confusion;
+  const std::size_t n = map.classes.size();
+  for (std::size_t c = 0; c < n; ++c) {
+    const auto begin = check.confusion.begin() + static_cast<std::ptrdiff_t>(c * n);
+    if (std::any_of(begin, begin + static_cast<std::ptrdiff_t>(n), [](auto k) { return k > 0; }))
+      confusion[map.classes[c]] =
+          std::vector<std::int64_t>(begin, begin + static_cast<std::ptrdiff_t>(n));
+  }
+  return {{"all", score_json(check.all)},
+          {"top", score_json(check.top)},
+          {"unjudged", check.unjudged},
+          {"confusion", confusion}};
+}
+
+std::vector<std::pair<std::int64_t, std::vector<float>>> shares_by_place(const UrbanMapper& mapper,
+                                                                         const Map& map) {
+  const std::vector<std::vector<float>> shares = class_shares(mapper, map);
+  std::vector<std::pair<std::int64_t, std::vector<float>>> result;
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    result.emplace_back(map.place_graph.places[i].id, shares[i]);
+  return result;
+}
+
+}  // namespace
+
+Georeference read_georeference(const std::string& folder, const Map& map) {
+  const std::string path = (fs::path(folder) / "georeference.json").string();
+  Georeference result;
+  try {
+    const json origin = read_json(path).at("origin");
+    result.origin = {origin.at("latitude_deg").get<double>(),
+                     origin.at("longitude_deg").get<double>(), origin.at("height_m").get<double>()};
+    result.origin.check();
+  } catch (const json::exception& error) {
+    throw FileError(path,
+                    std::string("is not what placegraph georeference writes: ") + error.what());
+  } catch (const ArgumentError& error) {
+    throw FileError(path, error.what());
+  }
+  const Trajectory trajectory = read_trajectory((fs::path(folder) / "trajectory_enu.tum").string());
+  constexpr std::int64_t kSame_ns = 1000000;  // stamps were written in decimal seconds
+  std::map<std::int64_t, SE3> poses;
+  for (const Keyframe& keyframe : map.keyframes) {
+    const auto at = std::lower_bound(
+        trajectory.poses.begin(), trajectory.poses.end(), keyframe.stamp_ns - kSame_ns,
+        [](const StampedPose& pose, std::int64_t stamp) { return pose.stamp_ns < stamp; });
+    if (at != trajectory.poses.end() && at->T_world_body &&
+        at->stamp_ns <= keyframe.stamp_ns + kSame_ns)
+      poses.emplace(keyframe.id, SE3(*at->T_world_body));
+  }
+  result.T_enu_keyframe = [poses = std::move(poses)](std::int64_t id) -> std::optional<SE3> {
+    const auto found = poses.find(id);
+    if (found == poses.end()) return std::nullopt;
+    return found->second;
+  };
+  return result;
+}
+
+void check_urban_models(const UrbanMapperOptions& options, const UrbanModelPaths& models) {
+  const SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, models.urban);
+  (void)load_scene_model(SceneModel::Kind::kSurfaces, models.surfaces);
+  (void)moving_classes(options.sight.moving, urban);
+}
+
+UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, const Dataset& dataset,
+                            Sensor sensor, double lens_k1, const UrbanMapperOptions& options,
+                            const UrbanModelPaths& models) {
+  UrbanMapper mapper(options, calibration, load_scene_model(SceneModel::Kind::kUrban, models.urban),
+                     load_scene_model(SceneModel::Kind::kSurfaces, models.surfaces));
+  if (!map.metric || calibration.baseline_m <= 0) return mapper;  // nothing can come of it
+  LensCorrection lens(dataset.calibration(sensor));
+  if (lens_k1 != 0) lens.add(lens_k1);
+  std::optional<Progress> progress;
+  add_keyframes(
+      mapper, map, options,
+      [&](const Keyframe& keyframe) {
+        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame), sensor);
+        if (lens_k1 != 0) lens.apply(frame);
+        return frame;
+      },
+      [&](std::size_t done, std::size_t total) {
+        if (!progress)
+          progress.emplace("labelling " + dataset.name(), static_cast<std::int64_t>(total),
+                           "keyframes");
+        progress->update(static_cast<std::int64_t>(done));
+      });
+  return mapper;
+}
+
+void write_semantic_map(const std::string& folder, const SemanticMap& semantic,
+                        const UrbanMapper& mapper, const Map& map,
+                        const KeyframePoses& T_frame_keyframe, const std::string& title,
+                        const std::optional<GeodeticPosition>& origin) {
+  const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  SemanticMapPicture picture;
+  picture.title = title;
+  for (const Keyframe& keyframe : map.keyframes) {
+    const std::optional<SE3> T = T_frame_keyframe(keyframe.id);
+    picture.path.emplace_back();
+    if (!T) continue;
+    const Eigen::Vector3d p = semantic.R_plan_map.matrix() * T->translation();
+    picture.path.back() = Eigen::Vector2d(p[0], p[2]);
+  }
+  write_file(path("semantic_map.ply"), to_ply(semantic));
+  write_file(path("semantic_map.json"), to_json(semantic, shares_by_place(mapper, map)));
+  write_file(path("semantic_map.png"), semantic_map_png(semantic, picture));
+  if (origin) write_file(path("semantic_map.geojson"), to_geojson(semantic, *origin));
+}
+
+json describe_semantic_map(const SemanticMap& semantic, const UrbanMapper& mapper, const Map& map,
+                           const Dataset& dataset, const std::string& sequence) {
+  json summary = {{"outcome", to_string(semantic.outcome.code)}};
+  if (!semantic.outcome) {
+    summary["reason"] = semantic.outcome.reason;
+    return summary;
+  }
+  summary["keyframes"] = mapper.sights().size();
+  summary["cells"] = std::count_if(semantic.cells.begin(), semantic.cells.end(),
+                                   [](const SemanticCell& cell) { return cell.label >= 0; });
+  const fs::path truth_path = fs::path(sequence) / "scene.ply";
+  const auto& truth = dataset.ground_truth();
+  if (!fs::exists(truth_path) || !truth || truth->size() != dataset.size()) return summary;
+  const LabelledMesh scene = read_labelled_mesh(truth_path.string());
+  summary["check"]["optimized"] =
+      check_json(check_semantic_map(semantic, scene,
+                                    fit_by_first_pose(*truth, map, map.trajectory_optimized())),
+                 semantic);
+  const SemanticMap before = mapper.fuse(online_poses_of(map));
+  if (before.outcome)
+    summary["check"]["online"] = check_json(
+        check_semantic_map(before, scene, fit_by_first_pose(*truth, map, map.trajectory_online)),
+        before);
+  return summary;
+}
+
+}  // namespace placegraph::apps

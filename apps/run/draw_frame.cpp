@@ -1,0 +1,93 @@
+#include "apps/run/draw_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/support/output.h"
+#include "apps/support/subpixel.h"
+
+namespace placegraph::apps {
+namespace {
+
+std::string directions(const FrameView& view) {
+  if (view.directed.empty()) return "";
+  std::int64_t world = -1;
+  for (const FrameView::DirectedLine& line : view.directed) world = std::max(world, line.world);
+  std::string text = world < 0 ? ", no rectangular world" : ", rectangular world ";
+  if (world >= 0) text += std::to_string(world);
+  return text;
+}
+
+cv::Scalar colour_of(std::optional<double> off_px) {
+  if (!off_px) return {255, 255, 255};
+  constexpr double kRedAtPx = 3;
+  const double off = std::min(1.0, *off_px / kRedAtPx);
+  return {0, 255 * std::min(1.0, 2 - 2 * off), 255 * std::min(1.0, 2 * off)};
+}
+
+/// Red, green and blue along the axes of a rectangular world, grey along none.
+cv::Scalar colour_of(const FrameView::DirectedLine& line) {
+  static const cv::Scalar kColours[] = {{64, 64, 255}, {64, 224, 64}, {255, 96, 64}};
+  return line.axis < 0 ? cv::Scalar(128, 128, 128) : kColours[line.axis];
+}
+
+std::string caption(const FrameResult& result, const FrameView& view) {
+  const char* state = result.state == TrackingState::kTracking ? "tracking"
+                      : result.state == TrackingState::kLost   ? "lost"
+                                                               : "waiting";
+  const auto mapped = std::count_if(view.tracks.begin(), view.tracks.end(),
+                                    [](const auto& track) { return track.px_projected; });
+  return std::to_string(result.frame) + " " + state + (result.keyframe ? ", keyframe" : "") + ", " +
+         std::to_string(view.tracks.size()) + " tracks, " + std::to_string(mapped) + " landmarks" +
+         (view.lines.empty() ? "" : ", " + std::to_string(view.lines.size()) + " lines") +
+         directions(view) + (result.loops_accepted > 0 ? ", loop" : "");
+}
+
+}  // namespace
+
+Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView& view) {
+  Image canvas;
+  cv::cvtColor(frame.image, canvas, cv::COLOR_GRAY2BGR);
+  if (view.ground_px.size() > 2) {
+    std::vector<cv::Point> outline;
+    for (const Eigen::Vector2d& px : view.ground_px) outline.push_back(sixteenths(px));
+    cv::polylines(canvas, outline, true, {255, 128, 0}, 1, cv::LINE_AA, kShift);
+  }
+  for (const FrameView::DirectedLine& line : view.directed)
+    cv::line(canvas, sixteenths(line.segment.start), sixteenths(line.segment.end), colour_of(line),
+             line.axis < 0 ? 1 : 2, cv::LINE_AA, kShift);
+  for (const FrameView::SurfacePixel& pixel : view.surfaces)
+    cv::circle(canvas, sixteenths(pixel.px), 1 << kShift,
+               colour_of(std::abs(pixel.residual_sigmas)), cv::FILLED, cv::LINE_AA, kShift);
+  for (const FrameView::Line& line : view.lines)
+    cv::line(canvas, sixteenths(line.segment.start), sixteenths(line.segment.end),
+             colour_of(line.off_px), 2, cv::LINE_AA, kShift);
+  for (const FrameView::Track& track : view.tracks) {
+    std::optional<double> off_px;
+    if (track.px_projected) off_px = (*track.px_projected - track.px).norm();
+    const cv::Scalar colour = colour_of(off_px);
+    cv::line(canvas, sixteenths(track.px_previous), sixteenths(track.px), colour, 1, cv::LINE_AA,
+             kShift);
+    cv::circle(canvas, sixteenths(track.px), 2 << kShift, colour, 1, cv::LINE_AA, kShift);
+  }
+  for (const auto& [colour, width] :
+       {std::pair(cv::Scalar(0, 0, 0), 3), std::pair(cv::Scalar(255, 255, 255), 1)})
+    cv::putText(canvas, caption(result, view), {6, 16}, cv::FONT_HERSHEY_SIMPLEX, 0.45, colour,
+                width, cv::LINE_AA);
+  return canvas;
+}
+
+void write_frame_drawing(const std::string& folder, const Frame& frame, const FrameResult& result,
+                         const FrameView& view) {
+  std::vector<unsigned char> png;
+  cv::imencode(".png", draw_frame(frame, result, view), png, {cv::IMWRITE_PNG_COMPRESSION, 3});
+  char name[32];
+  std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(frame.id));
+  write_file((std::filesystem::path(folder) / name).string(), {png.begin(), png.end()});
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,41 @@
+#include "apps/support/calib_option.h"
+
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/calibration_file.h>
+#include <placegraph/io/datasets/camera_file.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+namespace placegraph::apps {
+
+CLI::Option* add_calib_option(CLI::App& command, std::string& path, const std::string& doc,
+                              const std::string& former) {
+  CLI::Option* option = command.add_option("--calib", path, doc)->check(CLI::ExistingFile);
+  if (former.empty()) return option;
+  // Callbacks come before the look for what is missing.
+  const auto take = [&path, option, former](const std::string& given) {
+    if (option->count() > 0) throw CLI::ExcludesError(former, "--calib");
+    path = given;
+    option->required(false);
+  };
+  command.add_option_function<std::string>(former, take)->check(CLI::ExistingFile)->group("");
+  return option;
+}
+
+Camera read_calib(const std::string& path) {
+  const std::string kind = std::filesystem::path(path).extension().string();
+  if (kind != ".yaml" && kind != ".yml") return read_camera_file(path);
+  CalibrationYaml yaml;
+  read_calibration_yaml(path, yaml);
+  return yaml.camera();
+}
+
+Camera read_calib_without_distortion(const std::string& path, const std::string& what) {
+  const Camera camera = read_calib(path);
+  if (camera.distortion != Distortion::kNone)
+    throw FileError(path, what + " a camera without distortion");
+  return camera;
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,31 @@
+#pragma once
+#include <placegraph/io/datasets/dataset.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace placegraph::apps {
+
+/// The grey images of a sequence in their order: of a data set (see open_dataset), undistorted and
+/// with its camera, or of a bare folder of images, as they are and without.
+class FrameSource {
+ public:
+  /// Throws FileError if `path` is neither.
+  explicit FrameSource(const std::string& path);
+  std::size_t size() const { return dataset_ ? dataset_->size() : images_.size(); }
+  /// Nothing for a bare folder.
+  std::optional<Camera> camera() const;
+  /// Nothing for a bare folder.
+  std::optional<std::int64_t> stamp_ns(std::size_t index) const;
+  /// CV_8UC1. Throws FileError, for a bare folder also if its images differ in size.
+  Image image(std::size_t index) const;
+
+ private:
+  std::unique_ptr<Dataset> dataset_;
+  std::vector<std::string> images_;
+  Image first_;  ///< of a bare folder
+};
+
+}  // namespace placegraph::apps

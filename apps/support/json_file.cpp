@@ -1,0 +1,37 @@
+#include "apps/support/json_file.h"
+
+#include <placegraph/graph/core/error.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace placegraph::apps {
+
+nlohmann::json read_json(const std::string& path) {
+  std::ifstream stream(path);
+  if (!stream) throw FileError(path, "cannot be opened for reading");
+  try {
+    return nlohmann::json::parse(stream);
+  } catch (const nlohmann::json::parse_error& error) {
+    throw FileError(path, "is not valid JSON, at byte " + std::to_string(error.byte));
+  }
+}
+
+nlohmann::json pose_json(const SE3& T) {
+  const Eigen::Vector3d& t = T.translation();
+  const Eigen::Quaterniond& q = T.rotation().quaternion();
+  return {{"position_m", {t.x(), t.y(), t.z()}}, {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}}};
+}
+
+SE3 pose_of(const nlohmann::json& pose) {
+  const auto t = pose.at("position_m").get<std::array<double, 3>>();
+  const auto q = pose.at("quaternion_xyzw").get<std::array<double, 4>>();
+  const Eigen::Quaterniond rotation(q[3], q[0], q[1], q[2]);
+  require(std::abs(rotation.norm() - 1) < 1e-2, "quaternion_xyzw is not of unit length");
+  return {SO3(rotation.normalized()), Eigen::Vector3d(t[0], t[1], t[2])};
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,18 @@
+#pragma once
+#include <placegraph/graph/geometry/se3.h>
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace placegraph::apps {
+
+/// Throws FileError if the file cannot be opened or is not valid JSON.
+nlohmann::json read_json(const std::string& path);
+
+/// {"position_m": [x, y, z], "quaternion_xyzw": [x, y, z, w]}.
+nlohmann::json pose_json(const SE3& T);
+/// Its inverse. Throws nlohmann::json::exception where the form is another, ArgumentError where
+/// numbers are no pose.
+SE3 pose_of(const nlohmann::json& pose);
+
+}  // namespace placegraph::apps

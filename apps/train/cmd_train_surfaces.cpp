@@ -1,0 +1,13 @@
+#include "apps/train/cmd_train_surfaces.h"
+
+#include "apps/train/train_scene.h"
+
+namespace placegraph::apps {
+
+void add_train_surfaces_command(CLI::App& train) {
+  add_train_scene_command(
+      train, SceneModel::Kind::kSurfaces,
+      "Learn to tell sky, ground, verticals and objects, from labelled pictures");
+}
+
+}  // namespace placegraph::apps

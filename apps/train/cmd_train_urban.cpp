@@ -1,0 +1,12 @@
+#include "apps/train/cmd_train_urban.h"
+
+#include "apps/train/train_scene.h"
+
+namespace placegraph::apps {
+
+void add_train_urban_command(CLI::App& train) {
+  add_train_scene_command(train, SceneModel::Kind::kUrban,
+                          "Learn what is what in a street, from labelled pictures");
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,31 @@
+#pragma once
+#include <placegraph/graph/pose_graph/bundle.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/robust_kernel.h>
+
+namespace placegraph {
+
+struct BundleOptions {
+  int max_iterations = 200;
+  double relative_decrease = 1e-7;  ///< stop when the cost falls by less than this share
+  RobustKernel kernel;              ///< width in pixels
+  void check() const;
+};
+void visit(OptionVisitor& field, BundleOptions& options);
+
+struct BundleReport {
+  Outcome outcome;
+  Bundle bundle;                            ///< with the estimate; as it came if there is none
+  double cost_initial = 0, cost_final = 0;  ///< half the sum of rho(squared error [px^2])
+  double rms_px = 0;                        ///< of the reprojection errors at the end, no kernel
+  int iterations = 0;
+};
+
+/// Full bundle adjustment: the poses, focal lengths and distortions of all cameras and all points
+/// that least squares of the reprojection errors give (RadialReprojectionFactor in a FactorGraph).
+/// Seven directions stay open (position, heading, scale of the whole): there nothing moves. Throws
+/// as Bundle::check. kTooFewData: no observations; kNotConverged: the estimate so far is there.
+[[nodiscard]] BundleReport adjust_bundle(const Bundle& bundle, const BundleOptions& options);
+
+}  // namespace placegraph

@@ -1,0 +1,76 @@
+#pragma once
+#include <placegraph/backend/factors/variable.h>
+
+#include <array>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace placegraph {
+
+/// A term of a factor graph: a whitened residual r of a few variables, with its derivatives. The
+/// graph minimizes the sum of rho(|r|^2) / 2. Derive from this, or more easily from SizedFactor. A
+/// factor must not change once it is in a graph.
+class Factor {
+ public:
+  virtual ~Factor() = default;
+
+  /// Number of rows of r.
+  virtual int residual_size() const = 0;
+  /// The kinds of the variables, in order: indices of the alternatives of Variable.
+  virtual std::vector<std::size_t> variable_kinds() const = 0;
+  /// Writes r and, where jacobians is not empty, the derivative of r by the tangent of every
+  /// variable (residual_size x degrees_of_freedom, T [+] xi = T exp(xi)); sizes are right already.
+  /// False where the residual cannot be computed: the solver then tries a shorter step.
+  virtual bool evaluate(std::span<const Variable* const> values, Eigen::Ref<Eigen::VectorXd> r,
+                        std::span<Eigen::MatrixXd> jacobians) const = 0;
+};
+
+/// The derivative of `Rows` residuals by one variable.
+template <int Rows, class T>
+using FactorJacobian = Eigen::Matrix<double, Rows, VariableBlock<T>::kDof>;
+
+/// A factor whose sizes and variables are known when it is compiled:
+///
+///     class Range final : public SizedFactor<1, SE3, Eigen::Vector3d> {
+///       bool compute(const SE3& T_world_body, const Eigen::Vector3d& p_world, Residual& r,
+///                    Jacobians* J) const override { ... std::get<1>(*J) = ...; return true; }
+///     };
+///
+/// `J` is null where no derivatives are asked for; what it points to comes uninitialized.
+template <int Rows, class... Variables>
+class SizedFactor : public Factor {
+ public:
+  static constexpr int kRows = Rows;
+  using VariableTuple = std::tuple<Variables...>;
+  using Residual = Eigen::Matrix<double, Rows, 1>;
+  using Jacobians = std::tuple<FactorJacobian<Rows, Variables>...>;
+
+  virtual bool compute(const Variables&... variables, Residual& r, Jacobians* J) const = 0;
+
+  int residual_size() const final { return Rows; }
+  std::vector<std::size_t> variable_kinds() const final {
+    return {Variable(std::in_place_type<Variables>).index()...};
+  }
+  bool evaluate(std::span<const Variable* const> values, Eigen::Ref<Eigen::VectorXd> r,
+                std::span<Eigen::MatrixXd> jacobians) const final {
+    return evaluate_all(values, r, jacobians, std::index_sequence_for<Variables...>());
+  }
+
+ private:
+  template <std::size_t... I>
+  bool evaluate_all(std::span<const Variable* const> values, Eigen::Ref<Eigen::VectorXd> r,
+                    std::span<Eigen::MatrixXd> jacobians, std::index_sequence<I...>) const {
+    Residual residual;
+    Jacobians J;
+    if (!compute(std::get<Variables>(*values[I])..., residual, jacobians.empty() ? nullptr : &J))
+      return false;
+    Eigen::Map<Residual>{r.data()} = residual;
+    if (!jacobians.empty())
+      ((Eigen::Map<FactorJacobian<Rows, Variables>>(jacobians[I].data()) = std::get<I>(J)), ...);
+    return true;
+  }
+};
+
+}  // namespace placegraph

@@ -1,0 +1,39 @@
+#pragma once
+#include <placegraph/backend/georeference/antenna_trajectory.h>
+#include <placegraph/graph/measurements/gps_fix.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// Of all coordinates by themselves, longitudes relative to the first fix: gross errors do not move
+/// it. At least one fix.
+GeodeticPosition median_position(const std::vector<GpsFix>& fixes);
+
+/// A time without a fix, inside of the map's time.
+struct GpsDropout {
+  std::int64_t begin_ns = 0, end_ns = 0;  ///< by the nodes' clock
+};
+
+/// The times longer than `least_s` between the first and the last visit in which no fix lies.
+std::vector<GpsDropout> find_dropouts(const std::vector<NodeVisit>& visits,
+                                      const std::vector<std::int64_t>& stamps_of_fixes_ns,
+                                      double least_s);
+
+/// What a map leaves of a fix.
+struct FixResidual {
+  std::int64_t stamp_ns = 0;
+  Eigen::Vector3d e_enu = Eigen::Vector3d::Zero();  ///< [m]
+  double accuracy_m = 1;                            ///< as the receiver states it
+};
+
+/// By which factor fixes scatter more than they state (1 if they do not), from differences of
+/// successive residuals at most `max_gap_s` apart: what a map that does not fit leaves cancels in
+/// them, and the median passes over gross errors. Nothing below twenty pairs.
+struct FixScatter {
+  double horizontal = 1, vertical = 1;
+};
+std::optional<FixScatter> scatter_of(const std::vector<FixResidual>& residuals, double max_gap_s);
+
+}  // namespace placegraph

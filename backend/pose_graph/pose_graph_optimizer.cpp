@@ -1,0 +1,134 @@
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+
+#include <utility>
+
+namespace placegraph {
+namespace {
+
+/// e^T Omega e of every constraint, in the order of PoseGraph::constraints.
+template <class Group>
+std::vector<double> chi2_by_constraint(const PackedGraph<Group>& graph,
+                                       RotationError rotation_error) {
+  std::vector<double> chi2(graph.edges.size() + graph.positions.size());
+  const std::vector<double> edges = chi2_by_edge(graph, rotation_error);
+  for (std::size_t i = 0; i < edges.size(); ++i) chi2[graph.edges[i].constraint] = edges[i];
+  const std::vector<double> positions = chi2_by_position(graph);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    chi2[graph.positions[i].constraint] = positions[i];
+  return chi2;
+}
+
+double sum(const std::vector<double>& values) {
+  double total = 0;
+  for (const double value : values) total += value;
+  return total;
+}
+
+/// Where a robust method begins. False loops spoil starts that are made from loops; of the others
+/// graduated non-convexity needs one that is worth something, whatever the poses are.
+PoseGraphStart robust_start(const PoseGraphOptions& options) {
+  if (options.start != PoseGraphStart::kAuto) return options.start;
+  return options.robust.method == RobustMethod::kGnc ? PoseGraphStart::kOdometry
+                                                     : PoseGraphStart::kFile;
+}
+
+/// From the chosen start to the minimum; fills what the report says of the way there.
+template <class Group>
+void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
+              const PoseGraphOptions& options, PoseGraphReport& report) {
+  StartSolution found;
+  if (options.robust.method == RobustMethod::kNone) {
+    LocalSolver<Group> solver(local);
+    found = solve_from_start(graph, options.start, options.rotation_error, solver);
+  } else {
+    found.used = robust_start(options);
+    set_start(graph, found.used, options.rotation_error);
+    RobustSolution robust =
+        solve_robustly(graph, local, options.robust, options.start == PoseGraphStart::kAuto);
+    found.solution = std::move(robust.local);
+    found.refined_from_certified = found.used == PoseGraphStart::kCertified;
+    report.rejected = std::move(robust.rejected);
+  }
+  report.outcome = found.solution.outcome;
+  report.iterations = found.solution.iterations;
+  report.start_used = found.used;
+  report.refined_from_certified = found.refined_from_certified;
+}
+
+template <class Group>
+PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
+                         const LogSink& log_sink) {
+  PackedGraph<Group> packed = pack<Group>(graph);
+  PoseGraphReport report;
+  report.chi2_initial = sum(chi2_by_constraint(packed, options.rotation_error));
+  minimize(packed,
+           {.engine = options.engine,
+            .rotation_error = options.rotation_error,
+            .step_rule = options.step_rule,
+            .max_iterations = options.max_iterations,
+            .relative_decrease = options.relative_decrease,
+            .log = log_sink},
+           options, report);
+  unpack(packed, graph);
+  report.graph = std::move(graph);
+  report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
+  report.chi2_final = sum(report.chi2_by_constraint);
+  log(log_sink, LogLevel::kInfo,
+      "pose graph: chi2 " + std::to_string(report.chi2_initial) + " -> " +
+          std::to_string(report.chi2_final) + " in " + std::to_string(report.iterations) +
+          " iterations, start " + to_string(report.start_used));
+  return report;
+}
+
+template <class Group>
+double chi2_of(const PoseGraph& graph, RotationError rotation_error) {
+  return sum(chi2_by_constraint(pack<Group>(graph), rotation_error));
+}
+
+}  // namespace
+
+void PoseGraphOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, PoseGraphOptions& o) {
+  field.choice("rotation_error", o.rotation_error, {"log", "quaternion"},
+               "error of a relative pose: log of the group, or g2o's quaternion vector part");
+  field.choice("engine", o.engine, {"native", "ceres"}, "which solver finds the minimum");
+  field.choice("step_rule", o.step_rule, {"dogleg", "gauss_newton", "levenberg_marquardt"},
+               "how the native engine steps");
+  field.choice("start", o.start, {"auto", "file", "odometry", "chordal", "certified"},
+               "where the descent begins; auto: the cheapest start whose minimum can be trusted");
+  field("max_iterations", o.max_iterations, "steps of the descent at most", {1, 100000});
+  field("relative_decrease", o.relative_decrease,
+        "stop when the cost falls by less than this share", {0, 1});
+  field.group("robust", o.robust, "what is done against false loops");
+}
+
+PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
+                                    const LogSink& log) {
+  options.check();
+  graph.check();
+  switch (graph.kind()) {
+    case PoseKind::kSE2:
+      return optimize<SE2>(std::move(graph), options, log);
+    case PoseKind::kSE3:
+      return optimize<SE3>(std::move(graph), options, log);
+    case PoseKind::kSim3:
+      break;
+  }
+  return optimize<Sim3>(std::move(graph), options, log);
+}
+
+double chi2(const PoseGraph& graph, RotationError rotation_error) {
+  graph.check();
+  switch (graph.kind()) {
+    case PoseKind::kSE2:
+      return chi2_of<SE2>(graph, rotation_error);
+    case PoseKind::kSE3:
+      return chi2_of<SE3>(graph, rotation_error);
+    case PoseKind::kSim3:
+      break;
+  }
+  return chi2_of<Sim3>(graph, rotation_error);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,51 @@
+#pragma once
+#include <placegraph/backend/robust/gnc.h>
+#include <placegraph/backend/robust/loop_clusters.h>
+
+namespace placegraph {
+
+struct LoopGrowthOptions {
+  /// The gate of a loop's squared error is this many times the chi-squared quantile of Gaussian
+  /// noise: measured loops have longer tails.
+  double margin = 1.5;
+  /// A loop with an error beyond the gate is still one of the others if it is at most this many
+  /// times the largest error among them.
+  double tail = 3;
+  /// A loop that says nearly the right thing, off by at most this share of the map's extent and of
+  /// half a turn, is badly measured rather than false: its gate is twenty times as wide.
+  double nearly_right = 0.01;
+  int max_rounds = 20;
+  void check() const;
+};
+void visit(OptionVisitor& field, LoopGrowthOptions& options);
+
+struct LoopGrowth {
+  LocalSolution local;
+  double noise_scale = 1;  ///< variance of the noise in units of what the information claims
+};
+
+/// Finds which loops of a graph are true, and the poses that go with them. Weights of the loops
+/// come out as 1 or 0. After Latif et al. 2013 ("Robust loop closing over time for pose graph
+/// SLAM"), with groups of loops that support each other (loop_support.h) in the place of their
+/// clusters:
+///   1. begin with odometry alone and the largest group,
+///   2. solve; of the groups at least half as large take those that the graph can follow (the rise
+///      of the cost, loop_leverage.h, is within the gate of each of its loops), by graduated
+///      non-convexity over all that is taken; and so on to groups of two,
+///   3. test every loop, taken or not, against the solution, and the lone ones against what the
+///      solution can follow; solve and repeat until nothing changes.
+/// The gate is calibrated to the noise of the graph: of the rings of neighbouring loops at first,
+/// of the solution later. `probability` is the share of true loops within it, were noise Gaussian.
+/// A loop that alone ties a part of the graph to the rest is kept.
+template <class Group>
+[[nodiscard]] LoopGrowth grow_loops(PackedGraph<Group>& graph, const LoopSupport& support,
+                                    double probability, const LocalSolverOptions& solver,
+                                    const LoopGrowthOptions& options, const GncOptions& gnc);
+
+/// Step 3 alone, from the poses and the weights that `graph` has.
+template <class Group>
+[[nodiscard]] LoopGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support,
+                                      double probability, const LocalSolverOptions& solver,
+                                      const LoopGrowthOptions& options, const GncOptions& gnc);
+
+}  // namespace placegraph

@@ -1,0 +1,10 @@
+#pragma once
+#include <placegraph/backend/solver/local_solver.h>
+
+namespace placegraph {
+
+/// The engine `ceres`: Levenberg-Marquardt with analytic cost functions and SuiteSparse's Cholesky.
+template <class Group>
+LocalSolution solve_with_ceres(PackedGraph<Group>& graph, const LocalSolverOptions& options);
+
+}  // namespace placegraph

@@ -1,0 +1,52 @@
+#include <placegraph/eval/loops/precision_recall.h>
+#include <placegraph/graph/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+void check(const std::vector<ScoredAnswer>& answers, int positives) {
+  int correct = 0;
+  for (const ScoredAnswer& answer : answers) {
+    require(std::isfinite(answer.score), "precision_recall: a score is not finite");
+    correct += answer.correct;
+  }
+  require(correct <= positives, "precision_recall: " + std::to_string(correct) +
+                                    " correct answers, but only " + std::to_string(positives) +
+                                    " positives");
+}
+
+}  // namespace
+
+PrecisionRecall precision_recall(std::vector<ScoredAnswer> answers, int positives) {
+  check(answers, positives);
+  std::sort(answers.begin(), answers.end(),
+            [](const ScoredAnswer& a, const ScoredAnswer& b) { return a.score > b.score; });
+  PrecisionRecall result;
+  PrecisionRecallPoint point;
+  double area = 0, full = 0, f1 = 0, recall_before = 0;
+  for (auto first = answers.begin(); first != answers.end();) {
+    auto last = first;
+    for (; last != answers.end() && last->score == first->score; ++last)
+      ++(last->correct ? point.hits : point.misses);
+    point.threshold = first->score;
+    point.precision = static_cast<double>(point.hits) / (point.hits + point.misses);
+    if (positives > 0) point.recall = static_cast<double>(point.hits) / positives;
+    result.curve.push_back(point);
+    area += point.precision * (point.recall - recall_before);
+    recall_before = point.recall;
+    if (point.misses == 0) full = point.recall;
+    if (point.hits > 0)
+      f1 = std::max(f1, 2 * point.precision * point.recall / (point.precision + point.recall));
+    first = last;
+  }
+  if (positives == 0) return result;
+  result.average_precision = area;
+  result.recall_at_full_precision = full;
+  result.f1_max = f1;
+  return result;
+}
+
+}  // namespace placegraph

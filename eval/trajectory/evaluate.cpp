@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+#include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/eval/trajectory/plausibility.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+// A scale further from 1 than this, that also explains half the error, is a wrong unit or a
+// monocular estimate rather than drift.
+constexpr double kScaleTolerance = 0.1;
+
+bool usable(const AlignmentResult& alignment) { return alignment.outcome || alignment.rank == 1; }
+
+std::vector<FramePair> aligned(const AlignmentResult& alignment, std::vector<FramePair> pairs) {
+  for (FramePair& pair : pairs)
+    if (pair.T_world_estimate) pair.T_world_estimate = alignment.apply(*pair.T_world_estimate);
+  return pairs;
+}
+
+std::vector<FramePair> scale_only(double scale, std::vector<FramePair> pairs) {
+  for (FramePair& pair : pairs)
+    if (pair.T_world_estimate) pair.T_world_estimate->translation() *= scale;
+  return pairs;
+}
+
+std::string scale_warning(const std::vector<FramePair>& pairs, Alignment used) {
+  if (used == Alignment::kSim3 || used == Alignment::kScale) return {};
+  const AlignmentResult rigid = align(pairs, Alignment::kSe3);
+  const AlignmentResult similar = align(pairs, Alignment::kSim3);
+  if (!usable(rigid) || !usable(similar)) return {};
+  const bool far =
+      similar.scale > 0 && std::abs(std::log(similar.scale)) > std::log1p(kScaleTolerance);
+  if (!far || similar.rmse_m > 0.5 * rigid.rmse_m) return {};
+  return fmt::format(
+      "the estimate looks mis-scaled: a scale of {:.4f} fits clearly better "
+      "(--align sim3 or --align scale fit one)",
+      similar.scale);
+}
+
+void add_warnings(EvaluationResult& r, const PairingResult& paired) {
+  if (r.alignment.rank == 1)
+    r.warnings.push_back(
+        "the positions lie on a line: the rotation about it was chosen at will "
+        "(the ATE does not depend on it)");
+  const std::string scale = scale_warning(paired.pairs, r.protocol.alignment);
+  if (!scale.empty()) r.warnings.push_back(scale);
+  for (const std::string& warning : convention_warnings(paired.pairs))
+    r.warnings.push_back(warning);
+  if (!r.segments.outcome) r.warnings.push_back("no t_rel and r_rel: " + r.segments.outcome.reason);
+  if (!r.rpe.outcome) r.warnings.push_back("no RPE: " + r.rpe.outcome.reason);
+  if (r.coverage < 0.5)
+    r.warnings.push_back(
+        fmt::format("only {:.1f} % of the frames have an estimate: the figures "
+                    "speak of those alone",
+                    100 * r.coverage));
+  if (paired.thinned)
+    r.warnings.push_back(
+        fmt::format("the ground truth is denser than the estimate: {} of its {} "
+                    "frames are judged",
+                    paired.pairs.size(), paired.truth_frames));
+}
+
+/// Of the true path, from the first posed frame to the last.
+double posed_path_m(const std::vector<FramePair>& pairs, const std::vector<double>& travelled_m) {
+  const auto posed = [](const FramePair& pair) { return pair.T_world_estimate.has_value(); };
+  const auto first = std::find_if(pairs.begin(), pairs.end(), posed);
+  const auto last = std::find_if(pairs.rbegin(), pairs.rend(), posed);
+  if (first == pairs.end()) return 0;
+  return travelled_m[static_cast<std::size_t>(pairs.rend() - last) - 1] -
+         travelled_m[static_cast<std::size_t>(first - pairs.begin())];
+}
+
+}  // namespace
+
+void EvaluationOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, EvaluationOptions& o) {
+  field.choice("align", o.alignment, {"none", "origin", "se3", "sim3", "scale"},
+               "what is fitted before comparing");
+  field.choice("associate", o.association, {"auto", "index", "time"},
+               "how lines of the two files are paired");
+  field("max_difference_s", o.time.max_difference_s, "largest difference of stamps of a pair",
+        {0, 1e6});
+  field("offset_s", o.time.offset_s, "added to the estimate's stamps", {-1e12, 1e12});
+  field.group("segments", o.segments, "t_rel and r_rel");
+}
+
+EvaluationResult evaluate(const Trajectory& truth, const Trajectory& estimate,
+                          const EvaluationOptions& options, const std::string& name) {
+  options.check();
+  EvaluationResult r;
+  r.name = name;
+  const PairingResult paired =
+      pair_trajectories(truth, estimate, options.association, options.time);
+  r.protocol = {options.alignment,     paired.association,         options.time.max_difference_s,
+                options.time.offset_s, options.segments.lengths_m, options.segments.step};
+  r.frames = paired.truth_frames;
+  r.posed = paired.posed;
+  r.outcome = paired.outcome;
+  if (!r.outcome) return r;
+
+  int judged_posed = 0;
+  for (const FramePair& pair : paired.pairs) {
+    if (pair.T_world_estimate)
+      ++judged_posed;
+    else
+      r.lost_frames.push_back(pair.frame);
+  }
+  r.coverage = static_cast<double>(judged_posed) / static_cast<double>(paired.pairs.size());
+  r.travelled_m = travelled_m(paired.pairs);
+  r.path_m = r.travelled_m.back();
+  r.posed_path_m = posed_path_m(paired.pairs, r.travelled_m);
+
+  r.alignment = align(paired.pairs, options.alignment);
+  if (!usable(r.alignment)) {
+    r.outcome = r.alignment.outcome;
+    return r;
+  }
+  r.aligned_pairs = aligned(r.alignment, paired.pairs);
+  r.ape = ape(r.aligned_pairs);
+  const std::vector<FramePair> scaled = scale_only(r.alignment.scale, paired.pairs);
+  r.rpe = rpe(scaled);
+  r.segments = kitti_segments(scaled, paired.has_times, options.segments);
+  add_warnings(r, paired);
+  return r;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,35 @@
+#pragma once
+#include <placegraph/frontend/floor_plan/wall_finder.h>
+
+namespace placegraph {
+
+struct DoorFinderOptions {
+  double min_width_m = 0.6, max_width_m = 2.2;
+  double min_head_m = 1.8, max_head_m = 2.5;         ///< of an opening's head above the floor
+  double min_recess_m = 0.025, max_recess_m = 0.16;  ///< of a leaf behind its wall's surface
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, DoorFinderOptions& options);
+
+/// A door in the frame of the walls: in the wall surface `offset_m` along `axis`.
+struct DoorPiece {
+  int axis = 0, sign = 1;
+  double offset_m = 0, from_m = 0, to_m = 0;
+  double head_m = 0;  ///< 0: none was seen
+  bool closed = false;
+};
+
+/// Doors along each wall's surface, and what lies between walls of one plane. Open ones: below a
+/// head nothing stands and rays pass, or, without a head, the `path` (camera positions, in order)
+/// goes through a gap of a door's width. Where the path goes through, one jamb is enough if the gap
+/// ends within 1.4 m, where rays that come so far are stopped for 0.4 m. Closed ones: a leaf as
+/// high and wide as doors are, set back from a wall that goes on above or beside it. Where the wall
+/// beside is seen only 0.4 m farther on or more, a door ends where its passage or leaf does. A door
+/// that both sides tell is told once.
+[[nodiscard]] std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
+                                                const std::vector<PlacedPoint>& points,
+                                                const VoxelEvidence& voxels,
+                                                const std::vector<Eigen::Vector3d>& path,
+                                                const DoorFinderOptions& options = {});
+
+}  // namespace placegraph

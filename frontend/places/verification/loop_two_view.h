@@ -1,0 +1,38 @@
+#pragma once
+#include <placegraph/frontend/relative_pose/pose_2d2d.h>
+#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
+#include <placegraph/frontend/places/verification/loop_refinement.h>
+
+namespace placegraph {
+
+struct LoopTwoViewOptions {
+  Pose2d2dOptions pose{.ransac = {.max_iterations = 400, .confidence = 0.9999, .min_inliers = 50},
+                       .threshold_px = 1.5};
+  Rotation2d2dOptions turn;
+  double min_parallax_px = 4;     ///< median displacement that the rotation leaves
+  int min_depths = 8;             ///< of one side that must agree on the length of the way
+  double max_depth_spread = 0.2;  ///< of their ratios (logarithm) from the median, to agree
+  double min_depth_share = 0.6;   ///< of the depths must agree
+  void check() const;
+};
+void visit(OptionVisitor& field, LoopTwoViewOptions& options);
+
+struct LoopOfTwoViews {
+  Outcome outcome;
+  TwoViewModel model = TwoViewModel::kEssential;
+  Sim3 S_match_query;        ///< of scale 1 where both views are in one unit
+  std::vector<int> inliers;  ///< into the points; ascending
+};
+
+/// Where the query stands in the match's frame and unit when too few points have a depth for
+/// estimate_pose_3d2d: essential matrix or homography, whichever explains the matches better; the
+/// motion among those that it allows, and its length, by the few depths that are known in either
+/// view. With `free_scale` depths of both are needed, as each view has a unit of its own. Outcomes:
+/// too few data, no consensus, degenerate (the views differ by a turn alone, parallax too small,
+/// two motions explain them equally well), inconsistent (the depths do not agree on a length).
+[[nodiscard]] LoopOfTwoViews loop_of_two_views(const Camera& camera,
+                                               const std::vector<LoopPoint>& points,
+                                               const LoopTwoViewOptions& options, Random& random,
+                                               bool free_scale);
+
+}  // namespace placegraph

@@ -1,0 +1,29 @@
+#pragma once
+#include <placegraph/frontend/segments/edge_refinement.h>
+#include <placegraph/frontend/segments/segment_merging.h>
+#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/geometry/line_segment.h>
+#include <placegraph/graph/core/options.h>
+
+#include <vector>
+
+namespace placegraph {
+
+struct SegmentDetectorOptions {
+  double min_length_px = 15;
+  double border_px = 3;  ///< edges that run so near along the border of the image are its own
+  SegmentMergingOptions merging;
+  EdgeRefinementOptions refinement;
+  void check() const;
+};
+void visit(OptionVisitor& field, SegmentDetectorOptions& options);
+
+/// Straight edges of a grey image (CV_8UC1, else ArgumentError): LSD (von Gioi et al. 2010, by
+/// OpenCV), pieces of one edge merged, each fitted anew to the gradient at sub-pixel accuracy. All
+/// have their polarity: the brighter side is on the right. Longest first.
+std::vector<EdgeSegment> detect_segments(const Image& image, const SegmentDetectorOptions& options);
+
+/// The segments alone, in order.
+std::vector<LineSegment> segments_of(const std::vector<EdgeSegment>& edges);
+
+}  // namespace placegraph

@@ -1,0 +1,35 @@
+#pragma once
+#include <placegraph/frontend/segments/segment_strip.h>
+#include <placegraph/graph/core/options.h>
+
+#include <optional>
+
+namespace placegraph {
+
+struct SegmentFlowOptions {
+  int strip_px = 7;          ///< half width of the strip that is followed
+  int iterations = 8;        ///< on each level
+  double robust_grey = 12;   ///< width of the kernel on grey values, where a side is hidden
+  double max_turn_deg = 15;  ///< from the expected direction
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, SegmentFlowOptions& options);
+
+struct SegmentFlow {
+  LineSegment segment;    ///< in the second image; its ends correspond as the expected ones do
+  StripSimilarity alike;  ///< of the two strips, at full size
+  double shift_px = 0;    ///< of the middle from where it was expected
+};
+
+/// Where a segment of one image lies in the next: its strip of grey values is aligned by a shift
+/// across and a turn, the two motions of a line that can be seen (the aperture hides the third),
+/// with gain and bias, by Gauss-Newton on the mean of both gradients (Benhimane & Malis 2007), from
+/// coarse to fine (Lucas & Kanade 1981), Huber weights. Motion along the line is that of
+/// `expected`. Nothing where the strip leaves the image or has no gradient, or the alignment runs
+/// away. `coarsest` is the number of halvings begun with: about log2 of the error of `expected`
+/// [px].
+std::optional<SegmentFlow> follow_segment(const StripImage& from, const LineSegment& segment,
+                                          const StripImage& to, const LineSegment& expected,
+                                          int coarsest, const SegmentFlowOptions& options);
+
+}  // namespace placegraph

@@ -1,0 +1,58 @@
+#pragma once
+#include <placegraph/graph/geometry/se3.h>
+
+#include <array>
+#include <optional>
+
+namespace placegraph {
+
+enum class Distortion {
+  kNone,
+  kRadialTangential,  ///< k1 k2 p1 p2 k3 (Brown 1966; OpenCV's order)
+  kEquidistant,       ///< k1 k2 k3 k4 (Kannala & Brandt 2006; OpenCV's fisheye)
+};
+
+/// A pinhole camera: x right, y down, z forward; pixel centres at integer coordinates.
+struct Camera {
+  int width = 0, height = 0;              ///< [px]
+  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< [px]
+  Distortion distortion = Distortion::kNone;
+  std::array<double, 5> coefficients{};  ///< in the order of the distortion model; the rest 0
+
+  /// Throws ArgumentError naming the field that is not finite or not positive where it must be.
+  void check() const;
+
+  Eigen::Matrix3d K() const;
+  /// The pixel of a point in the camera frame [m]; nothing if it lies behind the camera (z <= 0) or
+  /// beyond the angle up to which the distortion model is monotonic. `J_px_cam`, if given,
+  /// receives the 2x3 derivative.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_cam,
+                                         Eigen::Matrix<double, 2, 3>* J_px_cam = nullptr) const;
+  /// The viewing ray of a pixel, scaled to z = 1. Distortion is inverted by Newton iteration to
+  /// 1e-10; nothing where it does not converge.
+  std::optional<Eigen::Vector3d> unproject(const Eigen::Vector2d& px) const;
+  /// Whether the pixel lies at least `border_px` inside the image.
+  bool contains(const Eigen::Vector2d& px, double border_px = 0) const {
+    return px[0] >= border_px && px[1] >= border_px && px[0] <= width - 1 - border_px &&
+           px[1] <= height - 1 - border_px;
+  }
+};
+
+/// The depth sensor of an RGB-D camera: depth images need not be registered to the colour image.
+struct DepthCamera {
+  Camera camera;
+  SE3 T_cam_depth;             ///< maps depth-camera coordinates into the colour camera's
+  double sigma_at_1m = 0.005;  ///< depth noise [m] at 1 m; grows with the square of the depth
+};
+
+/// What is known of the sensors before the first frame. The (left) camera's frame is "cam".
+struct Calibration {
+  Camera camera;          ///< the left or only eye, of the images as they are handed over
+  double baseline_m = 0;  ///< > 0: there is a right eye, rectified, same intrinsics
+  std::optional<DepthCamera> depth;       ///< there is a depth image
+  std::optional<double> camera_height_m;  ///< height of the camera above the ground it drives on
+
+  void check() const;
+};
+
+}  // namespace placegraph

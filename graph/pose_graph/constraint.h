@@ -1,0 +1,51 @@
+#pragma once
+#include <placegraph/graph/geometry/lie.h>
+#include <placegraph/graph/core/robust_kernel.h>
+
+#include <cstdint>
+#include <variant>
+
+namespace placegraph {
+
+/// A pose of the graph, `T_world_node`. All nodes of one graph are of one kind.
+using Pose = std::variant<SE2, SE3, Sim3>;
+enum class PoseKind { kSE2, kSE3, kSim3 };  ///< in the order of Pose's alternatives
+
+inline PoseKind kind_of(const Pose& pose) { return static_cast<PoseKind>(pose.index()); }
+int degrees_of_freedom(PoseKind kind);
+
+/// Symmetric, positive semi-definite, of any rank; order of the tangent: translation, rotation,
+/// log scale. At most 7x7, without heap.
+using Information = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
+
+enum class ConstraintSource { kOdometry, kLoop, kOther };
+
+/// What is wrong with an information matrix, as in "information is indefinite"; nullptr if nothing
+/// is. Wrong are values that are not finite, asymmetry (beyond 1e-9 of the largest entry), an
+/// eigenvalue below -1e-9 of the largest, all zeros, and any size but 3x3, 6x6 and 7x7.
+const char* fault_of(const Information& information);
+const char* fault_of(const Eigen::Matrix3d& information);
+
+/// Node `to` seen from node `from`: error = Log(T_from_to^-1 * T_world_from^-1 * T_world_to).
+struct RelativePoseConstraint {
+  std::int64_t from = 0, to = 0;
+  Pose T_from_to;
+  Information information;
+  ConstraintSource source = ConstraintSource::kOdometry;
+  RobustKernel kernel;
+};
+
+/// The position of a point that a node carries [m], as of a GPS receiver's antenna:
+/// error = T_world_node * lever_arm - position_world. In the plane the third components are left
+/// out.
+struct PositionConstraint {
+  std::int64_t node = 0;
+  Eigen::Vector3d position_world = Eigen::Vector3d::Zero();
+  Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  ///< of the antenna, in the node's frame [m]
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
+  RobustKernel kernel;
+};
+
+using Constraint = std::variant<RelativePoseConstraint, PositionConstraint>;
+
+}  // namespace placegraph

@@ -1,0 +1,118 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/calibration_file.h>
+#include <placegraph/io/config/yaml_config.h>
+
+#include <algorithm>
+
+namespace placegraph {
+namespace {
+
+struct DistortionYaml {
+  Distortion& model;
+  std::vector<double>& coefficients;
+};
+
+void visit(OptionVisitor& field, DistortionYaml& yaml) {
+  field.choice("model", yaml.model, {"none", "radial_tangential", "equidistant"},
+               "distortion model");
+  field("coefficients", yaml.coefficients,
+        "k1 k2 p1 p2 [k3] (radial_tangential) or k1 k2 k3 k4 (equidistant)", {-1e3, 1e3});
+}
+
+void check(const std::string& path, const CalibrationYaml& yaml) {
+  const auto need = [&path](bool good, const char* message) {
+    if (!good) throw FileError(path, message);
+  };
+  need(yaml.width > 0 && yaml.height > 0, "width, height: are missing");
+  need(yaml.fx > 0 && yaml.fy > 0, "fx, fy: are missing");
+  need(yaml.cx != 0 && yaml.cy != 0, "cx, cy: are missing");
+  const std::size_t n = yaml.coefficients.size();
+  switch (yaml.distortion) {
+    case Distortion::kNone:
+      need(std::ranges::all_of(yaml.coefficients, [](double k) { return k == 0; }),
+           "distortion.coefficients: given, but distortion.model is none");
+      break;
+    case Distortion::kRadialTangential:
+      need(n == 4 || n == 5, "distortion.coefficients: radial_tangential has 4 or 5");
+      break;
+    case Distortion::kEquidistant:
+      need(n == 4, "distortion.coefficients: equidistant has 4");
+      break;
+  }
+  need(yaml.baseline_m == 0 || yaml.distortion == Distortion::kNone,
+       "baseline_m: a folder of stereo images must be rectified, without distortion");
+  const DepthYaml& depth = yaml.depth;
+  need(depth.T_cam_depth.empty() || depth.T_cam_depth.size() == 12,
+       "depth.T_cam_depth: expected 12 numbers");
+  const bool own = depth.fx > 0;
+  need(own == (depth.fy > 0) && own == (depth.width > 0) && own == (depth.height > 0),
+       "depth: width, height, fx, fy, cx, cy go together");
+  need(own || depth.T_cam_depth.empty(), "depth.T_cam_depth: needs a depth camera of its own (fx)");
+}
+
+}  // namespace
+
+Camera CalibrationYaml::camera() const {
+  Camera camera{width, height, fx, fy, cx, cy, distortion, {}};
+  std::ranges::copy(coefficients.begin(),
+                    coefficients.begin() +
+                        static_cast<std::ptrdiff_t>(std::min<std::size_t>(coefficients.size(), 5)),
+                    camera.coefficients.begin());
+  return camera;
+}
+
+DepthCamera CalibrationYaml::depth_camera() const {
+  DepthCamera result;
+  result.sigma_at_1m = depth.sigma_at_1m;
+  result.camera = camera();
+  if (depth.fx > 0) {
+    result.camera = {depth.width, depth.height, depth.fx,          depth.fy,
+                     depth.cx,    depth.cy,     Distortion::kNone, {}};
+  }
+  if (depth.T_cam_depth.size() == 12) {
+    const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> T(depth.T_cam_depth.data());
+    result.T_cam_depth = SE3(Eigen::Matrix3d(T.leftCols<3>()), T.col(3));
+  }
+  return result;
+}
+
+void visit(OptionVisitor& field, DepthYaml& yaml) {
+  field("unit_m", yaml.unit_m, "metres of one step of the 16-bit depth images", {1e-6, 1});
+  field("width", yaml.width, "width of the depth images [px]", {0, 20000});
+  field("height", yaml.height, "height of the depth images [px]", {0, 20000});
+  field("fx", yaml.fx, "focal length [px]; absent: registered to the image", {0, 1e5});
+  field("fy", yaml.fy, "focal length [px]", {0, 1e5});
+  field("cx", yaml.cx, "principal point [px]", {-1e5, 1e5});
+  field("cy", yaml.cy, "principal point [px]", {-1e5, 1e5});
+  field("T_cam_depth", yaml.T_cam_depth, "row-major 3x4, depth camera to camera [m]", {-1e3, 1e3});
+  field("sigma_at_1m", yaml.sigma_at_1m, "depth noise at 1 m [m]", {0, 1});
+}
+
+void visit(OptionVisitor& field, CalibrationYaml& yaml) {
+  field("width", yaml.width, "width of the images [px]", {0, 20000});
+  field("height", yaml.height, "height of the images [px]", {0, 20000});
+  field("fx", yaml.fx, "focal length [px]", {0, 1e5});
+  field("fy", yaml.fy, "focal length [px]", {0, 1e5});
+  field("cx", yaml.cx, "principal point [px], from the centre of the top left pixel", {-1e5, 1e5});
+  field("cy", yaml.cy, "principal point [px]", {-1e5, 1e5});
+  DistortionYaml distortion{yaml.distortion, yaml.coefficients};
+  field.group("distortion", distortion, "lens distortion of the raw images");
+  field("baseline_m", yaml.baseline_m, "distance of the right eye, images in right/ [m]", {0, 100});
+  field("camera_height_m", yaml.camera_height_m, "height above the ground driven on [m]", {0, 1e4});
+  field("fps", yaml.fps, "frames a second where there is no times.txt", {0, 1e5});
+  field.group("depth", yaml.depth, "depth images in depth/");
+}
+
+void read_calibration_yaml(const std::string& path, CalibrationYaml& yaml) {
+  read_options(path, yaml);
+  check(path, yaml);
+  try {
+    yaml.camera().check();
+    yaml.depth_camera().camera.check();
+  } catch (const ArgumentError& error) {
+    throw FileError(path, error.what());
+  }
+}
+
+}  // namespace placegraph

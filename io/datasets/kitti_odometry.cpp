@@ -1,0 +1,240 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/datasets/kitti_odometry.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
+#include <placegraph/io/files/text_file.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+#include <placegraph/io/config/yaml_document.h>
+
+#include <array>
+#include <filesystem>
+#include <map>
+
+namespace placegraph {
+namespace fs = std::filesystem;
+namespace {
+
+/// The numbers behind `KEY:` in a KITTI calibration file, with the line they stand on.
+struct CalibrationLine {
+  std::vector<double> numbers;
+  int line = 0;
+};
+using CalibrationLines = std::map<std::string, CalibrationLine, std::less<>>;
+
+/// Reads the lines whose key is wanted; other keys (Tr, ...) are none of ours.
+CalibrationLines read_calibration(const std::string& path,
+                                  const std::vector<std::pair<std::string, std::size_t>>& wanted) {
+  TextFile file(path);
+  CalibrationLines lines;
+  std::string_view line;
+  std::vector<std::string_view> fields;
+  while (file.next_data(line)) {
+    split_blank(line, fields);
+    std::string key(fields[0]);
+    if (key.ends_with(':')) key.pop_back();
+    for (const auto& [name, count] : wanted) {
+      if (key != name) continue;
+      if (fields.size() != count + 1) {
+        file.fail(fmt::format("{}: expected {} numbers, found {}", key, count, fields.size() - 1));
+      }
+      CalibrationLine& entry = lines[key];
+      if (entry.line > 0) file.fail(fmt::format("{}: is there twice", key));
+      entry.line = file.line();
+      for (std::size_t i = 1; i <= count; ++i) {
+        entry.numbers.push_back(file.number(fields[i], name.c_str()));
+      }
+    }
+  }
+  return lines;
+}
+
+/// The ideal pinhole in a 3x4 projection matrix; the size is left open.
+Camera camera_from(const std::string& path, const std::string& key, const CalibrationLine& P) {
+  const std::vector<double>& p = P.numbers;
+  const bool pinhole =
+      p[0] > 0 && p[5] > 0 && p[1] == 0 && p[4] == 0 && p[8] == 0 && p[9] == 0 && p[10] == 1;
+  if (!pinhole) {
+    throw FileError(path, P.line, key + ": is no projection matrix fx 0 cx . 0 fy cy . 0 0 1 .");
+  }
+  Camera camera;
+  camera.fx = p[0], camera.cx = p[2], camera.fy = p[5], camera.cy = p[6];
+  return camera;
+}
+
+/// Where the camera of P = K [I | t] stands in the frame of camera 0: -t.
+Eigen::Vector3d position_in_cam0(const CalibrationLine& P) {
+  const std::vector<double>& p = P.numbers;
+  const double z = p[11];
+  return -Eigen::Vector3d((p[3] - p[2] * z) / p[0], (p[7] - p[6] * z) / p[5], z);
+}
+
+void set_size(const std::string& first_image, const Image& image, Camera& camera) {
+  camera.width = image.cols;
+  camera.height = image.rows;
+  try {
+    camera.check();
+  } catch (const ArgumentError& error) {
+    throw FileError(first_image, error.what());
+  }
+}
+
+void require_count(const std::string& path, std::size_t found, std::size_t images) {
+  if (found == images) return;
+  throw FileError(path,
+                  fmt::format("holds {} entries, but there are {} left images", found, images));
+}
+
+/// The left eye (image_0, else image_2) and, where calibrated, the right one (image_1 / image_3).
+/// Returns the left camera's position in the frame of camera 0, which ground truth refers to.
+Eigen::Vector3d read_eyes(const fs::path& folder, RecordedSequence& sequence) {
+  const int left = fs::is_directory(folder / "image_0") ? 0 : 2;
+  const std::string path = (folder / "calib.txt").string();
+  const auto lines = read_calibration(path, {{"P0", 12}, {"P1", 12}, {"P2", 12}, {"P3", 12}});
+  const std::string left_key = fmt::format("P{}", left), right_key = fmt::format("P{}", left + 1);
+  const auto P_left = lines.find(left_key), P_right = lines.find(right_key);
+  if (P_left == lines.end()) throw FileError(path, "has no line " + left_key + ":");
+
+  Camera camera = camera_from(path, left_key, P_left->second);
+  sequence.left = list_numbered_images((folder / fmt::format("image_{}", left)).string());
+  set_size(sequence.left[0], read_image(sequence.left[0]).grey, camera);
+  sequence.raw_camera = sequence.calibration.camera = camera;
+
+  const fs::path right_folder = folder / fmt::format("image_{}", left + 1);
+  if (P_right != lines.end() && fs::is_directory(right_folder)) {
+    const Camera right = camera_from(path, right_key, P_right->second);
+    if (right.fx != camera.fx || right.fy != camera.fy || right.cx != camera.cx ||
+        right.cy != camera.cy) {
+      throw FileError(path, P_right->second.line,
+                      right_key + ": has other intrinsics than " + left_key + ": not rectified");
+    }
+    const double baseline_m = (P_left->second.numbers[3] - P_right->second.numbers[3]) / camera.fx;
+    if (!(baseline_m > 0)) {
+      throw FileError(path, P_right->second.line,
+                      fmt::format("{}: baseline is {} m, not positive", right_key, baseline_m));
+    }
+    sequence.right = list_numbered_images(right_folder.string());
+    require_count(right_folder.string(), sequence.right.size(), sequence.left.size());
+    sequence.calibration.baseline_m = baseline_m;
+  }
+  return position_in_cam0(P_left->second);
+}
+
+/// depth_0, with its own camera in calib_depth.txt; without that file it is registered to the left
+/// eye.
+void read_depth_camera(const fs::path& folder, RecordedSequence& sequence) {
+  if (!fs::is_directory(folder / "depth_0")) return;
+  sequence.depth = list_numbered_images((folder / "depth_0").string());
+  require_count((folder / "depth_0").string(), sequence.depth.size(), sequence.left.size());
+  DepthCamera depth;
+  depth.camera = sequence.calibration.camera;
+  const fs::path path = folder / "calib_depth.txt";
+  const bool own = fs::exists(path);
+  if (own) {
+    const auto lines =
+        read_calibration(path.string(), {{"P0", 12}, {"T_cam_depth", 12}, {"unit_m", 1}});
+    const auto P = lines.find("P0"), T = lines.find("T_cam_depth"), unit = lines.find("unit_m");
+    if (P == lines.end()) throw FileError(path.string(), "has no line P0:");
+    depth.camera = camera_from(path.string(), "P0", P->second);
+    if (T != lines.end()) {
+      Eigen::Matrix<double, 3, 4, Eigen::RowMajor> matrix(T->second.numbers.data());
+      try {
+        depth.T_cam_depth = SE3(Eigen::Matrix3d(matrix.leftCols<3>()), matrix.col(3));
+      } catch (const ArgumentError& error) {
+        throw FileError(path.string(), T->second.line,
+                        fmt::format("T_cam_depth: {}", error.what()));
+      }
+    }
+    if (unit != lines.end()) {
+      sequence.depth_unit_m = unit->second.numbers[0];
+      if (!(sequence.depth_unit_m > 0)) {
+        throw FileError(path.string(), unit->second.line, "unit_m: must be positive");
+      }
+    }
+  }
+  const Image first = read_depth(sequence.depth[0], sequence.depth_unit_m);
+  if (own) {
+    set_size(sequence.depth[0], first, depth.camera);
+  } else {
+    require_size(sequence.depth[0], first, depth.camera.width, depth.camera.height);
+  }
+  sequence.calibration.depth = depth;
+}
+
+/// world.yaml stands beside rendered sequences and says what KITTI's files have no place for.
+void read_world(const fs::path& folder, RecordedSequence& sequence) {
+  const std::string path = (folder / "world.yaml").string();
+  if (!fs::exists(path)) return;
+  const YamlDocument document(path);
+  const auto height = document.optional_number(document.root(), "camera_height_m");
+  if (height) {
+    if (!(*height > 0)) {
+      document.fail(document.root()["camera_height_m"], "camera_height_m: must be positive");
+    }
+    sequence.calibration.camera_height_m = *height;
+  }
+}
+
+void read_ground_truth(const fs::path& folder, const Eigen::Vector3d& position_in_cam0,
+                       RecordedSequence& sequence) {
+  fs::path path = folder / "poses.txt";
+  const fs::path normal = fs::absolute(folder / "").lexically_normal().parent_path();
+  if (!fs::exists(path) && normal.parent_path().filename() == "sequences") {
+    path = normal.parent_path().parent_path() / "poses" / (normal.filename().string() + ".txt");
+  }
+  if (!fs::exists(path)) return;
+  if (detect_trajectory_format(path.string()) != TrajectoryFormat::kKitti) {
+    throw FileError(path.string(), "is not in KITTI form (12 numbers a line)");
+  }
+  Trajectory truth = read_trajectory(path.string());
+  require_count(path.string(), truth.size(), sequence.left.size());
+  truth.has_times = true;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    StampedPose& pose = truth.poses[i];
+    pose.stamp_ns = sequence.stamps_ns[i];
+    if (pose.T_world_body) pose.T_world_body->translate(position_in_cam0);
+  }
+  sequence.ground_truth = std::move(truth);
+}
+
+}  // namespace
+
+KittiCalibration read_kitti_calibration(const std::string& path) {
+  const auto lines = read_calibration(path, {{"P0", 12}, {"P1", 12}});
+  const auto P0 = lines.find("P0"), P1 = lines.find("P1");
+  if (P0 == lines.end()) throw FileError(path, "has no line P0:");
+  KittiCalibration out;
+  out.camera = camera_from(path, "P0", P0->second);
+  if (P1 != lines.end()) {
+    camera_from(path, "P1", P1->second);
+    out.baseline_m = (P0->second.numbers[3] - P1->second.numbers[3]) / out.camera.fx;
+  }
+  return out;
+}
+
+bool is_kitti_odometry(const std::string& folder) {
+  const fs::path path(folder);
+  return fs::exists(path / "calib.txt") &&
+         (fs::is_directory(path / "image_0") || fs::is_directory(path / "image_2"));
+}
+
+std::unique_ptr<Dataset> open_kitti_odometry(const std::string& folder) {
+  const fs::path path(folder);
+  RecordedSequence sequence;
+  sequence.name = folder_name(folder);
+  sequence.format = "kitti";
+  const Eigen::Vector3d position_in_cam0 = read_eyes(path, sequence);
+  read_depth_camera(path, sequence);
+  if (fs::exists(path / "times.txt")) {
+    sequence.stamps_ns = read_times((path / "times.txt").string());
+    require_count((path / "times.txt").string(), sequence.stamps_ns.size(), sequence.left.size());
+  } else {
+    sequence.stamps_ns = synthetic_stamps_ns(sequence.left.size());
+  }
+  read_world(path, sequence);
+  read_ground_truth(path, position_in_cam0, sequence);
+  return make_dataset(std::move(sequence));
+}
+
+}  // namespace placegraph

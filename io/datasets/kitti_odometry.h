@@ -1,0 +1,24 @@
+#pragma once
+#include <placegraph/io/datasets/dataset.h>
+
+namespace placegraph {
+
+/// Whether a folder holds `image_0` or `image_2`, and `calib.txt`.
+bool is_kitti_odometry(const std::string& folder);
+
+/// One sequence of the KITTI odometry benchmark, or anything in its layout: left eye `image_0`
+/// (grey) or, where that is absent, `image_2` (colour); right eye `image_1` / `image_3`; 16-bit
+/// depth in `depth_0` with `calib_depth.txt`; `times.txt`; ground truth `poses.txt`, or
+/// `../../poses/NN.txt` for a folder `sequences/NN`. Details in docs/datasets.md. KITTI's poses are
+/// T_world_cam0; those of the colour eye are converted to T_world_cam2. Throws FileError.
+std::unique_ptr<Dataset> open_kitti_odometry(const std::string& folder);
+
+/// What the lines P0 and P1 of a calib.txt say; the image size is not among it and left 0.
+struct KittiCalibration {
+  Camera camera;
+  double baseline_m = 0;  ///< 0 where there is no P1
+};
+/// Throws FileError with the line for a file without P0, or whose P0 or P1 is no ideal pinhole.
+KittiCalibration read_kitti_calibration(const std::string& path);
+
+}  // namespace placegraph

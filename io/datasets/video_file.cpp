@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/calibration_file.h>
+#include <placegraph/io/files/image_file.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
+#include <placegraph/io/datasets/video_file.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <mutex>
+#include <opencv2/videoio.hpp>
+#include <string_view>
+
+namespace placegraph {
+namespace fs = std::filesystem;
+namespace {
+
+/// With the two readers that decode the same bits everywhere and stay silent about bad files.
+cv::VideoCapture open_capture(const std::string& path) {
+  for (const int reader : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG}) {
+    try {
+      cv::VideoCapture capture(path, reader);
+      if (capture.isOpened()) return capture;
+    } catch (const cv::Exception&) {  // this reader is not there, or cannot read it
+    }
+  }
+  throw FileError(path, "is no readable video");
+}
+
+class VideoDataset : public Dataset {
+ public:
+  VideoDataset(const std::string& path, const CalibrationYaml& yaml)
+      : path_(path), raw_(yaml.camera()), undistorted_(undistort_camera(raw_)) {
+    name_ = fs::path(path).stem().string();
+    calibration_.camera = undistorted_.camera;
+    if (yaml.camera_height_m > 0) calibration_.camera_height_m = yaml.camera_height_m;
+
+    cv::VideoCapture capture = open_capture(path);
+    double rate_hz = yaml.fps > 0 ? yaml.fps : capture.get(cv::CAP_PROP_FPS);
+    if (!(rate_hz > 0.01 && rate_hz < 1e5)) rate_hz = kDefaultRateHz;
+    std::size_t count = 0;
+    while (capture.grab()) ++count;
+    if (count == 0) throw FileError(path, "holds no frames");
+    stamps_ns_ = synthetic_stamps_ns(count, rate_hz);
+  }
+
+  const std::string& name() const override { return name_; }
+  const std::string& format() const override { return format_; }
+  std::size_t size() const override { return stamps_ns_.size(); }
+  std::vector<Sensor> sensors() const override { return {Sensor::kMono}; }
+  Calibration calibration(Sensor sensor) const override {
+    return calibration_for(sensor, calibration_, name_);
+  }
+  std::int64_t stamp_ns(std::size_t index) const override {
+    check_index(index);
+    return stamps_ns_[index];
+  }
+  const std::optional<Trajectory>& ground_truth() const override { return ground_truth_; }
+
+  Frame frame(std::size_t index, Sensor sensor) const override {
+    check_index(index);
+    calibration_for(sensor, calibration_, name_);
+    const Image raw = decode(index);
+    require_size(path_, raw, raw_.width, raw_.height);
+    Frame frame;
+    frame.id = static_cast<std::int64_t>(index);
+    frame.stamp_ns = stamps_ns_[index];
+    const Image image = undistorted_.remap.bilinear(raw);
+    if (image.channels() == 3) frame.colour = image;
+    frame.image = to_grey(image);
+    return frame;
+  }
+
+ private:
+  void check_index(std::size_t index) const {
+    if (index < size()) return;
+    throw ArgumentError(fmt::format("{}: frame {} of {}", name_, index, size()));
+  }
+
+  /// Seeking by frame number is inexact in many containers; decoding in order is not.
+  Image decode(std::size_t index) const {
+    const std::lock_guard lock(mutex_);
+    if (!capture_.isOpened() || index < next_) {
+      capture_ = open_capture(path_);
+      next_ = 0;
+    }
+    Image image;
+    bool good = true;
+    for (; good && next_ <= index; ++next_) {
+      good = next_ < index ? capture_.grab() : capture_.read(image);
+    }
+    if (!good || image.empty()) {
+      capture_.release();
+      throw FileError(path_, fmt::format("frame {} cannot be decoded", index));
+    }
+    return image.clone();
+  }
+
+  std::string path_, name_, format_ = "video";
+  Camera raw_;
+  UndistortedCamera undistorted_;
+  Calibration calibration_;
+  std::vector<std::int64_t> stamps_ns_;
+  std::optional<Trajectory> ground_truth_;
+  mutable std::mutex mutex_;
+  mutable cv::VideoCapture capture_;
+  mutable std::size_t next_ = 0;
+};
+
+}  // namespace
+
+bool is_video_file(const std::string& path) {
+  static constexpr std::array<std::string_view, 7> kExtensions = {".avi", ".mkv", ".mov", ".mp4",
+                                                                  ".m4v", ".mpg", ".webm"};
+  std::string extension = fs::path(path).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](char c) { return (c >= 'A' && c <= 'Z') ? c + ('a' - 'A') : c; });
+  return fs::is_regular_file(path) &&
+         std::ranges::find(kExtensions, extension) != kExtensions.end();
+}
+
+std::unique_ptr<Dataset> open_video_file(const std::string& path) {
+  const std::string full = path + ".yaml";
+  const std::string beside = fs::path(path).replace_extension(".yaml").string();
+  if (!fs::exists(full) && !fs::exists(beside)) {
+    throw FileError(path, "a video needs its calibration beside it, in " + full);
+  }
+  const std::string yaml_path = fs::exists(full) ? full : beside;
+  CalibrationYaml yaml;
+  read_calibration_yaml(yaml_path, yaml);
+  if (yaml.baseline_m > 0) throw FileError(yaml_path, "baseline_m: a video has one eye");
+  auto dataset = std::make_unique<VideoDataset>(path, yaml);
+  dataset->frame(0, Sensor::kMono);  // of the size the calibration says, or refused now
+  return dataset;
+}
+
+}  // namespace placegraph

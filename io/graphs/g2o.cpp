@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/atomic_file.h>
+#include <placegraph/io/graphs/g2o.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace placegraph {
+namespace {
+
+using Fields = std::vector<std::string_view>;
+
+constexpr double kQuaternionTolerance = 1e-2;
+constexpr double kMaxLogScale = 300;
+/// Where g2o's [rotation, translation, log scale] stand in our tangent.
+constexpr int kSim3Order[] = {3, 4, 5, 0, 1, 2, 6};
+
+SE3 parse_se3(const TextFile& file, const Fields& fields, std::size_t at) {
+  double v[7];
+  for (std::size_t i = 0; i < 7; ++i) v[i] = file.number(fields[at + i], "pose");
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (!(std::abs(q.norm() - 1) <= kQuaternionTolerance)) {
+    file.fail(fmt::format("the quaternion has length {:.6g}, not 1", q.norm()));
+  }
+  return {SO3(q), Eigen::Vector3d(v[0], v[1], v[2])};
+}
+
+Sim3 parse_sim3(const TextFile& file, const Fields& fields, std::size_t at) {
+  Vector7d xi;
+  for (int i = 0; i < 7; ++i) xi[kSim3Order[i]] = file.number(fields[at + i], "pose");
+  if (!(std::abs(xi[6]) < kMaxLogScale))
+    file.fail(fmt::format("the logarithm of the scale is {:.6g}", xi[6]));
+  return Sim3::exp(xi);
+}
+
+Information parse_sim3_information(const PoseGraphBuilder& builder, const Fields& fields,
+                                   std::size_t at) {
+  const Information of_file = builder.symmetric(fields, at, 7);
+  Information information(7, 7);
+  for (int i = 0; i < 7; ++i)
+    for (int j = 0; j < 7; ++j) information(kSim3Order[i], kSim3Order[j]) = of_file(i, j);
+  return information;
+}
+
+void parse_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
+  const std::string_view tag = fields[0];
+  if (tag == "VERTEX_SE2") {
+    builder.require_count(fields, 4);
+    builder.add_node(fields[1], builder.se2(fields, 2));
+  } else if (tag == "EDGE_SE2") {
+    builder.require_count(fields, 11);
+    builder.add_edge(fields[1], fields[2], builder.se2(fields, 3), builder.symmetric(fields, 6, 3));
+  } else if (tag == "VERTEX_SE3:QUAT") {
+    builder.require_count(fields, 8);
+    builder.add_node(fields[1], parse_se3(file, fields, 2));
+  } else if (tag == "EDGE_SE3:QUAT") {
+    builder.require_count(fields, 30);
+    builder.add_edge(fields[1], fields[2], parse_se3(file, fields, 3),
+                     builder.symmetric(fields, 10, 6));
+  } else if (tag == "VERTEX_SIM3:EXPMAP") {
+    // Four numbers of a camera follow in what g2o writes.
+    builder.require_count(fields, fields.size() == 13 ? 12 : 8);
+    builder.add_node(fields[1], parse_sim3(file, fields, 2));
+  } else if (tag == "EDGE_SIM3:EXPMAP") {
+    builder.require_count(fields, 37);
+    builder.add_edge(fields[1], fields[2], parse_sim3(file, fields, 3),
+                     parse_sim3_information(builder, fields, 10));
+  } else if (tag == "FIX") {
+    if (fields.size() < 2) file.fail("FIX: expected an id");
+    for (std::size_t i = 1; i < fields.size(); ++i) builder.fix(fields[i]);
+  } else if (!tag.starts_with("PARAMS_")) {
+    file.fail(in_quotes(tag) +
+              ": unknown tag; known are VERTEX_ and EDGE_ of SE2, SE3:QUAT and SIM3:EXPMAP, FIX, "
+              "PARAMS_*");
+  }
+}
+
+constexpr const char* kNoCamera =
+    " 1 1 0 0";  ///< focal lengths and principal point, as g2o has them by default
+
+using Buffer = std::back_insert_iterator<fmt::memory_buffer>;
+
+void format_number(Buffer out, double value) { fmt::format_to(out, " {:.17g}", value); }
+
+const char* suffix_of(PoseKind kind) {
+  if (kind == PoseKind::kSE2) return "SE2";
+  return kind == PoseKind::kSE3 ? "SE3:QUAT" : "SIM3:EXPMAP";
+}
+
+void format_pose(Buffer out, const Pose& pose) {
+  if (const SE2* planar = std::get_if<SE2>(&pose)) {
+    for (const double v :
+         {planar->translation().x(), planar->translation().y(), planar->rotation().angle()}) {
+      format_number(out, v);
+    }
+  } else if (const SE3* T = std::get_if<SE3>(&pose)) {
+    for (const double v : T->translation()) format_number(out, v);
+    for (const double v : T->rotation().quaternion().coeffs()) format_number(out, v);  // x y z w
+  } else {
+    const Vector7d xi = std::get<Sim3>(pose).log();
+    for (const int i : kSim3Order) format_number(out, xi[i]);
+  }
+}
+
+void format_edge(Buffer out, const RelativePoseConstraint& edge) {
+  const PoseKind kind = kind_of(edge.T_from_to);
+  fmt::format_to(out, "EDGE_{} {} {}", suffix_of(kind), edge.from, edge.to);
+  format_pose(out, edge.T_from_to);
+  const auto place = [&](int i) { return kind == PoseKind::kSim3 ? kSim3Order[i] : i; };
+  for (int row = 0; row < edge.information.rows(); ++row) {
+    for (int column = row; column < edge.information.cols(); ++column) {
+      format_number(out, edge.information(place(row), place(column)));
+    }
+  }
+  fmt::format_to(out, "\n");
+}
+
+}  // namespace
+
+PoseGraph parse_g2o(TextFile& file, const PoseGraphReading& reading) {
+  return parse_lines(file, parse_line).finish(reading);
+}
+
+PoseGraph read_g2o(const std::string& path, const PoseGraphReading& reading) {
+  TextFile file(path);
+  return parse_g2o(file, reading);
+}
+
+void write_g2o(const std::string& path, const PoseGraph& graph) {
+  graph.check();
+  fmt::memory_buffer text;
+  const Buffer out = std::back_inserter(text);
+  for (const PoseNode& node : graph.nodes) {
+    fmt::format_to(out, "VERTEX_{} {}", suffix_of(graph.kind()), node.id);
+    format_pose(out, node.T_world_node);
+    if (graph.kind() == PoseKind::kSim3) fmt::format_to(out, kNoCamera);
+    fmt::format_to(out, "\n");
+  }
+  for (const PoseNode& node : graph.nodes) {
+    if (node.fixed) fmt::format_to(out, "FIX {}\n", node.id);
+  }
+  for (const Constraint& constraint : graph.constraints) {
+    const auto* edge = std::get_if<RelativePoseConstraint>(&constraint);
+    require(edge != nullptr, "g2o: there is no text form for position constraints");
+    format_edge(out, *edge);
+  }
+  AtomicFile file(path);
+  file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+  file.commit();
+}
+
+}  // namespace placegraph

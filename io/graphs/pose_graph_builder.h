@@ -1,0 +1,71 @@
+#pragma once
+#include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/io/files/text_file.h>
+
+#include <optional>
+
+namespace placegraph {
+
+struct PoseGraphReading {
+  bool connected = false;  ///< refuse a graph that falls apart
+};
+
+/// Puts a pose graph together from the lines of a text file, whatever the format; edges may precede
+/// their vertices. What is wrong is said with the line it came from: members throw FileError for
+/// the line the file stands at, finish() for the line that added what is wrong.
+class PoseGraphBuilder {
+ public:
+  using Fields = std::vector<std::string_view>;
+
+  /// `file` must outlive the builder.
+  explicit PoseGraphBuilder(const TextFile& file);
+
+  /// Numbers of the present line, from field `at` on.
+  SE2 se2(const Fields& fields, std::size_t at) const;  ///< x y theta
+  /// n (n + 1) / 2 numbers, row by row, the lower triangle zero.
+  Information upper_triangle(const Fields& fields, std::size_t at, int n) const;
+  /// The same, mirrored into the lower triangle.
+  Information symmetric(const Fields& fields, std::size_t at, int n) const;
+  /// Refuses the line unless `count` fields follow its tag.
+  void require_count(const Fields& fields, std::size_t count) const;
+
+  /// Refuses SE2, SE3 and Sim3 mixed, and positions beyond 1e50 m.
+  void add_node(std::string_view id, const Pose& T_world_node);
+  /// Refuses mixed kinds, an edge from a node to itself, information that is indefinite, all
+  /// zero or above 1e100, and positions beyond 1e50 m. Edges of
+  /// consecutive ids are odometry, others loops, unless `source` says what they are; see finish().
+  void add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
+                const Information& information, std::optional<ConstraintSource> source = {});
+  void fix(std::string_view id);
+
+  /// The graph, in the order of the file. Where ids leave gaps so that hardly an edge joins
+  /// consecutive ones (every tenth frame is a node), edges from an id to the next larger one that
+  /// is there are the odometry instead. Refuses ids that are there twice, edges and fixes on
+  /// vertices that are not there, no vertices at all, and what `reading` asks to refuse.
+  [[nodiscard]] PoseGraph finish(const PoseGraphReading& reading);
+  /// For files of edges alone: the vertices are those the edges name, by ascending id, with poses
+  /// chained along the spanning tree (odometry first) from the origin.
+  [[nodiscard]] PoseGraph finish_from_edges(const PoseGraphReading& reading);
+
+ private:
+  void require_kind(PoseKind kind);
+  void require_near(const Pose& pose) const;
+  int find(const NodeIndex& index, std::int64_t id, int line) const;
+  void require_connected() const;
+  void add_nodes_of_edges();
+  void tell_odometry_by_order();
+
+  const TextFile* file_;
+  PoseGraph graph_;
+  std::optional<PoseKind> kind_;
+  std::vector<int> node_lines_, edge_lines_;
+  std::vector<char> source_is_told_;                 ///< of the edges, by their tags
+  std::vector<std::pair<std::int64_t, int>> fixed_;  ///< id and line
+};
+
+/// Hands every line that is neither blank nor a comment to `parse_line`, split into fields.
+PoseGraphBuilder parse_lines(TextFile& file,
+                             void (*parse_line)(const TextFile&, const PoseGraphBuilder::Fields&,
+                                                PoseGraphBuilder&));
+
+}  // namespace placegraph

@@ -1,0 +1,53 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/graphs/isam.h>
+#include <placegraph/io/graphs/pose_graph_file.h>
+#include <placegraph/io/graphs/toro.h>
+
+namespace placegraph {
+namespace {
+
+std::string_view tag_of(std::string_view line) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t\v\f\r"), line.size()));
+  return line.substr(0, line.find_first_of(" \t\v\f\r"));
+}
+
+}  // namespace
+
+PoseGraphFormat pose_graph_format(TextFile& file) {
+  std::optional<PoseGraphFormat> format;
+  bool edges = false;
+  for (std::string_view line; !format && file.next_data(line);) {
+    const std::string_view tag = tag_of(line);
+    if (tag.starts_with("VERTEX_") || tag.starts_with("EDGE_") || tag.starts_with("PARAMS_") ||
+        tag == "FIX")
+      format = PoseGraphFormat::kG2o;
+    else if (tag == "VERTEX2" || tag == "VERTEX3")
+      format = PoseGraphFormat::kToro;
+    else if (tag == "ODOMETRY" || tag == "LANDMARK" || tag == "POINT3")
+      format = PoseGraphFormat::kIsam;
+    else if (tag == "EDGE2" || tag == "EDGE3")
+      edges = true;
+    else
+      file.fail(in_quotes(tag) + ": no tag of a pose graph in the form of g2o, TORO or iSAM");
+  }
+  if (!format && edges) format = PoseGraphFormat::kIsam;
+  if (!format) throw FileError(file.path(), "holds no vertices");
+  file.rewind();
+  return *format;
+}
+
+PoseGraph read_pose_graph(const std::string& path, const PoseGraphReading& reading) {
+  TextFile file(path);
+  switch (pose_graph_format(file)) {
+    case PoseGraphFormat::kG2o:
+      return parse_g2o(file, reading);
+    case PoseGraphFormat::kToro:
+      return parse_toro(file, reading);
+    case PoseGraphFormat::kIsam:
+      break;
+  }
+  return parse_isam(file, reading);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,26 @@
+#pragma once
+#include <placegraph/io/graphs/pose_graph_builder.h>
+
+#include <string>
+
+namespace placegraph {
+
+/// Reads a graph in the text form of TORO (Grisetti et al., openslam.org/toro.html); lines in any
+/// order, comments (#) passed over:
+///
+///   VERTEX2 id x y theta
+///   EDGE2 from to forward sideward rotate I_ff I_fs I_ss I_rr I_fr I_sr
+///   VERTEX3 id x y z roll pitch yaw
+///   EDGE3 from to x y z roll pitch yaw I_11 I_12 .. I_16 I_22 .. I_66
+///
+/// Vertices are T_world_node, edges T_from_to. Lengths [m], angles [rad];
+/// R = R_z(yaw) R_y(pitch) R_x(roll). The information of EDGE2 has an order of its own, as above
+/// (f forward, s sideward, r rotate); that of EDGE3 is upper-triangular over
+/// [x y z roll pitch yaw]. Near zero these angles are the rotation vector, so it is taken over as
+/// that of our tangent [translation, rotation] and belongs to RotationError::kLog. Errors as
+/// read_g2o.
+PoseGraph read_toro(const std::string& path, const PoseGraphReading& reading = {});
+/// The same from a file that is open.
+PoseGraph parse_toro(TextFile& file, const PoseGraphReading& reading);
+
+}  // namespace placegraph

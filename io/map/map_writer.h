@@ -1,0 +1,74 @@
+#pragma once
+// Inside io only: what MapDatabase keeps.
+#include <placegraph/io/map/map_blobs.h>
+#include <placegraph/io/map/map_database.h>
+#include <placegraph/io/map/map_schema.h>
+#include <placegraph/io/map/map_table.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+struct MapDatabase::Impl {
+  Impl(const std::string& path, bool synchronized)
+      : database(path, SqliteDatabase::Access::kWrite),
+        places(prepared(synchronized), "place", "id", 7),
+        labels(database, "label", "place", 3),
+        appearances(database, "appearance", "place", 3),
+        keyframes(database, "keyframe", "id", 6),
+        features(database, "features", "keyframe", 3),
+        views(database, "view", "keyframe", 2),
+        frames(database, "frame", "number", 6),
+        online(database, "online", "number", 3),
+        loops(database, "loop", "number", 11),
+        landmarks(database, "landmarks", "number", 3),
+        links(database, "link", "keyframe", 9),
+        parts(database, "part", "anchor", 5),
+        motions(database, "motion", "number", 5),
+        revisits(database, "revisit", "number", 5),
+        runs(database, "run", "number", 2),
+        merged(database, "merged", "number", 2),
+        merged_parts(database, "merged_part", "number", 4),
+        parted(database, "parted", "number", 3),
+        put_edge(database, "INSERT OR REPLACE INTO edge VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+        erase_edge(database, "DELETE FROM edge WHERE kind = ? AND number = ?") {
+    places.take_keys(database, "id place");
+    merged.take_keys(database, "number merged");
+    merged_parts.take_keys(database, "number merged_part");
+    SqliteRows known(database, "keyframe", "id, frame, stamp_ns");
+    while (known.next()) keyframe_times[known.integer(0)] = {known.integer(1), known.integer(2)};
+  }
+
+  /// The file belongs to this connection alone. A write-ahead log: a commit appends to it without
+  /// waiting for the disk; when a program is killed, all that it committed is there.
+  SqliteDatabase& prepared(bool synchronized) {
+    database.execute("PRAGMA locking_mode = EXCLUSIVE");
+    check_map_schema(database);
+    database.text("PRAGMA journal_mode = WAL");
+    upgrade_map_schema(database);
+    // A power cut, unlike a kill, may take the last commits along, but leaves the file whole.
+    database.execute(synchronized ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = OFF");
+    return database;
+  }
+
+  void commit(const MapChanges& changes, bool finished);
+  void put_places(const MapChanges& changes);
+  void put_keyframes(const MapChanges& changes);
+  void put_frames(const MapChanges& changes);
+  void put_constraints(const MapChanges& changes);
+  void put_landmarks(const MapChanges& changes);
+  void put_history(const PlaceHistory& history);
+  void put_runs(const PlaceHistory& history);
+  void put_mergers(const PlaceHistory& history);
+
+  SqliteDatabase database;
+  MapTable places, labels, appearances, keyframes, features, views, frames, online, loops,
+      landmarks, links, parts, motions, revisits, runs, merged, merged_parts, parted;
+  SqliteStatement put_edge, erase_edge;
+  std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> keyframe_times;  // frame, stamp
+  std::map<std::int64_t, std::vector<std::string>> written_labels;
+};
+
+}  // namespace placegraph

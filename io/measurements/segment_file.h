@@ -1,0 +1,20 @@
+#pragma once
+#include <placegraph/graph/geometry/line_segment.h>
+
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// Line segments of an image in text, `u1 v1 u2 v2` [px] a line, blanks or tabs between, `#` before
+/// a comment. Throws FileError "file:line: ..." if a line is anything else or its segment has no
+/// length: the number of a line is the segment's, so that none may be left out.
+std::vector<LineSegment> read_segments(const std::string& path);
+
+/// The same from the first four columns of a table: further ones are not read.
+std::vector<LineSegment> read_segment_columns(const std::string& path);
+
+/// Writes them with a thousandth of a pixel. Throws FileError.
+void write_segments(const std::string& path, const std::vector<LineSegment>& segments);
+
+}  // namespace placegraph

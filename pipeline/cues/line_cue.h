@@ -1,0 +1,135 @@
+#pragma once
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/frontend/features/rectification.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
+#include <placegraph/frontend/lines/direction_compass.h>
+#include <placegraph/frontend/lines/line_feature.h>
+#include <placegraph/frontend/lines/line_stereo.h>
+#include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/frontend/lines/pose_from_lines.h>
+#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/pipeline/cues/nearest_depth.h>
+#include <placegraph/pipeline/cues/floor_line_scale_options.h>
+#include <placegraph/pipeline/cues/frame_view.h>
+
+#include <map>
+#include <set>
+#include <vector>
+
+namespace placegraph {
+
+struct LineCueOptions {
+  LineTrackerOptions tracker;
+  LineStereoOptions stereo;
+  LineTriangulationOptions triangulation;
+  PoseFromLinesOptions pose;
+  LineInitializerOptions start;
+  FloorScaleOptions floor;
+  double sigma_floor_px = 0.15;  ///< no line is placed better across: lens, rolling shutter, blur
+  /// What one look at an edge errs by stays while it is followed: so many sightings in the window
+  /// are worth one independent one.
+  double alike_sightings = 16;
+  /// In place of triangulation.min_turn_deg where directions show the rotation, and turns of planes
+  /// are those of the way alone: with what is not known of its place, a line is of use much sooner.
+  double min_turn_steered_deg = 0.4;
+  int stay_frames = 10;   ///< an edge that the motion takes out of the image before is begun last
+  double outlier_px = 4;  ///< a line of the window that is missed by more is dropped
+  void check() const;
+};
+void visit(OptionVisitor& field, LineCueOptions& options);
+
+/// The share of lines in motion memory: follows edges from frame to frame, poses a frame against
+/// the lines of the window, and gives keyframes' sightings to it, with second eyes where there is a
+/// right one or depth.
+class LineCue {
+ public:
+  LineCue(const LineCueOptions& options, const Calibration& calibration,
+          const StereoMatcherOptions& stereo);
+
+  /// Follows all lines into an image taken at about `T_odom_cam`; those not in the window are
+  /// thought to lie at `depth`.
+  void track(const Image& image, const SlidingWindow& window, const SE3& T_odom_cam, double depth);
+  /// Pose of the newest image against the lines of the window.
+  PoseFromLines pose(const SlidingWindow& window, const PoseGuess& guess, Random& random) const;
+  /// Tells where the newest image was taken. Lines that contradict it are no longer followed.
+  void accept(const SlidingWindow& window, const SE3& T_odom_cam);
+  /// Detects new lines in the newest image, which is that of `keyframe`, and adds what it sees to
+  /// the window; lines with enough parallax become lines of the window. `rectification`: what the
+  /// two eyes, where there are two, are thought to be off by. `depth`: of what no line is beside.
+  void observe(std::int64_t keyframe, const Frame& frame, const RectificationError& rectification,
+               double depth, SlidingWindow& window);
+  /// Rotation is seen by the directions that lines share, too: for a single eye without points,
+  /// which knows the place of few lines in a turn.
+  void use_compass();
+  /// Begins with an image, or follows into it what was begun, while there is no window yet: nothing
+  /// is known of the motion. Edges that are new are followed from here on.
+  void wait(const Frame& frame, const SE3& T_odom_start);
+  /// Where the tracks are seen in the newest image.
+  LineView seen() const;
+  /// Adds what an earlier keyframe saw to the window: to begin with, in order of time.
+  void observe_earlier(std::int64_t keyframe, const LineView& seen, SlidingWindow& window);
+  /// Edges of the newest image, taken at T_odom_cam, with their lines where the window has them;
+  /// not described.
+  std::vector<LineFeature> features(const SlidingWindow& window, const SE3& T_odom_cam) const;
+  /// Lines of the window as the newest image sees them.
+  std::vector<PlacedLine> placed(const SlidingWindow& window) const;
+  /// Directions that several of the lines in the newest keyframe share, in the window's frame.
+  std::vector<SharedDirection> shared_directions() const;
+  /// Lines along the way, at about `depth`, are never placed: their planes hold the way instead. A
+  /// camera that leaves the direction of such a line sees its plane turn, so what did not turn says
+  /// where the newest keyframe does not lie.
+  void hold_course(std::int64_t keyframe, double depth, SlidingWindow& window) const;
+  /// Disparities of lines of the window beside what the left eye's motion says of them, each line's
+  /// once.
+  std::vector<DisparitySample> disparity_samples(const SlidingWindow& window,
+                                                 const RectificationError& rectification);
+  /// What right eyes saw follows a better calibration.
+  void revise_eyes(SlidingWindow& window, const RectificationError& before,
+                   const RectificationError& now);
+  /// Drops lines of the window that the newest keyframe contradicts.
+  void prune(SlidingWindow& window);
+  /// Depths, in the newest image, of the lines of the window that it sees.
+  std::vector<double> depths(const SlidingWindow& window) const;
+  /// How far lines have moved across since the last keyframe [px].
+  std::vector<double> flow_px() const;
+  /// Lines of the window that are followed.
+  int followed(const SlidingWindow& window) const;
+  std::vector<FrameView::Line> view(const SlidingWindow& window, const SE3& T_odom_cam) const;
+  void reset();
+
+ private:
+  struct Sighting {
+    std::int64_t keyframe;
+    ImageLine::Carriers seen;
+    std::optional<LineObservation::SecondEye> second;
+  };
+  std::vector<KnownDepth> known_depths(const SlidingWindow& window) const;
+  std::vector<LineSegment> expected(const SlidingWindow& window, const SE3& T_odom_cam,
+                                    double depth) const;
+  std::vector<std::optional<LineObservation::SecondEye>> second_eyes(
+      const Frame& frame, const RectificationError& rectification) const;
+  std::optional<DisparitySample> disparity_sample(const SlidingWindow& window, std::int64_t line,
+                                                  const RectificationError& rectification) const;
+  void add_sightings(std::int64_t keyframe, const std::map<std::int64_t, Sighting>& now,
+                     SlidingWindow& window);
+  LineTriangulationOptions triangulation(const SlidingWindow& window) const;
+  std::optional<PoseGuess> with_heading(const PoseGuess& guess) const;
+  void add_to_window(std::int64_t id, const Sighting& sighting, SlidingWindow& window) const;
+  void follow_mergers();
+  void steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& window);
+
+  LineCueOptions options_;
+  StereoMatcherOptions stereo_;
+  Calibration calibration_;
+  LineTracker tracker_;
+  std::optional<DirectionCompass> compass_;
+  SE3 T_odom_last_;                                          // of the newest image, once accepted
+  SE3 T_odom_before_;                                        // of the image before
+  std::map<std::int64_t, std::vector<Sighting>> sightings_;  // of live tracks
+  std::map<std::int64_t, LineSegment> at_keyframe_;
+  std::map<std::int64_t, Eigen::Matrix4d> covariances_;  // of lines of the window
+  std::set<std::int64_t> calibrated_;                    // lines of the window, see above
+  std::map<std::int64_t, double> drift_px_;  // across, beyond what `expected` foresaw last
+};
+
+}  // namespace placegraph

@@ -1,0 +1,79 @@
+#pragma once
+#include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/core/log.h>
+#include <placegraph/pipeline/cues/frame_view.h>
+#include <placegraph/pipeline/cues/ground_mask.h>
+#include <placegraph/pipeline/cues/manhattan_frames.h>
+
+namespace placegraph {
+
+struct ManhattanCueOptions {
+  SegmentDetectorOptions segments{.min_length_px = 20, .merging = {}, .refinement = {}};
+  SceneDirectionOptions directions;
+  ManhattanWorldOptions worlds;
+  int max_width_px = 800;    ///< wider images are halved before segments are looked for
+  double max_sigma_deg = 1;  ///< about any axis: directions known less well are not believed
+  /// A frame between keyframes that is posed by fewer points is turned by the worlds, too.
+  int few_points = 1000;
+  void check() const;
+};
+void visit(OptionVisitor& field, ManhattanCueOptions& options);
+
+/// The share of rectangular worlds in motion memory: the straight edges of a keyframe give the
+/// directions of its scene, which are sightings of the window's worlds (ManhattanWorlds). Known
+/// worlds are followed from where the window expects them; only where none is seen, all directions
+/// are looked for. Believed is what shows two axes at least, is known well enough in all three
+/// turns, and agrees with its world.
+class ManhattanCue {
+ public:
+  ManhattanCue(const ManhattanCueOptions& options, const Camera& camera, std::uint64_t seed,
+               LogSink log);
+
+  /// `segments`: edges of the image, if they are known already.
+  void observe(std::int64_t keyframe, const Image& image,
+               const std::optional<std::vector<LineSegment>>& segments, SlidingWindow& window);
+  void settle(const SlidingWindow& window) { worlds_.settle(window); }
+  /// A world of the window as a frame sees it, which is taken from about R_odom_cam: the one seen
+  /// last that is believed. Nothing if none is.
+  struct Heading {
+    std::int64_t world = 0;
+    SO3 R_cam_world;
+    Eigen::Matrix3d information;  ///< right tangent [1/rad^2]
+  };
+  std::optional<Heading> heading(const Image& image, const SO3& R_odom_cam,
+                                 const SlidingWindow& window, std::int64_t keyframe) const;
+  /// The edges of the last keyframe's image that were looked at, with their world and axis.
+  const std::vector<FrameView::DirectedLine>& view() const { return view_; }
+  /// What the edges of the last keyframe tell of the ground, if walls stand in what is taken for it
+  /// (`outline_px`), as they do in corridors: where a floor is shown, it is that, and level; else
+  /// it is whatever may lie before the walls.
+  GroundSight ground(const std::vector<Eigen::Vector2d>& outline_px) const;
+  void reset();
+
+ private:
+  /// What the last keyframe saw of a rectangular world, known already or not.
+  struct Sight {
+    std::vector<LineSegment> segments;
+    std::vector<int> axis;
+    SO3 R_cam_manhattan;
+    Eigen::Matrix3d covariance;  ///< right tangent [rad^2]
+  };
+  std::vector<LineSegment> detect(const Image& image) const;
+  ManhattanFrame track(const std::vector<LineSegment>& segments,
+                       const ManhattanWorlds::Expected& world) const;
+  bool trusted(const ManhattanFrame& frame) const;
+  bool take(std::int64_t keyframe, const std::vector<LineSegment>& segments,
+            const ManhattanFrame& frame, SlidingWindow& window);
+
+  ManhattanCueOptions options_;
+  Camera camera_;
+  std::uint64_t seed_;
+  LogSink log_;
+  ManhattanWorlds worlds_;
+  std::optional<Sight> sight_;
+  std::vector<FrameView::DirectedLine> view_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,80 @@
+#pragma once
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/graph/core/options.h>
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+struct ManhattanWorldOptions {
+  /// Of the directions of one view beyond what its lines' noise explains: the scene is not quite
+  /// rectangular, lines are taken for what they are not, the lens.
+  double sigma_floor_deg = 0.1;
+  /// Neighbouring views see the same lines and err alike: so many of them count as one. What points
+  /// before a blank wall say of a turn is worse than they know, so this is not to be overdone.
+  double correlation = 1;
+  /// Of a world seen from a new keyframe, beyond what the window claims to know: its rotations
+  /// drift by more than the noise of its points explains, in turns above all. Worlds that differ by
+  /// less than about three of these are one.
+  double sigma_drift_deg = 1;
+  int persistence = 3;  ///< keyframes of the window that must show a new world
+  int max_worlds = 4;   ///< remembered; the one unseen for longest is forgotten
+  void check() const { check_ranges(*this); }
+};
+void visit(OptionVisitor& field, ManhattanWorldOptions& options);
+
+/// The rectangular worlds that a sliding window knows. A view's directions are a sighting of the
+/// world they agree with, of the 24 frames along the same axes the one nearest to it; those that
+/// agree with none wait, and several of them that agree with each other begin a new world. Worlds
+/// go on unseen, known ever less well as the motion goes on.
+///
+/// The axes of the map are a world of their own, seen once, exactly, by the oldest keyframe at the
+/// time when the first rectangular one begins. They hold the window (SlidingWindow::hold_world):
+/// what the others say about the heading turns the keyframes, and not the map under them.
+class ManhattanWorlds {
+ public:
+  static constexpr std::int64_t kMapAxes = 0;
+
+  explicit ManhattanWorlds(const ManhattanWorldOptions& options) : options_(options) {
+    options_.check();
+  }
+
+  /// How the newest keyframe should see a world.
+  struct Expected {
+    std::int64_t world = 0;
+    SO3 R_cam_world;
+    Eigen::Matrix3d covariance;  ///< right tangent [rad^2]
+  };
+  /// Those seen last first.
+  std::vector<Expected> expected(const SlidingWindow& window, std::int64_t keyframe) const;
+
+  /// Hands the directions of a keyframe's view over, with the covariance of their lines' noise.
+  /// Returns the world they are of, which they may begin; nothing while they wait.
+  std::optional<std::int64_t> add(std::int64_t keyframe, const SO3& R_cam_manhattan,
+                                  const Eigen::Matrix3d& covariance, SlidingWindow& window);
+  /// After the window has been optimized: how well the newest keyframe knows the worlds.
+  void settle(const SlidingWindow& window);
+  void reset();
+  /// Of the directions of one view, with what is beyond the noise of its lines.
+  Eigen::Matrix3d honest(const Eigen::Matrix3d& covariance) const;
+
+ private:
+  struct Candidate {
+    std::int64_t keyframe;
+    SO3 R_cam_manhattan;
+    Eigen::Matrix3d covariance;
+  };
+  void see(const Candidate& sighting, std::int64_t world, SlidingWindow& window);
+  std::optional<std::int64_t> begin_world(const Candidate& newest, SlidingWindow& window);
+  void forget_one(SlidingWindow& window);
+
+  ManhattanWorldOptions options_;
+  std::int64_t next_world_ = kMapAxes + 1;
+  std::vector<Candidate> candidates_;                   // of keyframes in the window, ascending
+  std::map<std::int64_t, std::int64_t> last_seen_;      // world, keyframe
+  std::map<std::int64_t, Eigen::Matrix3d> covariance_;  // of worlds, as the last keyframe knew them
+};
+
+}  // namespace placegraph

@@ -1,0 +1,89 @@
+#pragma once
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/frontend/cloud_planes/depth_planes.h>
+#include <placegraph/graph/core/log.h>
+#include <placegraph/graph/core/options.h>
+
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+struct PlaneLandmarkOptions {
+  bool enabled = false;
+  DepthPlanesOptions depth;
+  /// Neighbouring views see the same depths and err alike: so many of them count as one.
+  double correlation = 4;
+  /// Of a plane seen from a new keyframe, beyond what the window claims to know: its motion drifts
+  /// by more than the noise of its points explains.
+  double drift_deg = 0.2, drift_m = 0.01;
+  double min_overlap = 0.2;  ///< of the smaller of a plane seen and a landmark
+  int patience = 20;         ///< keyframes that a landmark is remembered unseen
+  int max_landmarks = 12;    ///< the one unseen for longest is forgotten
+  void check() const;
+};
+void visit(OptionVisitor& field, PlaneLandmarkOptions& options);
+
+/// The planes that a sliding window knows as landmarks. A plane seen in a keyframe is a sighting of
+/// the landmark it agrees with: by the Mahalanobis distance with the marginal covariance that the
+/// window has of the landmark from that keyframe (99 % of chi2), by the side it is seen from, and
+/// by where on it things were seen before, so that a coplanar surface elsewhere is another one.
+/// What agrees with two landmarks of one place about alike, as a door leaf before its wall may, is
+/// left alone. What agrees with none waits for a second keyframe that sees it too. Landmarks go on
+/// unseen for a while, known ever less well.
+class PlaneLandmarks {
+ public:
+  explicit PlaneLandmarks(const PlaneLandmarkOptions& options, LogSink log = {})
+      : options_(options), log_(std::move(log)) {
+    options_.check();
+  }
+
+  /// Hands the planes seen in the newest keyframe over, in its camera's frame. Returns the landmark
+  /// each is a sighting of; nothing of those that wait or are left alone.
+  std::vector<std::optional<std::int64_t>> add(std::int64_t keyframe,
+                                               const std::vector<DepthPlane>& seen,
+                                               SlidingWindow& window);
+  /// After the window has been optimized: sightings that do not fit are taken out, with a landmark
+  /// whose sightings do not fit again and again.
+  void prune(SlidingWindow& window);
+  /// The ids of the landmarks, ascending.
+  std::vector<std::int64_t> landmarks() const;
+  void reset();
+
+ private:
+  struct Landmark {
+    std::int64_t last_seen = 0;
+    int misfits = 0;  ///< since it last fitted
+    /// Its normal, to the side it is seen from.
+    Eigen::Vector3d toward_map = Eigen::Vector3d::Zero();
+    std::vector<Eigen::Vector3d> points_map;  ///< where it was seen
+  };
+  struct Waiting {
+    std::int64_t keyframe = 0;
+    DepthPlane plane;
+  };
+  struct Match {
+    double chi2 = 0, overlap = 0, score = 0;
+    std::size_t seen = 0;
+    std::int64_t landmark = 0;
+  };
+  std::vector<Match> matches(std::int64_t keyframe, const std::vector<DepthPlane>& seen,
+                             const SlidingWindow& window) const;
+  Eigen::Matrix3d drift(const Plane3& plane_cam) const;
+  void see(std::int64_t keyframe, const DepthPlane& plane, std::int64_t id, SlidingWindow& window);
+  static std::vector<std::optional<std::int64_t>> assign(const std::vector<Match>& all,
+                                                         std::size_t count);
+  std::optional<std::size_t> partner(std::int64_t keyframe, const DepthPlane& plane,
+                                     const SlidingWindow& window) const;
+  std::int64_t begin(const Waiting& before, const Waiting& now, SlidingWindow& window);
+  void forget(std::int64_t keyframe, SlidingWindow& window);
+
+  PlaneLandmarkOptions options_;
+  LogSink log_;
+  std::int64_t next_ = 1;
+  std::map<std::int64_t, Landmark> landmarks_;
+  std::vector<Waiting> waiting_;  ///< of keyframes in the window, ascending
+};
+
+}  // namespace placegraph

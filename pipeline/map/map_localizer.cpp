@@ -1,0 +1,222 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/map/map_localizer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+
+void LocalizerOptions::check() const {
+  check_ranges(*this);
+  recognizer.check();
+  sequence.check();
+  loops.check();
+}
+
+void visit(OptionVisitor& field, LocalizerOptions& o) {
+  field.group("recognizer", o.recognizer, "likeness of two views");
+  field.group("sequence", o.sequence, "evidence of the images around");
+  field("min_probability", o.min_probability, "of an answer", {0.5, 1});
+  field("calibration_views", o.calibration_views,
+        "views of the map that tell how wrong answers look, at most", {10, 1e6});
+  field("geometry", o.geometry, "verify by features where the map has their depth");
+}
+
+MapLocalizer::MapLocalizer(const LocalizerOptions& options, StoredMap stored)
+    : options_(options), stored_(std::move(stored)), recognizer_(options.recognizer) {
+  options_.check();
+  std::vector<Keyframe>& all = stored_.map.keyframes;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].view.empty()) continue;
+    const PlaceCueOptions& cues = options_.recognizer.cues;
+    require((cues.tiny == 0) == all[i].view.tiny.empty() &&
+                (cues.gradients == 0) == all[i].view.gradients.empty(),
+            "map: its views were described by other cues");
+    recognizer_.add(std::move(all[i].view));
+    keyframes_.push_back(static_cast<int>(i));
+    all[i].view = PlaceView();
+  }
+  constexpr int kFewest = 10;
+  require(recognizer_.size() >= kFewest, "map: " + std::to_string(recognizer_.size()) + " views; " +
+                                             std::to_string(kFewest) +
+                                             " are needed to tell places apart");
+  in_colour_ = !recognizer_.view(0).colour.empty();
+  learn_near();
+  const auto has_depth = [](const Keyframe& keyframe) {
+    return std::any_of(keyframe.features.begin(), keyframe.features.end(),
+                       [](const Feature& feature) { return feature.point_cam.has_value(); });
+  };
+  if (options_.geometry && stored_.origin.calibration &&
+      std::any_of(all.begin(), all.end(), has_depth))
+    closer_.emplace(options_.loops, *stored_.origin.calibration, 0, stored_.map);
+}
+
+bool MapLocalizer::has_geometry(const Image& grey) const {
+  return closer_ && grey.cols == stored_.origin.calibration->camera.width &&
+         grey.rows == stored_.origin.calibration->camera.height;
+}
+
+const Keyframe& MapLocalizer::keyframe_of(int view) const {
+  return stored_.map
+      .keyframes[static_cast<std::size_t>(keyframes_[static_cast<std::size_t>(view)])];
+}
+
+std::vector<PlaceLikeness> MapLocalizer::likenesses(const PlaceView& view) const {
+  return recognizer_.query(view, 0, recognizer_.size() - 1);
+}
+
+void MapLocalizer::learn_near() {
+  for (const RelativePoseConstraint& edge : stored_.map.place_graph.constraints) {
+    adjacent_.emplace(edge.from, edge.to);
+    adjacent_.emplace(edge.to, edge.from);
+  }
+  lag_ = lag_of_likeness();
+}
+
+/// By how many views two must be apart to look no more alike than any two: where three quarters of
+/// what neighbours have in common beyond that are gone.
+int MapLocalizer::lag_of_likeness() const {
+  constexpr int kSamples = 40, kLongest = 50;
+  constexpr double kRest = 0.25;
+  const int views = recognizer_.size();
+  const auto mean_at = [&](int lag) {
+    double sum = 0;
+    int count = 0;
+    const int stride = std::max(1, (views - lag) / kSamples);
+    for (int i = 0; i + lag < views; i += stride, ++count)
+      sum += grid_likeness(recognizer_.view(i), recognizer_.view(i + lag), options_.recognizer.cues)
+                 .sum();
+    return sum / std::max(1, count);
+  };
+  const double any = 0.5 * (mean_at(views / 3) + mean_at(views / 2));
+  const double next = mean_at(1);
+  int lag = 1;
+  while (lag < std::min(kLongest, views / 5) && mean_at(lag) - any > kRest * (next - any)) ++lag;
+  return lag;
+}
+
+bool MapLocalizer::near(int a, int b) const {
+  if (std::abs(a - b) <= lag_) return true;
+  const std::int64_t at = keyframe_of(a).place, other = keyframe_of(b).place;
+  return at == other || adjacent_.count({at, other}) > 0;
+}
+
+std::vector<ViewEvidence> MapLocalizer::evidence(
+    const std::vector<std::vector<PlaceLikeness>>& lists, bool sequence) const {
+  const int views = recognizer_.size();
+  return sequence ? sequence_evidence(lists, views, options_.sequence)
+                  : lone_evidence(lists, views);
+}
+
+/// What the map's own views are answered: kept from all that is near them, or from themselves.
+/// Nothing if they all look alike, or are of one place: that tells not how wrong answers look.
+std::optional<RecognitionOdds> MapLocalizer::odds(bool sequence) const {
+  const int views = recognizer_.size();
+  // Some stretches of a long map, as a sequence needs neighbours.
+  const int stretches = views <= options_.calibration_views ? 1 : 3;
+  const int length = std::min(views, options_.calibration_views) / stretches;
+  const NearViews near = [this](int a, int b) { return this->near(a, b); };
+  std::vector<ViewAnswer> wrong, right;
+  for (int s = 0; s < stretches; ++s) {
+    const int begin = s * views / stretches;
+    std::vector<std::vector<PlaceLikeness>> far, but_itself;
+    for (int view = begin; view < begin + length; ++view) {
+      far.emplace_back();
+      but_itself.emplace_back();
+      for (const PlaceLikeness& likeness : likenesses(recognizer_.view(view))) {
+        if (likeness.view != view) but_itself.back().push_back(likeness);
+        if (!near(likeness.view, view)) far.back().push_back(likeness);
+      }
+    }
+    const auto of_far = evidence(far, sequence), of_others = evidence(but_itself, sequence);
+    for (int i = 0; i < length; ++i) {
+      const int view = begin + i;
+      const auto index = static_cast<std::size_t>(i);
+      const ViewAnswer not_near =
+          answer_of(of_far[index], near, [&](int other) { return !near(other, view); });
+      if (not_near.view >= 0) wrong.push_back(not_near);
+      const ViewAnswer other =
+          answer_of(of_others[index], near, [&](int candidate) { return candidate != view; });
+      if (other.view >= 0) right.push_back(other);
+    }
+  }
+  if (wrong.empty() || right.empty()) return std::nullopt;
+  return RecognitionOdds(wrong, right);
+}
+
+Localization MapLocalizer::described(const ViewAnswer& answer, double probability) const {
+  Localization result;
+  result.stage = "blank";
+  if (answer.view < 0) return result;
+  const Keyframe& keyframe = keyframe_of(answer.view);
+  result.place = keyframe.place;
+  result.keyframe = keyframe.id;
+  result.frame = keyframe.frame;
+  result.probability = probability;
+  result.placed = result.probability >= options_.min_probability;
+  result.stage = "appearance";
+  return result;
+}
+
+std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames& frames,
+                                                 bool sequence) const {
+  std::vector<std::vector<PlaceLikeness>> lists;
+  std::vector<std::optional<Loop>> verified;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Frame frame = frames(i);
+    require(!in_colour_ || !frame.colour.empty(),
+            "image " + std::to_string(i) + " is grey, and the map's views have colour");
+    lists.push_back(likenesses(
+        describe_place(in_colour_ ? frame.colour : frame.image, options_.recognizer.cues, true)));
+    verified.push_back(has_geometry(frame.image) ? verify(frame, lists.back()) : std::nullopt);
+  }
+  const NearViews near = [this](int a, int b) { return this->near(a, b); };
+  std::vector<ViewAnswer> answers;
+  for (const ViewEvidence& of_image : evidence(lists, sequence))
+    answers.push_back(answer_of(of_image, near, [](int) { return true; }));
+  // As far as the filter looks.
+  const int reach =
+      sequence ? static_cast<int>(std::lround(1 / (1 - options_.sequence.memory))) : 0;
+  const auto calibration = odds(sequence);
+  const std::vector<double> probabilities = calibration
+                                                ? calibration->probabilities(answers, near, reach)
+                                                : std::vector<double>(count, 0.5);
+  std::vector<Localization> result;
+  for (std::size_t i = 0; i < count; ++i) {
+    result.push_back(described(answers[i], probabilities[i]));
+    if (!calibration && answers[i].view >= 0) result.back().stage = "calibration";
+    if (verified[i]) take_geometry(*verified[i], result.back());
+  }
+  return result;
+}
+
+std::optional<Loop> MapLocalizer::verify(const Frame& frame,
+                                         const std::vector<PlaceLikeness>& list) const {
+  constexpr std::size_t kTries = 3;
+  std::vector<std::int64_t> tries;
+  for (std::size_t i = 0; i < std::min(kTries, list.size()); ++i)
+    tries.push_back(keyframe_of(list[i].view).id);
+  return closer_->relocalize(frame, std::move(tries));
+}
+
+/// Features agree with a pose by chance once in a thousand images, or less; what whole views say
+/// counts beside that, for the same place or against another.
+void MapLocalizer::take_geometry(const Loop& loop, Localization& result) const {
+  constexpr double kOddsOfVerified = 1000, kSurest = 1 - 1e-9;
+  const Keyframe& match = *stored_.map.find_keyframe(loop.match);
+  const bool agree =
+      result.place == match.place || adjacent_.count({result.place, match.place}) > 0;
+  const double p = std::clamp(result.probability, 1 - kSurest, kSurest);
+  const double odds = kOddsOfVerified * (agree ? p / (1 - p) : (1 - p) / p);
+  result.probability = odds / (1 + odds);
+  result.placed = result.probability >= options_.min_probability;
+  result.place = match.place;
+  result.keyframe = match.id;
+  result.frame = match.frame;
+  result.stage = "geometry";
+  if (!result.placed) return;
+  const Sim3 S_map_cam = stored_.map.S_map_keyframe(match.id) * Sim3(loop.T_match_query);
+  result.T_map_cam = SE3(S_map_cam.rotation(), S_map_cam.translation());
+}
+
+}  // namespace placegraph

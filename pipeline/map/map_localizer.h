@@ -1,0 +1,75 @@
+#pragma once
+#include <placegraph/frontend/places/place_recognizer.h>
+#include <placegraph/frontend/places/recognition_odds.h>
+#include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/places/loop_closer.h>
+
+#include <set>
+
+namespace placegraph {
+
+struct LocalizerOptions {
+  PlaceRecognizerOptions recognizer;  ///< its cues are those of the map
+  /// Images behind and ahead count, and none hurries: evidence is gathered over a longer way than
+  /// where only the past is known.
+  SequenceFilterOptions sequence{.memory = 0.97};
+  double min_probability = 0.95;  ///< of an answer
+  int calibration_views = 300;    ///< of the map, that tell how wrong answers look, at most
+  bool geometry = true;           ///< verify by features where the map has their depth
+  LoopOptions loops;              ///< as the run that made the map
+  void check() const;
+};
+void visit(OptionVisitor& field, LocalizerOptions& options);
+
+/// Where an image was taken, or why that is not said.
+struct Localization {
+  bool placed = false;
+  std::int64_t place = -1, keyframe = -1, frame = -1;  ///< of the map; the best guess if refused
+  double probability = 0;
+  /// The test that decided: "geometry" and "appearance" of placed ones; of others "blank" (there is
+  /// nothing to compare), "calibration" (the map's views do not tell how wrong answers look),
+  /// "appearance" (not sure enough), "geometry" (the features contradict).
+  std::string stage;
+  std::optional<SE3> T_map_cam;  ///< if geometry verified it
+};
+
+/// Places images in a saved map: by the likeness of whole views, with a probability that the map
+/// itself calibrates (RecognitionOdds), and by features against points of known depth.
+class MapLocalizer {
+ public:
+  /// Throws ArgumentError for a map of fewer than ten views, or whose views cannot be compared.
+  MapLocalizer(const LocalizerOptions& options, StoredMap stored);
+
+  bool in_colour() const { return in_colour_; }
+  /// Whether poses can be given to frames of this size.
+  bool has_geometry(const Image& grey) const;
+  /// Images one by one, or consecutive ones of one drive, each with the evidence of those around
+  /// it. `frames`: grey image, and `colour` where the map's views have colour (ArgumentError).
+  /// Called with each index once.
+  using Frames = std::function<Frame(std::size_t)>;
+  std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
+
+ private:
+  std::vector<PlaceLikeness> likenesses(const PlaceView& view) const;
+  void learn_near();
+  int lag_of_likeness() const;
+  bool near(int a, int b) const;
+  std::optional<RecognitionOdds> odds(bool sequence) const;
+  std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
+                                     bool sequence) const;
+  Localization described(const ViewAnswer& answer, double probability) const;
+  std::optional<Loop> verify(const Frame& frame, const std::vector<PlaceLikeness>& list) const;
+  void take_geometry(const Loop& loop, Localization& result) const;
+  const Keyframe& keyframe_of(int view) const;
+
+  LocalizerOptions options_;
+  StoredMap stored_;
+  bool in_colour_ = false;
+  PlaceRecognizer recognizer_;
+  std::vector<int> keyframes_;  ///< of the views, indices in the map's
+  int lag_ = 1;                 ///< views so far apart look like any others
+  std::set<std::pair<std::int64_t, std::int64_t>> adjacent_;  ///< places
+  std::optional<LoopCloser> closer_;
+};
+
+}  // namespace placegraph

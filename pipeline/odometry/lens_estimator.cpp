@@ -1,0 +1,65 @@
+#include <placegraph/pipeline/odometry/lens_estimator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace placegraph {
+
+void LensOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, LensOptions& o) {
+  field("enabled", o.enabled,
+        "one eye or a depth camera: where the images prove to be distorted, the run begins again "
+        "with undistorted ones");
+  field("min_sigmas", o.min_sigmas, "radial distortion over its deviation that counts as proof",
+        {0, 1e6});
+  field("min_effect", o.min_effect,
+        "of it on the tracks, rms in their standard deviations, that nothing else would explain",
+        {0, 1e6});
+}
+
+void LensEstimator::add(const LensEvidence& evidence) {
+  if (evidence.information > 0) windows_.push_back(evidence);
+}
+
+double LensEstimator::k1() const {
+  double gradient = 0, information = 0;
+  for (const LensEvidence& window : windows_) {
+    gradient += window.gradient;
+    information += window.information;
+  }
+  return information > 0 ? -gradient / information : 0;
+}
+
+double LensEstimator::sigma_k1() const {
+  constexpr double kWindows = 4;
+  const double mean = k1();
+  double information = 0, squares = 0, scatter = 0;
+  for (const LensEvidence& window : windows_) {
+    const double off = -window.gradient / window.information - mean;
+    information += window.information;
+    squares += window.information * window.information;
+    scatter += window.information * off * off;
+  }
+  // A few of much information, turns among straight roads, are not many windows.
+  const double windows = windows_.empty() ? 0 : information * information / squares;
+  if (windows < kWindows) return std::numeric_limits<double>::infinity();
+  return std::sqrt(std::max(1.0, scatter / (windows - 1)) / information);
+}
+
+double LensEstimator::effect() const {
+  double information = 0, residuals = 0;
+  for (const LensEvidence& window : windows_) {
+    information += window.information;
+    residuals += window.residuals;
+  }
+  return residuals > 0 ? std::abs(k1()) * std::sqrt(information / residuals) : 0;
+}
+
+bool LensEstimator::distorted(const LensOptions& options) const {
+  return options.enabled && effect() > options.min_effect &&
+         std::abs(k1()) > options.min_sigmas * sigma_k1();
+}
+
+}  // namespace placegraph

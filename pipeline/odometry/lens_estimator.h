@@ -1,0 +1,38 @@
+#pragma once
+#include <placegraph/backend/window/distortion_evidence.h>
+#include <placegraph/graph/core/options.h>
+
+#include <vector>
+
+namespace placegraph {
+
+struct LensOptions {
+  bool enabled = true;
+  double min_sigmas = 5;  ///< |k1| over its deviation, to call a lens distorted
+  /// What of it no other motion or structure would explain, rms over the tracks, in their standard
+  /// deviations. Below this it may come from a bias of the tracks, as when driving straight on.
+  double min_effect = 0.05;
+  void check() const;
+};
+void visit(OptionVisitor& field, LensOptions& options);
+
+/// What is left of radial distortion in images that should have none, from bundle adjustment over
+/// windows that share no keyframe. Windows contradict each other by more than the noise of their
+/// points explains (a rolling shutter, points that move): the deviation comes from their scatter.
+class LensEstimator {
+ public:
+  void add(const LensEvidence& evidence);
+  /// The weighted mean of the windows; 0 before there are any.
+  double k1() const;
+  /// Infinite before there are four windows of like weight.
+  double sigma_k1() const;
+  /// See LensOptions::min_effect.
+  double effect() const;
+  /// Whether the images should be undistorted by k1 before they are used.
+  bool distorted(const LensOptions& options) const;
+
+ private:
+  std::vector<LensEvidence> windows_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,67 @@
+#pragma once
+#include <placegraph/frontend/planes/ground_plane.h>
+#include <placegraph/pipeline/cues/ground_mask.h>
+
+#include <deque>
+#include <optional>
+
+namespace placegraph {
+
+struct GroundScaleOptions {
+  GroundPlaneOptions plane;
+  bool enabled = true;  ///< use the ground plane where the camera height is known
+  /// Of a single scale, added to its noise: the road is uneven, and pairs of views that overlap see
+  /// the same of it, so that they err together.
+  double sigma_relative = 0.02;
+  double max_log_jump = 0.12;         ///< from the median of the last scales; more is not believed
+  double mounting_sigma_deg = 3;      ///< pitch and roll of the camera before anything was seen
+  double pitching_sigma_deg = 0.5;    ///< of a single view about the mean: the vehicle nods
+  double mounting_drift_deg = 0.03;   ///< of the mean, from one measurement to the next
+  double level_sigma_deg = 0.03;      ///< of a floor that edges show to be level, beside theirs
+  double min_baseline_heights = 0.6;  ///< motion between the two views; a shorter one tells little
+  void check() const;
+};
+void visit(OptionVisitor& field, GroundScaleOptions& options);
+
+/// Metric scale from the ground: follows the plane under a camera of known height over pairs of
+/// views and says what a motion's true length is. The mean normal in the camera (mounting pitch and
+/// roll) is estimated, never given.
+class GroundScale {
+ public:
+  GroundScale(const GroundScaleOptions& options, const Camera& camera, double camera_height_m);
+
+  struct Length {
+    double factor = 1;  ///< true length = factor * |t| of the motion handed over
+    double sigma_relative = 1;
+  };
+  /// For a motion whose scale is unknown; nothing if the road says nothing. `sight` is of the new
+  /// view.
+  std::optional<Length> find(const Image& image_new, const Image& image_old, const SE3& T_old_new,
+                             const GroundSight& sight = {});
+  /// For a motion whose scale is roughly right.
+  std::optional<Length> follow(const Image& image_new, const Image& image_old, const SE3& T_old_new,
+                               const GroundSight& sight = {});
+  /// Whether a level floor may be the ground: its normal is about where the camera's mounting, as
+  /// far as it is known, lets it be.
+  bool may_be_ground(const Eigen::Vector3d& level) const;
+  /// Outline in the image of the ground that is looked at.
+  std::vector<Eigen::Vector2d> outline_px() const;
+  double min_baseline_m() const { return options_.min_baseline_heights * camera_height_m_; }
+  /// Mean ground plane in the camera frame, at the camera's height.
+  Plane plane_cam() const { return {normal_cam_, camera_height_m_}; }
+
+ private:
+  std::optional<Length> believe(const GroundPlaneResult& found);
+  double sigma_of_view_rad() const;
+  GroundPlanePrior prior(const GroundSight& sight) const;
+  void learn(const GroundPlaneResult& found);
+
+  GroundScaleOptions options_;
+  Camera camera_;
+  double camera_height_m_;
+  Eigen::Vector3d normal_cam_ = Eigen::Vector3d::UnitY();
+  double normal_variance_rad2_;
+  std::deque<double> recent_log_factors_;
+};
+
+}  // namespace placegraph

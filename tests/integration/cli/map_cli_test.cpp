@@ -1,0 +1,209 @@
+// `placegraph run` saves its map as it goes, `run --resume` goes on from it, `placegraph map` reads
+// it.
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/map/map_database.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/cli_test.h"
+
+namespace placegraph {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::CommandResult;
+using test::read_file;
+using ::testing::HasSubstr;
+
+/// A rendered drive and the run over it, made once for all tests.
+class MapCli : public test::CliTest {
+ protected:
+  static void SetUpTestSuite() {
+    made = new test::TemporaryFolder;
+    CommandResult result = test::run_placegraph(
+        "synth town-loop --frames 40 --stereo --size 448x280 --difficulty clean --out drive",
+        made->path());
+    ASSERT_EQ(result.code, 0) << result.err;
+    result = test::run_placegraph("run drive --out whole", made->path());
+    ASSERT_EQ(result.code, 0) << result.err;
+  }
+  static void TearDownTestSuite() { delete made; }
+  static std::string drive() { return *made / "drive"; }
+  static std::string whole() { return *made / "whole"; }
+  /// The run's map as a kill would have left it after the commit of its `places`-th place.
+  void break_off(std::size_t places) {
+    fs::create_directory(dir / "broken");
+    StoredMap stored = read_map(whole() + "/map.db");
+    ASSERT_GT(stored.map.place_graph.places.size(), places);
+    const std::int64_t last = stored.map.place_graph.places[places - 1].anchor_keyframe;
+    Map& map = stored.map;
+    map.place_graph.places.resize(places);
+    map.place_graph.places.back().members.resize(1);
+    std::erase_if(map.place_graph.constraints, [&](const RelativePoseConstraint& c) {
+      return std::max(c.from, c.to) >= static_cast<std::int64_t>(places);
+    });
+    std::erase_if(map.keyframes, [&](const Keyframe& k) { return k.id > last; });
+    std::erase_if(map.landmarks, [&](const PointLandmark& l) { return l.keyframe > last; });
+    const std::int64_t frame = map.keyframes.back().frame;
+    std::erase_if(map.frames, [&](const FrameRecord& r) { return r.frame > frame; });
+    map.trajectory_online.poses.resize(map.frames.size());
+    std::erase_if(map.loops, [&](const LoopRecord& l) { return l.query_frame > frame; });
+    PlaceHistory& history = stored.history;
+    std::erase_if(history.keyframes, [&](const auto& k) { return k.id > last; });
+    std::erase_if(history.parts, [&](const auto& p) { return p.anchor > last; });
+    history.places.resize(places);
+    history.places.back().last_keyframe = last;
+    history.merged.clear();
+    std::erase_if(history.loops, [&](const Loop& l) { return l.query > last; });
+    stored.finished = false;
+    write_map(dir / "broken/map.db", stored);
+  }
+  static test::TemporaryFolder* made;
+};
+test::TemporaryFolder* MapCli::made = nullptr;
+
+TEST_F(MapCli, ARunLeavesOneFileThatHoldsItsMap) {
+  EXPECT_FALSE(fs::exists(whole() + "/map.db-wal"));
+  EXPECT_FALSE(fs::exists(whole() + "/map.db.new"));
+  const json result = json::parse(read_file(whole() + "/result.json"));
+  const CommandResult info = run("map info " + whole() + " --json");
+  ASSERT_EQ(info.code, 0) << info.err;
+  const json map = json::parse(info.out);
+  for (const char* key : {"places", "keyframes", "frames", "posed", "loops_accepted", "metric"})
+    EXPECT_EQ(map[key], result[key]) << key;
+  EXPECT_EQ(map["views"], map["keyframes"]);
+  EXPECT_TRUE(map["finished"].get<bool>());
+  EXPECT_EQ(run("map validate " + whole()).code, 0);
+}
+
+TEST_F(MapCli, ExportsAreWhatTheRunWrote) {
+  const CommandResult result = run("map export " + whole() +
+                                   " --g2o g.g2o --places p.json --tum t.tum --kitti k.kitti "
+                                   "--graphml p.graphml --dot p.dot --revisits r.txt");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(read_file(dir / "g.g2o"), read_file(whole() + "/graph.g2o"));
+  EXPECT_EQ(read_file(dir / "p.json"), read_file(whole() + "/places.json"));
+  EXPECT_EQ(read_file(dir / "t.tum"), read_file(whole() + "/trajectory_optimized.tum"));
+  EXPECT_EQ(read_file(dir / "k.kitti"), read_file(whole() + "/trajectory_optimized.kitti"));
+  EXPECT_TRUE(fs::exists(dir / "r.txt"));  // without a line: the drive never comes back
+  EXPECT_EQ(read_file(dir / "p.graphml"), read_file(whole() + "/places.graphml"));
+  EXPECT_EQ(read_file(dir / "p.dot"), read_file(whole() + "/places.dot"));
+  expect_usage_error("map export " + whole(), "nothing to write");
+}
+
+TEST_F(MapCli, TheWayOverItsPlacesIsThatOfTheRunsFiles) {
+  const CommandResult by_files = run("route " + whole() + " --from 0 --to 4");
+  const CommandResult by_map = run("route " + whole() + "/map.db --from 0 --to 4");
+  ASSERT_EQ(by_map.code, 0) << by_map.err;
+  EXPECT_EQ(by_map.out, by_files.out);
+}
+
+TEST_F(MapCli, ARunThatWasBrokenOffGoesOn) {
+  break_off(3);
+  EXPECT_EQ(run("map validate broken").code, 0);
+  expect_usage_error("run " + drive() + " --out broken", "--resume goes on with it");
+  expect_usage_error("run --resume broken --seed 5", "the run was begun with seed: 0, not 5");
+  expect_usage_error("run " + dir.path() + " --resume broken", "the run was begun on");
+  const CommandResult resumed = run("run --resume broken --json");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  const json now = json::parse(resumed.out);
+  const json before = json::parse(read_file(whole() + "/result.json"));
+  EXPECT_GT(now["resumed_at"].get<int>(), 0);
+  EXPECT_LT(now["resumed_at"].get<int>(), 40);
+  EXPECT_EQ(now["posed"], before["posed"]);
+  // Tracking that begins anew costs a little; a wrong link would cost metres.
+  EXPECT_LT(now["evaluation"]["se3"]["ate_rmse_m"].get<double>(),
+            before["evaluation"]["se3"]["ate_rmse_m"].get<double>() + 0.02);
+  EXPECT_EQ(run("map validate broken").code, 0);
+  EXPECT_FALSE(fs::exists(dir / "broken/map.db-wal"));
+}
+
+TEST_F(MapCli, ARunThatABrokenImageEndedGoesOnWhenItIsMended) {
+  fs::copy(drive(), dir / "damaged", fs::copy_options::recursive);
+  const fs::path image = dir / "damaged/image_0/000025.png";
+  fs::resize_file(image, fs::file_size(image) / 2);
+  const CommandResult stopped = run("run damaged --out stopped");
+  EXPECT_EQ(stopped.code, 2);
+  EXPECT_THAT(stopped.err, HasSubstr("000025.png"));
+  EXPECT_EQ(json::parse(run("map info stopped --json").out)["finished"], false);
+  expect_failure("map label stopped damaged", 1, "--resume");
+  fs::copy(drive() + "/image_0/000025.png", image, fs::copy_options::overwrite_existing);
+  const CommandResult resumed = run("run --resume stopped --json");
+  ASSERT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_EQ(json::parse(resumed.out)["frames"], 40);
+  EXPECT_EQ(json::parse(resumed.out)["posed"], 40);
+}
+
+TEST_F(MapCli, ARunThatHadEndedIsWrittenAgain) {
+  fs::create_directory(dir / "ended");
+  fs::copy(whole() + "/map.db", dir / "ended/map.db");
+  const CommandResult again = run("run --resume ended");
+  ASSERT_EQ(again.code, 0) << again.err;
+  for (const char* name : {"trajectory_optimized.tum", "graph.g2o", "places.json", "loops.csv"})
+    EXPECT_EQ(read_file((dir / "ended") + "/" + name), read_file(whole() + "/" + name)) << name;
+}
+
+TEST_F(MapCli, NothingSavedIsSaid) {
+  fs::create_directory(dir / "empty");
+  expect_usage_error("run --resume empty", "nothing was saved");
+  expect_usage_error("map info empty", "there is no such file");
+  expect_usage_error("run", "SEQUENCE and --out are needed, or --resume");
+}
+
+TEST_F(MapCli, ExplainsAFrame) {
+  const CommandResult result = run("explain " + whole() + " 20 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json told = json::parse(result.out);
+  EXPECT_EQ(told["frame"], 20);
+  EXPECT_EQ(told["where"]["posed"], true);
+  EXPECT_EQ(told["where"]["unit"], "m");
+  EXPECT_EQ(told["where"]["covariance"].size(), 6u);
+  EXPECT_GT(told["known_by"]["inliers"], 10);
+  EXPECT_GT(told["known_by"]["constraints"]["odometry"], 0);
+  EXPECT_GT(told["sees"]["surfaces"]["ground"], 0.05);
+  EXPECT_EQ(told["assumed"]["sensor"], "depths measured");
+  EXPECT_THAT(run("explain " + whole() + " 20").out, HasSubstr("known by"));
+  expect_failure("explain " + whole() + " 99", 1, "has no frame 99");
+  expect_usage_error("explain " + whole() + " -1", "FRAME");
+  expect_usage_error("explain nowhere 1", "nowhere");
+}
+
+TEST_F(MapCli, FramesOfTheDriveStandWhereTheyWere) {
+  const CommandResult result = run("localize " + whole() + " " + drive() + " --out placed.txt");
+  ASSERT_EQ(result.code, 0) << result.err;
+  std::istringstream lines(read_file(dir / "placed.txt"));
+  std::string line;
+  int posed = 0;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    int image, place, view;
+    double probability, x, y, z;
+    std::string stage;
+    ASSERT_TRUE(fields >> image >> place >> view >> probability >> stage) << line;
+    if (place < 0) continue;
+    EXPECT_LE(std::abs(view - image), 6) << line;
+    if (fields >> x >> y >> z) ++posed;
+  }
+  EXPECT_GE(posed, 30);
+}
+
+TEST_F(MapCli, AMapOfImagesAloneHasPlacesAndNoPoses) {
+  CommandResult result = run("map learn " + drive() + " --range 0 29 --out images.db");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(run("map validate images.db").code, 0);
+  result = run("map export images.db --tum t.tum");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("without a camera has no poses"));
+  result =
+      run("localize images.db " + drive() + " --range 5 25 --sequence --out placed.txt --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json placed = json::parse(read_file(dir / "placed.txt"));
+  EXPECT_EQ(placed["images"].size(), 21u);
+  expect_usage_error("localize images.db " + drive() + " --range 5 99 --out no.txt",
+                     "two numbers of images needed, from 0 to 39");
+}
+
+}  // namespace
+}  // namespace placegraph

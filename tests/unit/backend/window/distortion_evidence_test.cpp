@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/graph/core/random.h>
+
+namespace placegraph {
+namespace {
+
+Camera ideal_camera() {
+  Camera camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 525;
+  camera.cx = 320;
+  camera.cy = 240;
+  return camera;
+}
+
+/// A window over a room that a camera with radial distortion looked about in, its images taken for
+/// undistorted; each point is seen
+/// `views` times at most.
+SlidingWindow look_about(double k1, bool depth, int views) {
+  Camera lens = ideal_camera();
+  lens.distortion = Distortion::kRadialTangential;
+  lens.coefficients = {k1};
+  SlidingWindowOptions options;
+  options.max_keyframes = 100;
+  options.max_iterations = 50;
+  options.relative_decrease = 1e-12;
+  SlidingWindow window(options, ideal_camera());
+  std::vector<SE3> T_map_cam;
+  for (int k = 0; k < 8; ++k) {
+    T_map_cam.emplace_back(SO3::exp({0.02 * (k % 3), 0.06 * k - 0.2, 0.03 * (k % 2)}),
+                           Eigen::Vector3d(0.1 * k, 0.05 * (k % 3), 0.04 * (k % 2)));
+    window.add_keyframe(k, T_map_cam.back());
+  }
+  Random random(3);
+  for (std::int64_t id = 0; id < 150; ++id) {
+    const double z = random.uniform(1.5, 5);
+    const Eigen::Vector3d p_map(z * random.uniform(-0.6, 0.8), z * random.uniform(-0.45, 0.45), z);
+    bool added = false;
+    for (int k = static_cast<int>(id) % 4, seen = 0; k < 8 && seen < views; ++k) {
+      const Eigen::Vector3d p_cam = T_map_cam[static_cast<std::size_t>(k)].inverse() * p_map;
+      const auto px = lens.project(p_cam);
+      if (!px || !lens.contains(*px)) continue;
+      if (!added) window.add_landmark(id, p_map);
+      added = true;
+      WindowObservation o;
+      o.keyframe = k;
+      o.landmark = id;
+      o.px = *px;
+      o.sigma_px = 0.5;
+      if (depth) {
+        o.inverse_depth = 1 / p_cam.z();
+        o.sigma_inverse_depth = 0.005;
+      }
+      window.add_observation(o);
+      ++seen;
+    }
+  }
+  if (views > 2) {  // pairs of views do not hold together
+    EXPECT_TRUE(window.optimize().outcome);
+  }
+  return window;
+}
+
+double found(const LensEvidence& evidence) { return -evidence.gradient / evidence.information; }
+
+TEST(LensEvidence, TellsTheDistortionThatTheImagesHave) {
+  for (const bool depth : {false, true})
+    for (const double k1 : {0.02, -0.02}) {
+      const LensEvidence evidence = look_about(k1, depth, 6).lens_evidence();
+      EXPECT_GT(evidence.residuals, 500);
+      EXPECT_NEAR(found(evidence), k1, 0.1 * std::abs(k1)) << depth;
+      EXPECT_GT(evidence.information, 1 / (0.004 * 0.004)) << depth;
+    }
+}
+
+TEST(LensEvidence, FindsNoneWhereThereIsNone) {
+  EXPECT_NEAR(found(look_about(0, false, 6).lens_evidence()), 0, 1e-5);
+}
+
+TEST(LensEvidence, DepthsAddToIt) {
+  EXPECT_GT(look_about(0, true, 6).lens_evidence().information,
+            look_about(0, false, 6).lens_evidence().information);
+}
+
+TEST(LensEvidence, PointsInTwoViewsTellNothing) {
+  const LensEvidence evidence = look_about(0.02, false, 2).lens_evidence();
+  EXPECT_EQ(evidence.residuals, 0);
+  EXPECT_EQ(evidence.information, 0);
+}
+
+}  // namespace
+}  // namespace placegraph

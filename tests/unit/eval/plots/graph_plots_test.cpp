@@ -1,0 +1,80 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/eval/plots/growth_plot.h>
+#include <placegraph/eval/plots/pose_graph_plot.h>
+#include <placegraph/graph/core/error.h>
+
+namespace placegraph {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+/// Poses 0 .. 3 along x, odometry but between 1 and 2, loops 0 -> 2 and 0 -> 3.
+PoseGraph chain(double step_m) {
+  PoseGraph graph;
+  for (int i = 0; i < 4; ++i) graph.nodes.push_back({i, SE2(step_m * i, 0, 0), false});
+  for (const auto& [from, to] : {std::pair{0, 1}, {2, 3}, {0, 2}, {0, 3}}) {
+    RelativePoseConstraint edge;
+    edge.from = from;
+    edge.to = to;
+    edge.T_from_to = SE2();
+    edge.information = Eigen::Matrix3d::Identity();
+    edge.source = to == from + 1 ? ConstraintSource::kOdometry : ConstraintSource::kLoop;
+    graph.constraints.emplace_back(edge);
+  }
+  return graph;
+}
+
+TEST(PoseGraphPlot, HasGapsWhereNoOdometryLeadsAndLinksOfTheOptimizedPoses) {
+  const Plot plot = plot_of(chain(1), chain(2), {3});
+  ASSERT_EQ(plot.curves.size(), 2u);
+  EXPECT_TRUE(plot.curves[0].reference);
+  for (const PlotCurve& curve : plot.curves) {
+    ASSERT_EQ(curve.positions_m.size(), 5u);
+    EXPECT_FALSE(curve.positions_m[2]);
+  }
+  EXPECT_EQ(*plot.curves[0].positions_m[4], Eigen::Vector3d(3, 0, 0));
+  EXPECT_EQ(*plot.curves[1].positions_m[4], Eigen::Vector3d(6, 0, 0));
+  ASSERT_EQ(plot.links_m.size(), 1u);
+  EXPECT_EQ(plot.links_m[0].second, Eigen::Vector3d(4, 0, 0));
+  ASSERT_EQ(plot.rejected_links_m.size(), 1u);
+  EXPECT_EQ(plot.rejected_links_m[0].second, Eigen::Vector3d(6, 0, 0));
+}
+
+TEST(PoseGraphPlot, NamesLoopsAndRejectedOnesInItsLegend) {
+  const std::string some = to_svg(plot_of(chain(1), chain(2), {3}));
+  EXPECT_THAT(some, HasSubstr(">1 loop closure<"));
+  EXPECT_THAT(some, HasSubstr(">1 rejected<"));
+  EXPECT_THAT(to_svg(plot_of(chain(1), chain(2), {})), Not(HasSubstr("rejected")));
+}
+
+GrowthPlot growth() {
+  return {"how it grows",
+          "poses",
+          {{"CPU [s]", {{"grid", {1000, 10000, 100000}, {0.1, 1.2, 15}}}},
+           {"memory [MB]", {{"process", {1000, 10000}, {20, 150}}, {"factor", {1000}, {9}}}}}};
+}
+
+TEST(GrowthPlot, DrawsEveryPanelAndCurveWithItsName) {
+  const std::string svg = to_svg(growth());
+  for (const char* text : {"how it grows", ">poses<", "CPU [s]", "memory [MB]", ">grid<",
+                           ">process<", ">factor<", ">in proportion<", ">100000<"})
+    EXPECT_THAT(svg, HasSubstr(text));
+  EXPECT_THAT(to_png(growth()), StartsWith("\x89PNG"));
+}
+
+TEST(GrowthPlot, RefusesWhatHasNoLogarithm) {
+  GrowthPlot plot = growth();
+  plot.panels[0].curves[0].values[1] = 0;
+  EXPECT_THROW(to_svg(plot), ArgumentError);
+  plot = growth();
+  plot.panels[0].curves[0].values.pop_back();
+  EXPECT_THROW(to_svg(plot), ArgumentError);
+  plot.panels.clear();
+  EXPECT_THROW(to_svg(plot), ArgumentError);
+}
+
+}  // namespace
+}  // namespace placegraph

@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+#include <placegraph/eval/scene/floor_plan_check.h>
+#include <placegraph/eval/plots/floor_plan_plot.h>
+#include <placegraph/eval/scene/orientation_check.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/scene/indoor_map_file.h>
+#include <placegraph/io/measurements/plane_truth.h>
+
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace placegraph {
+namespace {
+
+using Eigen::Vector2d;
+
+/// A room of 4 x 6 m with a closed door in the wall at x = 4.
+BuildingPlan one_room() {
+  BuildingPlan truth;
+  truth.rooms = {{"room", {0, 0}, {4, 6}, 2.5}};
+  truth.walls = {{{0, 0}, {4, 0}, 0.2, 2.5},
+                 {{4, 0}, {4, 6}, 0.2, 2.5},
+                 {{4, 6}, {0, 6}, 0.2, 2.5},
+                 {{0, 6}, {0, 0}, 0.2, 2.5}};
+  truth.doors = {{{4, 2}, {4, 3}, 2, true, 1}};
+  return truth;
+}
+
+IndoorWall wall(const Vector2d& a, const Vector2d& b, const Vector2d& normal) {
+  IndoorWall w;
+  w.a = a, w.b = b, w.normal = normal;
+  return w;
+}
+
+/// Seen right but for the wall at x = 0, which is 10 cm off.
+IndoorMap told_plan() {
+  IndoorMap plan;
+  plan.outcome = Outcome::ok();
+  plan.walls = {wall({0.2, 0.1}, {3.9, 0.1}, {0, 1}), wall({3.9, 0.1}, {3.9, 5.9}, {-1, 0}),
+                wall({0.2, 5.9}, {3.9, 5.9}, {0, -1}), wall({0.2, 0.1}, {0.2, 5.9}, {1, 0})};
+  plan.doors.push_back({{3.9, 2.05}, {3.9, 3.0}, 2.0, true, {0, -1}});
+  IndoorRoom room;
+  room.label = "room 1";
+  room.outline = {{0.2, 0.1}, {3.9, 0.1}, {3.9, 5.9}, {0.2, 5.9}};
+  room.area_m2 = 3.7 * 5.8, room.entered = true, room.places = {3};
+  plan.rooms.push_back(room);
+  return plan;
+}
+
+/// Turning in the middle of the room.
+std::vector<SE3> turning() {
+  std::vector<SE3> poses;
+  for (int i = 0; i < 24; ++i)
+    poses.emplace_back(SO3::exp({0, i * M_PI / 12, 0}), Eigen::Vector3d(2, 0, 3));
+  return poses;
+}
+
+TEST(FloorPlanCheck, TellsErrorsOfWallsRoomsAndDoors) {
+  const FloorPlanCheck check = check_floor_plan(told_plan(), one_room(), SE3(), turning());
+  EXPECT_LT(check.truth_to_plan_median_m, 1e-9);
+  // The corner beside the wall that is off, and what stands before the door.
+  EXPECT_NEAR(check.truth_found_share, 1, 0.02);
+  EXPECT_NEAR(check.plan_right_share, 1, 0.06);
+  ASSERT_EQ(check.rooms.size(), 1U);
+  EXPECT_NEAR(check.rooms[0].iou, 3.7 / 3.8, 0.03);  // cells of 5 cm
+  EXPECT_EQ(check.doors_seen, 1);
+  EXPECT_EQ(check.doors_found, 1);
+  EXPECT_EQ(check.doors_state_right, 1);
+  EXPECT_EQ(check.doors_false, 0);
+}
+
+TEST(FloorPlanCheck, CountsWhatIsNotTold) {
+  IndoorMap empty;
+  const FloorPlanCheck check = check_floor_plan(empty, one_room(), SE3(), turning());
+  EXPECT_EQ(check.truth_to_plan_median_m, 1);
+  EXPECT_EQ(check.doors_found, 0);
+  EXPECT_EQ(check.rooms.at(0).iou, 0);
+}
+
+TEST(FloorPlanFile, ReadsWhatItWrites) {
+  test::TemporaryFolder dir;
+  dir.write("plan.json", to_json(told_plan()));
+  const IndoorMap plan = read_indoor_map(dir / "plan.json");
+  ASSERT_EQ(plan.walls.size(), 4U);
+  EXPECT_EQ(plan.doors.at(0).rooms, (std::array<int, 2>{0, -1}));
+  EXPECT_EQ(plan.rooms.at(0).places, std::vector<std::int64_t>{3});
+  EXPECT_EQ(to_json(plan), to_json(told_plan()));
+  dir.write("cut.json", to_json(told_plan()).substr(0, 100));
+  EXPECT_THROW((void)read_indoor_map(dir / "cut.json"), FileError);
+  dir.write("other.json", "{}");
+  EXPECT_THROW((void)read_indoor_map(dir / "other.json"), FileError);
+  EXPECT_THROW((void)read_building_plan(dir / "other.json"), FileError);
+  EXPECT_THROW((void)read_building_plan(dir / "none.json"), FileError);
+}
+
+TEST(FloorPlanPlot, DrawsBothForms) {
+  FloorPlanPicture picture;
+  picture.title = "a room";
+  const BuildingPlan truth = one_room();
+  picture.truth = &truth;
+  EXPECT_NE(floor_plan_svg(told_plan(), picture).find("room 1, 21.5 m2"), std::string::npos);
+  EXPECT_EQ(floor_plan_png(told_plan(), picture).substr(1, 3), "PNG");
+}
+
+TEST(PlaneTruth, RefusesWhatIsNoPlane) {
+  test::TemporaryFolder dir;
+  dir.write("good.txt", "0 0 0 0\n0 1 0 1.4\n");
+  EXPECT_EQ(read_planes(dir / "good.txt").size(), 2U);
+  dir.write("short.txt", "0 0 0 0\n0 1 0\n");
+  EXPECT_THROW((void)read_planes(dir / "short.txt"), FileError);
+  dir.write("long.txt", "0 0 0 0\n0 2 0 1\n");
+  EXPECT_THROW((void)read_planes(dir / "long.txt"), FileError);
+  dir.write("empty.txt", "");
+  EXPECT_THROW((void)read_planes(dir / "empty.txt"), FileError);
+}
+
+TEST(OrientationCheck, CountsPixelsThatAreRight) {
+  Image labels(1, 4, CV_8UC1, cv::Scalar(0)), planes(1, 4, CV_16UC1, cv::Scalar(1));
+  labels.at<std::uint8_t>(0, 0) = 2, labels.at<std::uint8_t>(0, 1) = 1;
+  labels.at<std::uint8_t>(0, 2) = 2, planes.at<std::uint16_t>(0, 2) = 0;
+  OrientationCheck check;
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  check_orientation(labels, I, planes, {{0, 0, 0}, {0, -1, 0}}, I, check);
+  EXPECT_EQ(check.judged, 3U);
+  EXPECT_EQ(check.told, 2U);
+  EXPECT_EQ(check.right, 1U);
+}
+
+}  // namespace
+}  // namespace placegraph

@@ -1,0 +1,173 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/graph/core/error.h>
+
+#include "tests/support/trajectories.h"
+
+namespace placegraph {
+namespace {
+
+using test::isometry;
+using test::winding_drive;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+EvaluationOptions with(Alignment alignment) {
+  EvaluationOptions options;
+  options.alignment = alignment;
+  options.segments.lengths_m = {20, 50};
+  return options;
+}
+
+Trajectory scaled(Trajectory trajectory, double scale) {
+  for (StampedPose& pose : trajectory.poses) pose.T_world_body->translation() *= scale;
+  return trajectory;
+}
+
+Trajectory inverted(Trajectory trajectory) {
+  for (StampedPose& pose : trajectory.poses) pose.T_world_body = pose.T_world_body->inverse();
+  return trajectory;
+}
+
+TEST(Evaluate, FindsNoErrorInThePerfectEstimateAndDoesNotWarn) {
+  const Trajectory truth = winding_drive(300);
+  const EvaluationResult r = evaluate(truth, truth, with(Alignment::kNone));
+  ASSERT_TRUE(r.outcome) << r.outcome.reason;
+  EXPECT_EQ(r.frames, 300);
+  EXPECT_EQ(r.posed, 300);
+  EXPECT_EQ(r.coverage, 1);
+  EXPECT_EQ(r.ape.error_m.max, 0);
+  EXPECT_LT(r.segments.t_rel_percent, 1e-10);
+  EXPECT_LT(r.rpe.rotation_deg.rmse, 1e-10);
+  EXPECT_THAT(r.warnings, IsEmpty());
+}
+
+TEST(Evaluate, FindsTheScaleAndAppliesItBeforeEveryFigure) {
+  const Trajectory truth = winding_drive(300);
+  for (const Alignment alignment : {Alignment::kSim3, Alignment::kScale}) {
+    const EvaluationResult r = evaluate(truth, scaled(truth, 0.25), with(alignment));
+    ASSERT_TRUE(r.outcome);
+    EXPECT_NEAR(r.alignment.scale, 4, 1e-9);
+    EXPECT_LT(r.ape.error_m.max, 1e-9);
+    EXPECT_LT(r.segments.t_rel_percent, 1e-8);
+    EXPECT_LT(r.rpe.translation_m.rmse, 1e-9);
+    EXPECT_THAT(r.warnings, IsEmpty());
+  }
+}
+
+TEST(Evaluate, WarnsOfAWrongScaleWhereNoneIsFitted) {
+  const Trajectory truth = winding_drive(300);
+  for (const Alignment alignment : {Alignment::kNone, Alignment::kOrigin, Alignment::kSe3}) {
+    const EvaluationResult r = evaluate(truth, scaled(truth, 0.5), with(alignment));
+    EXPECT_THAT(r.warnings, Contains(HasSubstr("mis-scaled: a scale of 2.0000")));
+    EXPECT_GT(r.segments.t_rel_percent, 45);  // half of every chord, which is most of the path
+  }
+}
+
+TEST(Evaluate, WarnsOfInvertedPoses) {
+  Random random(7);
+  const Trajectory truth = winding_drive(300);
+  const Trajectory estimate = test::drifting(truth, 0.02, 0.002, random);
+  EXPECT_THAT(evaluate(truth, inverted(estimate), with(Alignment::kSe3)).warnings,
+              Contains(HasSubstr("looks inverted")));
+  EXPECT_THAT(evaluate(truth, estimate, with(Alignment::kSe3)).warnings, IsEmpty());
+}
+
+TEST(Evaluate, WarnsOfAShiftInTimeAndSaysByHowMuch) {
+  Random random(8);
+  const Trajectory truth = winding_drive(300);
+  Trajectory estimate = test::drifting(truth, 0.01, 0.001, random);
+  // Line i holds the pose of frame i - 3: the estimate is three frames late.
+  for (std::size_t i = estimate.size(); i-- > 3;)
+    estimate.poses[i].T_world_body = estimate.poses[i - 3].T_world_body;
+  EXPECT_THAT(evaluate(truth, estimate, with(Alignment::kSe3)).warnings,
+              Contains(HasSubstr("3 frames earlier")));
+}
+
+TEST(Evaluate, ListsLostFramesAndCountsOnlyPosedOnes) {
+  const Trajectory truth = winding_drive(100, 1, false);
+  Trajectory estimate = truth;
+  for (const std::size_t i : {std::size_t{5}, std::size_t{50}, std::size_t{99}})
+    estimate.poses[i].T_world_body.reset();
+  const EvaluationResult r = evaluate(truth, estimate, with(Alignment::kSe3));
+  EXPECT_EQ(r.posed, 97);
+  EXPECT_DOUBLE_EQ(r.coverage, 0.97);
+  EXPECT_EQ(r.lost_frames, (std::vector<int>{5, 50, 99}));
+  EXPECT_EQ(r.rpe.translation_m.count, 99 - 5);
+}
+
+TEST(Evaluate, WarnsThatAClipIsTooShortForItsLengthsAndKeepsTheOtherFigures) {
+  const Trajectory truth = winding_drive(40);
+  const EvaluationResult r = evaluate(truth, truth, {});
+  ASSERT_TRUE(r.outcome);
+  EXPECT_FALSE(r.segments.outcome);
+  EXPECT_TRUE(r.ape.outcome);
+  EXPECT_THAT(r.warnings, Contains(HasSubstr("too short for segments of 100 m")));
+  for (const Metric& metric : metrics(r))
+    EXPECT_EQ(metric.value.has_value(), metric.name != "t_rel" && metric.name != "r_rel")
+        << metric.key;
+}
+
+TEST(Evaluate, GivesTheErrorOfAStraightLineThoughItsRollIsFree) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (int i = 0; i < 50; ++i) poses.push_back(isometry({0, 0, 0}, {0, 0, i * 1.0}));
+  const Trajectory truth = test::trajectory_of(poses);
+  const EvaluationResult r = evaluate(truth, truth, with(Alignment::kSe3));
+  ASSERT_TRUE(r.outcome);
+  EXPECT_LT(r.ape.error_m.rmse, 1e-9);
+  EXPECT_THAT(r.warnings, Contains(HasSubstr("lie on a line")));
+}
+
+TEST(Evaluate, HasNoFiguresWhereTheAssociationWasRefused) {
+  const Trajectory truth = winding_drive(20, 1, false);
+  Trajectory shorter = truth;
+  shorter.poses.pop_back();
+  const EvaluationResult r = evaluate(truth, shorter, {});
+  EXPECT_FALSE(r.outcome);
+  for (const Metric& metric : metrics(r)) EXPECT_FALSE(metric.value) << metric.key;
+}
+
+TEST(Evaluate, RefusesTwoPosesForARigidFit) {
+  const Trajectory truth = winding_drive(2);
+  EXPECT_EQ(evaluate(truth, truth, with(Alignment::kSe3)).outcome.code, Outcome::Code::kTooFewData);
+  EXPECT_TRUE(evaluate(truth, truth, with(Alignment::kOrigin)).outcome);
+}
+
+TEST(Average, IsOverSequencesAndPooledOverSegments) {
+  EvaluationResult a, b, failed;
+  a.outcome = b.outcome = a.segments.outcome = b.segments.outcome = Outcome::ok();
+  a.segments.t_rel_percent = 1;
+  a.segments.segments.assign(1, {.t_percent = 1, .r_deg_per_100m = 4});
+  b.segments.t_rel_percent = 2;
+  b.segments.segments.assign(3, {.t_percent = 2, .r_deg_per_100m = 8});
+  const AverageResult mean = average({a, b, failed});
+  EXPECT_EQ(mean.sequences, 2);
+  EXPECT_EQ(mean.segments, 4);
+  EXPECT_DOUBLE_EQ(*mean.pooled_t_rel.value, 7.0 / 4);
+  EXPECT_DOUBLE_EQ(*mean.pooled_r_rel.value, 28.0 / 4);
+  for (const Metric& metric : mean.means) {
+    if (metric.key == "t_rel_percent") {
+      EXPECT_DOUBLE_EQ(*metric.value, 1.5);
+    }
+    if (metric.key == "ate_rmse_m") {
+      EXPECT_FALSE(metric.value);
+    }
+  }
+}
+
+TEST(EvaluationOptions, NameTheFieldThatIsOutOfRange) {
+  EvaluationOptions options;
+  options.segments.step = 0;
+  try {
+    options.check();
+    FAIL() << "step 0 was accepted";
+  } catch (const ArgumentError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("segments.step"));
+  }
+}
+
+}  // namespace
+}  // namespace placegraph

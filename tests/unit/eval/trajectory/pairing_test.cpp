@@ -1,0 +1,116 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/eval/trajectory/pairing.h>
+
+#include "tests/support/trajectories.h"
+
+namespace placegraph {
+namespace {
+
+using test::winding_drive;
+using ::testing::HasSubstr;
+
+Trajectory without(Trajectory trajectory, std::size_t index) {
+  trajectory.poses.erase(trajectory.poses.begin() + static_cast<std::ptrdiff_t>(index));
+  return trajectory;
+}
+
+Trajectory later(Trajectory trajectory, std::int64_t by_ns) {
+  for (StampedPose& pose : trajectory.poses) pose.stamp_ns += by_ns;
+  return trajectory;
+}
+
+TEST(Pairing, GoesByTimeWhereBothHaveTimes) {
+  const Trajectory truth = winding_drive(20);
+  const PairingResult result =
+      pair_trajectories(truth, without(later(truth, 5'000'000), 7), Association::kAuto, {});
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  EXPECT_EQ(result.association, Association::kTime);
+  EXPECT_EQ(result.truth_frames, 20);
+  EXPECT_EQ(result.posed, 19);
+  EXPECT_FALSE(result.pairs[7].T_world_estimate);
+  EXPECT_FALSE(result.thinned);
+}
+
+TEST(Pairing, GoesByIndexWhereNeitherHasTimes) {
+  Trajectory truth = winding_drive(20, 1, false), estimate = truth;
+  estimate.poses[3].T_world_body.reset();
+  const PairingResult result = pair_trajectories(truth, estimate, Association::kAuto, {});
+  ASSERT_TRUE(result.outcome);
+  EXPECT_EQ(result.association, Association::kIndex);
+  EXPECT_EQ(result.posed, 19);
+  EXPECT_FALSE(result.has_times);
+}
+
+TEST(Pairing, RefusesDifferentLengthsWithoutTimes) {
+  const Trajectory truth = winding_drive(20, 1, false);
+  const PairingResult result = pair_trajectories(truth, without(truth, 0), Association::kAuto, {});
+  EXPECT_EQ(result.outcome.code, Outcome::Code::kInconsistent);
+  EXPECT_THAT(result.outcome.reason, HasSubstr("the ground truth has 20, the estimate 19"));
+}
+
+TEST(Pairing, RefusesTimesOnOneSideUnlessToldToGoByIndex) {
+  const Trajectory truth = winding_drive(20, 1, false), estimate = winding_drive(20);
+  EXPECT_THAT(pair_trajectories(truth, estimate, Association::kAuto, {}).outcome.reason,
+              HasSubstr("only the estimate has times"));
+  EXPECT_THAT(pair_trajectories(truth, estimate, Association::kTime, {}).outcome.reason,
+              HasSubstr("the ground truth has none"));
+  EXPECT_TRUE(pair_trajectories(truth, estimate, Association::kIndex, {}).outcome);
+}
+
+TEST(Pairing, RefusesStampsThatDoNotOverlap) {
+  const Trajectory truth = winding_drive(20);
+  const PairingResult result =
+      pair_trajectories(truth, later(truth, 1'000'000'000'000), Association::kAuto, {});
+  EXPECT_EQ(result.outcome.code, Outcome::Code::kInconsistent);
+  EXPECT_THAT(result.outcome.reason, HasSubstr("do not overlap"));
+}
+
+TEST(Pairing, AppliesTheOffsetToTheEstimate) {
+  const Trajectory truth = winding_drive(20);
+  AssociationOptions options;
+  options.offset_s = -1000;
+  const PairingResult result =
+      pair_trajectories(truth, later(truth, 1'000'000'000'000), Association::kTime, options);
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  EXPECT_EQ(result.posed, 20);
+}
+
+TEST(Pairing, SaysThatStampsAreNeverNearEnough) {
+  const Trajectory truth = winding_drive(20);
+  const PairingResult result =
+      pair_trajectories(truth, later(truth, 50'000'000), Association::kTime, {});
+  EXPECT_EQ(result.outcome.code, Outcome::Code::kTooFewData);
+  EXPECT_THAT(result.outcome.reason, HasSubstr("within 0.020 s"));
+}
+
+TEST(Pairing, ThinsADenserGroundTruthAndKeepsHolesAsLostFrames) {
+  Trajectory truth = winding_drive(200);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    truth.poses[i].stamp_ns = static_cast<std::int64_t>(i) * 10'000'000;  // 100 Hz
+  Trajectory estimate;  // 10 Hz; two lines in the middle and the last three are missing
+  for (std::size_t i = 0; i < truth.size(); i += 10)
+    if (i != 100 && i != 110 && i < 170) estimate.poses.push_back(truth.poses[i]);
+  const PairingResult result = pair_trajectories(truth, estimate, Association::kTime, {0.004, 0});
+  ASSERT_TRUE(result.outcome);
+  EXPECT_TRUE(result.thinned);
+  EXPECT_EQ(result.truth_frames, 200);
+  EXPECT_EQ(result.posed, 15);
+  ASSERT_EQ(result.pairs.size(), 20u);
+  for (std::size_t k = 0; k < 20; ++k) {
+    EXPECT_EQ(result.pairs[k].frame, static_cast<int>(10 * k));
+    EXPECT_EQ(result.pairs[k].T_world_estimate.has_value(), k != 10 && k != 11 && k < 17);
+  }
+}
+
+TEST(Pairing, LeavesOutLinesTheGroundTruthItselfHasLost) {
+  Trajectory truth = winding_drive(10, 1, false);
+  const Trajectory estimate = truth;
+  truth.poses[4].T_world_body.reset();
+  const PairingResult result = pair_trajectories(truth, estimate, Association::kAuto, {});
+  EXPECT_EQ(result.truth_frames, 9);
+  EXPECT_EQ(result.pairs[4].frame, 5);
+}
+
+}  // namespace
+}  // namespace placegraph

@@ -1,0 +1,46 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/pose_graph/node_index.h>
+
+#include <limits>
+
+namespace placegraph {
+namespace {
+
+constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
+
+void expect_finds_all(const std::vector<std::int64_t>& ids) {
+  const NodeIndex index(ids);
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    EXPECT_EQ(index.find(ids[i]), static_cast<int>(i)) << ids[i];
+}
+
+TEST(NodeIndex, FindsIdsThatLieTogetherAndIdsThatLieFarApart) {
+  expect_finds_all({0, 1, 2, 3});
+  expect_finds_all({7, 3, 5, -2});
+  expect_finds_all({-1'000'000'000'000, 0, 1'000'000'000'000});
+  expect_finds_all({kMax, kMin, 0});
+  expect_finds_all({kMax - 1, kMax});
+  expect_finds_all({kMin + 1, kMin});
+}
+
+TEST(NodeIndex, FindsNothingThatIsNotThere) {
+  for (const std::vector<std::int64_t>& ids :
+       {std::vector<std::int64_t>{}, {3, 5}, {kMin, kMax}, {kMax}, {kMin}}) {
+    const NodeIndex index(ids);
+    for (const std::int64_t id : {std::int64_t{2}, std::int64_t{4}, std::int64_t{6}, kMin + 1}) {
+      EXPECT_EQ(index.find(id), NodeIndex::kNone);
+      EXPECT_FALSE(index.contains(id));
+      EXPECT_THROW(index.at(id), ArgumentError);
+    }
+  }
+}
+
+TEST(NodeIndex, CountsTheFirstOfEqualIds) {
+  EXPECT_EQ(NodeIndex({4, 5, 4}).at(4), 0);
+  EXPECT_EQ(NodeIndex({kMin, 5, kMax, 5}).at(5), 1);
+}
+
+}  // namespace
+}  // namespace placegraph

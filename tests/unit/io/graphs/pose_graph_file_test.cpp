@@ -1,0 +1,78 @@
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/graphs/pose_graph_file.h>
+
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace placegraph {
+namespace {
+
+using test::message_of;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+PoseGraphFormat format_of(const std::string& text) {
+  const TemporaryFolder folder;
+  TextFile file(folder.write("graph.txt", text));
+  return pose_graph_format(file);
+}
+
+TEST(PoseGraphFile, IsToldByItsTags) {
+  EXPECT_EQ(format_of("# a comment\n\nVERTEX_SE2 0 0 0 0\n"), PoseGraphFormat::kG2o);
+  EXPECT_EQ(format_of("PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n"), PoseGraphFormat::kG2o);
+  EXPECT_EQ(format_of("FIX 0\n"), PoseGraphFormat::kG2o);
+  EXPECT_EQ(format_of("EDGE2 0 1 ...\nVERTEX2 0 0 0 0\n"), PoseGraphFormat::kToro);
+  EXPECT_EQ(format_of("EDGE3 0 1 ...\n\tVERTEX3\n"), PoseGraphFormat::kToro);
+  EXPECT_EQ(format_of("EDGE2 0 1 ...\nODOMETRY 0 1 ...\n"), PoseGraphFormat::kIsam);
+  EXPECT_EQ(format_of("EDGE3 0 1 ...\nEDGE3 1 2 ...\n"), PoseGraphFormat::kIsam);
+}
+
+TEST(PoseGraphFile, IsRefusedWithoutTags) {
+  EXPECT_THAT(message_of([] { format_of("EDGE2 0 1\n<xml>\n"); }),
+              HasSubstr("graph.txt:2: '<xml>': no tag"));
+  EXPECT_THAT(message_of([] { format_of(std::string("\0\1\xff 1 2\n", 8)); }),
+              HasSubstr("graph.txt:1: '\?\?\?': no tag"));
+  EXPECT_THAT(message_of([] { format_of("# nothing\n\n"); }),
+              HasSubstr("graph.txt: holds no vertices"));
+}
+
+TEST(PoseGraphFile, GivesTheSameGraphInEveryForm) {
+  const TemporaryFolder folder;
+  const PoseGraph graphs[] = {
+      read_pose_graph(folder.write("a",
+                                   "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 2 0.5\n"
+                                   "EDGE_SE2 0 1 1 2 0.5 4 2 0 10 0 25\n")),
+      read_pose_graph(folder.write("b",
+                                   "VERTEX2 0 0 0 0\nVERTEX2 1 1 2 0.5\n"
+                                   "EDGE2 0 1 1 2 0.5 4 2 10 25 0 0\n")),
+      read_pose_graph(folder.write("c", "ODOMETRY 0 1 1 2 0.5 2 1 0 3 0 5\n"))};
+  for (const PoseGraph& graph : graphs) {
+    ASSERT_EQ(graph.nodes.size(), 2u);
+    ASSERT_EQ(graph.constraints.size(), 1u);
+    for (int i = 0; i < 2; ++i) {
+      EXPECT_EQ(graph.nodes[i].id, i);
+      EXPECT_EQ(std::get<SE2>(graph.nodes[i].T_world_node).matrix(),
+                std::get<SE2>(graphs[0].nodes[i].T_world_node).matrix());
+    }
+    const auto& edge = std::get<RelativePoseConstraint>(graph.constraints[0]);
+    const auto& first = std::get<RelativePoseConstraint>(graphs[0].constraints[0]);
+    EXPECT_EQ(std::get<SE2>(edge.T_from_to).matrix(), std::get<SE2>(first.T_from_to).matrix());
+    EXPECT_EQ(Eigen::MatrixXd(edge.information), Eigen::MatrixXd(first.information));
+    EXPECT_EQ(edge.source, first.source);
+  }
+}
+
+TEST(PoseGraphFile, IsRefusedInPartsWhereItHasToBeConnected) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("a.g2o",
+                                        "VERTEX_SE2 4 0 0 0\nVERTEX_SE2 5 1 0 0\n"
+                                        "VERTEX_SE2 6 1 0 0\nVERTEX_SE2 7 1 0 0\n"
+                                        "EDGE_SE2 4 5 1 0 0 1 0 0 1 0 1\n");
+  EXPECT_EQ(read_pose_graph(path).nodes.size(), 4u);
+  EXPECT_THAT(
+      message_of([&] { read_pose_graph(path, {.connected = true}); }),
+      HasSubstr("a.g2o:3: vertex 6 is not connected with vertex 4: the graph falls into 3"));
+}
+
+}  // namespace
+}  // namespace placegraph

@@ -1,0 +1,187 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/map/sqlite.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/message_of.h"
+#include "tests/support/random_map.h"
+#include "tests/support/temporary_folder.h"
+
+namespace placegraph {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class MapDatabaseFaults : public ::testing::Test {
+ protected:
+  MapDatabaseFaults() {
+    Random random(3);
+    write_map(path, test::random_map(random));
+  }
+  void change(const std::string& sql) {
+    SqliteDatabase(path, SqliteDatabase::Access::kWrite).execute(sql);
+  }
+  std::string refusal() const {
+    return test::message_of([&] { (void)read_map(path); });
+  }
+  test::TemporaryFolder dir;
+  const std::string path = dir / "map.db";
+};
+
+TEST_F(MapDatabaseFaults, APoseThatIsNotFiniteIsNamedWithTableAndRow) {
+  change("UPDATE keyframe SET T_place_keyframe = x'" + std::string(96, '0') +
+         "000000000000f87f' WHERE id = 2");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("map.db: table keyframe, row 2: T_place_keyframe"),
+                               HasSubstr("not finite")));
+}
+
+TEST_F(MapDatabaseFaults, ARotationOfNoUnitLengthIsRefused) {
+  change("UPDATE place SET T_map_place = zeroblob(56) WHERE id = 1");
+  EXPECT_THAT(refusal(), HasSubstr("table place, row 1: T_map_place: a pose's quaternion"));
+}
+
+TEST_F(MapDatabaseFaults, ANumberThatIsNotFiniteIsRefused) {
+  change("UPDATE place SET scale = 9e999 WHERE id = 0");
+  EXPECT_THAT(refusal(), HasSubstr("table place, row 0: scale is not finite"));
+  change("UPDATE place SET scale = -1 WHERE id = 0");
+  EXPECT_THAT(refusal(), HasSubstr("table place, row 0: scale must be positive"));
+}
+
+TEST_F(MapDatabaseFaults, MissingRowsAreNamedByWhoRefersToThem) {
+  change("DELETE FROM place WHERE id = 1");
+  EXPECT_THAT(refusal(), HasSubstr("place 1 is no place of the map"));
+}
+
+TEST_F(MapDatabaseFaults, AMissingKeyframeIsNamedByWhoRefersToIt) {
+  change("DELETE FROM keyframe WHERE id = 0");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("row 0: keyframe 0 is no keyframe of the map")));
+}
+
+TEST_F(MapDatabaseFaults, AGapAmongCountedRowsIsSeen) {
+  change("DELETE FROM frame WHERE number = 2");
+  EXPECT_THAT(refusal(), HasSubstr("table frame, row 3: row 2 is missing before it"));
+}
+
+TEST_F(MapDatabaseFaults, CountsAreHeldAgainstTheBytes) {
+  change("UPDATE features SET count = 2000000000 WHERE keyframe = 1");
+  EXPECT_THAT(refusal(), AllOf(HasSubstr("table features, row 1: data has"),
+                               HasSubstr("instead of 120000000000")));
+}
+
+TEST_F(MapDatabaseFaults, AViewThatPromisesTooMuchIsRefusedBeforeMemoryIsAskedFor) {
+  change("UPDATE view SET data = x'ffffffffffff0000' WHERE keyframe = 1");
+  EXPECT_THAT(refusal(), HasSubstr("table view, row 1: data: is cut off"));
+}
+
+TEST_F(MapDatabaseFaults, AnInformationMatrixMustBeOne) {
+  change("UPDATE edge SET information = zeroblob(168) WHERE number = 1");
+  EXPECT_THAT(refusal(), HasSubstr("table edge, row 0:1: information"));
+}
+
+TEST_F(MapDatabaseFaults, AMissingTableIsSaid) {
+  change("DROP TABLE loop");
+  EXPECT_THAT(refusal(), HasSubstr("no such table: loop"));
+}
+
+TEST_F(MapDatabaseFaults, ANewerSchemaIsRefusedByItsVersion) {
+  change("PRAGMA user_version = 99");
+  EXPECT_THAT(refusal(), HasSubstr("is a map of schema 99; this program reads up to 2"));
+}
+
+TEST_F(MapDatabaseFaults, ALoopModelThatThereIsNotIsNamed) {
+  change("UPDATE loop SET model = 'guess' WHERE number = 0");
+  EXPECT_THAT(refusal(), HasSubstr("table loop, row 0: model"));
+  change("UPDATE loop SET model = 'none', probability = 1.5 WHERE number = 0");
+  EXPECT_THAT(refusal(), HasSubstr("table loop, row 0: likeness or probability"));
+}
+
+// Schema 1 had no more columns of loops than these.
+TEST_F(MapDatabaseFaults, AMapOfTheFirstSchemaIsReadAndUpgradedWhenWritten) {
+  change(
+      "BEGIN; ALTER TABLE frame DROP COLUMN inliers; ALTER TABLE loop DROP COLUMN model; ALTER TABLE loop DROP COLUMN lines;"
+      "ALTER TABLE loop DROP COLUMN likeness; ALTER TABLE loop DROP COLUMN probability;"
+      "PRAGMA user_version = 1; COMMIT");
+  const Map old = read_map(path).map;
+  ASSERT_EQ(old.loops.size(), 2u);
+  EXPECT_EQ(old.loops[0].inliers, 33);
+  EXPECT_EQ(old.loops[0].probability, 0);
+  MapDatabase::open(path).close();
+  EXPECT_EQ(SqliteDatabase(path, SqliteDatabase::Access::kRead).integer("PRAGMA user_version"), 2);
+  const Map upgraded = read_map(path).map;
+  EXPECT_EQ(upgraded.loops[0].inliers, 33);
+  EXPECT_EQ(upgraded.frames.size(), old.frames.size());
+}
+
+TEST_F(MapDatabaseFaults, AnotherDatabaseIsNoMap) {
+  change("PRAGMA application_id = 1");
+  EXPECT_THAT(refusal(), HasSubstr("is a database, but no saved map"));
+}
+
+TEST_F(MapDatabaseFaults, WhatIsNoDatabaseSaysSo) {
+  std::ofstream(path) << std::string(5000, 'x');
+  EXPECT_THAT(refusal(), HasSubstr("is no saved map"));
+  std::ofstream(path, std::ios::trunc) << "";
+  EXPECT_THAT(refusal(), HasSubstr("no saved map"));
+  std::filesystem::remove(path);
+  EXPECT_THAT(refusal(), HasSubstr("there is no such file"));
+}
+
+TEST_F(MapDatabaseFaults, ACutOffFileIsRefusedAtEveryLength) {
+  const std::string whole = test::read_file(path);
+  for (std::size_t size = 100; size < whole.size(); size += 3 * 16384 + 101) {
+    std::ofstream(path, std::ios::binary | std::ios::trunc) << whole.substr(0, size);
+    EXPECT_THAT(refusal(), HasSubstr("map.db: ")) << size;
+  }
+}
+
+TEST(MapDatabase, PlacesThatAreGoneLeaveNothingBehind) {
+  const test::TemporaryFolder dir;
+  Random random(4);
+  const StoredMap stored = test::random_map(random, 3);
+  MapChanges changes;
+  changes.places = stored.map.place_graph.places;
+  changes.keyframes = stored.map.keyframes;
+  for (const Place& place : changes.places)
+    changes.appearances.emplace_back(place.id, place.appearance);
+  MapDatabase database = MapDatabase::create(dir / "map.db", stored.origin);
+  database.commit(changes);
+  Place& kept = changes.places[0];
+  for (const PlaceMember& member : changes.places[1].members) kept.members.push_back(member);
+  changes.places.erase(changes.places.begin() + 1);
+  changes.appearances.clear();
+  changes.keyframes.clear();
+  database.finish(changes);
+  const Map map = read_map(dir / "map.db").map;
+  ASSERT_EQ(map.place_graph.places.size(), 2u);
+  EXPECT_EQ(map.place_graph.places[0].members.size(), kept.members.size());
+  EXPECT_EQ(map.place_graph.places[0].appearance.words.size(), 5u);
+}
+
+// A second connection sees what has been committed, whatever becomes of the first.
+TEST(MapDatabase, WhatIsCommittedIsThereWithoutAnEnd) {
+  const test::TemporaryFolder dir;
+  Random random(4);
+  const StoredMap stored = test::random_map(random, 3);
+  MapChanges changes;
+  changes.places = stored.map.place_graph.places;
+  changes.keyframes = stored.map.keyframes;
+  {
+    MapDatabase database = MapDatabase::create(dir / "map.db", stored.origin);
+    database.commit(changes);
+    // As a kill leaves it: the file and its log.
+    std::filesystem::copy(dir / "map.db", dir / "left.db");
+    std::filesystem::copy(dir / "map.db-wal", dir / "left.db-wal");
+    EXPECT_THAT(test::message_of([&] { (void)read_map(dir / "map.db"); }),
+                HasSubstr("another program is using it"));
+  }
+  EXPECT_TRUE(is_unfinished_map(dir / "left.db"));
+  EXPECT_EQ(read_map(dir / "left.db").map.keyframes.size(), stored.map.keyframes.size());
+  EXPECT_EQ(check_map_file(dir / "left.db"), "ok");
+}
+
+}  // namespace
+}  // namespace placegraph

@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/cues/manhattan_frames.h>
+
+#include "tests/support/scenes/window_world.h"
+
+namespace placegraph {
+namespace {
+
+using test::make_window_world;
+using test::WindowWorld;
+using test::WindowWorldOptions;
+
+constexpr double kDeg = M_PI / 180;
+const SO3 kR_map_world = SO3::exp({0.05, 0.3, -0.02});
+
+/// A rotation that maps axes to axes.
+SO3 axes(int which) {
+  SO3 R;
+  for (int k = 0; k < which % 4; ++k) R = R * SO3::exp({0, 0, M_PI / 2});
+  for (int k = 0; k < which % 3; ++k) R = R * SO3::exp({M_PI / 2, 0, 0});
+  return R;
+}
+
+/// A stereo drive whose views are handed over one by one.
+struct Drive {
+  WindowWorld world;
+  SlidingWindow window;
+  ManhattanWorlds worlds;
+  Random random{5};
+  std::int64_t next = 0;
+
+  static WindowWorld make() {
+    Random random(9);
+    WindowWorldOptions options;
+    options.keyframes = 14;
+    options.landmarks = 60;
+    options.stereo = true;
+    return make_window_world(options, random);
+  }
+  static SlidingWindowOptions window_options() {
+    SlidingWindowOptions options;
+    options.max_keyframes = 6;
+    options.hold_oldest = true;
+    return options;
+  }
+  explicit Drive(const ManhattanWorldOptions& options)
+      : world(make()), window(window_options(), world.camera), worlds(options) {}
+
+  /// The next keyframe, which sees directions turned from the first world by `turn`.
+  std::optional<std::int64_t> see(const std::optional<SO3>& turn) {
+    const std::int64_t id = next++;
+    const SE3& T_map_cam = world.T_map_cam[static_cast<std::size_t>(id)];
+    window.add_keyframe(id, T_map_cam);
+    add_view(window, world, id, 0, random);
+    std::optional<std::int64_t> seen;
+    if (turn)
+      seen = worlds.add(
+          id, T_map_cam.rotation().inverse() * kR_map_world * *turn * axes(static_cast<int>(id)),
+          Eigen::Matrix3d::Identity() * std::pow(0.1 * kDeg, 2), window);
+    if (id > 0) {
+      EXPECT_TRUE(window.optimize().outcome);
+    }
+    window.marginalize();
+    worlds.settle(window);
+    return seen;
+  }
+};
+
+TEST(ManhattanWorlds, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
+  Drive drive({});
+  EXPECT_FALSE(drive.see(SO3()));
+  EXPECT_FALSE(drive.see(SO3()));
+  EXPECT_EQ(drive.see(SO3()), 1);
+  for (int k = 3; k < 8; ++k) EXPECT_EQ(drive.see(SO3()), 1);
+  EXPECT_EQ(drive.window.worlds(), (std::vector<std::int64_t>{ManhattanWorlds::kMapAxes, 1}));
+  // Along the axes of the world, named as the first of the views named them.
+  const SO3 turn = kR_map_world.inverse() * *drive.window.world(1);
+  EXPECT_LT((turn.matrix() - turn.matrix().array().round().matrix()).norm(), 1e-6);
+  // The map stays under them.
+  EXPECT_LT(drive.window.world(ManhattanWorlds::kMapAxes)->log().norm(), 1e-12);
+  const auto expected = drive.worlds.expected(drive.window, 7);
+  ASSERT_EQ(expected.size(), 1u);
+  EXPECT_LT(std::sqrt(expected[0].covariance.trace()), 2 * kDeg);
+}
+
+TEST(ManhattanWorlds, OfOtherDirectionsAreKeptApartAndFoundAgain) {
+  Drive drive({});
+  for (int k = 0; k < 4; ++k) (void)drive.see(SO3());
+  const SO3 turn = SO3::exp({0, 10 * kDeg, 0});
+  EXPECT_FALSE(drive.see(turn));
+  EXPECT_FALSE(drive.see(turn));
+  EXPECT_EQ(drive.see(turn), 2);
+  EXPECT_EQ(drive.see(turn), 2);
+  EXPECT_EQ(drive.see(SO3()), 1);
+  EXPECT_EQ(drive.window.worlds().size(), 3u);
+}
+
+TEST(ManhattanWorlds, AStrayViewBeginsNone) {
+  Drive drive({});
+  for (int k = 0; k < 4; ++k) (void)drive.see(SO3());
+  EXPECT_FALSE(drive.see(SO3::exp({0.3, 0.1, 0})));
+  EXPECT_FALSE(drive.see(SO3::exp({0, -0.2, 0.1})));
+  EXPECT_EQ(drive.see(SO3()), 1);
+  EXPECT_EQ(drive.window.worlds().size(), 2u);
+}
+
+TEST(ManhattanWorlds, UnseenOnesAreRememberedUntilThereAreTooMany) {
+  Drive drive({});
+  for (int k = 0; k < 4; ++k) (void)drive.see(SO3());
+  for (int k = 0; k < 8; ++k) (void)drive.see(std::nullopt);
+  EXPECT_EQ(drive.see(SO3()), 1);
+  ManhattanWorldOptions options;
+  options.max_worlds = 1;
+  options.persistence = 2;
+  Drive forgetful(options);
+  for (int k = 0; k < 3; ++k) (void)forgetful.see(SO3());
+  for (int k = 0; k < 8; ++k) (void)forgetful.see(SO3::exp({0, 20 * kDeg, 0}));
+  EXPECT_EQ(forgetful.window.worlds(), (std::vector<std::int64_t>{ManhattanWorlds::kMapAxes, 2}));
+}
+
+TEST(ManhattanWorlds, FaultyOptionsAreRefused) {
+  ManhattanWorldOptions options;
+  options.correlation = 0;
+  EXPECT_THROW(ManhattanWorlds{options}, ArgumentError);
+}
+
+}  // namespace
+}  // namespace placegraph

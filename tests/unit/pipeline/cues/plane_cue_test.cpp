@@ -1,0 +1,201 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/cues/plane_cue.h>
+
+#include <Eigen/Dense>
+
+#include "tests/support/scenes/window_world.h"
+
+namespace placegraph {
+namespace {
+
+using test::make_window_world;
+using test::WindowWorld;
+using test::WindowWorldOptions;
+
+constexpr double kDeg = M_PI / 180;
+using Seen = std::vector<std::optional<std::int64_t>>;
+
+/// A rectangle of a plane of the map: its middle, two directions of unit length and half extents.
+struct Patch {
+  Eigen::Vector3d middle, u, v;
+  double half_u = 1, half_v = 1;
+};
+
+/// A stereo drive along z, whose keyframes see patches.
+struct Drive {
+  WindowWorld world;
+  SlidingWindow window;
+  PlaneLandmarks planes;
+  Random random{5};
+  std::int64_t next = 0;
+
+  static WindowWorld make() {
+    Random random(9);
+    WindowWorldOptions options;
+    options.keyframes = 14;
+    options.landmarks = 100;
+    options.stereo = true;
+    options.step_m = 0.4;
+    return make_window_world(options, random);
+  }
+  static SlidingWindowOptions window_options() {
+    SlidingWindowOptions options;
+    options.max_keyframes = 6;
+    options.hold_oldest = true;
+    return options;
+  }
+  explicit Drive(const PlaneLandmarkOptions& options = {})
+      : world(make()), window(window_options(), world.camera), planes(options) {}
+
+  static DepthPlane seen_from(const SE3& T_map_cam, const Patch& patch) {
+    DepthPlane plane;
+    const Eigen::Vector3d n = patch.u.cross(patch.v);
+    plane.plane_cam = transform_to(T_map_cam, Plane3(n, n.dot(patch.middle)));
+    plane.covariance = plane_information(plane.plane_cam, 0.1 * kDeg, 0.004).inverse();
+    for (double a = -1; a <= 1; a += 0.1)
+      for (double b = -1; b <= 1; b += 0.1)
+        plane.points_cam.push_back(
+            T_map_cam.inverse() *
+            (patch.middle + a * patch.half_u * patch.u + b * patch.half_v * patch.v));
+    return plane;
+  }
+  /// The next keyframe, which sees these patches.
+  Seen see(const std::vector<Patch>& patches) {
+    const std::int64_t id = next++;
+    const SE3& T_map_cam = world.T_map_cam[static_cast<std::size_t>(id)];
+    window.add_keyframe(id, T_map_cam);
+    add_view(window, world, id, 0, random);
+    std::vector<DepthPlane> seen;
+    for (const Patch& patch : patches) seen.push_back(seen_from(T_map_cam, patch));
+    const Seen result = planes.add(id, seen, window);
+    if (id > 0) {
+      EXPECT_TRUE(window.optimize().outcome);
+    }
+    planes.prune(window);
+    window.marginalize();
+    return result;
+  }
+};
+
+const Eigen::Vector3d kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
+/// A wall ahead, one on the left, and the first one's continuation far to the right.
+const Patch kAhead{{0, 0, 12}, kX, kY, 2, 1.5};
+const Patch kLeft{{-3, 0, 9}, kZ, kY, 2, 1.5};
+const Patch kFarRight{{9, 0, 12}, kX, kY, 2, 1.5};
+
+TEST(PlaneLandmarks, BeginWithTheSecondSighting) {
+  Drive drive;
+  EXPECT_EQ(drive.see({kAhead, kLeft}), (Seen{std::nullopt, std::nullopt}));
+  EXPECT_TRUE(drive.planes.landmarks().empty());
+  const Seen second = drive.see({kLeft, kAhead});
+  EXPECT_EQ(second, (Seen{1, 2}));
+  EXPECT_EQ(drive.window.planes(), (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(drive.window.plane_observations().size(), 4u);
+  for (int k = 0; k < 8; ++k) EXPECT_EQ(drive.see({kAhead, kLeft}), (Seen{2, 1}));
+}
+
+TEST(PlaneLandmarks, OneSeenOnceIsNone) {
+  Drive drive;
+  drive.see({kAhead});
+  for (int k = 0; k < 7; ++k) EXPECT_EQ(drive.see({}), Seen{});
+  // The keyframe that saw it has left.
+  EXPECT_EQ(drive.see({kAhead}), Seen{std::nullopt});
+  EXPECT_TRUE(drive.window.planes().empty());
+}
+
+TEST(PlaneLandmarks, ACoplanarSurfaceElsewhereIsAnotherOne) {
+  Drive drive;
+  drive.see({kAhead});
+  EXPECT_EQ(drive.see({kAhead}), Seen{1});
+  EXPECT_EQ(drive.see({kFarRight}), Seen{std::nullopt});
+  EXPECT_EQ(drive.see({kFarRight, kAhead}), (Seen{2, 1}));
+}
+
+TEST(PlaneLandmarks, TheOtherSideOfAThinWallIsAnotherOne) {
+  Patch back = kAhead;
+  back.middle.z() += 0.01;
+  std::vector<DepthPlane> seen{Drive::seen_from(SE3(), kAhead)};
+  PlaneLandmarks planes({});
+  SlidingWindow window(Drive::window_options(), test::window_camera());
+  const Matrix6d sure = 1e8 * Matrix6d::Identity();
+  // Two keyframes before the wall, two behind it that look back.
+  const std::vector<SE3> T_map_cam{SE3(), SE3(SO3(), {0.2, 0, 0}),
+                                   SE3(SO3::exp({0, M_PI, 0}), {0, 0, 24}),
+                                   SE3(SO3::exp({0, M_PI, 0}), {0.2, 0, 24})};
+  std::vector<Seen> results;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto id = static_cast<std::int64_t>(k);
+    window.add_keyframe(id, T_map_cam[k]);
+    if (k > 0) window.add_motion({id - 1, id, T_map_cam[k - 1].inverse() * T_map_cam[k], sure});
+    results.push_back(
+        planes.add(id, {Drive::seen_from(T_map_cam[k], k < 2 ? kAhead : back)}, window));
+  }
+  EXPECT_EQ(results[1], Seen{1});
+  EXPECT_EQ(results[2], Seen{std::nullopt});
+  EXPECT_EQ(results[3], Seen{2});
+}
+
+TEST(PlaneLandmarks, ALeafBeforeItsWallIsToldFromItWhereBothAreSeenAndElseLeftAlone) {
+  Patch leaf = kAhead;
+  leaf.middle.z() -= 0.03;
+  leaf.half_u = 0.5;
+  Drive drive;
+  drive.see({kAhead, leaf});
+  EXPECT_EQ(drive.see({kAhead, leaf}), (Seen{1, 2}));
+  EXPECT_EQ(drive.see({leaf, kAhead}), (Seen{2, 1}));
+  // Half way between the two, alone: it may be either.
+  Patch either = leaf;
+  either.middle.z() += 0.014;
+  EXPECT_EQ(drive.see({either}), Seen{std::nullopt});
+  EXPECT_EQ(drive.planes.landmarks(), (std::vector<std::int64_t>{1, 2}));
+}
+
+TEST(PlaneLandmarks, AreRememberedForAWhile) {
+  PlaneLandmarkOptions options;
+  options.patience = 8;
+  Drive patient(options);
+  patient.see({kAhead});
+  EXPECT_EQ(patient.see({kAhead}), Seen{1});
+  for (int k = 0; k < 7; ++k) patient.see({});
+  EXPECT_EQ(patient.see({kAhead}), Seen{1});
+
+  options.patience = 3;
+  Drive hasty(options);
+  hasty.see({kAhead});
+  hasty.see({kAhead});
+  for (int k = 0; k < 7; ++k) hasty.see({});
+  EXPECT_TRUE(hasty.planes.landmarks().empty());
+  EXPECT_TRUE(hasty.window.planes().empty());
+}
+
+TEST(PlaneLandmarks, TheOneUnseenForLongestMakesRoom) {
+  PlaneLandmarkOptions options;
+  options.max_landmarks = 1;
+  Drive drive(options);
+  drive.see({kAhead});
+  drive.see({kAhead});
+  drive.see({kLeft});
+  EXPECT_EQ(drive.see({kLeft}), Seen{2});
+  EXPECT_EQ(drive.planes.landmarks(), std::vector<std::int64_t>{2});
+}
+
+TEST(PlaneLandmarks, BeginAnewAfterAReset) {
+  Drive drive;
+  drive.see({kAhead});
+  drive.see({kAhead});
+  drive.planes.reset();
+  EXPECT_TRUE(drive.planes.landmarks().empty());
+}
+
+TEST(PlaneLandmarks, RefuseOptionsThatCannotBe) {
+  PlaneLandmarkOptions options;
+  options.min_overlap = 2;
+  EXPECT_THROW(PlaneLandmarks{options}, ArgumentError);
+  options = {};
+  options.depth.cell_px = 0;
+  EXPECT_THROW(PlaneLandmarks{options}, ArgumentError);
+}
+
+}  // namespace
+}  // namespace placegraph

@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/map/explanation.h>
+
+#include "tests/support/scenes/scene.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+/// Two places a metre apart, frame 0 in the first, frames 1 and 2 at the second's keyframe.
+Map two_places() {
+  Map map;
+  for (int k = 0; k < 2; ++k) {
+    Keyframe keyframe;
+    keyframe.id = keyframe.frame = keyframe.place = k;
+    keyframe.features.resize(5);
+    keyframe.features[0].point_cam = Eigen::Vector3f(0, 0, 4);
+    map.keyframes.push_back(keyframe);
+    Place place;
+    place.id = place.anchor_keyframe = k;
+    place.T_map_place = pose({0, 0.1 * k, 0}, {0, 0, 1.0 * k});
+    place.members = {{k, SE3(), 1}};
+    if (k == 1) place.labels = {"corridor"};
+    map.place_graph.places.push_back(place);
+  }
+  RelativePoseConstraint edge;
+  edge.from = 0, edge.to = 1;
+  edge.T_from_to = map.place_graph.places[1].T_map_place;
+  edge.information = 100 * Matrix6d::Identity();
+  edge.source = ConstraintSource::kOdometry;
+  map.place_graph.constraints.push_back(edge);
+  map.frames = {{0, 0, 0, SE3(), 20},
+                {1, 10, 1, SE3(), 30},
+                {2, 20, 1, pose({0, 0, 0}, {0, 0, 0.5}), 40},
+                {3, 30, -1, std::nullopt, 0}};
+  map.metric = true;
+  LoopRecord accepted, refused;
+  accepted.query_frame = 1, accepted.match_frame = 0, accepted.accepted = true;
+  accepted.stage = "accepted";
+  refused.query_frame = 1, refused.match_frame = 0, refused.stage = "geometry";
+  map.loops = {accepted, refused};
+  return map;
+}
+
+TEST(Explanation, TellsWhereAFrameIsAndHowThatIsKnown) {
+  const Map map = two_places();
+  const auto told = explain_frame(map, 2);
+  ASSERT_TRUE(told);
+  EXPECT_TRUE(told->posed);
+  EXPECT_EQ(told->place, 1);
+  EXPECT_EQ(told->labels, std::vector<std::string>{"corridor"});
+  EXPECT_LT(
+      distance_m(told->T_map_cam, pose({0, 0.1, 0}, {0, 0, 1}) * pose({0, 0, 0}, {0, 0, 0.5})),
+      1e-12);
+  EXPECT_NEAR(told->way_to_keyframe, 0.5, 1e-12);
+  EXPECT_EQ(told->inliers, 40);
+  EXPECT_EQ(told->features, 5);
+  EXPECT_EQ(told->features_placed, 1);
+  EXPECT_EQ(told->constraints.at("odometry"), 1);
+  // Those of its keyframe are its own.
+  EXPECT_EQ(told->loops.size(), 1u);
+  EXPECT_EQ(told->refused.size(), 1u);
+}
+
+TEST(Explanation, CarriesTheCovarianceOfThePlaceToTheFrame) {
+  const Map map = two_places();
+  const auto first = explain_frame(map, 0), anchor = explain_frame(map, 1),
+             beyond = explain_frame(map, 2);
+  ASSERT_TRUE(first->covariance && anchor->covariance && beyond->covariance);
+  EXPECT_LT(first->covariance->norm(), 1e-12);  // held
+  EXPECT_LT((*anchor->covariance - 0.01 * Matrix6d::Identity()).norm(), 1e-9);
+  // Half a metre ahead an uncertain turn counts as an uncertain way: 0.01 + 0.5^2 0.01.
+  EXPECT_NEAR((*beyond->covariance)(0, 0), 0.0125, 1e-9);
+  EXPECT_NEAR((*beyond->covariance)(2, 2), 0.01, 1e-9);
+}
+
+TEST(Explanation, ALostFrameHasNoPoseAndAnUnknownOneNoAnswer) {
+  const Map map = two_places();
+  const auto lost = explain_frame(map, 3);
+  ASSERT_TRUE(lost);
+  EXPECT_FALSE(lost->posed);
+  EXPECT_FALSE(lost->covariance);
+  EXPECT_FALSE(explain_frame(map, 4));
+}
+
+}  // namespace
+}  // namespace placegraph

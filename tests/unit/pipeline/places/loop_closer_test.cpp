@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/places/loop_closer.h>
+
+#include "tests/support/scenes/street.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+constexpr double kDepth_m = 10;
+
+/// Keyframes of two drives down the same street: 0 to 3, then 4 to 6 from the second one's start
+/// on; the second in a unit of its own, as a single eye has it.
+class LoopCloserOnAStreet : public testing::Test {
+ protected:
+  static constexpr int kFirst = 4, kAll = 7;
+  static SE3 T_world(int keyframe) {
+    return street_T_world_cam(keyframe < kFirst ? 2 * keyframe : 2 * (keyframe - kFirst) + 1);
+  }
+  static const Image& image(int keyframe) {
+    static const std::vector<Image> images = [] {
+      std::vector<Image> all;
+      for (int k = 0; k < kAll; ++k)
+        all.push_back(render(street_camera(), T_world(k), street(), 2).grey);
+      return all;
+    }();
+    return images[static_cast<std::size_t>(keyframe)];
+  }
+  static Frame frame(int keyframe) {
+    Frame frame;
+    frame.id = keyframe < kFirst ? keyframe : 100 + keyframe;
+    frame.image = image(keyframe);
+    return frame;
+  }
+  static LoopOptions small_options() {
+    LoopOptions options;
+    options.detector.max_features = 600;
+    options.database.first_training = 4;
+    options.min_similarity = 0;  // seven views are no basis for the weights of words
+    return options;
+  }
+  static Calibration one_eye() {
+    Calibration calibration;
+    calibration.camera = street_camera();
+    return calibration;
+  }
+  static std::string stages(const LoopCloser& closer) {
+    std::string text;
+    for (const LoopRecord& r : closer.records())
+      text += std::to_string(r.query_frame) + "-" + std::to_string(r.match_frame) + " " + r.stage +
+              " " + std::to_string(r.inliers) + "; ";
+    return text;
+  }
+  static SE3 T_previous_this(int k, double unit_m) {
+    const SE3 T = T_world(k - 1).inverse() * T_world(k);
+    return SE3(T.rotation(), T.translation() / unit_m);
+  }
+  /// The loops after both drives. `drift` is how far off odometry between the drives is; without it
+  /// they are two runs of tracking, which no odometry joins.
+  std::vector<Loop> drive(LoopCloser& closer, double unit_m, const std::optional<SE3>& drift,
+                          bool units_differ) {
+    const auto odometry = [&](std::int64_t a, std::int64_t b) -> std::optional<TrackedMotion> {
+      const bool across = (a < kFirst) != (b < kFirst);
+      if (across && !drift) return std::nullopt;
+      SE3 T = T_world(static_cast<int>(a)).inverse() * T_world(static_cast<int>(b));
+      if (a >= kFirst && b >= kFirst) T = SE3(T.rotation(), T.translation() / unit_m);
+      if (across) T = T * *drift;
+      return TrackedMotion{T, across ? 5.0 : T.translation().norm()};
+    };
+    std::vector<Loop> loops;
+    for (int k = 0; k < kAll; ++k) {
+      const bool begins = k == 0 || k == kFirst;
+      const double unit = k < kFirst ? 1 : unit_m;
+      closer.add_view(k, frame(k), begins ? std::nullopt : std::optional(T_previous_this(k, unit)));
+      const auto differ = [&](std::int64_t, std::int64_t) { return units_differ; };
+      const auto found = closer.find_loops({odometry, {}, differ}, kDepth_m / unit);
+      loops.insert(loops.end(), found.begin(), found.end());
+    }
+    return loops;
+  }
+};
+
+TEST_F(LoopCloserOnAStreet, AcceptsARevisitWhenASecondOneAgrees) {
+  LoopCloser closer(small_options(), one_eye(), 1);
+  const auto loops = drive(closer, 1, SE3(), false);
+  ASSERT_GE(loops.size(), 2u) << stages(closer);
+  for (const Loop& loop : loops) {
+    EXPECT_GE(loop.query, kFirst);
+    EXPECT_LT(loop.match, kFirst);
+    const SE3 truth =
+        T_world(static_cast<int>(loop.match)).inverse() * T_world(static_cast<int>(loop.query));
+    EXPECT_LT(distance_m(loop.T_match_query, truth), 0.1);
+    EXPECT_EQ(loop.scale_match_query, 1);
+    EXPECT_EQ(loop.information(6, 6), 0);
+    EXPECT_GT(loop.information(0, 0), 0);
+  }
+  const auto accepted = std::count_if(closer.records().begin(), closer.records().end(),
+                                      [](const LoopRecord& r) { return r.accepted; });
+  EXPECT_EQ(static_cast<std::size_t>(accepted), loops.size());
+}
+
+TEST_F(LoopCloserOnAStreet, RefusesALoopThatOdometryCannotHaveDriftedTo) {
+  LoopCloser closer(small_options(), one_eye(), 1);
+  EXPECT_TRUE(drive(closer, 1, pose({0, 0, 0}, {0, 0, 6}), false).empty());
+  EXPECT_TRUE(std::any_of(closer.records().begin(), closer.records().end(),
+                          [](const LoopRecord& r) { return r.stage == "drift"; }))
+      << stages(closer);
+}
+
+/// The map knows the two by `sigma`, over `way`, and is `off` from the truth.
+KnownMotions certain_map(const SE3& off, double sigma, double way,
+                         const std::function<SE3(std::int64_t)>& T_world) {
+  KnownMotions known;
+  known.odometry = [=](std::int64_t a, std::int64_t b) {
+    return TrackedMotion{T_world(a).inverse() * T_world(b), 1000};
+  };
+  known.map = [=](std::int64_t a, std::int64_t b) {
+    PredictedMotion motion{Sim3(T_world(a).inverse() * T_world(b) * off)};
+    motion.covariance.diagonal().head<6>().setConstant(sigma * sigma);
+    motion.way = way;
+    return motion;
+  };
+  return known;
+}
+
+TEST_F(LoopCloserOnAStreet, RefusesALoopThatACertainMapContradicts) {
+  const auto found = [&](const SE3& off, double sigma, double way) {
+    const auto known =
+        certain_map(off, sigma, way, [](std::int64_t k) { return T_world(static_cast<int>(k)); });
+    LoopCloser closer(small_options(), one_eye(), 1);
+    std::size_t loops = 0;
+    for (int k = 0; k < kAll; ++k) {
+      closer.add_view(k, frame(k),
+                      k == 0 || k == kFirst ? std::nullopt : std::optional(T_previous_this(k, 1)));
+      loops += closer.find_loops(known, kDepth_m).size();
+    }
+    const bool refused = std::any_of(closer.records().begin(), closer.records().end(),
+                                     [](const LoopRecord& r) { return r.stage == "covariance"; });
+    EXPECT_EQ(refused, loops == 0) << stages(closer);
+    return loops;
+  };
+  const SE3 aside = pose({0, 0, 0}, {2, 0, 0});
+  EXPECT_GE(found(SE3(), 0.01, 5), 2u);
+  EXPECT_EQ(found(aside, 0.01, 5), 0u);
+  EXPECT_GE(found(aside, 2, 5), 2u);       // the map is not so sure
+  EXPECT_GE(found(aside, 0.01, 300), 2u);  // so much may have drifted unseen
+}
+
+TEST_F(LoopCloserOnAStreet, TellsTheRatioOfUnitsWhereTheyDiffer) {
+  LoopCloser closer(small_options(), one_eye(), 1);
+  const auto loops = drive(closer, 2.5, std::nullopt, true);
+  ASSERT_GE(loops.size(), 2u) << stages(closer);
+  for (const Loop& loop : loops) {
+    const SE3 truth =
+        T_world(static_cast<int>(loop.match)).inverse() * T_world(static_cast<int>(loop.query));
+    EXPECT_LT(distance_m(loop.T_match_query, truth), 0.15);
+    EXPECT_NEAR(std::log(loop.scale_match_query), std::log(2.5), 0.08);
+    EXPECT_GT(loop.information(6, 6), 0);
+  }
+}
+
+TEST_F(LoopCloserOnAStreet, RefusesAnotherSizeWhereUnitsAreOne) {
+  LoopCloser closer(small_options(), one_eye(), 1);
+  EXPECT_TRUE(drive(closer, 2.5, std::nullopt, false).empty());
+}
+
+TEST_F(LoopCloserOnAStreet, RelocalizesAFrameAtAKnownKeyframe) {
+  LoopCloser closer(small_options(), one_eye(), 1);
+  EXPECT_FALSE(closer.relocalize(frame(kFirst)));
+  for (int k = 0; k < kFirst; ++k)
+    closer.add_view(k, frame(k), k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
+  const auto found = closer.relocalize(frame(kFirst + 1));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->query, -1);
+  const SE3 truth = T_world(static_cast<int>(found->match)).inverse() * T_world(kFirst + 1);
+  EXPECT_LT(distance_m(found->T_match_query, truth), 0.1);
+}
+
+TEST_F(LoopCloserOnAStreet, KnowsTheKeyframesOfAMapThatItIsGiven) {
+  LoopCloser driven(small_options(), one_eye(), 1);
+  for (int k = 0; k < kFirst; ++k)
+    driven.add_view(k, frame(k), k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
+  Map map;
+  for (const LoopCloser::View& view : driven.views()) {
+    Keyframe keyframe;
+    keyframe.id = view.keyframe;
+    keyframe.frame = view.frame;
+    keyframe.features = view.features;
+    map.keyframes.push_back(keyframe);
+  }
+  const LoopCloser memory(small_options(), one_eye(), 1, map);
+  EXPECT_EQ(memory.views().size(), driven.views().size());
+  const auto found = memory.relocalize(frame(kFirst + 1), 0),
+             same = driven.relocalize(frame(kFirst + 1), 0);
+  ASSERT_TRUE(found && same);
+  EXPECT_EQ(found->match, same->match);
+  EXPECT_EQ(distance_m(found->T_match_query, same->T_match_query), 0);
+  EXPECT_FALSE(LoopCloser(small_options(), one_eye(), 1, Map()).relocalize(frame(0), 0));
+}
+
+TEST_F(LoopCloserOnAStreet, GrowsDepthsWithTheUnit) {
+  LoopCloser closer(small_options(), one_eye(), 1);
+  for (int k = 0; k < 2; ++k)
+    closer.add_view(k, frame(k), k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
+  std::vector<std::optional<Eigen::Vector3f>> before;
+  for (const Feature& feature : closer.views()[1].features) before.push_back(feature.point_cam);
+  closer.rescale(2, 1);
+  int seen = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (!before[i]) continue;
+    EXPECT_LT((*closer.views()[1].features[i].point_cam - 2 * *before[i]).norm(), 1e-4);
+    ++seen;
+  }
+  EXPECT_GT(seen, 20);
+}
+
+}  // namespace
+}  // namespace placegraph

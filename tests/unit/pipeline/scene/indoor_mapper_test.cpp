@@ -1,0 +1,211 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/scene/indoor_mapper.h>
+
+namespace placegraph {
+namespace {
+
+/// What a camera 1.4 m above the floor sees of a room from x = -2 to 2, z = -1 to 4 and 2.6 m high,
+/// with the camera at `t` and turned by `turn` about the vertical.
+SurfaceSight sight_of_room(std::int64_t keyframe, const SE3& T_room_cam) {
+  SurfaceSight sight;
+  sight.keyframe = keyframe;
+  const SE3 T_cam_room = T_room_cam.inverse();
+  const auto add = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
+    SurfacePoint point;
+    point.point = (T_cam_room * p).cast<float>();
+    point.normal = (T_cam_room.rotation().matrix() * n).cast<float>();
+    point.sigma = 0.005F;
+    sight.points.push_back(point);
+  };
+  for (double s = -1.95; s < 2; s += 0.1)
+    for (double h = -1.15; h < 1.4; h += 0.1) {
+      add({s, h, 4}, {0, 0, -1});
+      add({s, h, -1}, {0, 0, 1});
+    }
+  for (double s = -0.95; s < 4; s += 0.1) {
+    for (double h = -1.15; h < 1.4; h += 0.1) {
+      add({-2, h, s}, {1, 0, 0});
+      add({2, h, s}, {-1, 0, 0});
+    }
+    for (double x = -1.95; x < 2; x += 0.1) add({x, 1.4, s}, {0, -1, 0});
+  }
+  return sight;
+}
+
+Map map_of(const std::vector<SE3>& poses) {
+  Map map;
+  map.metric = true;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto id = static_cast<std::int64_t>(i);
+    Keyframe keyframe;
+    keyframe.id = id, keyframe.frame = id, keyframe.place = id;
+    map.keyframes.push_back(keyframe);
+    Place place;
+    place.id = id, place.anchor_keyframe = id, place.T_map_place = poses[i];
+    place.members.push_back({id, SE3(), 1});
+    map.place_graph.places.push_back(place);
+  }
+  return map;
+}
+
+/// Where the wall at z = 4 of the room stands in the plan, and how many pieces it is in.
+std::vector<double> far_walls(const IndoorMap& plan) {
+  std::vector<double> at;
+  for (const IndoorWall& wall : plan.walls)
+    if (wall.normal[1] < -0.9) at.push_back(0.5 * (wall.a[1] + wall.b[1]));
+  return at;
+}
+
+TEST(IndoorMapper, FusesTwoKeyframesAndMovesWithALoop) {
+  const SE3 first, second(SO3::exp({0, 0.3, 0}), Eigen::Vector3d(0.5, 0, 1));
+  // Before the loop the second place is thought to be 30 cm farther.
+  const SE3 drifted(second.rotation(), second.translation() + Eigen::Vector3d(0, 0, 0.3));
+  IndoorMapper mapper({}, Calibration{.camera = {640, 480, 500, 500, 320, 240},
+                                      .baseline_m = 0.1,
+                                      .depth = {},
+                                      .camera_height_m = {}});
+  mapper.add(sight_of_room(0, first));
+  mapper.add(sight_of_room(1, second));
+  const IndoorMap before = mapper.fuse(map_of({first, drifted}));
+  ASSERT_TRUE(before.outcome) << before.outcome.reason;
+  EXPECT_TRUE(before.rooms.empty() || before.rooms[0].area_m2 > 5);
+  const Map map = map_of({first, second});
+  const IndoorMap after = mapper.fuse(map);
+  ASSERT_TRUE(after.outcome) << after.outcome.reason;
+  const std::vector<double> walls = far_walls(after);
+  ASSERT_EQ(walls.size(), 1U);
+  EXPECT_NEAR(walls[0], 4, 0.005);  // exact points
+  EXPECT_NEAR(after.floor_y, 1.4, 0.005);
+  ASSERT_EQ(after.rooms.size(), 1U);
+  EXPECT_EQ(after.rooms[0].places.size(), 2U);
+  EXPECT_TRUE(after.rooms[0].entered);
+  PlaceGraph places = map.place_graph;
+  label_places(after, places);
+  EXPECT_EQ(places.places[0].labels, std::vector<std::string>{after.rooms[0].label});
+}
+
+TEST(IndoorMapper, SaysWhyThereIsNoPlan) {
+  const Camera camera{640, 480, 500, 500, 320, 240};
+  IndoorMapper mapper(
+      {}, Calibration{.camera = camera, .baseline_m = 0.1, .depth = {}, .camera_height_m = {}});
+  Map map = map_of({SE3()});
+  EXPECT_EQ(mapper.fuse(map).outcome.code, Outcome::Code::kTooFewData);
+  map.metric = false;
+  EXPECT_EQ(mapper.fuse(map).outcome.reason, "the map's unit is not the metre");
+  EXPECT_EQ(map_indoors(map, Calibration{.camera = camera, .depth = {}, .camera_height_m = {}},
+                        [](const Keyframe&) -> Frame { throw ArgumentError("no frame is needed"); })
+                .outcome.reason,
+            "the map's unit is not the metre");
+}
+
+/// Keyframes whose frames are of the grey of their number, and which ones were read.
+struct GreyFrames {
+  std::vector<std::int64_t> read;
+  NearbyViews views_of(const Map& map) {
+    return {map,
+            [this](const Keyframe& keyframe) {
+              read.push_back(keyframe.id);
+              Frame frame;
+              frame.image = Image(2, 2, CV_8UC1, cv::Scalar(static_cast<double>(keyframe.id)));
+              return frame;
+            },
+            {0.25, 0.5, 20}};
+  }
+};
+
+std::vector<int> numbers_of(const std::vector<SweptView>& views) {
+  std::vector<int> numbers;
+  for (const SweptView& view : views) numbers.push_back(view.image.at<std::uint8_t>(0, 0));
+  return numbers;
+}
+
+TEST(NearbyViews, AreANearerAndAFartherOneOnEachSide) {
+  std::vector<SE3> poses;
+  for (int i = 0; i < 40; ++i) poses.push_back(SE3(SO3(), Eigen::Vector3d(0, 0, 0.15 * i)));
+  // From the 30th on the camera looks elsewhere.
+  for (int i = 30; i < 40; ++i) poses[i] = SE3(SO3::exp({0, 1, 0}), poses[i].translation());
+  const Map map = map_of(poses);
+  GreyFrames frames;
+  NearbyViews nearby = frames.views_of(map);
+  const auto of = [&](int keyframe) {
+    const std::vector<SweptView> views = nearby.of(map.keyframes[keyframe]);
+    const std::vector<int> numbers = numbers_of(views);
+    for (std::size_t i = 0; i < views.size(); ++i)
+      EXPECT_NEAR(views[i].T_view_cam.translation()[2], 0.15 * (keyframe - numbers[i]), 1e-12);
+    return numbers;
+  };
+  EXPECT_EQ(of(0), (std::vector<int>{2, 4}));
+  EXPECT_EQ(of(20), (std::vector<int>{18, 16, 22, 24}));
+  EXPECT_EQ(of(27), (std::vector<int>{25, 23, 29}));
+  frames.read.clear();
+  (void)of(27);
+  EXPECT_EQ(nearby.frame(map.keyframes[27]).image.at<std::uint8_t>(0, 0), 27);
+  EXPECT_EQ(frames.read, std::vector<std::int64_t>{27}) << "frames are kept";
+}
+
+TEST(NearbyViews, AreOnlyThoseThatHaveMovedALittle) {
+  // It stands still, goes on in small steps, and then leaps.
+  std::vector<SE3> poses(3);
+  for (const double z : {0.1, 0.3, 2.3, 2.6}) poses.push_back(SE3(SO3(), Eigen::Vector3d(0, 0, z)));
+  const Map map = map_of(poses);
+  GreyFrames frames;
+  NearbyViews nearby = frames.views_of(map);
+  EXPECT_EQ(numbers_of(nearby.of(map.keyframes[0])), std::vector<int>{4});
+  EXPECT_EQ(numbers_of(nearby.of(map.keyframes[4])), std::vector<int>{2});
+  EXPECT_EQ(numbers_of(nearby.of(map.keyframes[5])), std::vector<int>{6});
+}
+
+TEST(NearbyViews, AreOfTheMapThatHangsTogether) {
+  std::vector<SE3> poses;
+  for (int i = 0; i < 6; ++i) poses.push_back(SE3(SO3(), Eigen::Vector3d(0, 0, 0.3 * i)));
+  Map map = map_of(poses);
+  for (int i = 3; i < 6; ++i) map.place_graph.places[i].component = 1;  // lost, and never found
+  GreyFrames frames;
+  NearbyViews nearby = frames.views_of(map);
+  EXPECT_EQ(numbers_of(nearby.of(map.keyframes[2])), (std::vector<int>{1, 0}));
+  EXPECT_TRUE(nearby.of(map.keyframes[3]).empty());
+  const Keyframe copy = map.keyframes[2];
+  EXPECT_EQ(nearby.of(copy).size(), 2U);
+  Keyframe other = copy;
+  other.id = 17;
+  EXPECT_THROW((void)nearby.of(other), ArgumentError);
+}
+
+TEST(IndoorMapper, SweepsDepthForAnEyeThatHasMoved) {
+  const Camera camera{160, 120, 130, 130, 79.5, 59.5};
+  // A patterned wall 3 m ahead, from two places beside each other.
+  const auto view = [&](double x) {
+    Frame frame;
+    frame.image = Image(camera.height, camera.width, CV_8UC1);
+    for (int v = 0; v < camera.height; ++v)
+      for (int u = 0; u < camera.width; ++u) {
+        const Eigen::Vector3d p = 3 * *camera.unproject({u, v}) + Eigen::Vector3d(x, 0, 0);
+        double grey = 120;
+        for (int k = 1; k < 8; ++k)
+          grey += 20 * std::sin(9 * k * p.x() + k * k * p.y()) * std::cos(8 * k * p.y() - k);
+        frame.image.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(grey);
+      }
+    return frame;
+  };
+  const SE3 T_view_cam(SO3(), Eigen::Vector3d(-0.3, 0, 0));
+  IndoorMapper mapper({}, Calibration{.camera = camera, .depth = {}, .camera_height_m = {}});
+  mapper.add(0, view(0));
+  EXPECT_TRUE(mapper.sights()[0].points.empty());
+  mapper.add(0, view(0), {{view(0.3).image, T_view_cam}});
+  ASSERT_EQ(mapper.sights().size(), 1U);
+  ASSERT_GT(mapper.sights()[0].points.size(), 100U);
+  const double count = static_cast<double>(mapper.sights()[0].points.size());
+  int flat = 0, right = 0;
+  for (const SurfacePoint& p : mapper.sights()[0].points) {
+    right += std::abs(p.point[2] - 3) < 5 * p.sigma + 0.03;
+    flat += p.normal[2] < -0.95F;
+  }
+  EXPECT_GT(right, 0.95 * count);
+  EXPECT_GT(flat, 0.8 * count);
+  EXPECT_EQ(mapper.fuse(map_of({SE3()})).outcome.code, Outcome::Code::kDegenerate)
+      << "a wall alone is no building, but one eye of unknown height may see one";
+}
+
+}  // namespace
+}  // namespace placegraph

@@ -1,0 +1,147 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/scene/urban_mapper.h>
+
+#include <set>
+
+namespace placegraph {
+namespace {
+
+SceneModel model_of(SceneModel::Kind kind, std::vector<std::string> classes) {
+  SceneModel model;
+  model.kind = kind;
+  model.classes = std::move(classes);
+  model.surfaces.assign(model.classes.size(), Surface::kVertical);
+  return model;
+}
+
+UrbanMapper mapper_of(double baseline_m = 0.5) {
+  UrbanMapperOptions options;
+  options.sight.moving = "";  // no class of these models moves
+  options.grid.min_weight = 1;
+  options.grid.min_sights = 1;
+  return {options,
+          Calibration{.camera = {640, 480, 500, 500, 320, 240},
+                      .baseline_m = baseline_m,
+                      .depth = {},
+                      .camera_height_m = {}},
+          model_of(SceneModel::Kind::kUrban, {"Road", "Building"}),
+          model_of(SceneModel::Kind::kSurfaces, {"sky", "ground", "vertical", "object"})};
+}
+
+/// A wall at z = 10 of the world, as a camera there sees it.
+SemanticSight sight_of_wall(std::int64_t keyframe, const SE3& T_world_cam) {
+  SemanticSight sight;
+  sight.keyframe = keyframe;
+  sight.shares = {0.1F, 0.9F};
+  for (double x = -2; x < 2; x += 0.1)
+    for (double y = -2; y < 1; y += 0.1) {
+      SemanticPoint point;
+      point.point = (T_world_cam.inverse() * Eigen::Vector3d(x, y, 10.05)).cast<float>();
+      point.height_m = static_cast<float>(1.5 - y);
+      sight.points.push_back(point);
+    }
+  return sight;
+}
+
+Map map_of(const std::vector<SE3>& poses) {
+  Map map;
+  map.metric = true;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const auto id = static_cast<std::int64_t>(i);
+    Keyframe keyframe;
+    keyframe.id = id, keyframe.frame = id, keyframe.place = id, keyframe.stamp_ns = 100 * id;
+    map.keyframes.push_back(keyframe);
+    Place place;
+    place.id = id, place.anchor_keyframe = id, place.T_map_place = poses[i];
+    place.members.push_back({id, SE3(), 1});
+    map.place_graph.places.push_back(place);
+  }
+  return map;
+}
+
+std::set<int> depths_of(const SemanticMap& map) {
+  std::set<int> rows;
+  for (const SemanticCell& cell : map.cells)
+    if (cell.label == 1) rows.insert(cell.at[2]);
+  return rows;
+}
+
+TEST(UrbanMapper, FusesSightsAgainWhereALoopMovedThem) {
+  const SE3 first, second(SO3::exp({0, 0.3, 0}), Eigen::Vector3d(0.5, 0, 1));
+  // Before the loop the second place is thought to be 2 m farther.
+  const SE3 drifted(second.rotation(), second.translation() + Eigen::Vector3d(0, 0, 2));
+  UrbanMapper mapper = mapper_of();
+  mapper.add(sight_of_wall(0, first));
+  mapper.add(sight_of_wall(1, second));
+  const SemanticMap before = mapper.fuse(map_of({first, drifted}));
+  ASSERT_TRUE(before.outcome) << before.outcome.reason;
+  EXPECT_EQ(depths_of(before), (std::set<int>{33, 40}));  // cells of 0.3 m: 10.05 and 12.05 m
+  const SemanticMap after = mapper.fuse(map_of({first, second}));
+  EXPECT_EQ(depths_of(after), std::set<int>{33});
+}
+
+TEST(UrbanMapper, ReplacesWhatAKeyframeTold) {
+  UrbanMapper mapper = mapper_of();
+  mapper.add(sight_of_wall(0, SE3()));
+  SemanticSight other = sight_of_wall(0, SE3());
+  for (SemanticPoint& point : other.points) point.point[2] += 2;
+  mapper.add(other);
+  EXPECT_EQ(depths_of(mapper.fuse(map_of({SE3()}))), std::set<int>{40});
+}
+
+TEST(UrbanMapper, TakesPosesBeforeCorrectionsByTheirStamps) {
+  Map map = map_of({SE3(), SE3()});
+  map.trajectory_online.poses.push_back({100, SE3(SO3(), Eigen::Vector3d(1, 2, 3)).isometry()});
+  const KeyframePoses online = online_poses_of(map);
+  EXPECT_FALSE(online(0));
+  ASSERT_TRUE(online(1));
+  EXPECT_EQ(online(1)->translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_TRUE(poses_of(map)(0));
+  EXPECT_FALSE(poses_of(map)(2));
+}
+
+TEST(UrbanMapper, UsesKeyframesThatAreAStepApart) {
+  std::vector<SE3> poses;
+  for (int i = 0; i < 10; ++i) poses.emplace_back(SO3(), Eigen::Vector3d(0, 0, 0.4 * i));
+  const Map map = map_of(poses);
+  std::vector<std::int64_t> ids;
+  for (const Keyframe* keyframe : keyframes_apart(map, 1, 0.1)) ids.push_back(keyframe->id);
+  EXPECT_EQ(ids, (std::vector<std::int64_t>{0, 3, 6, 9}));
+}
+
+TEST(UrbanMapper, TellsWhatIsSeenFromEachPlace) {
+  UrbanMapper mapper = mapper_of();
+  mapper.add(sight_of_wall(1, SE3()));
+  const auto shares = class_shares(mapper, map_of({SE3(), SE3()}));
+  ASSERT_EQ(shares.size(), 2U);
+  EXPECT_TRUE(shares[0].empty());
+  EXPECT_NEAR(shares[1][1], 0.9, 1e-4);
+}
+
+TEST(UrbanMapper, RefusesModelsAndClassesThatItCannotUse) {
+  const Calibration calibration{.camera = {640, 480, 500, 500, 320, 240},
+                                .baseline_m = 0.5,
+                                .depth = {},
+                                .camera_height_m = {}};
+  const SceneModel urban = model_of(SceneModel::Kind::kUrban, {"Road", "Car"});
+  const SceneModel surfaces =
+      model_of(SceneModel::Kind::kSurfaces, {"sky", "ground", "vertical", "object"});
+  UrbanMapperOptions options;
+  options.sight.moving = "Car,Tram";
+  EXPECT_THROW(UrbanMapper(options, calibration, urban, surfaces), ArgumentError);
+  options.sight.moving = "Car";
+  EXPECT_NO_THROW(UrbanMapper(options, calibration, urban, surfaces));
+  EXPECT_THROW(UrbanMapper(options, calibration, surfaces, urban), ArgumentError);
+}
+
+TEST(UrbanMapper, SaysWhyThereIsNoMap) {
+  Map map = map_of({SE3()});
+  EXPECT_EQ(mapper_of().fuse(map).outcome.code, Outcome::Code::kTooFewData);
+  EXPECT_EQ(mapper_of(0).fuse(map).outcome.reason, "two eyes are needed");
+  map.metric = false;
+  EXPECT_EQ(mapper_of().fuse(map).outcome.reason, "the map's unit is not the metre");
+}
+
+}  // namespace
+}  // namespace placegraph
