@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/loop.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 
 #include <map>
 #include <optional>

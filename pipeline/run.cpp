@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/odometry_file.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/odometry_file.h>
 #include <placegraph/pipeline/lens_correction.h>
 #include <placegraph/pipeline/run.h>
 

@@ -2,8 +2,8 @@
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/scene/indoor_mapper.h>
-#include <placegraph/pipeline/slam.h>
 #include <placegraph/pipeline/scene/urban_mapper.h>
+#include <placegraph/pipeline/slam.h>
 
 #include <functional>
 #include <string>
@@ -66,7 +66,8 @@ struct RunResult {
   std::vector<EnvironmentSight> environments;
 };
 
-/// Where a run saves its map as it goes (io/map/map_database.h): after every new place and at the end.
+/// Where a run saves its map as it goes (io/map/map_database.h): after every new place and at the
+/// end.
 struct MapFile {
   std::string path;
   std::string sequence;  ///< as it can be opened again

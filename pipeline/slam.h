@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/places/place_view.h>
 #include <placegraph/graph/map_changes.h>
-#include <placegraph/pipeline/places/loop_closer.h>
 #include <placegraph/pipeline/odometry/odometry.h>
+#include <placegraph/pipeline/places/loop_closer.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 
 namespace placegraph {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/trajectory/edge_consistency.h>
-#include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <CLI/CLI.hpp>
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
 #include <placegraph/eval/loops/loop_truth_from_poses.h>
-#include <placegraph/eval/plots/precision_recall_plot.h>
 #include <placegraph/eval/loops/reliability.h>
+#include <placegraph/eval/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/measurements/loop_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>

@@ -169,7 +169,8 @@ void print(const OptimizeArguments& arguments, const Json& report) {
              number("chi2_log"));
   if (!report["rejected_edges"].empty())
     fmt::print("  {} constraints rejected\n", report["rejected_edges"].size());
-  if (const int doubtful = report["doubtful"].get<int>(); doubtful > 0 && arguments.robust != "none")
+  if (const int doubtful = report["doubtful"].get<int>();
+      doubtful > 0 && arguments.robust != "none")
     fmt::print("  {} constraints kept that lie beyond the 99.9 % bound of their chi2{}\n", doubtful,
                arguments.robust == "huber" || arguments.robust == "dcs"
                    ? "; the method gives them less weight, chi2 above counts them in full"
@@ -185,8 +186,8 @@ void print(const OptimizeArguments& arguments, const Json& report) {
                report["steps"].get<int>(), number("step_cpu_ms_mean"), number("step_cpu_ms_p95"),
                number("step_cpu_ms_max"));
   fmt::print("  {} iterations, {:.1f} ms CPU, {:.1f} ms wall, {:.0f} MB at most; written to {}\n",
-             report["iterations"].get<int>(), number("cpu_ms"), number("wall_ms"), number("peak_mb"),
-             arguments.out);
+             report["iterations"].get<int>(), number("cpu_ms"), number("wall_ms"),
+             number("peak_mb"), arguments.out);
 }
 
 void draw(const OptimizeArguments& arguments, const PoseGraph& before,

@@ -4,8 +4,8 @@
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/scene/environment.h>
-#include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/dataset.h>
 #include <placegraph/pipeline/map/explanation.h>
 #include <placegraph/pipeline/run.h>
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/dataset.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 #include <placegraph/pipeline/run.h>
 
@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "apps/support/json_file.h"
-#include "apps/results/map_file.h"
 #include "apps/map/map_learn.h"
+#include "apps/results/map_file.h"
+#include "apps/support/json_file.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"

@@ -5,8 +5,8 @@
 #include <placegraph/graph/map_revisits.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/measurements/loop_file.h>
 #include <placegraph/io/graphs/place_graph_export.h>
+#include <placegraph/io/measurements/loop_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 #include <placegraph/pipeline/run.h>
@@ -19,13 +19,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "apps/results/map_file.h"
 #include "apps/map/map_label.h"
 #include "apps/map/map_learn.h"
 #include "apps/map/map_plan.h"
 #include "apps/map/map_semantic.h"
-#include "apps/support/output.h"
+#include "apps/results/map_file.h"
 #include "apps/results/run_files.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {

@@ -13,10 +13,10 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/results/run_map.h"
 #include "apps/support/json_file.h"
 #include "apps/support/output.h"
 #include "apps/support/plot_file.h"
-#include "apps/results/run_map.h"
 
 namespace placegraph::apps {
 namespace {

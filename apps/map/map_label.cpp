@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/measurements/label_file.h>
 #include <placegraph/io/files/text_file.h>
+#include <placegraph/io/measurements/label_file.h>
 #include <placegraph/pipeline/map/place_labeller.h>
 
 #include <CLI/CLI.hpp>
@@ -15,8 +15,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/results/map_file.h"
 #include "apps/map/map_learn.h"
+#include "apps/results/map_file.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

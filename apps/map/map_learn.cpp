@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
-#include <placegraph/io/config/yaml_config.h>
 #include <placegraph/pipeline/map/map_learner.h>
 
 #include <CLI/CLI.hpp>

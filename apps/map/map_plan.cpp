@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/dataset.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>

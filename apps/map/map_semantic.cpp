@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/dataset.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/dataset.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/results/map_file.h"
-#include "apps/support/output.h"
 #include "apps/results/semantic_map_files.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {

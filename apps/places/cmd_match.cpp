@@ -5,11 +5,11 @@
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
 #include <placegraph/io/measurements/loop_file.h>
 #include <placegraph/io/models/vocabulary_file.h>
-#include <placegraph/io/config/yaml_config.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

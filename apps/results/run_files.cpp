@@ -1,10 +1,10 @@
 #include "apps/results/run_files.h"
 
-#include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/plots/plot.h>
-#include <placegraph/graph/pose_graph/constraint_source.h>
+#include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>
+#include <placegraph/graph/pose_graph/constraint_source.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include <set>
 #include <sstream>
 
-#include "apps/support/json_file.h"
 #include "apps/results/run_judgement.h"
+#include "apps/support/json_file.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,7 +1,7 @@
 #include "apps/results/run_map.h"
 
-#include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/map/map_database.h>
 

@@ -1,7 +1,7 @@
 #include "apps/results/semantic_map_files.h"
 
-#include <placegraph/eval/scene/semantic_map_check.h>
 #include <placegraph/eval/plots/semantic_map_plot.h>
+#include <placegraph/eval/scene/semantic_map_check.h>
 #include <placegraph/frontend/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
@@ -15,10 +15,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/results/run_judgement.h"
 #include "apps/support/json_file.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
-#include "apps/results/run_judgement.h"
 #include "apps/support/scene_models.h"
 
 namespace placegraph::apps {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <placegraph/eval/trajectory/body_state_error.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/trajectories/body_state_file.h>
+#include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/euroc.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
+#include <placegraph/io/trajectories/body_state_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
-#include <placegraph/io/config/yaml_config.h>
 #include <placegraph/pipeline/flight/flight_marker_map.h>
 
 #include <CLI/CLI.hpp>

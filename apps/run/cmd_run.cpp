@@ -2,12 +2,12 @@
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>
-#include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/map/map_database.h>
-#include <placegraph/io/graphs/place_graph_export.h>
-#include <placegraph/io/files/text_file.h>
-#include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/files/text_file.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/graphs/place_graph_export.h>
+#include <placegraph/io/map/map_database.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/elements.h>
 #include <sys/resource.h>
 
@@ -19,15 +19,15 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "apps/run/draw_frame.h"
 #include "apps/results/environment_files.h"
 #include "apps/results/floor_plan_files.h"
-#include "apps/support/output.h"
-#include "apps/support/progress.h"
 #include "apps/results/run_files.h"
 #include "apps/results/run_judgement.h"
-#include "apps/support/scene_models.h"
 #include "apps/results/semantic_map_files.h"
+#include "apps/run/draw_frame.h"
+#include "apps/support/output.h"
+#include "apps/support/progress.h"
+#include "apps/support/scene_models.h"
 #include "apps/support/usage.h"
 
 namespace placegraph::apps {

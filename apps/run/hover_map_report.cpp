@@ -74,10 +74,10 @@ std::string marker_map_line(const json& described) {
     return "no marker mapped: " + described["refused"].get<std::string>();
   std::string line = fmt::format("{} markers mapped", described["markers"].size());
   if (described.contains("compared_markers"))
-    line += fmt::format(", {} compared: off by {:.4f} m and {:.2f} deg at worst, NEES {:.2f}",
-                        described["compared_markers"].get<int>(), described["worst_error_m"].get<double>(),
-                        described["worst_error_deg"].get<double>(),
-                        described["nees_per_dof"].get<double>());
+    line += fmt::format(
+        ", {} compared: off by {:.4f} m and {:.2f} deg at worst, NEES {:.2f}",
+        described["compared_markers"].get<int>(), described["worst_error_m"].get<double>(),
+        described["worst_error_deg"].get<double>(), described["nees_per_dof"].get<double>());
   return line;
 }
 

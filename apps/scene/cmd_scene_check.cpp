@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <placegraph/eval/scene/label_check.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/class_list.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/io/measurements/class_list.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/scene/orientation_check.h>
-#include <placegraph/frontend/vanishing/scene_directions.h>
-#include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/scene/orientation_map.h>
+#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/measurements/plane_truth.h>
 

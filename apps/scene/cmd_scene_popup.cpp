@@ -1,10 +1,10 @@
 #include "apps/scene/cmd_scene_popup.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/labels/surface_classifier.h>
 #include <placegraph/frontend/scene/horizon.h>
 #include <placegraph/frontend/scene/popup.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
+#include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
 

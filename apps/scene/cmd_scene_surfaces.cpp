@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/support/scene_models.h"
 #include "apps/scene/scene_pictures.h"
+#include "apps/support/scene_models.h"
 
 namespace placegraph::apps {
 namespace {

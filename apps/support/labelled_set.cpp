@@ -1,9 +1,9 @@
 #include "apps/support/labelled_set.h"
 
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/class_list.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
+#include <placegraph/io/measurements/class_list.h>
 
 #include <algorithm>
 #include <array>

@@ -23,9 +23,9 @@
 #include "apps/support/labelled_set.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
-#include "apps/train/rendered_streets.h"
 #include "apps/support/scene_models.h"
 #include "apps/support/usage.h"
+#include "apps/train/rendered_streets.h"
 
 namespace placegraph::apps {
 namespace {
@@ -93,7 +93,8 @@ std::vector<LessonPicture> make_lesson(const LabelledSet& set,
   return lesson;
 }
 
-/// Which of them are alike: so many of a drive one after the other (`block`), and never of two sequences.
+/// Which of them are alike: so many of a drive one after the other (`block`), and never of two
+/// sequences.
 std::vector<int> blocks_of(const std::vector<LessonPicture>& lesson, const TrainSceneArguments& a) {
   std::vector<int> block;
   int in_block = 0;

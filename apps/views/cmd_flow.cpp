@@ -4,9 +4,9 @@
 #include <placegraph/eval/scene/flow_error.h>
 #include <placegraph/frontend/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/flow_file.h>
-#include <placegraph/io/files/image_file.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/files/image_file.h>
+#include <placegraph/io/measurements/flow_file.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -15,10 +15,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "apps/support/calib_option.h"
-#include "apps/views/draw_flow.h"
-#include "apps/views/flow_cues_report.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
+#include "apps/views/draw_flow.h"
+#include "apps/views/flow_cues_report.h"
 
 namespace placegraph::apps {
 namespace {

@@ -10,8 +10,8 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/views/cmd_lines_track.h"
 #include "apps/support/output.h"
+#include "apps/views/cmd_lines_track.h"
 
 namespace placegraph::apps {
 namespace {

@@ -16,9 +16,9 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "apps/support/calib_option.h"
-#include "apps/views/draw_markers.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
+#include "apps/views/draw_markers.h"
 
 namespace placegraph::apps {
 namespace {

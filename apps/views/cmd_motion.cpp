@@ -7,8 +7,8 @@
 #include <placegraph/frontend/relative_pose/pose_gravity.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/match_file.h>
 #include <placegraph/io/files/text_file.h>
+#include <placegraph/io/measurements/match_file.h>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Dense>

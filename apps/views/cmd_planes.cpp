@@ -12,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/calib_option.h"
-#include "apps/views/cmd_planes_cloud.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
+#include "apps/views/cmd_planes_cloud.h"
 
 namespace placegraph::apps {
 namespace {

@@ -19,8 +19,8 @@
 
 #include "apps/support/calib_option.h"
 #include "apps/support/output.h"
-#include "apps/views/planarity_file.h"
 #include "apps/support/usage.h"
+#include "apps/views/planarity_file.h"
 
 namespace placegraph::apps {
 namespace {

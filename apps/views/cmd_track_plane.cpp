@@ -16,9 +16,9 @@
 #include "apps/support/calib_option.h"
 #include "apps/support/frame_source.h"
 #include "apps/support/output.h"
-#include "apps/views/plane_track_files.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"
+#include "apps/views/plane_track_files.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/graph/pose_graph/bundle.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/robust_kernel.h>
+#include <placegraph/graph/pose_graph/bundle.h>
 
 namespace placegraph {
 

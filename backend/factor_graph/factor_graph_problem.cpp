@@ -1,10 +1,10 @@
 #include <ceres/covariance.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-#include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/factor_graph/factor_graph.h>
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/variable_manifold.h>
+#include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 #include <ceres/sized_cost_function.h>
-#include <placegraph/backend/georeference/antenna_trajectory.h>
-#include <placegraph/backend/factors/variable_manifold.h>
 #include <placegraph/backend/factors/position_error.h>
+#include <placegraph/backend/factors/variable_manifold.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
 
 namespace placegraph {
 
@@ -14,7 +14,8 @@ namespace placegraph {
 ///
 /// In the plane the third component of the error is left out.
 template <class Group>
-class AntennaPositionFactor final : public ceres::SizedCostFunction<3, VariableBlock<Group>::kSize, 4> {
+class AntennaPositionFactor final
+    : public ceres::SizedCostFunction<3, VariableBlock<Group>::kSize, 4> {
  public:
   AntennaPositionFactor(const CarriedFix& fix, const Eigen::Vector3d& position_world,
                         const Eigen::Matrix3d& whitening)

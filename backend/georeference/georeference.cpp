@@ -1,7 +1,7 @@
 #include <placegraph/backend/georeference/antenna_calibration.h>
+#include <placegraph/backend/georeference/connected_parts.h>
 #include <placegraph/backend/georeference/georeference.h>
 #include <placegraph/backend/georeference/map_latency.h>
-#include <placegraph/backend/georeference/connected_parts.h>
 #include <placegraph/backend/georeference/variance_components.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,5 +1,5 @@
-#include <placegraph/backend/solver/odometry_chain.h>
 #include <placegraph/backend/georeference/variance_components.h>
+#include <placegraph/backend/solver/odometry_chain.h>
 #include <placegraph/backend/solver/pose_marginals.h>
 
 #include <Eigen/Cholesky>

@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/backend/linear/elimination_tree.h>
 #include <placegraph/backend/incremental/incremental_components.h>
 #include <placegraph/backend/incremental/incremental_optimizer.h>
 #include <placegraph/backend/incremental/incremental_terms.h>
+#include <placegraph/backend/linear/elimination_tree.h>
 
 #include <unordered_map>
 

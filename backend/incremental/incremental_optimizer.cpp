@@ -1,5 +1,5 @@
-#include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/incremental/incremental_engine.h>
+#include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

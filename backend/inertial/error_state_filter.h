@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/measurements/imu.h>
 #include <placegraph/graph/measurements/sighting.h>
 

@@ -1,8 +1,8 @@
 #include <Spectra/SymEigsSolver.h>
 #include <placegraph/backend/initialization/certificate.h>
 #include <placegraph/backend/initialization/chordal_relaxation.h>
-#include <placegraph/backend/initialization/rotation_agreement.h>
 #include <placegraph/backend/initialization/held_nodes.h>
+#include <placegraph/backend/initialization/rotation_agreement.h>
 
 #include <algorithm>
 #include <cmath>

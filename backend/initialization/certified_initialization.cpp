@@ -1,9 +1,9 @@
-#include <placegraph/backend/initialization/component_anchors.h>
 #include <placegraph/backend/initialization/certified_initialization.h>
 #include <placegraph/backend/initialization/chordal_relaxation.h>
+#include <placegraph/backend/initialization/component_anchors.h>
+#include <placegraph/backend/initialization/held_nodes.h>
 #include <placegraph/backend/initialization/initialization.h>
 #include <placegraph/backend/initialization/rotation_agreement.h>
-#include <placegraph/backend/initialization/held_nodes.h>
 
 #include <algorithm>
 

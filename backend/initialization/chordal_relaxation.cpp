@@ -1,6 +1,6 @@
-#include <placegraph/backend/linear/block_cholesky.h>
 #include <placegraph/backend/initialization/chordal_relaxation.h>
 #include <placegraph/backend/initialization/lifted_preconditioner.h>
+#include <placegraph/backend/linear/block_cholesky.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include <placegraph/backend/initialization/component_anchors.h>
-#include <placegraph/backend/linear/block_cholesky.h>
 #include <placegraph/backend/initialization/initialization.h>
 #include <placegraph/backend/initialization/isotropic_problem.h>
+#include <placegraph/backend/linear/block_cholesky.h>
 
 #include <Eigen/SVD>
 #include <deque>

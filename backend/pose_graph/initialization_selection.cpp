@@ -1,8 +1,8 @@
-#include <placegraph/backend/initialization/component_anchors.h>
 #include <placegraph/backend/initialization/certified_initialization.h>
+#include <placegraph/backend/initialization/component_anchors.h>
+#include <placegraph/backend/initialization/incremental_initialization.h>
 #include <placegraph/backend/initialization/initialization.h>
 #include <placegraph/backend/initialization/isotropic_problem.h>
-#include <placegraph/backend/initialization/incremental_initialization.h>
 #include <placegraph/backend/initialization/rotation_agreement.h>
 #include <placegraph/backend/pose_graph/initialization_selection.h>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/pose_graph/robust_optimizer.h>
 #include <placegraph/backend/pose_graph/initialization_selection.h>
+#include <placegraph/backend/pose_graph/robust_optimizer.h>
 
 namespace placegraph {
 

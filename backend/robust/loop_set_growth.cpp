@@ -1,5 +1,5 @@
-#include <placegraph/backend/robust/loop_set_growth.h>
 #include <placegraph/backend/robust/loop_leverage.h>
+#include <placegraph/backend/robust/loop_set_growth.h>
 #include <placegraph/backend/solver/subset_solver.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/disjoint_sets.h>

@@ -1,6 +1,6 @@
+#include <placegraph/backend/factors/position_error.h>
 #include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/solver/ceres_solver.h>
-#include <placegraph/backend/factors/position_error.h>
 #include <placegraph/backend/solver/local_solver.h>
 #include <placegraph/backend/solver/native_solver.h>
 

@@ -1,7 +1,7 @@
-#include <placegraph/backend/solver/normal_equations.h>
-#include <placegraph/backend/solver/pose_marginals.h>
 #include <placegraph/backend/linear/relative_covariance.h>
 #include <placegraph/backend/linear/sparse_inverse.h>
+#include <placegraph/backend/solver/normal_equations.h>
+#include <placegraph/backend/solver/pose_marginals.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {

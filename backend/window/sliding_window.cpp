@@ -1,7 +1,7 @@
 #include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/reprojection.h>
-#include <placegraph/backend/window/sliding_window_impl.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/window/sliding_window_impl.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #pragma once
 #include <placegraph/backend/window/distortion_evidence.h>
-#include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/geometry/plane3.h>
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-#include <placegraph/backend/window/sliding_window_impl.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/window/sliding_window_impl.h>
 
 #include <Eigen/Dense>
 

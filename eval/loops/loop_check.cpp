@@ -1,5 +1,5 @@
-#include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/eval/loops/loop_check.h>
+#include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/eval/trajectory/rpe.h>
 
 #include <cmath>

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <map>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 namespace placegraph {
 namespace {

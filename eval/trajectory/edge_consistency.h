@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 
 #include <map>
 #include <vector>

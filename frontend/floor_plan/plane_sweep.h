@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/semi_global.h>
-#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
+#include <placegraph/graph/geometry/camera.h>
 
 #include <vector>
 

@@ -26,7 +26,8 @@ struct PathCosts {
 
 /// Least costs of paths that end in each pixel at each level, summed over the eight directions that
 /// they come from (Hirschmueller 2008, "Stereo processing by semi-global matching and mutual
-/// information"), laid out like the costs. Throws ArgumentError for penalties below 0 or above 4000.
+/// information"), laid out like the costs. Throws ArgumentError for penalties below 0 or above
+/// 4000.
 std::vector<std::uint16_t> sum_over_paths(const CostVolume& volume, const PathCosts& penalty);
 
 }  // namespace placegraph

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/flow/flow_vector.h>
-#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/se3.h>
 
 #include <Eigen/Core>

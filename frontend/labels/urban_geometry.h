@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/labels/scene_labeller.h>
-#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/geometry/camera.h>
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #pragma once
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/geometry/line_segment.h>
-#include <placegraph/graph/core/options.h>
-#include <placegraph/graph/core/outcome.h>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/geometry/plane3.h>
 
 #include <array>

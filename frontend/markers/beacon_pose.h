@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/markers/beacon_detector.h>
-#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/se3.h>
 
 #include <utility>

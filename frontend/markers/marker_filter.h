@@ -2,9 +2,9 @@
 #include <placegraph/frontend/markers/beacon_pose.h>
 #include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/frontend/markers/square_pose.h>
-#include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/measurements/marker_layout.h>
 
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/geometry/camera.h>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/ransac.h>
+#include <placegraph/graph/geometry/camera.h>
 
 #include <vector>
 
@@ -29,8 +29,8 @@ struct Rotation2d2dResult {
 /// Rotation between two views that share their centre: x_cur = R_ref_cur^T x_ref up to length. Two
 /// points in RANSAC, all of the inliers afterwards (Arun et al. 1987, both by OpenGV), then least
 /// squares of their pixels. Throws ArgumentError if the lists differ in length. Outcomes: too few
-/// data, no consensus, inconsistent (too small a share agrees: the camera moved), degenerate (all in
-/// one direction).
+/// data, no consensus, inconsistent (too small a share agrees: the camera moved), degenerate (all
+/// in one direction).
 [[nodiscard]] Rotation2d2dResult estimate_rotation_2d2d(const Camera& camera,
                                                         const std::vector<Eigen::Vector2d>& px_ref,
                                                         const std::vector<Eigen::Vector2d>& px_cur,

@@ -1,5 +1,5 @@
-#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/frontend/scene/environment.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/quantile.h>
 

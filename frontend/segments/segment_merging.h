@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/graph/core/options.h>
+#include <placegraph/graph/geometry/line_segment.h>
 
 #include <vector>
 

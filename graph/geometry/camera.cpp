@@ -1,5 +1,5 @@
-#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/geometry/camera.h>
 
 #include <cmath>
 #include <numbers>

@@ -1,5 +1,5 @@
-#include <placegraph/graph/pose_graph/bundle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/pose_graph/bundle.h>
 
 #include <cmath>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/geometry/lie.h>
 #include <placegraph/graph/core/robust_kernel.h>
+#include <placegraph/graph/geometry/lie.h>
 
 #include <cstdint>
 #include <variant>

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/config/yaml_document.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <charconv>

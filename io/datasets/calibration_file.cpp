@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/calibration_file.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/calibration_file.h>
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/calibration_file.h>
-#include <placegraph/io/files/image_file.h>
 #include <placegraph/io/datasets/image_folder.h>
-#include <placegraph/io/files/image_list.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
+#include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/image_list.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 

@@ -19,9 +19,9 @@ namespace placegraph {
 ///
 /// Times [s] as the frames'; order of the tangent: translation [m], rotation [rad], in the frame at
 /// the step's end. Throws FileError with file:line: another or a changing number of fields, no
-/// number, a step longer than 1e9 m, times that do not increase, a quaternion not of unit length (1e-2), a standard deviation
-/// that is not positive, a covariance that is not positive definite, fewer than one step, KITTI
-/// lines that are not as many as frames.
+/// number, a step longer than 1e9 m, times that do not increase, a quaternion not of unit length
+/// (1e-2), a standard deviation that is not positive, a covariance that is not positive definite,
+/// fewer than one step, KITTI lines that are not as many as frames.
 MeasuredMotion read_odometry(const std::string& path, const MotionNoise& noise,
                              const std::vector<std::int64_t>& stamps_ns);
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/files/image_file.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
+#include <placegraph/io/files/image_file.h>
 
 #include <cmath>
 #include <filesystem>

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/calibration_file.h>
-#include <placegraph/io/files/image_file.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
+#include <placegraph/io/datasets/tum_rgbd.h>
+#include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
-#include <placegraph/io/datasets/tum_rgbd.h>
 
 #include <filesystem>
 

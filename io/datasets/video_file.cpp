@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/calibration_file.h>
-#include <placegraph/io/files/image_file.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/datasets/video_file.h>
+#include <placegraph/io/files/image_file.h>
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 
 #include <string>
 #include <string_view>

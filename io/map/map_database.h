@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/measurements/frame.h>
 #include <placegraph/graph/map_changes.h>
+#include <placegraph/graph/measurements/frame.h>
 
 #include <memory>
 #include <optional>

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/atomic_file.h>
-#include <placegraph/io/measurements/flow_file.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/io/measurements/flow_file.h>
 
 #include <array>
 #include <bit>

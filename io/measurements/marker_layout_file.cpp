@@ -1,8 +1,8 @@
 #include <fmt/format.h>
-#include <placegraph/io/files/atomic_file.h>
-#include <placegraph/io/measurements/marker_layout_file.h>
-#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/config/yaml_document.h>
+#include <placegraph/io/files/atomic_file.h>
+#include <placegraph/io/files/text_file.h>
+#include <placegraph/io/measurements/marker_layout_file.h>
 
 #include <algorithm>
 #include <cmath>

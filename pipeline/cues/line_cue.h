@@ -8,9 +8,9 @@
 #include <placegraph/frontend/lines/line_tracker.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/graph/measurements/frame.h>
-#include <placegraph/pipeline/cues/nearest_depth.h>
 #include <placegraph/pipeline/cues/floor_line_scale_options.h>
 #include <placegraph/pipeline/cues/frame_view.h>
+#include <placegraph/pipeline/cues/nearest_depth.h>
 
 #include <map>
 #include <set>

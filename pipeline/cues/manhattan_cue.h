@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/pipeline/cues/frame_view.h>

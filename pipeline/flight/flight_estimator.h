@@ -1,10 +1,10 @@
 #pragma once
+#include <placegraph/backend/inertial/error_state_filter.h>
 #include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/frontend/markers/beacon_detector.h>
 #include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/frontend/markers/marker_filter.h>
-#include <placegraph/backend/inertial/error_state_filter.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/measurements/frame.h>
 #include <placegraph/graph/measurements/marker_layout.h>

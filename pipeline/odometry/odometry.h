@@ -8,19 +8,19 @@
 #include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/stage_times.h>
-#include <placegraph/graph/measurements/frame.h>
 #include <placegraph/graph/landmark.h>
+#include <placegraph/graph/measurements/frame.h>
 #include <placegraph/graph/measurements/measured_motion.h>
-#include <placegraph/pipeline/odometry/cue_list.h>
-#include <placegraph/pipeline/scale/floor_line_scale.h>
+#include <placegraph/pipeline/cues/direct_cue.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/scale/ground_plane_scale.h>
-#include <placegraph/pipeline/odometry/lens_estimator.h>
 #include <placegraph/pipeline/cues/line_cue.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 #include <placegraph/pipeline/cues/plane_cue.h>
 #include <placegraph/pipeline/cues/surface_labels.h>
-#include <placegraph/pipeline/cues/direct_cue.h>
+#include <placegraph/pipeline/odometry/cue_list.h>
+#include <placegraph/pipeline/odometry/lens_estimator.h>
+#include <placegraph/pipeline/scale/floor_line_scale.h>
+#include <placegraph/pipeline/scale/ground_plane_scale.h>
 
 #include <map>
 #include <memory>

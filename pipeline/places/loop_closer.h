@@ -1,10 +1,10 @@
 #pragma once
 #include <placegraph/frontend/features/detector.h>
-#include <placegraph/frontend/places/verification/loop_verifier.h>
 #include <placegraph/frontend/places/place_database.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/frontend/places/verification/loop_verifier.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/graph/map.h>
+#include <placegraph/graph/measurements/frame.h>
 #include <placegraph/pipeline/places/keyframe_motion.h>
 
 #include <deque>

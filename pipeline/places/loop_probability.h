@@ -14,7 +14,7 @@ double loop_probability(const LoopRecord& record);
 
 /// What the model sees of a record.
 struct LoopOddsCues {
-  std::size_t fate = 0;     ///< index into kLoopFates
+  std::size_t fate = 0;  ///< index into kLoopFates
   /// Within bounds. Once a pose has been found, how alike the views are tells nothing more: 0.
   double log_likeness = 0;
   double log_agreeing = 0;  ///< of one and the points and lines that agree

@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/graph/place_graph.h>
-#include <placegraph/pipeline/places/place_optimizer.h>
 #include <placegraph/pipeline/places/keyframe_motion.h>
+#include <placegraph/pipeline/places/place_optimizer.h>
 
 #include <limits>
 #include <map>

@@ -42,9 +42,8 @@ const Frame& NearbyViews::frame(const Keyframe& keyframe) {
 
 std::vector<SweptView> NearbyViews::of(const Keyframe& keyframe) {
   std::vector<SweptView> views;
-  const auto found =
-      std::find_if(map_.keyframes.begin(), map_.keyframes.end(),
-                   [&](const Keyframe& other) { return other.id == keyframe.id; });
+  const auto found = std::find_if(map_.keyframes.begin(), map_.keyframes.end(),
+                                  [&](const Keyframe& other) { return other.id == keyframe.id; });
   const auto index = found - map_.keyframes.begin();
   const auto count = static_cast<std::ptrdiff_t>(map_.keyframes.size());
   require(index < count, "nearby views: the keyframe must be one of the map's");

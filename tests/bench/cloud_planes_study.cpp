@@ -8,10 +8,10 @@
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/measurements/point_cloud_file.h>
 #include <placegraph/io/synthetic/worlds/cloud_scene.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <cstdio>

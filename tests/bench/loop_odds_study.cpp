@@ -1,4 +1,5 @@
-// Fits the coefficients of pipeline/places/loop_probability to candidates of runs whose truth is known.
+// Fits the coefficients of pipeline/places/loop_probability to candidates of runs whose truth is
+// known.
 //   bench_loop_odds_study MAP TRUTH RADIUS [MAP TRUTH RADIUS ...]
 // MAP: map.db of a run; TRUTH: a pose per frame of its sequence; two views show one place where
 // their true positions are within RADIUS [m] and their headings within 40 deg. Every run weighs

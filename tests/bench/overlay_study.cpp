@@ -5,10 +5,10 @@
 // horizon and surfaces; camera and its height are known. Writes OUT_PREFIX_targets.tsv (figure,
 // tab, value) and OUT_PREFIX_K.png for the first six frames.
 #include <fmt/format.h>
-#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/labels/surface_classifier.h>
 #include <placegraph/frontend/scene/horizon.h>
 #include <placegraph/frontend/scene/popup.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
+#include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/io/models/scene_model_file.h>

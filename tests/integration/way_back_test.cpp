@@ -8,8 +8,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "tests/support/temporary_folder.h"
 #include "tests/support/scenes/way_back.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {

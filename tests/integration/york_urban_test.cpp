@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/io/datasets/camera_file.h>
-#include <placegraph/io/measurements/segment_file.h>
 #include <placegraph/io/files/text_file.h>
+#include <placegraph/io/measurements/segment_file.h>
 
 #include <algorithm>
 #include <iostream>

@@ -1,9 +1,9 @@
+#include <placegraph/frontend/places/classifiers/kernel_machine.h>
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/frontend/places/cues/colour_histogram.h>
 #include <placegraph/frontend/places/cues/gabor_statistics.h>
 #include <placegraph/frontend/places/cues/gradient_layout.h>
 #include <placegraph/frontend/places/cues/tiny_image.h>
-#include <placegraph/frontend/places/classifiers/kernel_machine.h>
-#include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
+#include <placegraph/frontend/places/verification/loop_refinement.h>
 #include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/frontend/relative_pose/rotation_2d2d.h>
-#include <placegraph/frontend/places/verification/loop_refinement.h>
 
 namespace placegraph {
 

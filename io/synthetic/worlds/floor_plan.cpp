@@ -1,5 +1,5 @@
-#include <placegraph/io/synthetic/worlds/floor_plan.h>
 #include <placegraph/io/synthetic/render/hash_noise.h>
+#include <placegraph/io/synthetic/worlds/floor_plan.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
-#include <placegraph/io/trajectories/body_state_file.h>
 #include <placegraph/io/datasets/euroc_sensor.h>
 #include <placegraph/io/measurements/flow_file.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
-#include <placegraph/io/synthetic/writers/flight_writer.h>
 #include <placegraph/io/synthetic/worlds/hover.h>
+#include <placegraph/io/synthetic/writers/flight_writer.h>
 #include <placegraph/io/synthetic/writers/sequence_folder.h>
+#include <placegraph/io/trajectories/body_state_file.h>
 
 #include <mutex>
 

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "tests/support/cli_test.h"
-#include "tests/support/scenes/clouds.h"
 #include "tests/support/data.h"
+#include "tests/support/scenes/clouds.h"
 
 namespace placegraph {
 namespace {

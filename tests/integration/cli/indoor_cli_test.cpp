@@ -68,8 +68,8 @@ TEST_F(IndoorCli, DrawsTheFloorPlanOfARun) {
 }
 
 TEST_F(IndoorCli, OneEyeHasItsMetreFromTheFloorBetweenWalls) {
-  const CommandResult result = run(
-      "run " + walk() + " --sensor mono --camera-height 1.4 --scene geometry --out out --json");
+  const CommandResult result =
+      run("run " + walk() + " --sensor mono --camera-height 1.4 --scene geometry --out out --json");
   ASSERT_EQ(result.code, 0) << result.err;
   const json summary = json::parse(result.out);
   EXPECT_EQ(summary["floor_plan"]["outcome"], "ok");

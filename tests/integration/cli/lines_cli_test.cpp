@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "tests/support/cli_test.h"
-#include "tests/support/seed.h"
 #include "tests/support/scenes/tiles.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

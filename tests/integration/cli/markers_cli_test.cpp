@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/support/scenes/apriltag_sim.h"
 #include "tests/support/cli_test.h"
 #include "tests/support/data.h"
+#include "tests/support/scenes/apriltag_sim.h"
 #include "tests/support/scenes/marker_scene.h"
 #include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"
@@ -71,8 +71,7 @@ TEST_F(MarkersCli, CountsPixelsFromTheCornerWhereAsked) {
   const auto centre =
       nlohmann::json::parse(run("markers detect two.png --calib K.txt --side 0.2 --json").out);
   const auto corner = nlohmann::json::parse(
-      run("markers detect two.png --calib corner.txt --side 0.2 --pixel-origin corner --json")
-          .out);
+      run("markers detect two.png --calib corner.txt --side 0.2 --pixel-origin corner --json").out);
   const double a = centre["markers"][0]["corners_px"][0][0];
   const double b = corner["markers"][0]["corners_px"][0][0];
   EXPECT_NEAR(b - a, 0.5, 1e-9);

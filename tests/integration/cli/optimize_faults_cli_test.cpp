@@ -102,7 +102,8 @@ TEST_F(OptimizeFaults, RefusesBadOptions) {
   expect_usage_error("optimize in.g2o -o out.g2o --engine steam", "steam");
   expect_usage_error("optimize in.g2o -o out.g2o --robust magic", "magic");
   expect_usage_error("optimize in.g2o -o out.g2o --start nowhere", "nowhere");
-  expect_usage_error("optimize in.g2o -o out.g2o --iterations 0", "--iterations: Value 0 not in range");
+  expect_usage_error("optimize in.g2o -o out.g2o --iterations 0",
+                     "--iterations: Value 0 not in range");
   expect_usage_error("optimize in.g2o -o out.g2o --iterations many", "--iterations");
   expect_usage_error("optimize in.g2o -o out.g2o --plot out.gif", ".png or .svg");
   expect_usage_error("optimize in.g2o -o out.png --plot out.png", "--plot");

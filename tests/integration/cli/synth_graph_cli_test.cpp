@@ -80,8 +80,10 @@ TEST_F(SynthGraphCli, RefusesWhatDoesNotBelongTogether) {
   write_file(dir / "in.g2o", "VERTEX_SE2 0 0 0 0\n");
   expect_usage_error("synth-graph in.g2o -o a.g2o", "--rotation-noise");
   expect_usage_error("synth-graph in.g2o --false-loops 3 -o a.g2o", "the graph has no loop");
-  expect_usage_error("synth-graph grid-world --false-loops -1 -o a.g2o", "--false-loops: Value -1 not in range");
-  expect_usage_error("synth-graph grid-world --poses 2000000000 -o a.g2o", "--poses: Value 2000000000 not in range");
+  expect_usage_error("synth-graph grid-world --false-loops -1 -o a.g2o",
+                     "--false-loops: Value -1 not in range");
+  expect_usage_error("synth-graph grid-world --poses 2000000000 -o a.g2o",
+                     "--poses: Value 2000000000 not in range");
   expect_usage_error("synth-graph in.g2o --rotation-noise 1 --poses 3 -o a.g2o", "--poses");
   expect_usage_error("synth-graph grid-world -o in.g2o", "--force");
   EXPECT_FALSE(fs::exists(dir / "a.g2o"));

@@ -6,9 +6,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "tests/support/scenes/board.h"
 #include "tests/support/cli_test.h"
 #include "tests/support/data.h"
+#include "tests/support/scenes/board.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {

@@ -2,8 +2,8 @@
 #include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/align/grey_pyramid.h>
 
-#include "tests/support/seed.h"
 #include "tests/support/scenes/warped_template.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

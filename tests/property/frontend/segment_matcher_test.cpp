@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/segments/segment_matcher.h>
 
-#include "tests/support/seed.h"
 #include "tests/support/scenes/tiles.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

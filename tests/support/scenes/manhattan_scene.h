@@ -1,7 +1,7 @@
 #pragma once
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line_segment.h>
-#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/so3.h>
 
 #include <Eigen/Dense>

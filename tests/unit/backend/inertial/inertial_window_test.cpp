@@ -2,8 +2,8 @@
 #include <placegraph/backend/inertial/inertial_window.h>
 #include <placegraph/graph/core/error.h>
 
-#include "tests/support/seed.h"
 #include "tests/support/scenes/swaying_body.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

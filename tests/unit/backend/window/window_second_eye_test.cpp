@@ -2,8 +2,8 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/error.h>
 
-#include "tests/support/seed.h"
 #include "tests/support/scenes/window_world.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/scene/semantic_map_check.h>
 #include <placegraph/eval/plots/semantic_map_plot.h>
+#include <placegraph/eval/scene/semantic_map_check.h>
 
 #include <opencv2/imgcodecs.hpp>
 

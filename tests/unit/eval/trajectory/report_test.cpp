@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/plots/plot.h>
+#include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/report.h>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include <placegraph/frontend/align/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
-#include "tests/support/seed.h"
 #include "tests/support/scenes/warped_template.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

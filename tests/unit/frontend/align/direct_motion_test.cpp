@@ -7,8 +7,8 @@
 #include <opencv2/core.hpp>
 
 #include "tests/support/scenes/scene.h"
-#include "tests/support/seed.h"
 #include "tests/support/scenes/texture.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

@@ -4,8 +4,8 @@
 #include <placegraph/frontend/features/matcher.h>
 
 #include "tests/support/scenes/scene.h"
-#include "tests/support/seed.h"
 #include "tests/support/scenes/texture.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

@@ -3,8 +3,8 @@
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
 
-#include "tests/support/seed.h"
 #include "tests/support/scenes/tiles.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

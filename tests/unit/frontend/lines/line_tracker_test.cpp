@@ -4,8 +4,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "tests/support/seed.h"
 #include "tests/support/scenes/tiles.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

@@ -2,8 +2,8 @@
 #include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/graph/core/error.h>
 
-#include "tests/support/scenes/marker_scene.h"
 #include "tests/support/message_of.h"
+#include "tests/support/scenes/marker_scene.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {

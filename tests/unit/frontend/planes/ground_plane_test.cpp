@@ -3,8 +3,8 @@
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"
-#include "tests/support/seed.h"
 #include "tests/support/scenes/texture.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "tests/support/seed.h"
 #include "tests/support/scenes/tiles.h"
+#include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/geometry/camera.h>
 #include <tests/support/seed.h>
 
 #include <cmath>

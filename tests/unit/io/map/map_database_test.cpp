@@ -102,7 +102,8 @@ TEST_F(MapDatabaseFaults, ALoopModelThatThereIsNotIsNamed) {
 // Schema 1 had no more columns of loops than these.
 TEST_F(MapDatabaseFaults, AMapOfTheFirstSchemaIsReadAndUpgradedWhenWritten) {
   change(
-      "BEGIN; ALTER TABLE frame DROP COLUMN inliers; ALTER TABLE loop DROP COLUMN model; ALTER TABLE loop DROP COLUMN lines;"
+      "BEGIN; ALTER TABLE frame DROP COLUMN inliers; ALTER TABLE loop DROP COLUMN model; ALTER "
+      "TABLE loop DROP COLUMN lines;"
       "ALTER TABLE loop DROP COLUMN likeness; ALTER TABLE loop DROP COLUMN probability;"
       "PRAGMA user_version = 1; COMMIT");
   const Map old = read_map(path).map;

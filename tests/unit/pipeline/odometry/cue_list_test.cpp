@@ -18,7 +18,8 @@ TEST(Cues, AreThoseNamed) {
 }
 
 TEST(Cues, UnknownRepeatedOrUselessOnesAreRefusedByName) {
-  for (const char* names : {"", "points,wheels", "points,points", "points,,lines", "points,", "manhattan"})
+  for (const char* names :
+       {"", "points,wheels", "points,points", "points,,lines", "points,", "manhattan"})
     EXPECT_THROW((void)parse_cues(names), ArgumentError) << names;
   try {
     (void)parse_cues("points,wheels");
