@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/map_revisits.h>
 #include <placegraph/graph/place_transitions.h>
 
@@ -43,7 +44,7 @@ void visit(OptionVisitor& field, MapRevisitOptions& o) {
 
 std::vector<LoopPrediction> map_revisits(const Map& map, const MapRevisitOptions& options) {
   options.check();
-  const double least_cosine = std::cos(options.max_angle_deg * std::numbers::pi / 180);
+  const double least_cosine = std::cos(deg_to_rad(options.max_angle_deg));
   const Trajectory trajectory = map.trajectory_optimized();
   const Neighbours next_to = neighbours_of(map);
   std::unordered_map<std::int64_t, std::int64_t> place_of;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/io/config/yaml_config.h>
@@ -71,7 +72,7 @@ json where(const Explanation& told, const Map& map) {
   at["covariance"] = rows;
   const Vector6d sigma = told.covariance->diagonal().cwiseMax(0).cwiseSqrt();
   at["sigma_position"] = sigma.head<3>().norm();
-  at["sigma_angle_deg"] = sigma.tail<3>().norm() * 180 / M_PI;
+  at["sigma_angle_deg"] = rad_to_deg(sigma.tail<3>().norm());
   return at;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/plots/plot.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/route.h>
 #include <CLI/CLI.hpp>
@@ -32,7 +33,7 @@ struct RouteArguments {
 /// Between where a place's view looks (its z axis) and where the way goes on from there [deg].
 double off_travel_deg(const RouteStep& next) {
   const Eigen::Vector3d way = next.T_previous_place.translation();
-  return std::atan2(way.head<2>().norm(), way.z()) * 180 / std::numbers::pi;
+  return rad_to_deg(std::atan2(way.head<2>().norm(), way.z()));
 }
 
 json step_json(const Route& route, std::size_t i, const RunMap& map) {

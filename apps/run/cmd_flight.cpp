@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/eval/trajectory/body_state_error.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/euroc.h>
@@ -114,7 +115,7 @@ json describe_error(const std::vector<BodyState>& truth, const std::vector<BodyS
           {"position_rmse_m", error.position_rmse_m},
           {"position_max_m", error.position_max_m},
           {"velocity_rmse_mps", error.velocity_rmse_mps},
-          {"attitude_rmse_deg", error.attitude_rmse_rad * 180 / std::numbers::pi},
+          {"attitude_rmse_deg", rad_to_deg(error.attitude_rmse_rad)},
           {"end_error_m", error.end_error_m},
           {"way_m", error.way_m},
           {"anees", number(error.anees)},
@@ -209,7 +210,7 @@ std::string frames_csv(const HoverRun& run) {
   return text;
 }
 
-void print_summary(const json& summary, const std::string& folder) {
+void print_flight_summary(const json& summary, const std::string& folder) {
   std::printf("%s: %d of %d frames answered, %d with flow, %d with markers\n",
               summary["sequence"].get<std::string>().c_str(), summary["answered"].get<int>(),
               summary["frames"].get<int>(), summary["frames_with_flow"].get<int>(),
@@ -228,7 +229,7 @@ void print_summary(const json& summary, const std::string& folder) {
       summary["reading_ms_per_frame"].get<double>(), folder.c_str());
 }
 
-void print_stages(const json& summary) {
+void print_flight_stages(const json& summary) {
   const double frames = summary["frames"].get<double>();
   std::printf("%-16s %9s %13s\n", "stage", "calls", "CPU ms/frame");
   for (const json& stage : summary["stages"])
@@ -344,8 +345,8 @@ void run(const HoverArguments& arguments) {
   if (arguments.as_json)
     std::printf("%s\n", flown.summary.dump(1).c_str());
   else
-    print_summary(flown.summary, arguments.out);
-  if (arguments.profile && !arguments.as_json) print_stages(flown.summary);
+    print_flight_summary(flown.summary, arguments.out);
+  if (arguments.profile && !arguments.as_json) print_flight_stages(flown.summary);
   if (answers_of(flown.run).empty())
     throw NoAnswer(arguments.flight + ": no image could be told a state (" +
                    flown.run.frames.back().outcome.reason + ")");

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <opencv2/core.hpp>
 
 #include "apps/support/labelled_set.h"
@@ -96,7 +97,7 @@ std::optional<Frame> handheld_view(const SyntheticWorld& world, const nlohmann::
                : 0.5 * (low.at(i) + high.at(i));
   };
   const double x = inside(0), z = inside(1), height = random.uniform(1.1, 1.7);
-  const Eigen::Vector3d yaw(0, random.uniform(-M_PI, M_PI), 0);
+  const Eigen::Vector3d yaw(0, random.uniform(-std::numbers::pi, std::numbers::pi), 0);
   const Eigen::Vector3d pitch(random.uniform(-0.7, 0.2), 0, 0),
       roll(0, 0, random.uniform(-0.5, 0.5));
   const Eigen::Vector3d origin = world.tour().T_scene_cam.front().translation();

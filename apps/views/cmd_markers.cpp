@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <opencv2/imgcodecs.hpp>
 
 #include "apps/support/calib_option.h"
@@ -129,7 +130,7 @@ void print(const MarkersArguments& arguments, const std::vector<Found>& markers,
     fmt::print(" px\n");
     for (const MarkerPose& pose : found.poses.poses) {
       const Eigen::Vector3d& t = pose.T_cam_marker.translation();
-      const Eigen::Vector3d w = pose.T_cam_marker.rotation().log() * (180 / M_PI);
+      const Eigen::Vector3d w = pose.T_cam_marker.rotation().log() * (180 / std::numbers::pi);
       fmt::print(
           "        at {:.4f} {:.4f} {:.4f} m, turned by {:.2f} {:.2f} {:.2f} deg, chi2 {:.1f}\n",
           t.x(), t.y(), t.z(), w.x(), w.y(), w.z(), pose.chi2);

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <set>
 
 #include "apps/support/calib_option.h"
@@ -262,7 +263,7 @@ ordered_json answer_json(const MotionArguments& arguments, const Answer& answer,
 }
 
 void print(const MotionArguments& arguments, const Answer& answer, double cpu_ms) {
-  constexpr double kDeg = 180 / M_PI;
+  constexpr double kDeg = 180 / std::numbers::pi;
   fmt::print("{}: {}, {} of {} matches\n", arguments.in, answer.model, answer.inliers.size(),
              answer.matches);
   const Eigen::Matrix3d of_rotation = answer.covariance.bottomRightCorner<3, 3>();

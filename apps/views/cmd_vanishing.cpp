@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "apps/support/calib_option.h"
 #include "apps/support/output.h"
@@ -106,8 +107,8 @@ void print(const VanishingArguments& arguments, std::size_t segments, const Scen
   }
   for (std::size_t f = 0; f < scene.frames.size(); ++f) {
     const ManhattanFrame& frame = scene.frames[f];
-    const Eigen::Vector3d w = frame.R_cam_manhattan.log() * (180 / M_PI);
-    const Eigen::Vector3d s = frame.covariance.diagonal().cwiseSqrt() * (180 / M_PI);
+    const Eigen::Vector3d w = frame.R_cam_manhattan.log() * (180 / std::numbers::pi);
+    const Eigen::Vector3d s = frame.covariance.diagonal().cwiseSqrt() * (180 / std::numbers::pi);
     fmt::print(
         "  world {}: turned by {:.3f} {:.3f} {:.3f} deg, known to {:.3f} {:.3f} {:.3f} deg\n", f,
         w.x(), w.y(), w.z(), s.x(), s.y(), s.z());

@@ -1,4 +1,5 @@
 #include <placegraph/backend/georeference/gps_alignment.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -81,7 +82,7 @@ double angle_sigma_deg(const std::vector<PositionPair>& pairs, const std::vector
       (group == AlignmentGroup::kPlanar ? spread[1] + spread[2] : spread[0] + spread[1]);
   if (!(across > 1e-18 * scale * scale * spread[2])) return 180;
   const double sigma = std::sqrt(variance / n / across);
-  return std::min(180.0, sigma * 180 / std::numbers::pi);
+  return std::min(180.0, rad_to_deg(sigma));
 }
 
 double path_length(const std::vector<PositionPair>& pairs) {

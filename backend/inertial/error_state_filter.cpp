@@ -1,6 +1,8 @@
 #include <placegraph/backend/inertial/error_state_filter.h>
+#include <placegraph/backend/inertial/state_layout.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/time.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -15,12 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Code = Outcome::Code;
-
-constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9, kAccelBias = 12;
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return 1e-9 * static_cast<double>(to_ns - from_ns);
-}
 
 bool positive_definite(const MatrixXd& matrix) {
   return matrix.allFinite() && Eigen::LLT<MatrixXd>(matrix).info() == Eigen::Success;

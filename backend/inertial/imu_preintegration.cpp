@@ -1,11 +1,11 @@
 #include <placegraph/backend/inertial/imu_preintegration.h>
+#include <placegraph/backend/inertial/state_layout.h>
 
 namespace placegraph {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6;
 
 }  // namespace
 

@@ -1,4 +1,5 @@
 #include <placegraph/backend/inertial/inertial_factors.h>
+#include <placegraph/backend/inertial/state_layout.h>
 
 #include <Eigen/Cholesky>
 
@@ -8,9 +9,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9, kAccelBias = 12;
 
-MatrixXd inverse(const MatrixXd& covariance) {
+MatrixXd information_of(const MatrixXd& covariance) {
   const MatrixXd information =
       covariance.ldlt().solve(MatrixXd::Identity(covariance.rows(), covariance.cols()));
   return 0.5 * (information + information.transpose());
@@ -88,7 +88,7 @@ StateError inertial_error(const ImuPreintegration& motion, const BodyState& firs
   };
   covariance.block<3, 3>(kGyroBias, kGyroBias) = walk(noise.gyro_bias_walk);
   covariance.block<3, 3>(kAccelBias, kAccelBias) = walk(noise.accel_bias_walk);
-  error.information = inverse(covariance);
+  error.information = information_of(covariance);
   return error;
 }
 
@@ -104,7 +104,7 @@ StateError pose_error(const PoseSighting& sighting, const BodyState& state) {
   error.J_first = MatrixXd::Zero(6, 15);
   error.J_first.block<3, 3>(0, kPosition) = to_seen;
   error.J_first.block<3, 3>(3, kAttitude) = SO3::right_jacobian_inverse(turn);
-  error.information = inverse(sighting.covariance);
+  error.information = information_of(sighting.covariance);
   return error;
 }
 
@@ -146,7 +146,7 @@ std::optional<StateError> flow_error(const FlowSighting& sighting, const SE3& T_
     error.J_second.block<3, 3>(0, kAttitude) -=
         *sighting.J_turn * SO3::right_jacobian_inverse(Vector3d(-wrong)) * R_cam_body;
   }
-  error.information = inverse(sighting.covariance);
+  error.information = information_of(sighting.covariance);
   return error;
 }
 

@@ -1,6 +1,7 @@
 #include <placegraph/backend/inertial/inertial_window.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/time.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -13,20 +14,18 @@ using Code = Outcome::Code;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return 1e-9 * static_cast<double>(to_ns - from_ns);
-}
-
-bool positive_definite(const MatrixXd& matrix) {
+bool usable_covariance(const MatrixXd& matrix) {
   return matrix.allFinite() && Eigen::LLT<MatrixXd>(matrix).info() == Eigen::Success;
 }
 
-MatrixXd inverse(const MatrixXd& matrix) {
+MatrixXd symmetric_inverse(const MatrixXd& matrix) {
   const MatrixXd result = matrix.ldlt().solve(MatrixXd::Identity(matrix.rows(), matrix.cols()));
   return 0.5 * (result + result.transpose());
 }
 
-Outcome not_started() { return Outcome::failure(Code::kNotAttempted, "the window has not begun"); }
+Outcome window_not_started() {
+  return Outcome::failure(Code::kNotAttempted, "the window has not begun");
+}
 
 }  // namespace
 
@@ -119,7 +118,7 @@ InertialWindow::InertialWindow(const InertialWindowOptions& options, const SE3& 
 void InertialWindow::start(const BodyState& state) {
   require(state.T_world_body.translation().allFinite() && state.velocity_world.allFinite() &&
               state.gyro_bias.allFinite() && state.accel_bias.allFinite() &&
-              positive_definite(state.covariance),
+              usable_covariance(state.covariance),
           "InertialWindow: the state to start from or its covariance is unusable");
   states_.clear();
   samples_.clear();
@@ -127,7 +126,7 @@ void InertialWindow::start(const BodyState& state) {
   first.value = state;
   states_.push_back(first);
   prior_at_ = state;
-  prior_.H = inverse(state.covariance);
+  prior_.H = symmetric_inverse(state.covariance);
   prior_.b = VectorXd::Zero(15);
   // At rest until the inertial sensor speaks; then as it says.
   begins_at_rest_ = true;
@@ -137,7 +136,7 @@ void InertialWindow::start(const BodyState& state) {
 }
 
 Outcome InertialWindow::add(const ImuSample& sample) {
-  if (states_.empty()) return not_started();
+  if (states_.empty()) return window_not_started();
   if (!sample.gyro_rad_s.allFinite() || !sample.accel_m_s2.allFinite())
     return Outcome::failure(Code::kInconsistent, "the inertial sample is not finite");
   if (sample.stamp_ns <= samples_.back().stamp_ns)
@@ -229,21 +228,21 @@ bool InertialWindow::believed(const StateError& error, std::size_t index) const 
     std::vector<StateMatrix> H;
     std::vector<StateStep> g;
     chain.eliminate_forwards(H, g);
-    covariance.topLeftCorner<15, 15>() = inverse(H.back());
+    covariance.topLeftCorner<15, 15>() = symmetric_inverse(H.back());
     J << error.J_first, MatrixXd::Zero(error.r.size(), 15);
   } else {
-    covariance = inverse(chain.pair_information(index));
+    covariance = symmetric_inverse(chain.pair_information(index));
     J.leftCols<15>() = error.J_first;
     J.rightCols<15>() = alone ? MatrixXd::Zero(error.r.size(), 15) : error.J_second;
   }
-  const MatrixXd S = J * covariance * J.transpose() + inverse(error.information);
+  const MatrixXd S = J * covariance * J.transpose() + symmetric_inverse(error.information);
   const double chi2 = error.r.dot(S.ldlt().solve(error.r));
   return chi2 <= chi_squared_quantile(options_.gate, static_cast<int>(error.r.size()));
 }
 
 Outcome InertialWindow::add(const PoseSighting& sighting) {
-  if (states_.empty()) return not_started();
-  if (!sighting.T_world_body.translation().allFinite() || !positive_definite(sighting.covariance))
+  if (states_.empty()) return window_not_started();
+  if (!sighting.T_world_body.translation().allFinite() || !usable_covariance(sighting.covariance))
     return Outcome::failure(Code::kInconsistent, "the pose or its covariance is unusable");
   std::size_t index = 0;
   const Outcome reached = reach(sighting.stamp_ns, index);
@@ -259,8 +258,8 @@ Outcome InertialWindow::add(const PoseSighting& sighting) {
 }
 
 Outcome InertialWindow::add(const FlowSighting& sighting) {
-  if (states_.empty()) return not_started();
-  if (!sighting.over_distance.allFinite() || !positive_definite(sighting.covariance) ||
+  if (states_.empty()) return window_not_started();
+  if (!sighting.over_distance.allFinite() || !usable_covariance(sighting.covariance) ||
       sighting.to_ns <= sighting.from_ns)
     return Outcome::failure(Code::kInconsistent, "the flow or its covariance is unusable");
   std::size_t from = 0, to = 0;
@@ -320,7 +319,7 @@ void InertialWindow::improve(int iterations) {
 InertialWindow::Answer InertialWindow::solve() {
   Answer answer;
   if (states_.empty()) {
-    answer.outcome = not_started();
+    answer.outcome = window_not_started();
     return answer;
   }
   improve(options_.max_iterations);
@@ -331,7 +330,7 @@ InertialWindow::Answer InertialWindow::solve() {
   const std::vector<StateMatrix> backwards = chain.eliminate_backwards();
   for (std::size_t k = 0; k < states_.size(); ++k) {
     // Both directions count what is of the state itself.
-    states_[k].value.covariance = inverse(forwards[k] + backwards[k] - chain.diagonal[k]);
+    states_[k].value.covariance = symmetric_inverse(forwards[k] + backwards[k] - chain.diagonal[k]);
     answer.states.push_back(states_[k].value);
   }
   answer.outcome = Outcome::ok();

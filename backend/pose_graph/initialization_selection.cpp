@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace placegraph {
 namespace {
@@ -298,7 +299,7 @@ bool windings_are_settled(const PackedGraph<Group>& graph) {
     // What both ways share does not belong to the cycle; counted all the same, to be careful.
     const double variance = factor * (from.variance + to.variance + residuals[e].variance);
     const double sum = (from.angles + residuals[e].angles - to.angles).norm();
-    if (2 * M_PI * (M_PI - sum) < kLogOdds * variance) return false;
+    if (2 * std::numbers::pi * (std::numbers::pi - sum) < kLogOdds * variance) return false;
   }
   return true;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace placegraph {
 namespace {
@@ -33,8 +34,9 @@ class RingPosterior {
   RingPosterior(const Mixture& m, int dof, double log_volume)
       : scale_(m.scale),
         wide_scale_(m.wide_scale),
-        closes_(std::log(m.share) - 0.5 * dof * std::log(2 * M_PI * m.scale)),
-        confused_(std::log(m.wide_share) - 0.5 * dof * std::log(2 * M_PI * m.wide_scale)),
+        closes_(std::log(m.share) - 0.5 * dof * std::log(2 * std::numbers::pi * m.scale)),
+        confused_(std::log(m.wide_share) -
+                  0.5 * dof * std::log(2 * std::numbers::pi * m.wide_scale)),
         anywhere_(std::log(1 - m.share - m.wide_share) - log_volume) {}
 
   Posterior operator()(const RingMisclosure& ring) const {
@@ -117,7 +119,8 @@ double tangent_volume(const PackedGraph<Group>& graph, const OdometryChain<Group
   // than a tenth of its length (a plane walked in 3D).
   const typename Group::Point extent =
       2 * (high - low).cwiseMax(0.1 * (high - low).norm()).cwiseMax(1e-9);
-  const double rotations = Group::kDof == 3 ? 2 * M_PI : 8 * M_PI * M_PI;
+  const double rotations =
+      Group::kDof == 3 ? 2 * std::numbers::pi : 8 * std::numbers::pi * std::numbers::pi;
   constexpr double kLogScales = 2;  // a factor of e in either direction
   return extent.prod() * rotations * (Group::kDof == 7 ? kLogScales : 1);
 }

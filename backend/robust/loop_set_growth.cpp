@@ -5,6 +5,7 @@
 #include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 
 namespace placegraph {
@@ -195,7 +196,8 @@ class Growth {
         (edge.T_to_from * (graph_.poses[edge.from].inverse() * graph_.poses[edge.to])).log();
     constexpr int dim = Group::kDof == 3 ? 2 : 3;
     return error.template head<dim>().norm() <= options_.nearly_right * extent_ &&
-           error.template tail<Group::kDof - dim>().norm() <= options_.nearly_right * M_PI;
+           error.template tail<Group::kDof - dim>().norm() <=
+               options_.nearly_right * std::numbers::pi;
   }
 
   PackedGraph<Group>& graph_;

@@ -1,6 +1,7 @@
 #include <placegraph/eval/loops/loop_check.h>
 #include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -47,8 +48,7 @@ LoopCheck check_loops(const Trajectory& truth, const std::vector<LoopRecord>& lo
     checked.query_frame = static_cast<int>(loop.query_frame);
     checked.match_frame = static_cast<int>(loop.match_frame);
     checked.translation_error_m = error.topRightCorner<3, 1>().norm();
-    checked.rotation_error_deg =
-        rotation_angle(error.topLeftCorner<3, 3>()) * 180 / std::numbers::pi;
+    checked.rotation_error_deg = rad_to_deg(rotation_angle(error.topLeftCorner<3, 3>()));
     checked.correct = checked.translation_error_m <= options.max_translation_m &&
                       checked.rotation_error_deg <= options.max_rotation_deg;
     ++(checked.correct ? result.correct : result.wrong);

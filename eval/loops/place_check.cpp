@@ -1,5 +1,6 @@
 #include <placegraph/eval/loops/place_check.h>
 #include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>
 
@@ -29,7 +30,7 @@ double distance_between(const Isometry& a, const Isometry& b) {
 }
 
 double angle_between(const Isometry& a, const Isometry& b) {
-  return rotation_angle(a.linear().transpose() * b.linear()) * 180 / std::numbers::pi;
+  return rad_to_deg(rotation_angle(a.linear().transpose() * b.linear()));
 }
 
 const std::optional<Isometry>& true_pose(const Trajectory& truth, std::int64_t frame) {

@@ -1,5 +1,6 @@
 #include <placegraph/eval/loops/same_view.h>
 #include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <numbers>
 
@@ -16,7 +17,7 @@ bool SameView::holds(const Eigen::Isometry3d& T_world_a, const Eigen::Isometry3d
   if ((T_world_a.translation() - T_world_b.translation()).squaredNorm() > radius_m * radius_m)
     return false;
   const Eigen::Matrix3d R_a_b = T_world_a.linear().transpose() * T_world_b.linear();
-  return rotation_angle(R_a_b) <= heading_deg * std::numbers::pi / 180;
+  return rotation_angle(R_a_b) <= deg_to_rad(heading_deg);
 }
 
 }  // namespace placegraph

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/plots/growth_plot.h>
 #include <placegraph/eval/plots/plot_canvas.h>
+#include <placegraph/eval/plots/plot_style.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -12,11 +13,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kPanelWidth = 800, kHeight = 640;
-constexpr Colour kInk = {40, 40, 40}, kGrid = {228, 228, 228}, kFrame = {120, 120, 120},
-                 kWhite = {255, 255, 255}, kProportion = {150, 150, 150};
-constexpr Colour kPalette[] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}};
-constexpr double kTextPx = 17, kTitlePx = 22;
+constexpr int kPanelWidth = 800, kPanelHeight = 640;
+constexpr Colour kProportion = {150, 150, 150};
+constexpr Colour kGrowthPalette[] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}};
 
 void check(const GrowthPlot& plot) {
   require(!plot.panels.empty(), "growth plot: no panels");
@@ -54,7 +53,7 @@ struct Area {
 
 // The same scale on both axes, what is shown in the middle.
 Area area_of(const GrowthPanel& panel, double left) {
-  Area area{{left + 100, 92}, kPanelWidth - 140.0, kHeight - 92.0 - 76, 0, {}, {}};
+  Area area{{left + 100, 92}, kPanelWidth - 140.0, kPanelHeight - 92.0 - 76, 0, {}, {}};
   for (const GrowthCurve& curve : panel.curves)
     for (std::size_t i = 0; i < curve.sizes.size(); ++i) {
       area.x.add(curve.sizes[i]);
@@ -113,7 +112,7 @@ void draw_legend(PlotCanvas& canvas, const Area& area, const GrowthPanel& panel)
     y += 26;
   };
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
-    entry(panel.curves[i].name, kPalette[i % std::size(kPalette)]);
+    entry(panel.curves[i].name, kGrowthPalette[i % std::size(kGrowthPalette)]);
   entry("in proportion", kProportion);
 }
 
@@ -132,7 +131,7 @@ void draw_panel(PlotCanvas& canvas, const GrowthPanel& panel, const std::string&
   };
   canvas.line({proportion(-10), proportion(10)}, kProportion, 1.5);
   for (std::size_t i = 0; i < panel.curves.size(); ++i)
-    draw_curve(canvas, area, panel.curves[i], kPalette[i % std::size(kPalette)]);
+    draw_curve(canvas, area, panel.curves[i], kGrowthPalette[i % std::size(kGrowthPalette)]);
   canvas.end_clip();
   draw_legend(canvas, area, panel);
   canvas.line({area.corner, {end[0], area.corner[1]}, end, {area.corner[0], end[1]}, area.corner},
@@ -156,12 +155,12 @@ std::string draw(const GrowthPlot& plot, PlotCanvas& canvas) {
 
 std::string to_svg(const GrowthPlot& plot) {
   check(plot);
-  return draw(plot, *svg_canvas(width_of(plot), kHeight));
+  return draw(plot, *svg_canvas(width_of(plot), kPanelHeight));
 }
 
 std::string to_png(const GrowthPlot& plot) {
   check(plot);
-  return draw(plot, *png_canvas(width_of(plot), kHeight));
+  return draw(plot, *png_canvas(width_of(plot), kPanelHeight));
 }
 
 }  // namespace placegraph

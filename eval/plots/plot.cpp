@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/plots/plot.h>
 #include <placegraph/eval/plots/plot_canvas.h>
+#include <placegraph/eval/plots/plot_style.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +13,10 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kHeight = 800, kWidth = 1600, kWidthWithoutErrors = 1000;
-constexpr Colour kInk = {40, 40, 40}, kGrid = {228, 228, 228}, kFrame = {120, 120, 120},
-                 kWhite = {255, 255, 255}, kReference = {150, 150, 150}, kLink = {0, 158, 115},
-                 kRejected = {213, 94, 0};
+constexpr Colour kReference = {150, 150, 150}, kLink = {0, 158, 115}, kRejected = {213, 94, 0};
 // Okabe & Ito: told apart by colour-blind readers too.
 constexpr Colour kPalette[] = {{0, 114, 178}, {213, 94, 0},   {204, 121, 167},
                                {230, 159, 0}, {86, 180, 233}, {0, 0, 0}};
-constexpr double kTextPx = 17, kTitlePx = 22;
 
 Colour palette(int estimate) {
   return kPalette[static_cast<std::size_t>(estimate) % std::size(kPalette)];

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/eval/plots/plot_canvas.h>
+#include <placegraph/eval/plots/plot_style.h>
 #include <placegraph/eval/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
 
@@ -8,12 +9,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kWidth = 900, kHeight = 800;
-constexpr Colour kInk = {40, 40, 40}, kGrid = {228, 228, 228}, kFrame = {120, 120, 120},
-                 kWhite = {255, 255, 255};
-constexpr Colour kPalette[] = {{0, 114, 178},   {213, 94, 0},  {0, 158, 115},
-                               {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
-constexpr double kTextPx = 17, kTitlePx = 22, kSide = 640;
+constexpr int kSquareWidth = 900, kSquareHeight = 800;
+constexpr Colour kCurvePalette[] = {{0, 114, 178},   {213, 94, 0},  {0, 158, 115},
+                                    {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
+constexpr double kSide = 640;
 const Vector2d kCorner(110, 70);  // of the square from (0, 0) to (1, 1)
 
 Vector2d px(double recall, double precision) {
@@ -55,14 +54,14 @@ std::string figures_of(const PrecisionRecall& figures) {
 
 std::string draw(const PrecisionRecallPlot& plot, PlotCanvas& canvas) {
   require(!plot.curves.empty(), "precision-recall plot: no curves");
-  canvas.text({kWidth / 2.0, 34}, plot.title, kTitlePx, kInk, TextAnchor::kMiddle);
+  canvas.text({kSquareWidth / 2.0, 34}, plot.title, kTitlePx, kInk, TextAnchor::kMiddle);
   draw_axes(canvas);
   for (std::size_t i = 0; i < plot.curves.size(); ++i)
-    draw_curve(canvas, plot.curves[i].figures, kPalette[i % std::size(kPalette)]);
+    draw_curve(canvas, plot.curves[i].figures, kCurvePalette[i % std::size(kCurvePalette)]);
   double y = px(0, 0)[1] - 16 - 26 * static_cast<double>(plot.curves.size() - 1);
   for (std::size_t i = 0; i < plot.curves.size(); ++i, y += 26) {
     const double x = kCorner[0] + 16;
-    canvas.line({{x, y - 6}, {x + 34, y - 6}}, kPalette[i % std::size(kPalette)], 2.5);
+    canvas.line({{x, y - 6}, {x + 34, y - 6}}, kCurvePalette[i % std::size(kCurvePalette)], 2.5);
     canvas.text({x + 46, y}, plot.curves[i].name + ": " + figures_of(plot.curves[i].figures),
                 kTextPx, kInk, TextAnchor::kLeft);
   }
@@ -72,11 +71,11 @@ std::string draw(const PrecisionRecallPlot& plot, PlotCanvas& canvas) {
 }  // namespace
 
 std::string to_svg(const PrecisionRecallPlot& plot) {
-  return draw(plot, *svg_canvas(kWidth, kHeight));
+  return draw(plot, *svg_canvas(kSquareWidth, kSquareHeight));
 }
 
 std::string to_png(const PrecisionRecallPlot& plot) {
-  return draw(plot, *png_canvas(kWidth, kHeight));
+  return draw(plot, *png_canvas(kSquareWidth, kSquareHeight));
 }
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #include <placegraph/eval/scene/floor_plan_check.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -69,8 +70,8 @@ class Sight {
   }
 
   bool sees(const Vector2d& at, const Vector2d& normal) const {
-    const double least_view = std::cos(options_.half_view_deg * M_PI / 180);
-    const double least_incidence = std::sin(options_.min_incidence_deg * M_PI / 180);
+    const double least_view = std::cos(deg_to_rad(options_.half_view_deg));
+    const double least_incidence = std::sin(deg_to_rad(options_.min_incidence_deg));
     return std::any_of(views_.begin(), views_.end(), [&](const View& view) {
       const Vector2d way = at - view.at;
       const double range = way.norm();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 namespace placegraph {
 
@@ -16,7 +17,7 @@ void check_orientation(const Image& labels, const Eigen::Matrix3d& R_cam_manhatt
   for (const Eigen::Vector3d& normal : normals_world) {
     int axis = 0;
     const double cosine = (R_manhattan_world * normal).cwiseAbs().maxCoeff(&axis);
-    truth.push_back(cosine > std::cos(M_PI / 6) ? axis + 1 : 0);
+    truth.push_back(cosine > std::cos(std::numbers::pi / 6) ? axis + 1 : 0);
   }
   for (int v = 0; v < labels.rows; ++v)
     for (int u = 0; u < labels.cols; ++u) {

@@ -1,4 +1,5 @@
 #include <placegraph/eval/trajectory/body_state_error.h>
+#include <placegraph/graph/core/time.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -8,10 +9,6 @@ namespace placegraph {
 namespace {
 
 using Vector15d = Eigen::Matrix<double, 15, 1>;
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return 1e-9 * static_cast<double>(to_ns - from_ns);
-}
 
 /// Squared error over its degrees of freedom in units of the covariance; nothing where that is not
 /// positive definite.

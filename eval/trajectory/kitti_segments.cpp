@@ -1,4 +1,5 @@
 #include <placegraph/eval/trajectory/kitti_segments.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -24,8 +25,7 @@ SegmentError error_between(const FramePair& first, const FramePair& last, double
   segment.last_frame = last.frame;
   segment.length_m = length_m;
   segment.t_percent = error.topRightCorner<3, 1>().norm() / length_m * 100;
-  segment.r_deg_per_100m =
-      acos_of_trace(error.topLeftCorner<3, 3>()) * 180 / std::numbers::pi / length_m * 100;
+  segment.r_deg_per_100m = rad_to_deg(acos_of_trace(error.topLeftCorner<3, 3>())) / length_m * 100;
   return segment;
 }
 

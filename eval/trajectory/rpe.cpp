@@ -1,4 +1,5 @@
 #include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <cmath>
 #include <numbers>
@@ -20,7 +21,7 @@ RpeResult rpe(const std::vector<FramePair>& pairs) {
     const Eigen::Matrix4d T_a_b_estimate = relative_pose(*a.T_world_estimate, *b.T_world_estimate);
     const Eigen::Matrix4d error = T_a_b_truth.inverse() * T_a_b_estimate;
     translations_m.push_back(error.topRightCorner<3, 1>().norm());
-    rotations_deg.push_back(rotation_angle(error.topLeftCorner<3, 3>()) * 180 / std::numbers::pi);
+    rotations_deg.push_back(rad_to_deg(rotation_angle(error.topLeftCorner<3, 3>())));
   }
   if (translations_m.empty()) {
     result.outcome =

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/core.hpp>
 
 namespace placegraph {
@@ -83,7 +84,8 @@ double best_rival(const Image& image_ref, const PlanarTemplate& planar_template,
   const double side = (corners[2] - corners[0]).norm() / std::sqrt(2.0);
   double rival = 0;
   for (int i = 0; i < trials; ++i) {
-    const double angle = random.uniform(0, 2 * M_PI), far = random.uniform(0.25, 1) * side;
+    const double angle = random.uniform(0, 2 * std::numbers::pi),
+                 far = random.uniform(0.25, 1) * side;
     const Vector2d aside = far * Vector2d(std::cos(angle), std::sin(angle));
     const AlignResult end =
         align(planar_template, image_ref, shifted(planar_template, aside), options);

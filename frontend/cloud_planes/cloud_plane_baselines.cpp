@@ -1,4 +1,5 @@
 #include <placegraph/frontend/cloud_planes/cloud_plane_baselines.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/core/ransac.h>
 
@@ -111,7 +112,7 @@ PlaneLabels planes_by_ransac(const CloudPoints& points, const CloudPlanesOptions
 
 PlaneLabels planes_by_growing(const CloudPoints& points, const CloudPlanesOptions& options) {
   constexpr std::size_t kPatch = 25;
-  const double turn_cos = std::cos(10 * M_PI / 180);
+  const double turn_cos = std::cos(deg_to_rad(10));
   PlaneLabels result;
   result.labels.assign(points.xyz.size(), -1);
   std::vector<FittedPlane> local(points.xyz.size());

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/cloud_planes/cuboids.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/quantile.h>
 
@@ -12,7 +13,6 @@
 namespace placegraph {
 namespace {
 
-constexpr double kDeg = M_PI / 180;
 /// Share of points that may lie on the wrong side, or beyond an end: labels err at edges.
 constexpr double kStray = 0.05;
 
@@ -85,9 +85,10 @@ EdgeSide edge_side(const Face& face, const Face& other, const Eigen::Vector3d& a
 Relation relation_of(const Face& a, const Face& b, const CloudNoise& noise,
                      const CuboidOptions& options) {
   Relation relation;
-  const double cosine = a.normal.dot(b.normal), off = std::sin(options.max_off_right_deg * kDeg);
+  const double cosine = a.normal.dot(b.normal),
+               off = std::sin(options.max_off_right_deg * kRadPerDeg);
   relation.right = std::abs(cosine) < off;
-  relation.opposite = cosine < -std::cos(options.max_off_right_deg * kDeg);
+  relation.opposite = cosine < -std::cos(options.max_off_right_deg * kRadPerDeg);
   if ((!relation.right && !relation.opposite) || a.points.empty() || b.points.empty())
     return relation;
   std::vector<double> heights_a, heights_b;

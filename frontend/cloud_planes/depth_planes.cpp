@@ -1,4 +1,5 @@
 #include <placegraph/frontend/cloud_planes/depth_planes.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 
@@ -14,7 +15,6 @@
 namespace placegraph {
 namespace {
 
-constexpr double kDeg = M_PI / 180;
 constexpr double kSigmas = 3;  ///< cells of a plane are this near
 
 /// Sums over pixels of rays (z = 1) and inverse depths.
@@ -335,7 +335,7 @@ DepthPlane Grid::describe(const Region& region) const {
   const Eigen::Matrix3d J = (Eigen::Matrix3d::Identity() - 2 * g * g.transpose() / square) / square;
   result.plane_cam = Plane3::from_closest_point(g / square);
   result.covariance = tangent_covariance(result.plane_cam, J * of_g * J.transpose()) +
-                      plane_information(result.plane_cam, options_.floor_deg * kDeg,
+                      plane_information(result.plane_cam, options_.floor_deg * kRadPerDeg,
                                         options_.floor_distance / std::sqrt(square))
                           .inverse();
   for (const int i : region.cells) {
@@ -382,7 +382,7 @@ std::vector<DepthPlane> find_depth_planes(const Image& depth_m, const Camera& de
     if (static_cast<int>(planes.size()) == options.max_planes) break;
     const DepthPlane plane = grid.describe(region);
     if (plane.covariance.allFinite() && !plane.points_cam.empty() &&
-        sigma_normal_rad(plane) < options.max_sigma_deg * kDeg)
+        sigma_normal_rad(plane) < options.max_sigma_deg * kRadPerDeg)
       planes.push_back(plane);
   }
   return planes;

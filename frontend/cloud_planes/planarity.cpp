@@ -1,4 +1,5 @@
 #include <placegraph/frontend/cloud_planes/planarity.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -10,8 +11,8 @@ namespace placegraph {
 namespace {
 
 constexpr int kSamples = 256;  ///< points of a segment that are looked at
-const double kAlikeCos = std::cos(10 * M_PI / 180), kGentleCos = std::cos(12 * M_PI / 180),
-             kCreaseCos = std::cos(30 * M_PI / 180);
+const double kAlikeCos = std::cos(deg_to_rad(10)), kGentleCos = std::cos(deg_to_rad(12)),
+             kCreaseCos = std::cos(deg_to_rad(30));
 
 std::vector<int> sample_points(const PlanarSegment& segment, const SuperPoints& cloud) {
   const int stride = std::max(1, static_cast<int>(segment.sums.count()) / kSamples);

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/cloud_planes/plane_labels.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <cmath>
 #include <unordered_map>
@@ -6,7 +7,7 @@
 namespace placegraph {
 namespace {
 
-const double kFacesCos = std::cos(20 * M_PI / 180);
+const double kFacesCos = std::cos(deg_to_rad(20));
 constexpr double kRise = 12;  ///< of a cell's chi2 per degree of freedom
 
 /// Whether a point's piece of surface may belong to a plane: it is no plane itself, or faces the

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/features/detector.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -55,7 +56,7 @@ std::vector<Feature> detect_features(const Image& image, const DetectorOptions& 
   std::vector<Feature> features(keypoints.size());
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     features[i].px = {keypoints[i].pt.x, keypoints[i].pt.y};
-    features[i].angle_rad = static_cast<float>(keypoints[i].angle * M_PI / 180);
+    features[i].angle_rad = static_cast<float>(deg_to_rad(keypoints[i].angle));
     features[i].octave = keypoints[i].octave;
     std::memcpy(features[i].descriptor.data(), descriptors.ptr(static_cast<int>(i)),
                 sizeof(BinaryDescriptor));

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/features/wide_matcher.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>
@@ -34,7 +35,7 @@ WidePoints detect_wide(const Image& image, const WideMatcherOptions& options, co
   }
   for (const cv::KeyPoint& key : keys) {
     points.px.emplace_back(key.pt.x, key.pt.y);
-    points.angle_rad.push_back(key.angle * M_PI / 180);
+    points.angle_rad.push_back(deg_to_rad(key.angle));
     points.size_px.push_back(key.size);
   }
   return points;

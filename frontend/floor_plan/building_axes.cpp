@@ -1,4 +1,5 @@
 #include <placegraph/frontend/floor_plan/building_axes.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +15,7 @@ Eigen::Vector3d shared_direction(const std::vector<SurfacePoint>& points,
                                  const Eigen::Vector3d& guess, std::size_t& count) {
   Eigen::Vector3d direction = guess.normalized();
   for (const double reach_deg : {30.0, 15.0, 8.0, 5.0, 5.0, 5.0}) {
-    const double least = std::cos(reach_deg * M_PI / 180);
+    const double least = std::cos(deg_to_rad(reach_deg));
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     count = 0;
     for (const SurfacePoint& point : points) {
@@ -63,7 +64,7 @@ std::optional<double> floor_level(const std::vector<std::pair<double, double>>& 
 std::optional<double> shared_turn(const std::vector<double>& angles) {
   if (angles.size() < kFewest) return std::nullopt;
   constexpr int kBins = 180;
-  const double quarter = M_PI / 2;
+  const double quarter = std::numbers::pi / 2;
   std::vector<int> histogram(kBins, 0);
   const auto wrap = [&](double a) { return a - quarter * std::floor(a / quarter); };
   for (const double a : angles)
@@ -80,7 +81,7 @@ std::optional<double> shared_turn(const std::vector<double>& angles) {
     int count = 0;
     for (const double a : angles) {
       const double d = std::remainder(a - turn, quarter);
-      if (std::abs(d) > reach * M_PI / 180) continue;
+      if (std::abs(d) > deg_to_rad(reach)) continue;
       sum += d, ++count;
     }
     if (count > 0) turn += sum / count;

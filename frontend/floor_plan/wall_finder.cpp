@@ -1,4 +1,5 @@
 #include <placegraph/frontend/floor_plan/wall_finder.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
 
 #include <Eigen/LU>
@@ -24,7 +25,7 @@ class SideCoverage {
     const double cells[2] = {voxels.columns() * voxels.cell_m(), voxels.rows() * voxels.cell_m()};
     alongs_ = static_cast<int>(cells[1 - axis] / kAlong_m) + 1;
     offsets_ = static_cast<int>(cells[axis] / kOffset_m) + 1;
-    const double least = std::cos(options.max_turn_deg * M_PI / 180);
+    const double least = std::cos(deg_to_rad(options.max_turn_deg));
     for (const PlacedPoint& p : points)
       if (sign * p.normal[axis] > least && p.sigma < options.max_sigma_m) points_.push_back(&p);
     layers_.assign(static_cast<std::size_t>(alongs_) * offsets_, 0);
@@ -171,7 +172,7 @@ class SideCoverage {
       piece.offset_m = x[0], piece.slope = x[1];
     }
     tell(near, piece);
-    return std::abs(piece.slope) < std::tan(options_.max_turn_deg * M_PI / 180);
+    return std::abs(piece.slope) < std::tan(deg_to_rad(options_.max_turn_deg));
   }
 
   void tell(const std::vector<const PlacedPoint*>& near, WallPiece& piece) const {

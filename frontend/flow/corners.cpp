@@ -15,13 +15,13 @@ constexpr int kSide = 2 * kRadius + 1;
 constexpr float kScale = 1.0f / (4 * kSide * 255);
 
 /// Products of gradients of one image row; the first and the last entry mean nothing.
-struct Row {
+struct GradientRow {
   std::vector<std::int32_t> xx, xy, yy;
-  explicit Row(std::size_t n = 0) : xx(n, 0), xy(n, 0), yy(n, 0) {}
+  explicit GradientRow(std::size_t n = 0) : xx(n, 0), xy(n, 0), yy(n, 0) {}
 };
 
 void gradient_products(const Image& image, int v, std::vector<std::int16_t>& gx,
-                       std::vector<std::int16_t>& gy, Row& row) {
+                       std::vector<std::int16_t>& gy, GradientRow& row) {
   const std::uint8_t *above = image.ptr(v - 1), *here = image.ptr(v), *below = image.ptr(v + 1);
   const int n = image.cols;
   std::int16_t *x = gx.data(), *y = gy.data();
@@ -70,7 +70,7 @@ class StrengthRows {
         xx_(image.cols),
         xy_(image.cols),
         yy_(image.cols) {
-    rows_.fill(Row(columns()));
+    rows_.fill(GradientRow(columns()));
     for (int i = 0; i < 2 * kRadius; ++i) enter();
   }
   /// Of the next row.
@@ -85,7 +85,7 @@ class StrengthRows {
  private:
   std::size_t columns() const { return static_cast<std::size_t>(image_.cols); }
   void enter() {
-    Row& oldest = rows_[static_cast<std::size_t>(count_ % kSide)];
+    GradientRow& oldest = rows_[static_cast<std::size_t>(count_ % kSide)];
     gradient_products(image_, next_++, gx_, gy_, fresh_);
     move_sum(sum_.xx, fresh_.xx, oldest.xx);
     move_sum(sum_.xy, fresh_.xy, oldest.xy);
@@ -97,8 +97,8 @@ class StrengthRows {
   const Image& image_;
   int next_, count_ = 0;
   std::vector<std::int16_t> gx_, gy_;
-  std::array<Row, kSide> rows_;
-  Row fresh_, sum_;
+  std::array<GradientRow, kSide> rows_;
+  GradientRow fresh_, sum_;
   Strengths xx_, xy_, yy_;
 };
 

@@ -30,18 +30,18 @@ struct Fit {
   bool degenerate = false;
 };
 
-struct Row {
+struct FlowRow {
   Eigen::Matrix<double, 2, Eigen::Dynamic> A;
   Vector2d y;
   Matrix2d information;
 };
 
-double mahalanobis(const Row& row, const VectorXd& x) {
+double mahalanobis(const FlowRow& row, const VectorXd& x) {
   const Vector2d e = row.y - row.A * x;
   return std::sqrt(e.dot(row.information * e));
 }
 
-Fit fit(const std::vector<Row>& rows) {
+Fit fit(const std::vector<FlowRow>& rows) {
   const auto n = static_cast<Eigen::Index>(rows.size());
   const Eigen::Index unknowns = rows[0].A.cols();
   Fit result;
@@ -52,7 +52,7 @@ Fit fit(const std::vector<Row>& rows) {
     MatrixXd normal = MatrixXd::Zero(unknowns, unknowns);
     VectorXd right = VectorXd::Zero(unknowns);
     for (Eigen::Index i = 0; i < n; ++i) {
-      const Row& row = rows[static_cast<std::size_t>(i)];
+      const FlowRow& row = rows[static_cast<std::size_t>(i)];
       normal += result.weights[i] * row.A.transpose() * row.information * row.A;
       right += result.weights[i] * row.A.transpose() * row.information * row.y;
     }
@@ -66,7 +66,7 @@ Fit fit(const std::vector<Row>& rows) {
     result.x = normal.ldlt().solve(right);
     result.information = normal;
     std::vector<double> deviations;
-    for (const Row& row : rows) deviations.push_back(mahalanobis(row, result.x));
+    for (const FlowRow& row : rows) deviations.push_back(mahalanobis(row, result.x));
     // Of two normal coordinates the median distance is 1.177 deviations.
     result.scale = std::max(1.0, median_of(deviations) / 1.1774);
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -92,7 +92,7 @@ MatrixXd covariance_of(const Fit& fitted) {
 
 /// Of what was fitted, by the right tangent of the turn that was taken out: its error moves all
 /// points together.
-MatrixXd by_turn(const Fit& fitted, const std::vector<Row>& rows,
+MatrixXd by_turn(const Fit& fitted, const std::vector<FlowRow>& rows,
                  const std::vector<const DerotatedFlow*>& flow) {
   MatrixXd J = MatrixXd::Zero(fitted.x.size(), 3);
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -146,12 +146,12 @@ VentralMotion ventral_motion(const std::vector<DerotatedFlow>& flow, const Vecto
   }
   // With X the point over the plane's distance and c the camera's way over it, the second view is
   // X - c: end = (X - c)_xy / (X - c)_z, which is linear in c. X = start / (normal . start).
-  std::vector<Row> rows;
+  std::vector<FlowRow> rows;
   std::vector<const DerotatedFlow*> used;
   for (const DerotatedFlow& f : flow) {
     const double inverse = normal.dot(f.start.homogeneous());
     if (!(inverse > 0.02)) continue;  // at or beyond the plane's horizon
-    Row row{Eigen::Matrix<double, 2, 3>(), f.flow(), f.covariance.inverse()};
+    FlowRow row{Eigen::Matrix<double, 2, 3>(), f.flow(), f.covariance.inverse()};
     row.A << -inverse, 0, inverse * f.end.x(), 0, -inverse, inverse * f.end.y();
     rows.push_back(row);
     used.push_back(&f);
@@ -204,9 +204,9 @@ AffineFlow affine_flow(const std::vector<DerotatedFlow>& flow,
     result.outcome = too_few(flow.size(), kLeast);
     return result;
   }
-  std::vector<Row> rows;
+  std::vector<FlowRow> rows;
   for (const DerotatedFlow& f : flow) {
-    Row row{Eigen::Matrix<double, 2, 6>::Zero(), f.flow(), f.covariance.inverse()};
+    FlowRow row{Eigen::Matrix<double, 2, 6>::Zero(), f.flow(), f.covariance.inverse()};
     row.A.block<1, 3>(0, 0) << 1, f.start.x(), f.start.y();
     row.A.block<1, 3>(1, 3) << 1, f.start.x(), f.start.y();
     rows.push_back(row);

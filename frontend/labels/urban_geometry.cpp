@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace placegraph {
 namespace {
@@ -44,7 +45,7 @@ double soft_box(double value, double low, double high, double sigma) {
   const double width = high - low;
   if (width < 0.2 * sigma) {
     const double x = (value - 0.5 * (low + high)) / sigma;
-    return std::exp(-0.5 * x * x) / (sigma * std::sqrt(2 * M_PI));
+    return std::exp(-0.5 * x * x) / (sigma * std::sqrt(2 * std::numbers::pi));
   }
   return (normal_cdf((value - low) / sigma) - normal_cdf((value - high) / sigma)) / width;
 }

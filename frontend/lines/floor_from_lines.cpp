@@ -1,4 +1,5 @@
 #include <placegraph/frontend/lines/floor_from_lines.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -8,8 +9,6 @@
 
 namespace placegraph {
 namespace {
-
-constexpr double kDeg = M_PI / 180;
 
 /// Deviation of a line's direction, the two turns of U that move it.
 double direction_sigma(const PlacedLine& line) {
@@ -24,7 +23,7 @@ constexpr double kEdgeShare = 0.3, kSharedShare = 0.1;  // of upright_deg
 std::vector<SharedDirection> directions_of(const std::vector<PlacedLine>& lines,
                                            const std::vector<SharedDirection>& shared,
                                            const FloorFromLinesOptions& options) {
-  const double tolerance = options.upright_deg * kDeg;
+  const double tolerance = options.upright_deg * kRadPerDeg;
   std::vector<SharedDirection> directions;
   for (const PlacedLine& line : lines) {
     const Eigen::Vector3d d = line.line_ref.direction();
@@ -48,7 +47,7 @@ std::optional<Eigen::Vector3d> vertical(const std::vector<SharedDirection>& dire
   Eigen::Vector3d down = down_guess;
   for (const double gate_deg : {options.max_tilt_deg, options.max_tilt_deg / 2,
                                 options.max_tilt_deg / 4, options.upright_deg}) {
-    const double gate = std::sin(gate_deg * kDeg);
+    const double gate = std::sin(gate_deg * kRadPerDeg);
     Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
     int used = 0;
     for (const auto& [d, sigma] : directions) {
@@ -63,12 +62,12 @@ std::optional<Eigen::Vector3d> vertical(const std::vector<SharedDirection>& dire
       ++used;
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A);
-    if (used < 2 || !(eigen.eigenvalues()[1] > 1 / (options.upright_deg * kDeg)))
+    if (used < 2 || !(eigen.eigenvalues()[1] > 1 / (options.upright_deg * kRadPerDeg)))
       return std::nullopt;
     const Eigen::Vector3d v = eigen.eigenvectors().col(0);
     down = v.dot(down) < 0 ? Eigen::Vector3d(-v) : v;
   }
-  if (down.dot(down_guess) < std::cos(options.max_tilt_deg * kDeg)) return std::nullopt;
+  if (down.dot(down_guess) < std::cos(options.max_tilt_deg * kRadPerDeg)) return std::nullopt;
   return down;
 }
 
@@ -111,7 +110,7 @@ std::vector<Mark> marks_of(const Camera& camera, const SE3& T_ref_cam,
                            const FloorFromLinesOptions& options) {
   constexpr double kBorder_px = 8;  // an edge that ends there goes on outside
   std::vector<Mark> marks;
-  const double gate = std::sin(options.upright_deg * kDeg);
+  const double gate = std::sin(options.upright_deg * kRadPerDeg);
   for (const PlacedLine& line : lines) {
     const Eigen::Vector3d d = line.line_ref.direction();
     const double sigma = direction_sigma(line);
@@ -237,7 +236,7 @@ FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
     for (const Mark& m : floor)
       add({e1.dot(m.point), e2.dot(m.point), -1}, -down->dot(m.point),
           std::hypot(m.sigma, options.unevenness * down->dot(m.point)));
-    const double gate = std::sin(options.upright_deg * kDeg);
+    const double gate = std::sin(options.upright_deg * kRadPerDeg);
     for (const auto& [d, sigma] : directions) {
       if (d.cross(*down).norm() < gate) {
         const double sign = d.dot(*down) < 0 ? -1 : 1;

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/frontend/lines/line_triangulation.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -53,7 +54,7 @@ std::optional<LineSegment> expected_in(const Camera& camera, const SE3& T_a_b,
 bool lies_along(const LineSegment& seen, const LineSegment& expected,
                 const LineFeatureMatcherOptions& options) {
   // Both know their polarity: the same edge runs the same way.
-  if (seen.direction().dot(expected.direction()) < std::cos(options.max_angle_deg * M_PI / 180))
+  if (seen.direction().dot(expected.direction()) < std::cos(deg_to_rad(options.max_angle_deg)))
     return false;
   if (std::abs(expected.offset_of(seen.middle())) > options.gate_px) return false;
   const double from = expected.position_of(seen.start), to = expected.position_of(seen.end);

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/lines/line_initializer.h>
 #include <placegraph/frontend/lines/relative_pose_from_lines.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -233,7 +234,7 @@ LineInitialization initialize_from_lines(const Camera& camera, const std::vector
     LineNormals m;
     for (std::size_t k = 0; k < 3; ++k) m[k] = normal_of(camera, three.views[k]->at(id));
     const double turn = m[0].cross(three.R_view_ref[2].inverse() * m[2]).norm();
-    if (turn < std::sin(options.min_turn_deg * M_PI / 180)) continue;
+    if (turn < std::sin(deg_to_rad(options.min_turn_deg))) continue;
     three.ids.push_back(id);
     three.normals.push_back(m);
   }

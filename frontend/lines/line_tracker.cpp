@@ -1,4 +1,5 @@
 #include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -119,7 +120,7 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
     const double border = options_.detector.border_px;
     const int coarsest =
         std::max(0, static_cast<int>(std::ceil(std::log2(options_.max_shift_px / 4))));
-    const double max_turn = options_.flow.max_turn_deg * M_PI / 180;
+    const double max_turn = deg_to_rad(options_.flow.max_turn_deg);
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       LineTrack track = tracks_[i];
       const LineSegment& wanted = expected.empty() ? track.edge.segment : expected[i];

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/lines/line_triangulation.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -108,7 +109,7 @@ TriangulatedLine triangulate_line(const Camera& camera, const std::vector<LineSi
   const auto start =
       meet(normals_ref[planes.a], normals_ref[planes.a].dot(a.T_ref_cam.translation()),
            normals_ref[planes.b], normals_ref[planes.b].dot(b.T_ref_cam.translation()));
-  const double needed = std::max(options.min_turn_deg * M_PI / 180,
+  const double needed = std::max(deg_to_rad(options.min_turn_deg),
                                  options.min_turn_sigmas * turn_sigma_rad(camera, a, b));
   if (!start || planes.turn_rad < needed) {
     result.outcome =

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace placegraph {
@@ -112,7 +113,7 @@ std::vector<double> trigonometric_roots(const std::array<double, 9>& values) {
   for (int k = 0; k <= kDegree; ++k) {
     Complex sum = 0;
     for (int j = 0; j <= kDegree; ++j)
-      sum += values[j] * std::polar(1.0, -2 * M_PI * j * (k - 4) / 9.0);
+      sum += values[j] * std::polar(1.0, -2 * std::numbers::pi * j * (k - 4) / 9.0);
     c[k] = sum / 9.0;
   }
   const double size = c.cwiseAbs().maxCoeff();
@@ -177,7 +178,7 @@ std::vector<SE3> solve_three_lines(const std::array<Line3, 3>& lines_ref,
   };
   std::array<double, 9> values;
   for (int j = 0; j < 9; ++j) {
-    const Eigen::Vector3d d = determinants(2 * M_PI * j / 9);
+    const Eigen::Vector3d d = determinants(2 * std::numbers::pi * j / 9);
     values[j] = d[1] * d[1] + d[2] * d[2] - d[0] * d[0];
   }
   std::vector<SE3> poses;

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/markers/marker_explanation.h>
 #include <placegraph/frontend/markers/marker_filter.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
 
@@ -16,7 +17,6 @@ namespace {
 using Code = Outcome::Code;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-constexpr double kRad = std::numbers::pi / 180;
 
 Vector6d difference(const SE3& from, const SE3& to) { return (from.inverse() * to).log(); }
 
@@ -25,7 +25,7 @@ Vector6d difference(const SE3& from, const SE3& to) { return (from.inverse() * t
 bool indistinct(const MarkerHypothesis& a, const MarkerHypothesis& b, bool filtered) {
   const Vector6d d = difference(a.T_world_body, b.T_world_body);
   const Matrix6d S = a.covariance + b.covariance;
-  constexpr double kSame_rad = kRad;
+  constexpr double kSame_rad = kRadPerDeg;
   return d.dot(S.ldlt().solve(d)) < chi_squared_quantile(0.99, 6) &&
          (filtered || d.tail<3>().norm() < kSame_rad);
 }
@@ -142,7 +142,7 @@ void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected
       const Vector3d way =
           hypothesis.T_world_body.translation() - parent.T_world_body.translation();
       const double turn_sigma =
-          view.turn_body ? options_.turn_sigma_deg * kRad : options_.max_turn_rad_s * dt;
+          view.turn_body ? options_.turn_sigma_deg * kRadPerDeg : options_.max_turn_rad_s * dt;
       const double way_sigma = options_.max_speed_m_s * dt;
       const Eigen::Matrix3d R = hypothesis.T_world_body.rotation().matrix();
       const Eigen::Matrix3d S_turn = turn_sigma * turn_sigma * Eigen::Matrix3d::Identity() +
@@ -164,7 +164,7 @@ void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected
       const Vector3d up = hypothesis.T_world_body.rotation() * *view.force_body;
       const double angle = std::atan2(up.head<2>().norm(), up.z());
       hypothesis.nats +=
-          log_likelihood(std::pow(angle / (options_.gravity_sigma_deg * kRad), 2), 2);
+          log_likelihood(std::pow(angle / (options_.gravity_sigma_deg * kRadPerDeg), 2), 2);
     }
   }
   if (!expected || !expected->deviation2) return;

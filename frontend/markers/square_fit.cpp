@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace placegraph {
@@ -149,7 +150,8 @@ Step step_at(double z) {
     std::array<Step, kEntries> steps;
     for (int i = 0; i < kEntries; ++i) {
       const double at = i / kPerUnit - kReach;
-      steps[i] = {std::erf(at * M_SQRT1_2), std::sqrt(2 / M_PI) * std::exp(-0.5 * at * at)};
+      steps[i] = {std::erf(at * M_SQRT1_2),
+                  std::sqrt(2 / std::numbers::pi) * std::exp(-0.5 * at * at)};
     }
     return steps;
   }();

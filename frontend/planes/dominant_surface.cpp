@@ -1,4 +1,5 @@
 #include <placegraph/frontend/planes/dominant_surface.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -76,7 +77,7 @@ DominantSurface::DominantSurface(const DominantSurfaceOptions& options, const Ca
       g_cam_(mounting_cam.normal.normalized() / mounting_cam.distance_m) {
   options_.check();
   require(mounting_cam.distance_m > 0, "DominantSurface: the distance must be positive");
-  widen(options_.mounting_sigma_deg * M_PI / 180, options_.mounting_sigma_distance);
+  widen(deg_to_rad(options_.mounting_sigma_deg), options_.mounting_sigma_distance);
 }
 
 Plane DominantSurface::plane_cam() const { return {g_cam_.normalized(), 1 / g_cam_.norm()}; }
@@ -99,7 +100,7 @@ void DominantSurface::predict(const SE3& T_cur_last) {
     g_cam_ = turned / stretch;
     covariance_ = J * covariance_ * J.transpose();
   }
-  widen(options_.pitching_sigma_deg * M_PI / 180, options_.distance_drift);
+  widen(deg_to_rad(options_.pitching_sigma_deg), options_.distance_drift);
 }
 
 std::vector<Vector2f> DominantSurface::pixels_of(SurfaceRegion region, const Image& mask) const {
@@ -205,7 +206,7 @@ SurfaceLook DominantSurface::look(const SurfaceDepths& depths, const SE3& T_cur_
     if (rank(look.outcome) > rank(best.outcome)) best = std::move(look);
   }
   if (best.outcome.code == Outcome::Code::kInconsistent)
-    widen(options_.slope_sigma_deg * M_PI / 180, options_.distance_drift);
+    widen(deg_to_rad(options_.slope_sigma_deg), options_.distance_drift);
   best.plane_cam = plane_cam();
   best.sigma_normal_rad = placegraph::sigma_normal_rad(g_cam_, covariance_);
   best.sigma_log_distance = placegraph::sigma_log_distance(g_cam_, covariance_);

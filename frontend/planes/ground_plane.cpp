@@ -1,4 +1,5 @@
 #include <placegraph/frontend/planes/ground_plane.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 
@@ -120,7 +121,7 @@ double zncc(const Level& level, const Matrix3d& R, const Vector3d& t, const Vect
 /// t = t_start + |t_start| B u with B across it, gain, bias.
 constexpr int kParameters = 10;
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
-using Normal = Eigen::Matrix<double, kParameters, kParameters>;
+using PlaneInformation = Eigen::Matrix<double, kParameters, kParameters>;
 
 /// A motion with the directions in which it is corrected.
 struct Motion {
@@ -148,13 +149,14 @@ struct Motion {
 struct Fit {
   Vector3d g;  // n/d
   double gain = 1, bias = 0;
-  Normal normal = Normal::Zero();  // whitened by the residuals' spread, prior included
+  PlaneInformation normal =
+      PlaneInformation::Zero();  // whitened by the residuals' spread, prior included
   int seen = 0;
 };
 
 /// Adds the priors: pitch and roll of g about the prior's normal, and the motion about its start.
-void add_priors(const GroundPlanePrior& prior, const Vector3d& g, const Motion& motion, Normal& H,
-                Parameters& b) {
+void add_priors(const GroundPlanePrior& prior, const Vector3d& g, const Motion& motion,
+                PlaneInformation& H, Parameters& b) {
   const Vector3d& n0 = prior.plane_ref.normal;
   const double length = g.norm();
   const Vector3d n = g / length;
@@ -211,7 +213,7 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
     if (fit.seen < 50) return;
     const double sigma = std::max(1.0, 1.4826 * median_of(magnitudes));
     const double cut = 4.685 * sigma;
-    Normal H = Normal::Zero();
+    PlaneInformation H = PlaneInformation::Zero();
     Parameters b = Parameters::Zero();
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (!(std::abs(residuals[i]) < cut)) continue;
@@ -315,7 +317,7 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
   result.plane_ref = {fit.g / length, 1 / (length * stretch)};
   result.T_cur_ref = SE3(motion.R, motion.t / stretch);
   result.zncc = zncc(levels[0], motion.R, motion.t, fit.g, samples, nullptr);
-  const Normal covariance = fit.normal.ldlt().solve(Normal::Identity());
+  const PlaneInformation covariance = fit.normal.ldlt().solve(PlaneInformation::Identity());
   const Vector3d n = result.plane_ref.normal;
   const double variance = n.dot(covariance.topLeftCorner<3, 3>() * n) / (length * length);
   result.sigma_log_distance = std::sqrt(std::max(0.0, variance));
@@ -355,7 +357,7 @@ GroundPlaneResult search_ground_plane(const Image& image_ref, const Image& image
   double best = -1;
   Plane best_plane;
   for (int tick = -8; tick <= 8; ++tick) {
-    const double pitch_rad = tick * 0.5 * M_PI / 180;
+    const double pitch_rad = deg_to_rad(tick * 0.5);
     const Plane candidate{SO3::exp(right * pitch_rad) * n0, 1};
     const auto samples = collect_samples(level, candidate, options, 3);
     for (double distance = 0.02 * step_length; distance < 50 * step_length; distance *= 1.03) {
@@ -371,7 +373,7 @@ GroundPlaneResult search_ground_plane(const Image& image_ref, const Image& image
     return failure;
   }
   // The search knows the pitch to its step, the roll not at all.
-  constexpr double kSigmaRad = 1.5 * M_PI / 180;
+  constexpr double kSigmaRad = deg_to_rad(1.5);
   return align_ground_plane(image_ref, image_cur, camera, T_cur_ref, {best_plane, kSigmaRad},
                             options, mask_ref);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace placegraph {
 namespace {
@@ -132,7 +133,7 @@ double TransferNoise::cost(const TransferError& error) const {
   const double s = error.squared / (sigma_px * sigma_px);
   const double tail =
       std::isfinite(freedom) ? 0.5 * (freedom + 2) * std::log1p(s / freedom) : s / 2;
-  return tail + std::log(2 * M_PI * sigma_px * sigma_px) + 0.5 * error.log_determinant;
+  return tail + std::log(2 * std::numbers::pi * sigma_px * sigma_px) + 0.5 * error.log_determinant;
 }
 
 double TransferNoise::weight(const TransferError& error) const {

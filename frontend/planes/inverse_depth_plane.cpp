@@ -1,4 +1,5 @@
 #include <placegraph/frontend/planes/inverse_depth_plane.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -90,7 +91,7 @@ InverseDepthPlane fit_inverse_depth_plane(const Pixels& pixels,
       std::max(1.0, result.chi2_per_dof) * information.ldlt().solve(Matrix3d::Identity());
   const double length = result.g_cam.norm();
   if (!(length > 0) || !result.covariance.allFinite() ||
-      !(sigma_normal_rad(result.g_cam, result.covariance) < options.max_sigma_deg * M_PI / 180) ||
+      !(sigma_normal_rad(result.g_cam, result.covariance) < deg_to_rad(options.max_sigma_deg)) ||
       !(sigma_log_distance(result.g_cam, result.covariance) < options.max_sigma_distance)) {
     result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the pixels leave it open");
     return result;

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 /// Share of a plane's matches that must lie in front of both cameras.
 constexpr double kInFront = 0.9;
 constexpr double kSameAngle_rad = 1e-3;  ///< readings closer than this are one
-constexpr double kMinCondition = 1e-14;
+constexpr double kMinMotionCondition = 1e-14;
 constexpr int kHalvings = 8;
 
 /// The motion and the planes while they are refined; planes as normal over distance.
@@ -50,17 +50,18 @@ Matrix3d skew(const Vector3d& v) {
   return m;
 }
 
-struct Normal {
+struct MotionEquations {
   MatrixXd information, expected;
   VectorXd gradient;
   double cost = 0;
 };
 
 /// Parameters: rotation (3), then, with a translation, its direction (2) and the planes (3 each).
-Normal normal_equations(const Views& views, const State& state) {
+MotionEquations normal_equations(const Views& views, const State& state) {
   const bool moves = !state.planes.empty();
   const auto size = static_cast<Eigen::Index>(3 + (moves ? 2 + 3 * state.planes.size() : 0));
-  Normal normal{MatrixXd::Zero(size, size), MatrixXd::Zero(size, size), VectorXd::Zero(size), 0};
+  MotionEquations normal{MatrixXd::Zero(size, size), MatrixXd::Zero(size, size),
+                         VectorXd::Zero(size), 0};
   const Eigen::Matrix<double, 3, 2> basis = across(moves ? state.t : Vector3d::UnitX());
   for (std::size_t k = 0; k < views.members.size(); ++k) {
     const Matrix3d M = state.euclidean(k);
@@ -104,15 +105,15 @@ State moved(const State& state, const VectorXd& step) {
 }
 
 /// Reweighted Gauss-Newton with halved steps.
-Normal refine(const Views& views, State& state, int max_iterations) {
-  Normal normal = normal_equations(views, state);
+MotionEquations refine(const Views& views, State& state, int max_iterations) {
+  MotionEquations normal = normal_equations(views, state);
   for (int i = 0; i < max_iterations && std::isfinite(normal.cost); ++i) {
     VectorXd step = normal.information.ldlt().solve(normal.gradient);
     if (!step.allFinite()) break;
     bool lower = false;
     for (int half = 0; half < kHalvings && !lower; ++half, step /= 2) {
       const State next = moved(state, step);
-      Normal trial = normal_equations(views, next);
+      MotionEquations trial = normal_equations(views, next);
       if (!(trial.cost < normal.cost)) continue;
       lower = normal.cost - trial.cost > 1e-9;
       state = next;
@@ -154,7 +155,8 @@ bool in_front(const Views& views, const State& state) {
   return true;
 }
 
-PlanesReading reading_of(const State& state, const Normal& normal, const TransferNoise& noise) {
+PlanesReading reading_of(const State& state, const MotionEquations& normal,
+                         const TransferNoise& noise) {
   PlanesReading reading;
   reading.T_cur_ref = SE3(state.R_cur_ref, state.t);
   reading.cost = normal.cost;
@@ -181,16 +183,16 @@ bool same(const PlanesReading& a, const PlanesReading& b) {
 }
 
 /// The rotation that explains all matches best, and its cost.
-Normal only_rotation(const Views& views, const PlanarRegionsResult& regions, State& best,
-                     int max_iterations) {
-  Normal least;
+MotionEquations only_rotation(const Views& views, const PlanarRegionsResult& regions, State& best,
+                              int max_iterations) {
+  MotionEquations least;
   least.cost = std::numeric_limits<double>::infinity();
   for (const PlanarRegion& region : regions.regions) {
     const Eigen::JacobiSVD<Matrix3d> svd(views.K_inverse * region.H_cur_ref * views.K,
                                          Eigen::ComputeFullU | Eigen::ComputeFullV);
     State state;
     state.R_cur_ref = SO3::from_matrix(svd.matrixU() * svd.matrixV().transpose());
-    Normal normal = refine(views, state, max_iterations);
+    MotionEquations normal = refine(views, state, max_iterations);
     if (!(normal.cost < least.cost)) continue;
     least = std::move(normal);
     best = state;
@@ -269,10 +271,11 @@ MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatch
 
   bool fixed = false;
   for (State& state : starts(views, regions)) {
-    const Normal normal = refine(views, state, options.max_iterations);
+    const MotionEquations normal = refine(views, state, options.max_iterations);
     if (!std::isfinite(normal.cost)) continue;
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(normal.expected, Eigen::EigenvaluesOnly);
-    if (!(eigen.eigenvalues()[0] > kMinCondition * eigen.eigenvalues().tail<1>()[0])) continue;
+    if (!(eigen.eigenvalues()[0] > kMinMotionCondition * eigen.eigenvalues().tail<1>()[0]))
+      continue;
     fixed = true;
     if (!in_front(views, state)) continue;
     PlanesReading reading = reading_of(state, normal, views.noise);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 namespace placegraph {
@@ -110,7 +111,7 @@ double Search::on_plane_cost(const Matrix3d& H, double noise_px, int i) const {
 
 /// Four points of the current view, each to the precision with which n matches give it.
 double Search::plane_cost(const Answer& answer, int n) const {
-  return 4 * (log_area_ - std::log(2 * M_PI * 2 * answer.noise_px * answer.noise_px) +
+  return 4 * (log_area_ - std::log(2 * std::numbers::pi * 2 * answer.noise_px * answer.noise_px) +
               std::log(std::max(n, 4) / 4.0));
 }
 

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/planes/plane_normal.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -97,7 +98,7 @@ bool faces(const Matrix3d& K, const std::vector<Vector2d>& corners, const Vector
 std::vector<Reading> readings_of(const Matrix3d& K, const std::vector<Vector2d>& corners,
                                  const std::vector<Matrix3d>& views,
                                  const PlaneNormalOptions& options) {
-  const double distinct = std::cos(options.distinct_deg * M_PI / 180);
+  const double distinct = std::cos(deg_to_rad(options.distinct_deg));
   std::vector<Vector3d> starts;
   const auto is_new = [&](const std::vector<Vector3d>& others, const Vector3d& n) {
     return std::none_of(others.begin(), others.end(),
@@ -190,7 +191,7 @@ PlaneNormal PlaneNormalEstimator::estimate() const {
   result.sigma_rad =
       least > 0 ? std::sqrt(spread / least) : std::numeric_limits<double>::infinity();
   constexpr double kChiSquared = 9.2;  // two degrees of freedom, 1 %
-  if (!(result.sigma_rad < options_.max_sigma_deg * M_PI / 180))
+  if (!(result.sigma_rad < deg_to_rad(options_.max_sigma_deg)))
     result.outcome = Outcome::failure(Code::kDegenerate, "the views leave the normal open");
   else if (readings.size() > 1 && readings[1].cost < best.cost + kChiSquared * spread)
     result.outcome = Outcome::failure(Code::kDegenerate, "two readings explain the views alike");

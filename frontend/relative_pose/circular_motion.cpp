@@ -1,5 +1,6 @@
 #include <placegraph/frontend/relative_pose/circular_motion.h>
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -39,8 +40,8 @@ std::vector<double> votes_of(const Views& views) {
     const Vector3d r = views.R_level_cam * views.x_ref[i], c = views.R_level_cam * views.x_cur[i];
     votes.push_back(2 * std::atan2(c.y() * r.x() - r.y() * c.x(), r.y() * c.z() + c.y() * r.z()));
     // tan has the period of half a turn: of the two yaws, the one below half a turn.
-    if (votes.back() > M_PI) votes.back() -= 2 * M_PI;
-    if (votes.back() < -M_PI) votes.back() += 2 * M_PI;
+    if (votes.back() > std::numbers::pi) votes.back() -= 2 * std::numbers::pi;
+    if (votes.back() < -std::numbers::pi) votes.back() += 2 * std::numbers::pi;
   }
   return votes;
 }
@@ -48,7 +49,7 @@ std::vector<double> votes_of(const Views& views) {
 /// The middles of the fullest bins, neighbours counted half, at least a bin apart.
 std::vector<double> fullest_bins(const std::vector<double>& votes, const CircularMotionOptions& o,
                                  std::size_t count) {
-  const double bin = o.bin_deg * M_PI / 180, most = o.max_yaw_deg * M_PI / 180;
+  const double bin = deg_to_rad(o.bin_deg), most = deg_to_rad(o.max_yaw_deg);
   const int half = static_cast<int>(std::ceil(most / bin));
   std::vector<double> histogram(2 * half + 1, 0), smooth(2 * half + 1, 0);
   for (const double vote : votes)

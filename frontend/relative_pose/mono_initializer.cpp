@@ -1,6 +1,7 @@
 #include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ Hypothesis triangulate_all(const Camera& camera, const std::vector<Eigen::Vector
                            const std::vector<Eigen::Vector2d>& px_cur,
                            const std::vector<int>& inliers, const SE3& T_ref_cur,
                            double max_error_px) {
-  constexpr double kMinParallaxRad = 0.1 * M_PI / 180;
+  constexpr double kMinParallaxRad = deg_to_rad(0.1);
   Hypothesis hypothesis{T_ref_cur, {}, {}, 0};
   hypothesis.points_ref.resize(px_ref.size());
   for (int i : inliers) {
@@ -119,8 +120,8 @@ MonoInitialization initialize_mono(const Camera& camera, const std::vector<Eigen
   result.triangulated = static_cast<int>(parallaxes.size());
   std::sort(parallaxes.begin(), parallaxes.end());
   if (!parallaxes.empty())
-    result.median_parallax_deg = parallaxes[parallaxes.size() / 2] * 180 / M_PI;
-  const double limit_rad = options.min_parallax_deg * M_PI / 180;
+    result.median_parallax_deg = rad_to_deg(parallaxes[parallaxes.size() / 2]);
+  const double limit_rad = deg_to_rad(options.min_parallax_deg);
   const auto wide =
       parallaxes.end() - std::lower_bound(parallaxes.begin(), parallaxes.end(), limit_rad);
   result.outcome = wide >= options.min_points

@@ -15,7 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-struct Views {
+struct PixelViews {
   const Camera& camera;
   const std::vector<Vector2d>& px_ref;
   const std::vector<Vector2d>& px_cur;
@@ -23,7 +23,7 @@ struct Views {
 };
 
 /// Squared Sampson distance [px^2] for x_cur^T E x_ref = 0.
-double sampson_px2(const Matrix3d& E, const Views& views, int i) {
+double sampson_px2(const Matrix3d& E, const PixelViews& views, int i) {
   const Vector3d a = E * views.x_ref[i];
   const Vector3d b = E.transpose() * views.x_cur[i];
   const double e = views.x_cur[i].dot(a);
@@ -31,14 +31,14 @@ double sampson_px2(const Matrix3d& E, const Views& views, int i) {
   return f * f * e * e / (a.head<2>().squaredNorm() + b.head<2>().squaredNorm());
 }
 
-double transfer_px2(const Matrix3d& H, const Matrix3d& H_inverse, const Views& views, int i) {
+double transfer_px2(const Matrix3d& H, const Matrix3d& H_inverse, const PixelViews& views, int i) {
   const Vector3d forward = H * views.px_ref[i].homogeneous();
   const Vector3d backward = H_inverse * views.px_cur[i].homogeneous();
   return std::max((forward.hnormalized() - views.px_cur[i]).squaredNorm(),
                   (backward.hnormalized() - views.px_ref[i]).squaredNorm());
 }
 
-RansacResult<Matrix3d> find_essential(const Views& views, const Pose2d2dOptions& options,
+RansacResult<Matrix3d> find_essential(const PixelViews& views, const Pose2d2dOptions& options,
                                       Random& random) {
   const int n = static_cast<int>(views.x_ref.size());
   opengv::bearingVectors_t bearings_ref(n), bearings_cur(n);
@@ -61,7 +61,7 @@ RansacResult<Matrix3d> find_essential(const Views& views, const Pose2d2dOptions&
                           solve, error, refine);
 }
 
-Matrix3d fit_homography(const Views& views, const std::vector<int>& indices) {
+Matrix3d fit_homography(const PixelViews& views, const std::vector<int>& indices) {
   std::vector<cv::Point2d> from, to;
   for (int i : indices) {
     from.emplace_back(views.px_ref[i].x(), views.px_ref[i].y());
@@ -73,7 +73,7 @@ Matrix3d fit_homography(const Views& views, const std::vector<int>& indices) {
   return H_cur_ref;
 }
 
-RansacResult<Matrix3d> find_homography(const Views& views, const Pose2d2dOptions& options,
+RansacResult<Matrix3d> find_homography(const PixelViews& views, const Pose2d2dOptions& options,
                                        Random& random) {
   const int n = static_cast<int>(views.px_ref.size());
   const auto solve = [&](const std::vector<int>& sample) {
@@ -129,7 +129,7 @@ Pose2d2dResult estimate_pose_2d2d(const Camera& camera, const std::vector<Vector
                                   const Pose2d2dOptions& options, Random& random) {
   require(px_ref.size() == px_cur.size(),
           "estimate_pose_2d2d: as many pixels in both views needed");
-  Views views{camera, px_ref, px_cur, {}, {}};
+  PixelViews views{camera, px_ref, px_cur, {}, {}};
   for (std::size_t i = 0; i < px_ref.size(); ++i) {
     views.x_ref.push_back(camera.unproject(px_ref[i]).value_or(Vector3d::UnitZ()));
     views.x_cur.push_back(camera.unproject(px_cur[i]).value_or(Vector3d::UnitZ()));

@@ -1,6 +1,7 @@
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/relative_pose/epipolar_refinement.h>
 #include <placegraph/frontend/relative_pose/pose_gravity.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -18,7 +19,7 @@ using Eigen::Vector3d;
 using Quadratic = std::array<double, 3>;
 using Sextic = Eigen::Matrix<double, 7, 1>;
 
-struct Views {
+struct LevelViews {
   const Camera& camera;
   std::vector<Vector3d> x_ref, x_cur;  // rays with z = 1
   Matrix3d R_level_ref, R_level_cur;   // down becomes (0, 1, 0)
@@ -58,7 +59,7 @@ std::vector<double> real_roots(const Eigen::Matrix<double, 5, 1>& c) {
   return roots;
 }
 
-std::vector<SE3> solve_three_points(const Views& views, const std::vector<int>& sample) {
+std::vector<SE3> solve_three_points(const LevelViews& views, const std::vector<int>& sample) {
   std::array<std::array<Quadratic, 3>, 3> M;
   for (int i = 0; i < 3; ++i)
     M[i] = constraint_row(views.R_level_cur * views.x_cur[sample[i]],
@@ -93,10 +94,10 @@ std::vector<SE3> solve_three_points(const Views& views, const std::vector<int>& 
 }
 
 /// On the epipolar errors and on what the verticals say of the rotation: R down_cur = down_ref.
-SE3 refine(const Views& views, const std::vector<int>& indices, const SE3& T_start,
+SE3 refine(const LevelViews& views, const std::vector<int>& indices, const SE3& T_start,
            const GravityPoseOptions& o, double sigma_px, int iterations, Matrix6d* information) {
   const Vector3d down_ref = views.R_level_ref.row(1), down_cur = views.R_level_cur.row(1);
-  const double sigma_down = std::sqrt(2.0) * o.sigma_gravity_deg * M_PI / 180;
+  const double sigma_down = deg_to_rad(std::sqrt(2.0) * o.sigma_gravity_deg);
   const auto verticals = [&](const SE3& T, Matrix6d& H, Vector6d& g) {
     // d (R exp(w) down_cur) / dw = -R hat(down_cur); about the vertical itself it is zero.
     const Matrix3d R = T.rotation().matrix();
@@ -133,8 +134,8 @@ GravityPoseResult estimate_pose_with_gravity(const Camera& camera,
   const auto level = [](const Vector3d& down) {
     return Eigen::Quaterniond::FromTwoVectors(down, Vector3d::UnitY()).toRotationMatrix();
   };
-  const Views views{camera, rays_of(camera, px_ref), rays_of(camera, px_cur), level(down_ref),
-                    level(down_cur)};
+  const LevelViews views{camera, rays_of(camera, px_ref), rays_of(camera, px_cur), level(down_ref),
+                         level(down_cur)};
   const int n = static_cast<int>(px_ref.size());
   std::optional<EpipolarError> of_last;
   const SE3* last = nullptr;

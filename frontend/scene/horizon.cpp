@@ -1,4 +1,5 @@
 #include <placegraph/frontend/scene/horizon.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -6,8 +7,6 @@
 
 namespace placegraph {
 namespace {
-
-constexpr double kRadian = 3.14159265358979323846 / 180;
 
 /// Normal equations of two tilts: down = normalize(d + a e1 + b e2).
 struct Tilts {
@@ -35,8 +34,8 @@ Horizon estimate_horizon(const std::vector<LineSegment>& segments, const Camera&
   const VanishingPoints found = find_vanishing_points(segments, camera, options.vanishing, random);
   Horizon horizon;
   const Eigen::Vector3d level = Eigen::Vector3d::UnitY();
-  const double most = std::sin(options.max_tilt_deg * kRadian);
-  const double structure = std::pow(options.structure_deg * kRadian, 2);
+  const double most = std::sin(options.max_tilt_deg * kRadPerDeg);
+  const double structure = std::pow(options.structure_deg * kRadPerDeg, 2);
   Tilts tilts;
   constexpr int kRounds = 15;
   for (int round = 0; round < kRounds; ++round) {
@@ -45,7 +44,7 @@ Horizon estimate_horizon(const std::vector<LineSegment>& segments, const Camera&
     basis.col(1) = horizon.down.cross(basis.col(0));
     tilts = {};
     horizon.directions = 0;
-    const double prior = 1 / std::pow(options.prior_deg * kRadian, 2);
+    const double prior = 1 / std::pow(options.prior_deg * kRadPerDeg, 2);
     for (int i = 0; i < 2; ++i)
       tilts.add(Eigen::Vector2d::Unit(i), -basis.col(i).dot(level), prior);
     for (const VanishingPoint& point : found.points) {
@@ -72,7 +71,7 @@ Horizon estimate_horizon(const std::vector<LineSegment>& segments, const Camera&
   }
   const Eigen::Matrix2d covariance = tilts.N.inverse();
   horizon.sigma_deg =
-      std::sqrt(covariance.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff()) / kRadian;
+      std::sqrt(covariance.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff()) / kRadPerDeg;
   horizon.outcome =
       horizon.directions > 0
           ? Outcome::ok()

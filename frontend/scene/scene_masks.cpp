@@ -6,9 +6,9 @@
 namespace placegraph {
 namespace {
 
-constexpr auto kSky = static_cast<std::size_t>(Surface::kSky);
-constexpr auto kGround = static_cast<std::size_t>(Surface::kGround);
-constexpr auto kObject = static_cast<std::size_t>(Surface::kObject);
+constexpr auto kSkyMask = static_cast<std::size_t>(Surface::kSky);
+constexpr auto kGroundMask = static_cast<std::size_t>(Surface::kGround);
+constexpr auto kObjectMask = static_cast<std::size_t>(Surface::kObject);
 
 void check_sizes(const std::vector<float>& surfaces, const SceneView& view) {
   require(surfaces.size() == static_cast<std::size_t>(view.superpixels.count) * kSurfaceCount &&
@@ -55,10 +55,10 @@ SceneMasks mask_scene(const std::vector<float>& surfaces, const SceneView& view,
   options.check();
   check_sizes(surfaces, view);
   SceneMasks masks;
-  if (options.ground) masks.ground = where(kGround, options.min_ground, surfaces, view);
+  if (options.ground) masks.ground = where(kGroundMask, options.min_ground, surfaces, view);
   masks.still = Image(view.rows, view.cols, CV_8UC1, cv::Scalar(255));
   if (options.moving) {
-    Image moving = where(kObject, options.min_moving, surfaces, view);
+    Image moving = where(kObjectMask, options.min_moving, surfaces, view);
     if (options.margin_px > 0) {
       const int side = 2 * options.margin_px + 1;
       cv::dilate(moving, moving, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
@@ -66,7 +66,7 @@ SceneMasks mask_scene(const std::vector<float>& surfaces, const SceneView& view,
     masks.still = ~moving;
   }
   masks.use = masks.still.clone();
-  if (options.sky) masks.use.setTo(0, where(kSky, options.min_sky, surfaces, view));
+  if (options.sky) masks.use.setTo(0, where(kSkyMask, options.min_sky, surfaces, view));
   const double left = cv::countNonZero(masks.use);
   if (left < options.min_share * static_cast<double>(masks.use.total())) {
     masks.use = Image();

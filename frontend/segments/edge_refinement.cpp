@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
@@ -109,7 +110,7 @@ std::optional<EdgeSegment> EdgeRefiner::fit(const std::vector<EdgePoint>& points
   for (const Eigen::Vector2d& px : kept) squared += std::pow(distance(*line, px), 2);
   const double variance = std::max(options_.min_sigma_px * options_.min_sigma_px,
                                    squared / static_cast<double>(kept.size() - 2));
-  line->covariance *= variance * std::max(1.0, 2 * std::sqrt(M_PI) * options_.blur_px);
+  line->covariance *= variance * std::max(1.0, 2 * std::sqrt(std::numbers::pi) * options_.blur_px);
   return EdgeSegment{{}, *line, median_of(gradients), static_cast<int>(kept.size())};
 }
 

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/segments/segment_flow.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -109,7 +110,7 @@ std::optional<SegmentFlow> follow_segment(const StripImage& from, const LineSegm
   for (int level = std::min(coarsest, to.level_of(1 << coarsest)); level >= 0; --level)
     if (!align_level(from, segment, to, expected, level, options, shift, lean)) return std::nullopt;
   const double turn = std::abs(std::atan2(2 * lean, expected.length()));
-  if (turn > options.max_turn_deg * M_PI / 180) return std::nullopt;
+  if (turn > deg_to_rad(options.max_turn_deg)) return std::nullopt;
   SegmentFlow flow;
   flow.segment = moved(expected, shift, lean);
   flow.shift_px = shift;

@@ -1,6 +1,7 @@
 #include <placegraph/frontend/segments/local_motion.h>
 #include <placegraph/frontend/segments/segment_matcher.h>
 #include <placegraph/frontend/segments/segment_strip.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Geometry>
@@ -89,7 +90,7 @@ std::optional<Overlap> overlap(const LineSegment& a, const Expectation& expected
   Overlap result;
   result.turn_rad =
       std::atan2(wanted.x() * direction.y() - wanted.y() * direction.x(), wanted.dot(direction));
-  if (std::abs(result.turn_rad) > options.max_angle_deg * M_PI / 180) return std::nullopt;
+  if (std::abs(result.turn_rad) > deg_to_rad(options.max_angle_deg)) return std::nullopt;
   const double from = position_along(b, a.start, expected.segment.start, F_b_a, expected.gate_px);
   const double to = position_along(b, a.end, expected.segment.end, F_b_a, expected.gate_px);
   if (to - from < 1) return std::nullopt;

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/segments/segment_merging.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ bool joined(const Piece& a, const Piece& b, double least_cosine,
   if ((a.middle - b.middle).squaredNorm() > reach * reach) return false;
   const Collinearity lie = collinearity(a.segment, b.segment);
   return lie.gap_px <= options.max_gap_px && lie.distance_px <= options.max_distance_px &&
-         lie.angle_rad <= options.max_angle_deg * M_PI / 180;
+         lie.angle_rad <= deg_to_rad(options.max_angle_deg);
 }
 
 /// One segment over all pieces; nothing if an end lies too far from the common line.
@@ -63,7 +64,7 @@ std::vector<LineSegment> merge_segments(const std::vector<LineSegment>& pieces,
   std::vector<Piece> known;
   for (const LineSegment& piece : pieces)
     known.push_back({piece, piece.direction(), piece.middle(), 0.5 * piece.length()});
-  const double least_cosine = std::cos(options.max_angle_deg * M_PI / 180) - 1e-9;
+  const double least_cosine = std::cos(deg_to_rad(options.max_angle_deg)) - 1e-9;
   DisjointSets sets(pieces.size());
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j)

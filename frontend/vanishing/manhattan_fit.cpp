@@ -7,8 +7,6 @@
 namespace placegraph {
 namespace {
 
-using Basis = Eigen::Matrix<double, 3, 2>;
-
 /// Normal equations of the lines of one axis, in the two directions across it.
 struct AxisEquations {
   Eigen::Matrix2d H = Eigen::Matrix2d::Zero();         ///< reweighted
@@ -21,7 +19,7 @@ std::array<AxisEquations, 3> equations(const VanishingEvidence& evidence, const 
                                        const std::vector<int>& axis) {
   const Eigen::Matrix3d M = R.matrix();
   std::array<AxisEquations, 3> result;
-  std::array<Basis, 3> basis;
+  std::array<TangentBasis, 3> basis;
   for (int a = 0; a < 3; ++a) {
     const std::size_t k = static_cast<std::size_t>(a);
     basis[k] << M.col((a + 1) % 3), M.col((a + 2) % 3);
@@ -86,8 +84,6 @@ Eigen::Vector3d observed_turn(const Eigen::Matrix3d& A, const Eigen::Vector3d& b
   const double norm = turn.norm();
   return norm > kMaxTurn ? Eigen::Vector3d(turn * (kMaxTurn / norm)) : turn;
 }
-
-double entropy_term(double n, double total) { return n > 0 ? -n * std::log(n / total) : 0; }
 
 /// Lines to the axes at the shares they have; evidence and cost by the lines' log-ratios.
 void assign(const VanishingEvidence& evidence, double widen_rad, ManhattanFit& fit) {

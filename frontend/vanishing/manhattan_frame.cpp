@@ -1,5 +1,6 @@
 #include <placegraph/frontend/vanishing/manhattan_fit.h>
 #include <placegraph/frontend/vanishing/manhattan_frame.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -8,9 +9,8 @@
 namespace placegraph {
 namespace {
 
-constexpr double kDeg = M_PI / 180;
 /// Directions of a fit nearer than this are the same.
-constexpr double kSameRad = 5 * kDeg;
+constexpr double kSameRad = 5 * kRadPerDeg;
 
 struct Candidate {
   SO3 R_cam_axes;
@@ -122,7 +122,7 @@ ManhattanFrame frame_of(const ManhattanFit& fit, const SO3& like) {
   }
   for (const int a : fit.axis)
     frame.axis.push_back(a < 0 ? -1 : place[static_cast<std::size_t>(a)]);
-  frame.orthogonality_deg = fit.orthogonality_rad / kDeg;
+  frame.orthogonality_deg = fit.orthogonality_rad / kRadPerDeg;
   constexpr double kLeast = 30;  // a deviation of 10 degrees
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(frame.information);
   for (int k = 0; k < 3; ++k) frame.rank += eigen.eigenvalues()[k] > kLeast;
@@ -146,7 +146,7 @@ bool seen(const ManhattanFit& fit, std::size_t a, const ManhattanOptions& option
 /// on purpose: by how far they are from it, against any angle.
 double right_angle_odds(const VanishingEvidence& evidence, const ManhattanFit& fit,
                         const ManhattanOptions& options) {
-  const double s = options.orthogonality_deg * kDeg;
+  const double s = options.orthogonality_deg * kRadPerDeg;
   std::array<AxisOffset, 3> own;
   for (std::size_t a = 0; a < 3; ++a)
     if (seen(fit, a, options)) own[a] = own_direction(evidence, fit, static_cast<int>(a));
@@ -159,7 +159,7 @@ double right_angle_odds(const VanishingEvidence& evidence, const ManhattanFit& f
     const double off = std::asin(std::clamp(va.dot(vb), -1.0, 1.0));
     const double variance =
         2 * s * s + vb.dot(own[a].covariance * vb) + va.dot(own[b].covariance * va);
-    odds += 0.5 * std::log(M_PI / (2 * variance)) - 0.5 * off * off / variance;
+    odds += 0.5 * std::log(std::numbers::pi / (2 * variance)) - 0.5 * off * off / variance;
     ++pairs;
   }
   return pairs > 0 ? odds : -std::numeric_limits<double>::infinity();
@@ -230,13 +230,14 @@ std::vector<ManhattanFrame> find_manhattan_frames(const VanishingEvidence& evide
                                                   const ManhattanOptions& options) {
   options.check();
   constexpr std::size_t kPoints = 3, kLines = 60, kFits = 5;
-  constexpr double kWidenRad = 1.5 * kDeg;
+  constexpr double kWidenRad = 1.5 * kRadPerDeg;
   Candidates candidates(evidence, points);
   candidates.add_pairs();
   candidates.add_lines(kPoints, kLines);
   std::vector<ManhattanFit> fits;
   for (const SO3& R : candidates.best(kFits))
-    fits.push_back(fit_manhattan(evidence, R, options.orthogonality_deg * kDeg, kWidenRad, 3));
+    fits.push_back(
+        fit_manhattan(evidence, R, options.orthogonality_deg * kRadPerDeg, kWidenRad, 3));
   std::stable_sort(fits.begin(), fits.end(),
                    [](const ManhattanFit& a, const ManhattanFit& b) { return a.cost < b.cost; });
   std::vector<ManhattanFrame> frames;
@@ -290,7 +291,7 @@ ManhattanFrame track_manhattan_frame(const std::vector<LineSegment>& segments, c
                                          std::to_string(options.min_segments) + " needed");
     return frame;
   }
-  const double orthogonality_rad = options.orthogonality_deg * kDeg;
+  const double orthogonality_rad = options.orthogonality_deg * kRadPerDeg;
   ManhattanFit fit =
       fit_manhattan(evidence, R_cam_manhattan_predicted, orthogonality_rad, sigma_rad, 3);
   const Eigen::Matrix3d M = fit.R_cam_axes.matrix();

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/frontend/vanishing/vanishing_search.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,17 +8,7 @@
 namespace placegraph {
 namespace {
 
-constexpr double kDeg = M_PI / 180;
 constexpr double kSame = 0.9962;  ///< cosine of 5 degrees: axes nearer than that are one
-
-/// A direction across which something is known.
-using Basis = Eigen::Matrix<double, 3, 2>;
-Basis across(const Eigen::Vector3d& v) {
-  Basis B;
-  B.col(0) = v.unitOrthogonal();
-  B.col(1) = v.cross(B.col(0));
-  return B;
-}
 
 /// The axis `a` of a world as its own lines show it, held to where the world has it: as closely as
 /// the axes keep to right angles, and the world is known.
@@ -25,10 +16,10 @@ FittedDirection axis_direction(const VanishingEvidence& evidence, const Manhatta
                                int a, const ManhattanOptions& options) {
   const Eigen::Matrix3d M = frame.R_cam_manhattan.matrix();
   const Eigen::Vector3d axis = M.col(a);
-  const Basis B = across(axis);
+  const TangentBasis B = tangent_basis(axis);
   // Three angles tell little of how right all are: what is expected is allowed in any case.
-  const double s = kDeg * std::max(frame.orthogonality_deg, options.orthogonality_deg);
-  const Basis J = (B.transpose() * -M * hat(Eigen::Vector3d::Unit(a))).transpose();
+  const double s = kRadPerDeg * std::max(frame.orthogonality_deg, options.orthogonality_deg);
+  const TangentBasis J = (B.transpose() * -M * hat(Eigen::Vector3d::Unit(a))).transpose();
   const Eigen::Matrix2d prior =
       s * s * Eigen::Matrix2d::Identity() + J.transpose() * frame.covariance * J;
   std::vector<int> lines;
@@ -93,7 +84,7 @@ bool is_axis(const std::vector<int>& labels, int point, const std::vector<Manhat
 std::pair<DirectionPrior, std::vector<PointRole>> prior_of(
     const std::vector<ManhattanFrame>& frames, const SceneDirectionOptions& options) {
   DirectionPrior prior;
-  prior.sigma_rad = options.off_right_deg * kDeg;
+  prior.sigma_rad = options.off_right_deg * kRadPerDeg;
   prior.free_share = options.free_share;
   std::vector<PointRole> roles;
   for (std::size_t f = 0; f < frames.size(); ++f)

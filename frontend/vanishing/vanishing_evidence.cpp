@@ -1,4 +1,5 @@
 #include <placegraph/frontend/vanishing/vanishing_evidence.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -8,11 +9,10 @@
 namespace placegraph {
 namespace {
 
-constexpr double kDeg = M_PI / 180;
-
 /// Normalizing constant of the Student t density of scale one, as a logarithm.
 double log_student(double freedom) {
-  return std::lgamma((freedom + 1) / 2) - std::lgamma(freedom / 2) - 0.5 * std::log(freedom * M_PI);
+  return std::lgamma((freedom + 1) / 2) - std::lgamma(freedom / 2) -
+         0.5 * std::log(freedom * std::numbers::pi);
 }
 
 std::optional<Eigen::Vector2d> ideal_point(const Camera& camera, const Eigen::Vector2d& px) {
@@ -60,7 +60,7 @@ VanishingEvidence::VanishingEvidence(const std::vector<LineSegment>& segments, c
 }
 
 void VanishingEvidence::weigh_collinear() {
-  constexpr double kMaxAngle = 0.7 * kDeg, kMaxDistancePx = 2;
+  constexpr double kMaxAngle = 0.7 * kRadPerDeg, kMaxDistancePx = 2;
   const double max_distance = kMaxDistancePx / focal_px_;
   const int n = size();
   std::vector<double> angle(lines_.size());
@@ -68,7 +68,7 @@ void VanishingEvidence::weigh_collinear() {
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = 0; i < lines_.size(); ++i) {
     const double a = std::atan2(lines_[i].across.y(), lines_[i].across.x());
-    angle[i] = a < 0 ? a + M_PI : a;
+    angle[i] = a < 0 ? a + std::numbers::pi : a;
   }
   const auto at = [&](int k) {
     return static_cast<std::size_t>(order[static_cast<std::size_t>(k)]);
@@ -81,7 +81,7 @@ void VanishingEvidence::weigh_collinear() {
   for (int k = 0; k < n; ++k) {
     for (int step = 1; step < n; ++step) {
       const std::size_t i = at(k), j = at((k + step) % n);
-      const double turn = angle[j] - angle[i] + (k + step >= n ? M_PI : 0);
+      const double turn = angle[j] - angle[i] + (k + step >= n ? std::numbers::pi : 0);
       if (turn > kMaxAngle) break;
       const Line& base = lines_[i].length >= lines_[j].length ? lines_[i] : lines_[j];
       const Line& other = lines_[i].length >= lines_[j].length ? lines_[j] : lines_[i];
@@ -98,8 +98,8 @@ void VanishingEvidence::weigh_collinear() {
 
 void VanishingEvidence::set_noise(const VanishingNoise& noise) {
   noise_ = noise;
-  log_constant_ = std::log(M_PI) + log_student(noise.tail_freedom);
-  const double end = noise.end_px / focal_px_, parallel = noise.parallel_deg * kDeg;
+  log_constant_ = std::log(std::numbers::pi) + log_student(noise.tail_freedom);
+  const double end = noise.end_px / focal_px_, parallel = noise.parallel_deg * kRadPerDeg;
   end_variance_ = end * end;
   parallel_variance_ = parallel * parallel;
   pack();
@@ -117,7 +117,8 @@ void VanishingEvidence::pack() {
     x_[i] = static_cast<float>(line.middle.x());
     y_[i] = static_cast<float>(line.middle.y());
     turn_[i] = static_cast<float>(turn);
-    log_gain_[i] = static_cast<float>(std::log(M_PI) - 0.5 * std::log(2 * M_PI * turn));
+    log_gain_[i] = static_cast<float>(std::log(std::numbers::pi) -
+                                      0.5 * std::log(2 * std::numbers::pi * turn));
     weight_[i] = static_cast<float>(line.weight);
   }
 }
@@ -195,7 +196,7 @@ void VanishingEvidence::fit_noise(const std::vector<Eigen::Vector3d>& directions
   const double present = noise_.end_px * noise_.end_px, nu = noise_.tail_freedom;
   const auto cost_of = [&](const VanishingNoise& trial) {
     const double end = trial.end_px * trial.end_px / present;
-    const double parallel = std::pow(trial.parallel_deg * kDeg, 2);
+    const double parallel = std::pow(trial.parallel_deg * kRadPerDeg, 2);
     const double hold = std::hypot(std::log(trial.end_px / start_.end_px),
                                    std::log(trial.parallel_deg / start_.parallel_deg)) /
                         kHold;

@@ -3,25 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace placegraph {
 namespace {
 
-using Basis = Eigen::Matrix<double, 3, 2>;
+/// Of a line's share, while that of its direction is not known yet: a tenth of them [nats].
+constexpr double kFirstCost = 2.3;
 
-Basis across(const Eigen::Vector3d& v) {
-  Basis basis;
+}  // namespace
+
+TangentBasis tangent_basis(const Eigen::Vector3d& v) {
+  TangentBasis basis;
   basis.col(0) = v.unitOrthogonal();
   basis.col(1) = v.cross(basis.col(0));
   return basis;
 }
 
-/// Of a line's share, while that of its direction is not known yet: a tenth of them [nats].
-constexpr double kFirstCost = 2.3;
-
 double entropy_term(double n, double total) { return n > 0 ? -n * std::log(n / total) : 0; }
-
-}  // namespace
 
 FittedDirection fit_direction(const VanishingEvidence& evidence, const Eigen::Vector3d& start,
                               const std::vector<int>& lines, int iterations) {
@@ -30,7 +29,7 @@ FittedDirection fit_direction(const VanishingEvidence& evidence, const Eigen::Ve
   if (lines.size() < 2) return fit;
   Eigen::Matrix2d information;
   for (int iteration = 0; iteration <= iterations; ++iteration) {
-    const Basis B = across(fit.v);
+    const TangentBasis B = tangent_basis(fit.v);
     Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
     Eigen::Vector2d b = Eigen::Vector2d::Zero();
     information.setZero();
@@ -51,7 +50,7 @@ FittedDirection fit_direction(const VanishingEvidence& evidence, const Eigen::Ve
     fit.v = (fit.v + B * step).normalized();
   }
   if (fit.v.z() < 0) fit.v = -fit.v;
-  const Basis B = across(fit.v);
+  const TangentBasis B = tangent_basis(fit.v);
   Eigen::Matrix3d full = Eigen::Matrix3d::Zero();
   for (const int i : lines) {
     const PointingError e = evidence.error(i, fit.v);
@@ -76,7 +75,8 @@ void DirectionPrior::pull(FittedDirection& fit) const {
     const double off = std::asin(std::clamp(axes[a].dot(fit.v), -1.0, 1.0));
     const double variance = sigma_rad * sigma_rad + axes[a].dot(fit.covariance * axes[a]);
     const double density = (1 - free_share) / static_cast<double>(axes.size()) * 2 *
-                           std::exp(-0.5 * off * off / variance) / std::sqrt(2 * M_PI * variance);
+                           std::exp(-0.5 * off * off / variance) /
+                           std::sqrt(2 * std::numbers::pi * variance);
     sum += density;
     if (density > largest) largest = density, fit.across_axis = static_cast<int>(a);
   }

@@ -8,6 +8,13 @@
 
 namespace placegraph {
 
+using TangentBasis = Eigen::Matrix<double, 3, 2>;
+/// Two unit vectors at right angles to `v` and to each other, in columns.
+TangentBasis tangent_basis(const Eigen::Vector3d& v);
+/// Description length of `n` lines of `total` that have one direction, for its share of them
+/// [nats].
+double entropy_term(double n, double total);
+
 /// A direction of largest likelihood for some lines.
 struct FittedDirection {
   bool ok = false;                                       ///< false: the lines do not fix it

@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace placegraph {
 
@@ -9,7 +10,8 @@ double chi_squared_tail(double x, int dof) {
   if (x <= 0) return 1;
   const double half = 0.5 * x;
   double tail = dof % 2 == 1 ? std::erfc(std::sqrt(half)) : std::exp(-half);
-  double term = dof % 2 == 1 ? std::sqrt(half / M_PI) * 2 * std::exp(-half) : half * tail;
+  double term =
+      dof % 2 == 1 ? std::sqrt(half / std::numbers::pi) * 2 * std::exp(-half) : half * tail;
   for (int k = dof % 2 == 1 ? 1 : 2; k < dof; k += 2) {  // from k to k + 2 degrees
     tail += term;
     term *= half / (0.5 * k + 1);

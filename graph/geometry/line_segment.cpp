@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace placegraph {
 
@@ -72,7 +73,7 @@ std::optional<ImageLine> fit_line(const std::vector<Eigen::Vector2d>& points_px,
   const double spread = direction.dot(scatter * direction);
   if (!(spread > 1e-12 * weight)) return std::nullopt;
   ImageLine line;
-  line.angle_rad = along + M_PI / 2;
+  line.angle_rad = along + std::numbers::pi / 2;
   line.offset_px = line.normal().dot(mean);
   line.anchor = mean;
   line.covariance.diagonal() << 1 / spread, 1 / weight;

@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 
@@ -33,12 +34,11 @@ void visit(OptionVisitor& field, MotionNoise& o) {
 }
 
 Matrix6d MotionNoise::covariance(const SE3& T_from_to) const {
-  constexpr double kDegree = M_PI / 180;
   const double way_m = T_from_to.translation().norm();
   Vector6d variance;
   variance.head<3>().setConstant(translation * translation * way_m + translation_m * translation_m);
   variance.tail<3>().setConstant(
-      kDegree * kDegree *
+      kRadPerDeg * kRadPerDeg *
       (rotation_deg * rotation_deg * way_m + rotation_step_deg * rotation_step_deg));
   return variance.asDiagonal();
 }

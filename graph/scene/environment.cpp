@@ -6,20 +6,20 @@
 namespace placegraph {
 namespace {
 
-const std::array<std::string, kEnvironmentCount> kNames{"street", "road", "corridor", "room",
-                                                        "hall"};
+const std::array<std::string, kEnvironmentCount> kEnvironmentNames{"street", "road", "corridor",
+                                                                   "room", "hall"};
 const std::string kPrefix = "environment:";
 
 }  // namespace
 
 const std::string& environment_name(Environment kind) {
-  return kNames[static_cast<std::size_t>(kind)];
+  return kEnvironmentNames[static_cast<std::size_t>(kind)];
 }
 
 std::optional<Environment> environment_of_name(const std::string& name) {
-  const auto known = std::find(kNames.begin(), kNames.end(), name);
-  if (known == kNames.end()) return std::nullopt;
-  return static_cast<Environment>(known - kNames.begin());
+  const auto known = std::find(kEnvironmentNames.begin(), kEnvironmentNames.end(), name);
+  if (known == kEnvironmentNames.end()) return std::nullopt;
+  return static_cast<Environment>(known - kEnvironmentNames.begin());
 }
 
 Assumptions assumptions_of(Environment kind) {

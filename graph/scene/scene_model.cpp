@@ -6,17 +6,18 @@
 namespace placegraph {
 namespace {
 
-const std::array<std::string, kSurfaceCount> kNames = {"sky", "ground", "vertical", "object"};
+const std::array<std::string, kSurfaceCount> kSurfaceNames = {"sky", "ground", "vertical",
+                                                              "object"};
 
 }  // namespace
 
 const std::string& surface_name(Surface surface) {
-  return kNames[static_cast<std::size_t>(surface)];
+  return kSurfaceNames[static_cast<std::size_t>(surface)];
 }
 
 std::optional<Surface> surface_of_name(const std::string& name) {
-  for (std::size_t i = 0; i < kNames.size(); ++i)
-    if (kNames[i] == name) return static_cast<Surface>(i);
+  for (std::size_t i = 0; i < kSurfaceNames.size(); ++i)
+    if (kSurfaceNames[i] == name) return static_cast<Surface>(i);
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_list.h>
+#include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
 #include <array>
@@ -12,8 +13,6 @@
 namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 bool has_image_extension(const fs::path& path) {
   static constexpr std::array<std::string_view, 8> kExtensions = {".png", ".jpg", ".jpeg", ".pgm",

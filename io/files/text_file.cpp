@@ -22,8 +22,6 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
 std::string read_whole(const std::string& path) {
   if (std::filesystem::is_directory(path)) throw FileError(path, "is a folder, not a file");
   std::ifstream stream(path, std::ios::binary);

@@ -7,6 +7,8 @@
 
 namespace placegraph {
 
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// A text file read whole and handed out line by line. It keeps the line number, so that whoever
 /// parses a line can say `file:line` in its error. Throws FileError if the file is missing, a
 /// folder, unreadable or larger than 2 GiB. What is read is what the file holds: no count found

@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-using Fields = std::vector<std::string_view>;
+using Fields = PoseGraphBuilder::Fields;
 
 constexpr double kQuaternionTolerance = 1e-2;
 constexpr double kMaxLogScale = 300;
@@ -43,7 +43,7 @@ Information parse_sim3_information(const PoseGraphBuilder& builder, const Fields
   return information;
 }
 
-void parse_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
+void parse_g2o_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
   const std::string_view tag = fields[0];
   if (tag == "VERTEX_SE2") {
     builder.require_count(fields, 4);
@@ -119,7 +119,7 @@ void format_edge(Buffer out, const RelativePoseConstraint& edge) {
 }  // namespace
 
 PoseGraph parse_g2o(TextFile& file, const PoseGraphReading& reading) {
-  return parse_lines(file, parse_line).finish(reading);
+  return parse_lines(file, parse_g2o_line).finish(reading);
 }
 
 PoseGraph read_g2o(const std::string& path, const PoseGraphReading& reading) {

@@ -13,7 +13,7 @@ Information information_of_root(const PoseGraphBuilder& builder, const Fields& f
   return R.transpose() * R;
 }
 
-void parse_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
+void parse_isam_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
   const std::string_view tag = fields[0];
   if (tag == "ODOMETRY" || tag == "EDGE2") {
     builder.require_count(fields, 11);
@@ -35,7 +35,7 @@ void parse_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& bu
 }  // namespace
 
 PoseGraph parse_isam(TextFile& file, const PoseGraphReading& reading) {
-  return parse_lines(file, parse_line).finish_from_edges(reading);
+  return parse_lines(file, parse_isam_line).finish_from_edges(reading);
 }
 
 PoseGraph read_isam(const std::string& path, const PoseGraphReading& reading) {

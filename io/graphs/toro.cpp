@@ -17,7 +17,7 @@ Information planar_information(const TextFile& file, const Fields& fields, std::
   return Information(information);
 }
 
-void parse_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
+void parse_toro_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
   const std::string_view tag = fields[0];
   if (tag == "VERTEX2") {
     builder.require_count(fields, 4);
@@ -43,7 +43,7 @@ void parse_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& bu
 }  // namespace
 
 PoseGraph parse_toro(TextFile& file, const PoseGraphReading& reading) {
-  return parse_lines(file, parse_line).finish(reading);
+  return parse_lines(file, parse_toro_line).finish(reading);
 }
 
 PoseGraph read_toro(const std::string& path, const PoseGraphReading& reading) {

@@ -58,7 +58,7 @@ Image read_middlebury(const std::string& path) {
   return flow;
 }
 
-Image read_kitti(const std::string& path) {
+Image read_kitti_flow(const std::string& path) {
   const Image raw = read_image_as_stored(path);
   if (raw.type() != CV_16UC3) throw FileError(path, "flow must have three channels of 16 bits");
   Image flow(raw.size(), CV_32FC2);
@@ -114,7 +114,7 @@ Image read_flow(const std::string& path) {
   if (!std::filesystem::exists(path, error)) throw FileError(path, "flow is missing");
   const std::string extension = extension_of(path);
   if (extension == ".flo") return read_middlebury(path);
-  if (extension == ".png") return read_kitti(path);
+  if (extension == ".png") return read_kitti_flow(path);
   throw FileError(path, "flow is read from .flo (Middlebury) or .png (KITTI)");
 }
 

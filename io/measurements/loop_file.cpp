@@ -98,11 +98,11 @@ std::vector<LoopPrediction> read_run(TextFile& file) {
   return predictions;
 }
 
-using Row = std::vector<std::int64_t>;
+using LoopRow = std::vector<std::int64_t>;
 constexpr std::int64_t kNone = -1;  // how `-` is kept
 
 struct Table {
-  std::vector<Row> rows;
+  std::vector<LoopRow> rows;
   std::vector<int> lines;
   bool has_none = false;
 };
@@ -116,7 +116,7 @@ Table read_table(TextFile& file) {
       split_comma(line, fields);
     else
       split_blank(line, fields);
-    Row row;
+    LoopRow row;
     for (const std::string_view field : fields) {
       if (field == "-") {
         if (row.size() != 3 || fields.size() != 4)
@@ -144,7 +144,7 @@ bool is_matrix(const Table& table) {
 // A list ascends; in a line of ranges the first match does not lie beyond the last candidate.
 bool are_ranges(const Table& table) {
   if (table.has_none) return true;
-  for (const Row& row : table.rows) {
+  for (const LoopRow& row : table.rows) {
     if (row.size() < 3) return false;
     if (row.size() > 3) return row[3] <= row[2];
   }
@@ -154,7 +154,7 @@ bool are_ranges(const Table& table) {
 LoopTruth read_matrix(const Table& table, const std::string& path) {
   LoopTruth truth;
   for (std::size_t q = 0; q < table.rows.size(); ++q) {
-    const Row& row = table.rows[q];
+    const LoopRow& row = table.rows[q];
     if (row.size() != table.rows.size())
       throw FileError(path, table.lines[q],
                       std::to_string(row.size()) + " columns in a matrix of " +
@@ -170,7 +170,7 @@ LoopTruth read_matrix(const Table& table, const std::string& path) {
   return truth;
 }
 
-LoopQuery query_of_row(const Row& row, bool ranges, const std::string& path, int line) {
+LoopQuery query_of_row(const LoopRow& row, bool ranges, const std::string& path, int line) {
   LoopQuery query;
   if (ranges) {
     if (row.size() < 4) throw FileError(path, line, "expected: query first last matches, or -");

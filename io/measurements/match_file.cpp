@@ -9,14 +9,14 @@ namespace placegraph {
 namespace {
 
 /// Larger than any image or scene; its fourth power is far from overflow.
-constexpr double kMost = 1e6;
+constexpr double kMostMatch = 1e6;
 
-using Row = std::array<double, 6>;
+using MatchRow = std::array<double, 6>;
 
 /// The first columns of every line, named in turn.
-std::vector<Row> read_rows(const std::string& path, const std::vector<const char*>& names) {
+std::vector<MatchRow> read_rows(const std::string& path, const std::vector<const char*>& names) {
   TextFile file(path);
-  std::vector<Row> rows;
+  std::vector<MatchRow> rows;
   std::string_view line;
   std::vector<std::string_view> fields;
   while (file.next_data(line)) {
@@ -27,10 +27,10 @@ std::vector<Row> read_rows(const std::string& path, const std::vector<const char
       file.fail(std::to_string(fields.size()) + " columns, at least " +
                 std::to_string(names.size()) + " expected:" + wanted);
     }
-    Row row{};
+    MatchRow row{};
     for (std::size_t i = 0; i < names.size(); ++i) {
       row[i] = file.number(fields[i], names[i]);
-      if (std::abs(row[i]) > kMost)
+      if (std::abs(row[i]) > kMostMatch)
         file.fail(std::string(names[i]) + ": " + in_quotes(fields[i]) + " is beyond all measure");
     }
     rows.push_back(row);
@@ -43,7 +43,7 @@ std::vector<Row> read_rows(const std::string& path, const std::vector<const char
 
 MatchFile read_matches(const std::string& path) {
   MatchFile matches;
-  for (const Row& row : read_rows(path, {"xA", "yA", "xB", "yB"})) {
+  for (const MatchRow& row : read_rows(path, {"xA", "yA", "xB", "yB"})) {
     matches.px_a.emplace_back(row[0], row[1]);
     matches.px_b.emplace_back(row[2], row[3]);
   }
@@ -52,7 +52,7 @@ MatchFile read_matches(const std::string& path) {
 
 PointPairFile read_point_pairs(const std::string& path) {
   PointPairFile pairs;
-  for (const Row& row : read_rows(path, {"xA", "yA", "zA", "xB", "yB", "zB"})) {
+  for (const MatchRow& row : read_rows(path, {"xA", "yA", "zA", "xB", "yB", "zB"})) {
     pairs.points_a.emplace_back(row[0], row[1], row[2]);
     pairs.points_b.emplace_back(row[3], row[4], row[5]);
   }
@@ -61,7 +61,7 @@ PointPairFile read_point_pairs(const std::string& path) {
 
 SeenPointFile read_seen_points(const std::string& path) {
   SeenPointFile seen;
-  for (const Row& row : read_rows(path, {"X", "Y", "Z", "x", "y"})) {
+  for (const MatchRow& row : read_rows(path, {"X", "Y", "Z", "x", "y"})) {
     seen.points.emplace_back(row[0], row[1], row[2]);
     seen.px.emplace_back(row[3], row[4]);
   }

@@ -57,7 +57,7 @@ PointCloud read_text(const std::string& path) {
   return cloud;
 }
 
-PointCloud read_kitti(const std::string& path) {
+PointCloud read_kitti_cloud(const std::string& path) {
   constexpr std::size_t kPoint = 4 * sizeof(float);
   const std::string bytes = read_bytes(path);
   if (bytes.size() % kPoint != 0)
@@ -210,7 +210,7 @@ PointCloud read_point_cloud(const std::string& path) {
   if (std::filesystem::is_directory(path)) throw FileError(path, "a folder, not a cloud");
   const std::string extension = std::filesystem::path(path).extension().string();
   PointCloud cloud = extension == ".ply"   ? read_ply(path)
-                     : extension == ".bin" ? read_kitti(path)
+                     : extension == ".bin" ? read_kitti_cloud(path)
                                            : read_text(path);
   if (cloud.points.empty()) throw FileError(path, "no point in it");
   return cloud;

@@ -15,15 +15,15 @@ namespace {
 static_assert(std::endian::native == std::endian::little,
               "numbers are written as they lie in memory");
 
-constexpr std::array<char, 8> kMagic = {'P', 'G', 'S', 'C', 'E', 'N', 'E', '\n'};
+constexpr std::array<char, 8> kSceneMagic = {'P', 'G', 'S', 'C', 'E', 'N', 'E', '\n'};
 /// Of the bytes as of the features: 2 is that of superpixels of 10 pixels, 1 that of 14.
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kSceneVersion = 2;
 
-struct Header {
-  std::array<char, 8> magic = kMagic;
-  std::uint32_t version = kVersion, bytes = 0, crc = 0;
+struct SceneHeader {
+  std::array<char, 8> magic = kSceneMagic;
+  std::uint32_t version = kSceneVersion, bytes = 0, crc = 0;
 };
-static_assert(sizeof(Header) == 20);
+static_assert(sizeof(SceneHeader) == 20);
 
 /// CRC-32 as of PNG and zip.
 std::uint32_t crc_of(const std::vector<char>& bytes) {
@@ -144,18 +144,18 @@ DecisionForest get_forest(Reader& in, int classes, const std::string& path) {
 std::vector<char> payload_of(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream || !std::filesystem::is_regular_file(path)) throw FileError(path, "cannot be read");
-  Header header;
-  stream.read(reinterpret_cast<char*>(&header), sizeof(Header));
+  SceneHeader header;
+  stream.read(reinterpret_cast<char*>(&header), sizeof(SceneHeader));
   const auto begin = static_cast<std::size_t>(stream.gcount());
-  if (begin < kMagic.size() || header.magic != kMagic)
+  if (begin < kSceneMagic.size() || header.magic != kSceneMagic)
     throw FileError(path, "byte 0: no model of scenes (it does not begin with PGSCENE)");
-  if (begin < sizeof(Header))
+  if (begin < sizeof(SceneHeader))
     throw FileError(path, fmt::format("byte {}: ends within the header", begin));
-  if (header.version != kVersion)
+  if (header.version != kSceneVersion)
     throw FileError(path, fmt::format("byte 8: version {} of a model of scenes, and {} is known",
-                                      header.version, kVersion));
+                                      header.version, kSceneVersion));
   const std::uint64_t size = std::filesystem::file_size(path),
-                      whole = sizeof(Header) + std::uint64_t{header.bytes};
+                      whole = sizeof(SceneHeader) + std::uint64_t{header.bytes};
   if (size != whole)
     throw FileError(path, fmt::format("byte {}: {}, the header says {} bytes", size,
                                       size < whole ? "truncated" : "goes on too long", whole));
@@ -222,11 +222,11 @@ void write_scene_model(const std::string& path, const SceneModel& model) {
     for (const float value : *table) out.put(value);
   put_forest(out, model.first);
   put_forest(out, model.second);
-  Header header;
+  SceneHeader header;
   header.bytes = static_cast<std::uint32_t>(out.bytes.size());
   header.crc = crc_of(out.bytes);
   AtomicFile file(path);
-  file.stream().write(reinterpret_cast<const char*>(&header), sizeof(Header));
+  file.stream().write(reinterpret_cast<const char*>(&header), sizeof(SceneHeader));
   file.stream().write(out.bytes.data(), static_cast<std::streamsize>(out.bytes.size()));
   file.commit();
 }

@@ -15,14 +15,14 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the file is read as it lies in memory");
 static_assert(sizeof(WordTree::Node) == 12 && sizeof(BinaryDescriptor) == 32);
 
-constexpr std::array<char, 8> kMagic = {'P', 'G', 'W', 'O', 'R', 'D', 'S', '\n'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::array<char, 8> kWordsMagic = {'P', 'G', 'W', 'O', 'R', 'D', 'S', '\n'};
+constexpr std::uint32_t kWordsVersion = 1;
 
-struct Header {
-  std::array<char, 8> magic = kMagic;
-  std::uint32_t version = kVersion, kind = 0, dimension = 0, words = 0, nodes = 0;
+struct WordsHeader {
+  std::array<char, 8> magic = kWordsMagic;
+  std::uint32_t version = kWordsVersion, kind = 0, dimension = 0, words = 0, nodes = 0;
 };
-static_assert(sizeof(Header) == 28);
+static_assert(sizeof(WordsHeader) == 28);
 
 template <class T>
 void put(std::ofstream& stream, const std::vector<T>& values) {
@@ -37,22 +37,22 @@ void get(std::ifstream& stream, std::vector<T>& values, std::size_t count) {
               static_cast<std::streamsize>(count * sizeof(T)));
 }
 
-std::uint64_t size_of(const Header& h) {
+std::uint64_t size_of(const WordsHeader& h) {
   const std::uint64_t centre = h.kind == 0 ? sizeof(BinaryDescriptor) : 4ull * h.dimension;
-  return sizeof(Header) + h.nodes * (sizeof(WordTree::Node) + centre) + 4ull * h.words;
+  return sizeof(WordsHeader) + h.nodes * (sizeof(WordTree::Node) + centre) + 4ull * h.words;
 }
 
-Header read_header(std::ifstream& stream, const std::string& path, std::uint64_t size) {
-  Header header;
-  stream.read(reinterpret_cast<char*>(&header), sizeof(Header));
+WordsHeader read_header(std::ifstream& stream, const std::string& path, std::uint64_t size) {
+  WordsHeader header;
+  stream.read(reinterpret_cast<char*>(&header), sizeof(WordsHeader));
   const auto begin = static_cast<std::size_t>(stream.gcount());
-  if (begin < kMagic.size() || header.magic != kMagic)
+  if (begin < kWordsMagic.size() || header.magic != kWordsMagic)
     throw FileError(path, "byte 0: no vocabulary (it does not begin with PGWORDS)");
-  if (begin < sizeof(Header))
+  if (begin < sizeof(WordsHeader))
     throw FileError(path, fmt::format("byte {}: ends within the header", begin));
-  if (header.version != kVersion)
+  if (header.version != kWordsVersion)
     throw FileError(path, fmt::format("byte 8: version {} of a vocabulary, and {} is known",
-                                      header.version, kVersion));
+                                      header.version, kWordsVersion));
   if (header.kind > 1) throw FileError(path, fmt::format("byte 12: kind {}", header.kind));
   constexpr std::uint32_t kMostNumbers = 65536;
   if (header.kind == 1 && (header.dimension == 0 || header.dimension > kMostNumbers))
@@ -75,7 +75,7 @@ WordTree read_vocabulary(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (error || !stream || !std::filesystem::is_regular_file(path))
     throw FileError(path, "cannot be read");
-  const Header header = read_header(stream, path, size);
+  const WordsHeader header = read_header(stream, path, size);
   WordTree tree;
   tree.kind = header.kind == 0 ? WordTree::Kind::kBinary : WordTree::Kind::kFloat;
   tree.dimension = header.kind == 0 ? 0 : static_cast<int>(header.dimension);
@@ -94,13 +94,13 @@ WordTree read_vocabulary(const std::string& path) {
 void write_vocabulary(const std::string& path, const WordTree& tree) {
   if (const auto problem = tree.problem())
     throw ArgumentError("write_vocabulary: no tree of words: " + *problem);
-  Header header;
+  WordsHeader header;
   header.kind = tree.kind == WordTree::Kind::kBinary ? 0 : 1;
   header.dimension = static_cast<std::uint32_t>(tree.dimension);
   header.words = static_cast<std::uint32_t>(tree.words);
   header.nodes = static_cast<std::uint32_t>(tree.nodes.size());
   AtomicFile file(path);
-  file.stream().write(reinterpret_cast<const char*>(&header), sizeof(Header));
+  file.stream().write(reinterpret_cast<const char*>(&header), sizeof(WordsHeader));
   put(file.stream(), tree.nodes);
   put(file.stream(), tree.bit_centres);
   put(file.stream(), tree.centres);

@@ -39,7 +39,7 @@ constexpr const char* kProperties =
     "property ushort sights\n";
 constexpr std::size_t kVertexBytes = 3 * 4 + 4 + 3 * 4 + 2;
 
-struct Header {
+struct MapHeader {
   std::int64_t cells = -1;
   std::size_t body = 0;
 };
@@ -52,8 +52,8 @@ double number_of(const std::string& path, const std::string& word) {
   return value;
 }
 
-Header read_header(const std::string& path, const std::string& bytes, SemanticMap& map) {
-  Header header;
+MapHeader read_header(const std::string& path, const std::string& bytes, SemanticMap& map) {
+  MapHeader header;
   std::string properties;
   const std::size_t end = bytes.find("end_header\n");
   if (bytes.compare(0, 4, "ply\n") != 0 || end == std::string::npos || end > (1U << 16))
@@ -127,7 +127,7 @@ SemanticMap read_semantic_map(const std::string& path) {
   if (!stream) throw FileError(path, "cannot be read");
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
   SemanticMap map;
-  const Header header = read_header(path, bytes, map);
+  const MapHeader header = read_header(path, bytes, map);
   if ((bytes.size() - header.body) / kVertexBytes != static_cast<std::size_t>(header.cells) ||
       (bytes.size() - header.body) % kVertexBytes != 0)
     throw FileError(

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/align/grey_pyramid.h>
 #include <placegraph/frontend/features/depth_lookup.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/cues/direct_cue.h>
 
@@ -13,8 +14,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector2f;
 using Eigen::Vector3d;
-
-constexpr double kRadPerDeg = M_PI / 180;
 
 /// Covariance of n / d from the deviations of normal and distance.
 Matrix3d covariance_of(const Vector3d& g, double sigma_normal_rad, double sigma_log_distance) {

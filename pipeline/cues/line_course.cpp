@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/cues/line_cue.h>
 
 #include <Eigen/Geometry>
@@ -75,7 +76,7 @@ void LineCue::hold_course(std::int64_t keyframe, double depth, SlidingWindow& wi
       if (!a || !b) continue;
       const double turn_rad =
           std::asin(std::min(1.0, a->n.cross(T_from_to.rotation() * b->n).norm()));
-      if (turn_rad > options_.triangulation.min_turn_deg * M_PI / 180) continue;
+      if (turn_rad > deg_to_rad(options_.triangulation.min_turn_deg)) continue;
       const double sigma =
           kFactor * depth * b->reach *
           std::hypot(turn_rad, std::hypot(a->sigma_rad, b->sigma_rad), kRollSigmaRad);

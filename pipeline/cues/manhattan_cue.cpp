@@ -1,4 +1,5 @@
 #include <placegraph/frontend/scene/orientation_map.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 
 #include <Eigen/Eigenvalues>
@@ -9,8 +10,6 @@
 
 namespace placegraph {
 namespace {
-
-constexpr double kDeg = M_PI / 180;
 
 double largest_sigma_rad(const Eigen::Matrix3d& covariance) {
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()[2]);
@@ -93,7 +92,8 @@ std::vector<LineSegment> ManhattanCue::detect(const Image& image) const {
 /// Near where the window has it: farther off it is no sighting of that world.
 ManhattanFrame ManhattanCue::track(const std::vector<LineSegment>& segments,
                                    const ManhattanWorlds::Expected& world) const {
-  const double reach_rad = std::min(5 * kDeg, 1 * kDeg + 3 * largest_sigma_rad(world.covariance));
+  const double reach_rad =
+      std::min(5 * kRadPerDeg, 1 * kRadPerDeg + 3 * largest_sigma_rad(world.covariance));
   return track_manhattan_frame(segments, camera_, world.R_cam_world, reach_rad,
                                options_.directions.points.noise, options_.directions.manhattan);
 }
@@ -123,7 +123,7 @@ bool ManhattanCue::trusted(const ManhattanFrame& frame) const {
   int seen = 0;
   for (std::size_t a = 0; a < 3; ++a)
     seen += frame.segments[a] >= o.min_segments && frame.evidence[a] >= o.min_evidence;
-  return seen >= 2 && largest_sigma_rad(frame.covariance) < options_.max_sigma_deg * kDeg;
+  return seen >= 2 && largest_sigma_rad(frame.covariance) < options_.max_sigma_deg * kRadPerDeg;
 }
 
 bool ManhattanCue::take(std::int64_t keyframe, const std::vector<LineSegment>& segments,
@@ -136,7 +136,7 @@ bool ManhattanCue::take(std::int64_t keyframe, const std::vector<LineSegment>& s
     std::ostringstream text;
     text << "directions " << keyframe << " world " << world.value_or(-1) << " turn "
          << w.transpose() << " sigma_deg "
-         << frame.covariance.diagonal().cwiseSqrt().transpose() / kDeg;
+         << frame.covariance.diagonal().cwiseSqrt().transpose() / kRadPerDeg;
     log(log_, LogLevel::kDebug, text.str());
   }
   for (std::size_t i = 0; i < view_.size(); ++i)

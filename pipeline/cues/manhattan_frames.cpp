@@ -1,4 +1,5 @@
 #include <placegraph/frontend/vanishing/manhattan_frame.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/pipeline/cues/manhattan_frames.h>
 
@@ -8,16 +9,14 @@
 namespace placegraph {
 namespace {
 
-constexpr double kDeg = M_PI / 180;
-
 /// Squared distance in deviations between two rotations.
-double chi2(const SO3& a, const SO3& b, const Eigen::Matrix3d& covariance) {
+double frame_chi2(const SO3& a, const SO3& b, const Eigen::Matrix3d& covariance) {
   const Eigen::Vector3d e = (a.inverse() * b).log();
   return e.dot(covariance.llt().solve(e));
 }
 
 /// What a chance of one in a hundred reaches.
-double gate() {
+double frame_gate() {
   static const double value = chi_squared_quantile(0.99, 3);
   return value;
 }
@@ -37,7 +36,7 @@ void visit(OptionVisitor& field, ManhattanWorldOptions& o) {
 }
 
 Eigen::Matrix3d ManhattanWorlds::honest(const Eigen::Matrix3d& covariance) const {
-  const double floor_rad = options_.sigma_floor_deg * kDeg;
+  const double floor_rad = options_.sigma_floor_deg * kRadPerDeg;
   return covariance + floor_rad * floor_rad * Eigen::Matrix3d::Identity();
 }
 
@@ -48,7 +47,7 @@ std::vector<ManhattanWorlds::Expected> ManhattanWorlds::expected(const SlidingWi
     if (covariance_.contains(world)) order.emplace_back(seen, world);
   std::sort(order.rbegin(), order.rend());
   const SO3 R_cam_map = window.pose(keyframe).rotation().inverse();
-  const double drift_rad = options_.sigma_drift_deg * kDeg;
+  const double drift_rad = options_.sigma_drift_deg * kRadPerDeg;
   std::vector<Expected> result;
   for (const auto& [seen, world] : order)
     result.push_back({world, R_cam_map * *window.world(world),
@@ -67,11 +66,11 @@ std::optional<std::int64_t> ManhattanWorlds::add(std::int64_t keyframe, const SO
                                                  const Eigen::Matrix3d& covariance,
                                                  SlidingWindow& window) {
   std::optional<Expected> best;
-  double least = gate();
+  double least = frame_gate();
   for (const Expected& world : expected(window, keyframe)) {
     const double distance =
-        chi2(world.R_cam_world, nearest_axes(R_cam_manhattan, world.R_cam_world),
-             world.covariance + honest(covariance));
+        frame_chi2(world.R_cam_world, nearest_axes(R_cam_manhattan, world.R_cam_world),
+                   world.covariance + honest(covariance));
     if (distance < least) best = world, least = distance;
   }
   if (!best) return begin_world({keyframe, R_cam_manhattan, covariance}, window);
@@ -88,7 +87,7 @@ std::optional<std::int64_t> ManhattanWorlds::begin_world(const Candidate& newest
   const auto R_map = [&](const Candidate& c) {
     return window.pose(c.keyframe).rotation() * c.R_cam_manhattan;
   };
-  constexpr double kMotionRad = 0.1 * kDeg;  // between keyframes of one window
+  constexpr double kMotionRad = 0.1 * kRadPerDeg;  // between keyframes of one window
   std::vector<Candidate> agreeing{newest}, others;
   for (Candidate other : candidates_) {
     const SO3 R_map_cam = window.pose(other.keyframe).rotation();
@@ -96,9 +95,9 @@ std::optional<std::int64_t> ManhattanWorlds::begin_world(const Candidate& newest
         R_map_cam.inverse() * nearest_axes(R_map_cam * other.R_cam_manhattan, R_map(newest));
     const bool agrees =
         other.keyframe != newest.keyframe &&
-        chi2(R_map(other), R_map(newest),
-             honest(other.covariance) + honest(newest.covariance) +
-                 2 * kMotionRad * kMotionRad * Eigen::Matrix3d::Identity()) < gate();
+        frame_chi2(R_map(other), R_map(newest),
+                   honest(other.covariance) + honest(newest.covariance) +
+                       2 * kMotionRad * kMotionRad * Eigen::Matrix3d::Identity()) < frame_gate();
     (agrees ? agreeing : others).push_back(other);
   }
   if (static_cast<int>(agreeing.size()) < options_.persistence) {

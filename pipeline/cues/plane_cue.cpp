@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/pipeline/cues/plane_cue.h>
 
@@ -10,16 +11,15 @@
 namespace placegraph {
 namespace {
 
-constexpr double kDeg = M_PI / 180;
 constexpr std::size_t kMostPoints = 400;  ///< of a landmark that are remembered
 
 /// What a chance of one in a hundred reaches.
-double gate() {
+double plane_gate() {
   static const double value = chi_squared_quantile(0.99, 3);
   return value;
 }
 
-double chi2(const Plane3& a, const Plane3& b, const Eigen::Matrix3d& covariance) {
+double plane_chi2(const Plane3& a, const Plane3& b, const Eigen::Matrix3d& covariance) {
   const Eigen::Vector3d e = a.minus(b);
   return e.dot(covariance.llt().solve(e));
 }
@@ -86,7 +86,7 @@ void visit(OptionVisitor& field, PlaneLandmarkOptions& o) {
 }
 
 Eigen::Matrix3d PlaneLandmarks::drift(const Plane3& plane_cam) const {
-  return plane_information(plane_cam, std::max(1e-6, options_.drift_deg * kDeg),
+  return plane_information(plane_cam, std::max(1e-6, options_.drift_deg * kRadPerDeg),
                            std::max(1e-6, options_.drift_m))
       .inverse();
 }
@@ -105,9 +105,9 @@ std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(std::int64_t keyframe
     for (std::size_t k = 0; k < seen.size(); ++k) {
       const Eigen::Vector3d n = toward(seen[k].plane_cam, Eigen::Vector3d::Zero());
       if (n.dot(T_cam_map.rotation() * landmark.toward_map) < 0) continue;
-      const double distance = chi2(seen[k].plane_cam, expected,
-                                   *covariance + seen[k].covariance + drift(seen[k].plane_cam));
-      if (!(distance < gate())) continue;
+      const double distance = plane_chi2(
+          seen[k].plane_cam, expected, *covariance + seen[k].covariance + drift(seen[k].plane_cam));
+      if (!(distance < plane_gate())) continue;
       const double share = overlap(seen[k].points_cam, points_cam);
       if (share < options_.min_overlap) continue;
       // The larger it is, the sooner what is seen there is that plane.
@@ -143,7 +143,7 @@ void PlaneLandmarks::see(std::int64_t keyframe, const DepthPlane& plane, std::in
 /// The one of those that wait which a plane of the newest keyframe agrees with best.
 std::optional<std::size_t> PlaneLandmarks::partner(std::int64_t keyframe, const DepthPlane& plane,
                                                    const SlidingWindow& window) const {
-  double least = gate();
+  double least = plane_gate();
   std::optional<std::size_t> best;
   const Eigen::Vector3d n = toward(plane.plane_cam, Eigen::Vector3d::Zero());
   for (std::size_t k = 0; k < waiting_.size(); ++k) {
@@ -160,7 +160,7 @@ std::optional<std::size_t> PlaneLandmarks::partner(std::int64_t keyframe, const 
     const Eigen::Matrix3d covariance = J_plane * before.covariance * J_plane.transpose() +
                                        J_pose * *motion * J_pose.transpose() + plane.covariance +
                                        drift(plane.plane_cam);
-    const double distance = chi2(plane.plane_cam, expected, covariance);
+    const double distance = plane_chi2(plane.plane_cam, expected, covariance);
     if (distance < least &&
         overlap(plane.points_cam, moved(T_before_now.inverse(), before.points_cam)) >=
             options_.min_overlap)
@@ -199,7 +199,7 @@ void PlaneLandmarks::forget(std::int64_t keyframe, SlidingWindow& window) {
 /// landmark another plane agrees with about as well, unless that one is a sighting of its own.
 std::vector<std::optional<std::int64_t>> PlaneLandmarks::assign(const std::vector<Match>& all,
                                                                 std::size_t count) {
-  constexpr double kClearly = 6;    // so much of chi2 makes one of two landmarks the better one
+  constexpr double kClearly = 6;  // so much of plane_chi2 makes one of two landmarks the better one
   constexpr double kUndecided = 2;  // so little of a score makes neither of two planes the better
   std::vector<const Match*> chosen(count, nullptr);
   std::set<std::int64_t> taken;

@@ -1,5 +1,6 @@
 #include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/time.h>
 #include <placegraph/pipeline/flight/flight_estimator.h>
 
 #include <algorithm>
@@ -15,10 +16,6 @@ using Code = Outcome::Code;
 constexpr int kEnoughMarkers = 3;  // with so many, beacons are not looked for
 constexpr double kKept = 0.7;      // of the tracks: with fewer, new ones are looked for
 constexpr int kPatience = 5;       // images between two that are searched for corners in vain
-
-double seconds(std::int64_t from_ns, std::int64_t to_ns) {
-  return 1e-9 * static_cast<double>(to_ns - from_ns);
-}
 
 /// Of the state's pose, right tangent.
 Matrix6d pose_covariance(const BodyState& state) {

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/features/triangulation.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/odometry/odometry.h>
 
 #include <cmath>
@@ -61,7 +62,7 @@ std::optional<Eigen::Vector3d> Odometry::place_point(
   if (before.empty()) return std::nullopt;
   std::vector<Sighting> rays{{T_odom_cam, now.px}};
   for (const Sighting2d& s : before) rays.push_back({window_.pose(s.keyframe), s.px});
-  const auto point = triangulate(calibration_.camera, rays, options_.min_parallax_deg * M_PI / 180,
+  const auto point = triangulate(calibration_.camera, rays, deg_to_rad(options_.min_parallax_deg),
                                  options_.outlier_px);
   if (!point.outcome) return std::nullopt;
   return point.point_ref;

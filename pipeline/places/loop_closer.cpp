@@ -1,5 +1,6 @@
 #include <placegraph/frontend/features/depth_lookup.h>
 #include <placegraph/frontend/features/triangulation.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/places/loop_closer.h>
 #include <placegraph/pipeline/places/loop_probability.h>
@@ -88,7 +89,7 @@ void LoopCloser::add_view(std::int64_t keyframe, const Frame& frame,
   for (std::size_t i = 0; i < view.lines.size(); ++i) view.lines[i].descriptor = descriptors[i];
   if (T_previous_this && !views_.empty() && !calibration_.depth) {
     // Depth by parallax between neighbours: the same way for one eye and for two.
-    constexpr double kBandPx = 2.0, kMinParallaxRad = 0.7 * M_PI / 180;
+    constexpr double kBandPx = 2.0, kMinParallaxRad = deg_to_rad(0.7);
     std::vector<Feature>& previous = views_.back().features;
     const SE3 T_this_previous = T_previous_this->inverse();
     for (const FeatureMatch& m :
@@ -117,7 +118,7 @@ bool LoopCloser::agree(const Loop& a, const Loop& b, const MotionBetween& odomet
   const Sim3 difference = predicted.inverse() * b.S_match_query();
   const double way = queries->way + matches->way / predicted.scale();
   return difference.translation().norm() < options_.support_translation * (median_depth_m + way) &&
-         difference.rotation().log().norm() < options_.support_angle_deg * M_PI / 180 &&
+         difference.rotation().log().norm() < deg_to_rad(options_.support_angle_deg) &&
          std::abs(std::log(difference.scale())) < options_.verifier.max_scale_error;
 }
 
@@ -127,7 +128,8 @@ LoopCloser::Drift LoopCloser::drift_over(double way, double distance, double med
   const double depths = way / median_depth_m;
   Drift drift;
   drift.angle_rad =
-      std::min(M_PI, (options_.support_angle_deg + options_.drift_angle_deg * depths) * M_PI / 180);
+      std::min(std::numbers::pi,
+               deg_to_rad((options_.support_angle_deg + options_.drift_angle_deg * depths)));
   drift.length =
       options_.drift_translation * (median_depth_m + way) + drift.angle_rad * 0.5 * distance;
   drift.log_scale = options_.verifier.max_scale_error + options_.drift_scale * depths;

@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 
@@ -110,7 +111,7 @@ void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
     const Sim3 S_place_this = S_place_keyframe(node);
     if (S_place_this.translation().norm() <
             options_.max_distance * median_depth_m * S_place_this.scale() &&
-        S_place_this.rotation().log().norm() < options_.max_angle_deg * M_PI / 180 &&
+        S_place_this.rotation().log().norm() < deg_to_rad(options_.max_angle_deg) &&
         same_known_ground(node, S_place_this)) {
       nodes_[id] = node;
       place_at(id).last_keyframe = id;

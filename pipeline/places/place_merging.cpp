@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/places/place_mapper.h>
@@ -61,7 +62,7 @@ std::optional<std::int64_t> PlaceMapper::known_ground(const Sim3& S_map_here, st
     const double distance = (place.S_map_place.translation() - S_map_here.translation()).norm();
     if (distance >= std::min(least, place_reach)) continue;
     const SO3 turn = place.S_map_place.rotation().inverse() * S_map_here.rotation();
-    if (turn.log().norm() >= options_.max_angle_deg * M_PI / 180) continue;
+    if (turn.log().norm() >= deg_to_rad(options_.max_angle_deg)) continue;
     const auto way = odometry(place.anchor_keyframe, keyframe);
     if (way && way->way * own.S_map_place.scale() < 2 * std::max(reach, place_reach)) continue;
     least = distance;
@@ -116,7 +117,7 @@ std::optional<PlaceMapper::Merger> PlaceMapper::merger_of(std::int64_t one, std:
     return std::nullopt;
   const Sim3 S_a_b = a.S_map_place.inverse() * b.S_map_place;
   if (S_a_b.translation().norm() >= a.reach ||
-      S_a_b.rotation().log().norm() >= options_.max_angle_deg * M_PI / 180)
+      S_a_b.rotation().log().norm() >= deg_to_rad(options_.max_angle_deg))
     return std::nullopt;
   const Merger merger{older, younger, optimizer_.relative_covariance(older, younger)};
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(

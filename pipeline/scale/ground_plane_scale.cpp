@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/scale/ground_plane_scale.h>
@@ -37,7 +38,7 @@ GroundScale::GroundScale(const GroundScaleOptions& options, const Camera& camera
     : options_(options),
       camera_(camera),
       camera_height_m_(camera_height_m),
-      normal_variance_rad2_(std::pow(options.mounting_sigma_deg * M_PI / 180, 2)) {
+      normal_variance_rad2_(std::pow(deg_to_rad(options.mounting_sigma_deg), 2)) {
   options_.check();
   require(camera_height_m > 0, "camera_height_m: must be positive");
 }
@@ -58,7 +59,7 @@ std::vector<Eigen::Vector2d> GroundScale::outline_px() const {
 
 /// Of a single view's normal about the camera's mounting.
 double GroundScale::sigma_of_view_rad() const {
-  const double frame = options_.pitching_sigma_deg * M_PI / 180;
+  const double frame = deg_to_rad(options_.pitching_sigma_deg);
   return std::sqrt(normal_variance_rad2_ + frame * frame);
 }
 
@@ -70,19 +71,19 @@ bool GroundScale::may_be_ground(const Eigen::Vector3d& level) const {
 GroundPlanePrior GroundScale::prior(const GroundSight& sight) const {
   if (sight.level)
     return {{*sight.level, camera_height_m_},
-            std::hypot(options_.level_sigma_deg * M_PI / 180, sight.level_sigma_rad)};
+            std::hypot(deg_to_rad(options_.level_sigma_deg), sight.level_sigma_rad)};
   return {plane_cam(), sigma_of_view_rad()};
 }
 
 /// The view's normal is the mean plus the vehicle's nodding; what the alignment reports is its
 /// posterior under prior() or a surer one, from which the mean's posterior follows.
 void GroundScale::learn(const GroundPlaneResult& found) {
-  const double frame = options_.pitching_sigma_deg * M_PI / 180;
+  const double frame = deg_to_rad(options_.pitching_sigma_deg);
   const double before = normal_variance_rad2_ + frame * frame;
   const double gain = normal_variance_rad2_ / before;
   const double after = found.sigma_normal_rad * found.sigma_normal_rad;
   normal_cam_ = (normal_cam_ + gain * (found.plane_ref.normal - normal_cam_)).normalized();
-  const double drift = options_.mounting_drift_deg * M_PI / 180;
+  const double drift = deg_to_rad(options_.mounting_drift_deg);
   normal_variance_rad2_ += drift * drift - gain * gain * std::max(0.0, before - after);
 }
 

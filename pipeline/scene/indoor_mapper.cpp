@@ -1,6 +1,7 @@
 #include <placegraph/frontend/floor_plan/building_axes.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/scene/indoor_mapper.h>
@@ -344,7 +345,7 @@ IndoorMap map_indoors(const Map& map, const Calibration& calibration,
   if (!map.metric) return mapper.fuse(map);  // says so
   NearbyViews nearby(map, frame_of, options.views);
   for (const Keyframe* keyframe :
-       keyframes_apart(map, options.min_step_m, options.min_turn_deg * M_PI / 180)) {
+       keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_turn_deg))) {
     std::vector<SweptView> views;
     if (!calibration.depth) views = nearby.of(*keyframe);
     mapper.add(keyframe->id, nearby.frame(*keyframe), views);

@@ -1,4 +1,5 @@
 #include <placegraph/frontend/scene/moving_classes.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/scene/urban_mapper.h>
 
@@ -127,7 +128,7 @@ SemanticMap UrbanMapper::fuse(const KeyframePoses& T_map_cam, const Eigen::Vecto
 void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions& options,
                    const std::function<Frame(const Keyframe&)>& frame_of,
                    const std::function<void(std::size_t, std::size_t)>& progress) {
-  const auto chosen = keyframes_apart(map, options.min_step_m, options.min_turn_deg * M_PI / 180);
+  const auto chosen = keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_turn_deg));
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const std::int64_t id = chosen[i]->id;
     mapper.add(id, frame_of(*chosen[i]), camera_pose(map, id));

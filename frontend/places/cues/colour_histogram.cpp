@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-constexpr int kWidth = 80, kHeight = 60;  // pixels that are counted
+constexpr int kCountedWidth = 80, kCountedHeight = 60;  // pixels that are counted
 
 /// The two bins beside a position and their shares; a share of zero where there is no bin.
 struct Shares {
@@ -37,7 +37,7 @@ Shares shares_of(float position, int bins, bool wrap, bool lose) {
 CueGrid colour_histogram_cue(const Image& bgr, const ColourHistogramOptions& options) {
   require(bgr.type() == CV_8UC3, "colour_histogram_cue: BGR image needed");
   cv::Mat small, hsv;
-  cv::resize(bgr, small, {kWidth, kHeight}, 0, 0, cv::INTER_AREA);
+  cv::resize(bgr, small, {kCountedWidth, kCountedHeight}, 0, 0, cv::INTER_AREA);
   small.convertTo(small, CV_32FC3, 1 / 255.0);
   cv::cvtColor(small, hsv, cv::COLOR_BGR2HSV);
   const int bins = options.hues * options.saturations * options.values;
@@ -47,11 +47,11 @@ CueGrid colour_histogram_cue(const Image& bgr, const ColourHistogramOptions& opt
                static_cast<float>(options.cells) -
            0.5f;
   };
-  for (int y = 0; y < kHeight; ++y) {
-    const Shares row = shares_of(cell_position(y, kHeight), options.cells, false, true);
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kCountedHeight; ++y) {
+    const Shares row = shares_of(cell_position(y, kCountedHeight), options.cells, false, true);
+    for (int x = 0; x < kCountedWidth; ++x) {
       const cv::Vec3f& pixel = hsv.at<cv::Vec3f>(y, x);
-      const Shares column = shares_of(cell_position(x, kWidth), options.cells, false, true);
+      const Shares column = shares_of(cell_position(x, kCountedWidth), options.cells, false, true);
       const auto top = [](int count) { return static_cast<float>(count - 1); };
       const Shares hue = shares_of(pixel[0] / 360 * static_cast<float>(options.hues) - 0.5f,
                                    options.hues, true, false);

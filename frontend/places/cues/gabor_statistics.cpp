@@ -9,8 +9,8 @@
 namespace placegraph {
 namespace {
 
-constexpr int kWidth = 80, kHeight = 60;  // pixels at the finest scale
-constexpr double kFloor = 0.5;            // grey levels: the noise of blank walls says nothing
+constexpr int kFinestWidth = 80, kFinestHeight = 60;  // pixels at the finest scale
+constexpr double kFloor = 0.5;  // grey levels: the noise of blank walls says nothing
 
 /// A Gaussian times cosine and sine of `frequency` [rad/px] along one axis.
 struct Wave {
@@ -62,7 +62,7 @@ CueGrid gabor_cue(const Image& grey, const GaborOptions& o) {
       return std::max(1, static_cast<int>(std::lround(px * shrink / step))) * step;
     };
     cv::Mat image;
-    cv::resize(grey, image, {whole(kWidth), whole(kHeight)}, 0, 0, cv::INTER_AREA);
+    cv::resize(grey, image, {whole(kFinestWidth), whole(kFinestHeight)}, 0, 0, cv::INTER_AREA);
     image.convertTo(image, CV_32F, 1, -cv::mean(image)[0]);
     for (int k = 0; k < o.orientations; ++k) {
       const double angle = std::numbers::pi * k / o.orientations;

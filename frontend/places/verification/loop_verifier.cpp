@@ -1,5 +1,6 @@
 #include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/frontend/places/verification/loop_verifier.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
 
 #include <algorithm>
@@ -201,7 +202,7 @@ Outcome judged(const Camera& camera, const PointsAgree& agree, const LoopVerific
   }
   if (depths.empty() ||
       T_match_query.translation().norm() > options.max_baseline_depths * median_of(depths) ||
-      T_match_query.rotation().log().norm() > options.max_angle_deg * M_PI / 180)
+      T_match_query.rotation().log().norm() > deg_to_rad(options.max_angle_deg))
     return Outcome::failure(Code::kInconsistent, "the views differ too much");
   if (agree.model != LoopModel::kPoints3d2d && !depths_fit(camera, agree, verified, options))
     return Outcome::failure(Code::kInconsistent, "depths are not where the pose has them");

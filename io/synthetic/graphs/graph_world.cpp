@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <unordered_map>
 
 namespace placegraph::synthetic {
@@ -65,7 +66,7 @@ PoseGraph finish(const Truth<Group>& truth, const GraphNoise& noise, Random& ran
 /// seen in space also up and down.
 template <class Group>
 Group course_pose(double turn, double length_m) {
-  const double r = length_m / (2 * M_PI);
+  const double r = length_m / (2 * std::numbers::pi);
   const auto point = [&](double a) {
     const double s = r * (1 + 0.15 * std::cos(3 * a));
     return Eigen::Vector3d(1.2 * s * std::cos(a), 0.8 * s * std::sin(a),
@@ -88,7 +89,7 @@ PoseGraph long_loop(const LongLoopOptions& options) {
   Truth<Group> truth;
   const double lap = options.poses / options.laps;
   for (int i = 0; i < options.poses; ++i)
-    truth.T_world_node.push_back(course_pose<Group>(2 * M_PI * i / lap, lap));
+    truth.T_world_node.push_back(course_pose<Group>(2 * std::numbers::pi * i / lap, lap));
   const int before = static_cast<int>(std::ceil(lap));
   for (int k = 0; k < options.closures; ++k) {
     const int share = static_cast<int>((k + 0.5) * (options.poses - before) / options.closures);
@@ -165,7 +166,7 @@ PoseGraph make_manhattan_walk(const ManhattanWalkOptions& options) {
       } while (leaves_town(next));
       heading = next;
     }
-    truth.T_world_node.emplace_back(x, y, heading * M_PI / 2);
+    truth.T_world_node.emplace_back(x, y, heading * std::numbers::pi / 2);
     const std::int64_t here = static_cast<std::int64_t>(y) * (side_m + 1) + x;
     const auto [found, fresh] = oldest.emplace(here, i);
     if (!fresh && random.uniform() < options.loop_share) truth.loops.push_back({found->second, i});
@@ -233,7 +234,7 @@ void scatter_poses(PoseGraph& graph, double extent_m, std::uint64_t seed) {
     do {
       for (int i = 0; i < 4; ++i) q.coeffs()[i] = random.normal();
     } while (q.norm() < 1e-3);
-    const double angle = random.uniform(-M_PI, M_PI);
+    const double angle = random.uniform(-std::numbers::pi, std::numbers::pi);
     if (node.fixed) continue;
     if (graph.kind() == PoseKind::kSE2)
       node.T_world_node = SE2(position[0], position[1], angle);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace placegraph::synthetic {
@@ -74,7 +75,7 @@ SE3 pose_at(const Eigen::Vector3d& position, const Eigen::Vector3d& turn) {
 
 /// Upright things stand turned about y by chance; others lie anyhow.
 Eigen::Vector3d random_turn(Random& random, bool upright) {
-  if (upright) return {0, random.uniform(-M_PI, M_PI), 0};
+  if (upright) return {0, random.uniform(-std::numbers::pi, std::numbers::pi), 0};
   return {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
 }
 
@@ -88,8 +89,8 @@ class SceneMaker {
     const Eigen::Vector3d half =
         size_ * Eigen::Vector3d(random_.uniform(0.5, 1.2), random_.uniform(0.25, 0.6),
                                 random_.uniform(0.6, 1.2));
-    const SE3 T_sensor_room =
-        pose_at(Eigen::Vector3d::Zero(), {tilt, random_.uniform(-M_PI, M_PI), 0});
+    const SE3 T_sensor_room = pose_at(
+        Eigen::Vector3d::Zero(), {tilt, random_.uniform(-std::numbers::pi, std::numbers::pi), 0});
     const Eigen::Vector3d off(random_.uniform(-0.4, 0.4) * half.x(),
                               random_.uniform(-0.2, 0.2) * half.y(),
                               random_.uniform(-0.4, 0.4) * half.z());

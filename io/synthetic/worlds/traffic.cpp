@@ -9,14 +9,14 @@
 namespace placegraph::synthetic {
 namespace {
 
-constexpr double kStep_m = 0.5;
+constexpr double kPathStep_m = 0.5;
 constexpr double kOncomingLane_m = 3.4;  ///< left of the camera's own track
 constexpr double kOncomingSpeed_mps = 8;
 constexpr double kMinGap_m = 2.6;  ///< between a mover's centre and the camera
 
 /// The camera's way as a curve: arc length at each time, and even steps along it.
 struct Way {
-  std::vector<Eigen::Vector2d> path;  // steps of kStep_m
+  std::vector<Eigen::Vector2d> path;  // steps of kPathStep_m
   std::vector<double> time_s, s;
   std::vector<Eigen::Vector2d> position;
 
@@ -43,7 +43,7 @@ Way make_way(const std::vector<double>& time_s, const std::vector<SE3>& T_scene_
     if (moved.empty() || (way.position[i] - moved.back()).norm() > 0.2)
       moved.push_back(way.position[i]);
   }
-  if (moved.size() > 1) way.path = smooth_path(moved, kStep_m, 3);
+  if (moved.size() > 1) way.path = smooth_path(moved, kPathStep_m, 3);
   return way;
 }
 
@@ -95,7 +95,7 @@ void add_traffic(Scene& scene, const GroundMesh& ground, const std::vector<doubl
   const auto way = std::make_shared<Way>(make_way(time_s, T_scene_cam));
   if (way->path.size() < 100) return;
   const auto shared_ground = std::make_shared<GroundMesh>(ground);
-  const double total_m = kStep_m * static_cast<double>(way->path.size() - 1);
+  const double total_m = kPathStep_m * static_cast<double>(way->path.size() - 1);
   Random random(seed, 21);
   const double interval_s = 60 / per_minute;
   for (double t = time_s.front() + random.uniform(3, 3 + interval_s); t < time_s.back();
@@ -109,7 +109,7 @@ void add_traffic(Scene& scene, const GroundMesh& ground, const std::vector<doubl
         if (now < t - 7 || now > t + 1.2) return std::nullopt;
         const double s = met_m - kOncomingSpeed_mps * (now - t);
         if (s < 0 || s > total_m) return std::nullopt;
-        const PathPoint p = path_point(way->path, kStep_m, s);
+        const PathPoint p = path_point(way->path, kPathStep_m, s);
         const Eigen::Vector2d left(-p.direction[1], p.direction[0]);
         return car_pose(*shared_ground, p.position + kOncomingLane_m * left, -p.direction);
       };
@@ -120,7 +120,7 @@ void add_traffic(Scene& scene, const GroundMesh& ground, const std::vector<doubl
         if (std::abs(d) > 80) return std::nullopt;
         const double s = way->at(now) + 10 + std::sqrt(d * d + 16);
         if (s > total_m) return std::nullopt;
-        const PathPoint p = path_point(way->path, kStep_m, s);
+        const PathPoint p = path_point(way->path, kPathStep_m, s);
         return car_pose(*shared_ground, p.position, p.direction);
       };
     }

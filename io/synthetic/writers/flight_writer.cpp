@@ -30,7 +30,7 @@ std::string camera_yaml(const Camera& camera, const SE3& T_body_cam) {
              camera.cy);
 }
 
-std::string world_yaml(const SyntheticWorld& world) {
+std::string flight_yaml(const SyntheticWorld& world) {
   const SyntheticOptions& o = world.options();
   return fmt::format(
       "# A rendered flight; everything here is exact.\nworld: {}\ndifficulty: {}\nseed: {}\n"
@@ -83,7 +83,7 @@ void write_flight(const SyntheticWorld& world, const std::string& path,
   folder.write(kCamera + "/sensor.yaml",
                camera_yaml(world.calibration().camera, setting->T_body_cam));
   write_recordings(*setting, world.stamp_ns(world.size() - 1), folder);
-  folder.write("world.yaml", world_yaml(world));
+  folder.write("world.yaml", flight_yaml(world));
   folder.write("README.txt", readme(contents));
 
   std::mutex mutex;
