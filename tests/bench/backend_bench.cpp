@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <benchmark/benchmark.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 
@@ -75,7 +77,8 @@ void PoseGraphOptimize(benchmark::State& state) {
   };
   for (int i = 0; i < static_cast<int>(state.range(0)); ++i) {
     const int row = i / side, column = row % 2 ? side - 1 - i % side : i % side;
-    truth.emplace_back(SO3::exp({0, 0, row % 2 ? M_PI : 0.0}), Eigen::Vector3d(column, row, 0));
+    truth.emplace_back(SO3::exp({0, 0, row % 2 ? std::numbers::pi : 0.0}),
+                       Eigen::Vector3d(column, row, 0));
     SE3 T_world_node;
     if (i > 0)
       T_world_node = std::get<SE3>(graph.nodes.back().T_world_node) *

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/scene/plane_check.h>
 #include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/random.h>
@@ -187,7 +188,7 @@ void study(const std::vector<Sample>& samples, const std::string& data, double s
         const auto normal = sample.normals.find(match.truth);
         if (match.found == 0 || normal == sample.normals.end()) continue;
         const Eigen::Vector3d& n = result.planes[match.found - 1].plane.normal;
-        angles.push_back(std::asin(std::min(1.0, n.cross(normal->second).norm())) * 180 / M_PI);
+        angles.push_back(rad_to_deg(std::asin(std::min(1.0, n.cross(normal->second).norm()))));
         if (verbose && angles.back() > 1 && method == CloudPlanesMethod::kCuts)
           fmt::print(stderr, "{}: plane {} of {} points is {:.2f} deg off\n", sample.name,
                      match.truth, match.points, angles.back());

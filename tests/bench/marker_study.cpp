@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/markers/marker_filter.h>
 #include <placegraph/frontend/markers/marker_pose.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -20,10 +21,9 @@ namespace {
 
 using namespace placegraph;
 using namespace placegraph::test;
-constexpr double kDeg = M_PI / 180;
 
 double angle_deg(const SE3& a, const SE3& b) {
-  return (a.rotation().inverse() * b.rotation()).log().norm() / kDeg;
+  return (a.rotation().inverse() * b.rotation()).log().norm() / kRadPerDeg;
 }
 double cpu_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -168,10 +168,11 @@ void study_tilts(int seeds, Report& report) {
           for (int tilt = 0; tilt <= 75; tilt += 5) {
             scene.blur_px = blur;
             scene.noise = noise;
-            const SE3 T = looking_at_origin(range, tilt * kDeg, random.uniform(0, 2 * M_PI),
-                                            random.uniform(0, 2 * M_PI)) *
-                          SE3(SO3::exp({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0}),
-                              Eigen::Vector3d::Zero());
+            const SE3 T =
+                looking_at_origin(range, tilt * kRadPerDeg, random.uniform(0, 2 * std::numbers::pi),
+                                  random.uniform(0, 2 * std::numbers::pi)) *
+                SE3(SO3::exp({random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0}),
+                    Eigen::Vector3d::Zero());
             const Image image = scene.render(T, random);
             for (Tally* tally : {&by_tilt[tilt], &by_range[static_cast<int>(10 * range)], &all}) {
               MarkerFilter filter({}, scene.layout, scene.camera, SE3());
@@ -184,11 +185,12 @@ void study_tilts(int seeds, Report& report) {
         scene.blur_px = blur;
         scene.noise = 4;
         MarkerFilter filter({}, scene.layout, scene.camera, SE3());
-        const double azimuth = random.uniform(0, 2 * M_PI), roll = random.uniform(0, 2 * M_PI);
+        const double azimuth = random.uniform(0, 2 * std::numbers::pi),
+                     roll = random.uniform(0, 2 * std::numbers::pi);
         SE3 before;
         for (int step = 0; step < 60; ++step) {
           const double tilt = (step < 30 ? step : 60 - step) * 2.5;
-          const SE3 T = looking_at_origin(range, tilt * kDeg, azimuth + 0.01 * step, roll);
+          const SE3 T = looking_at_origin(range, tilt * kRadPerDeg, azimuth + 0.01 * step, roll);
           std::optional<SO3> turn;
           if (step > 0) {
             const double s = 0.002;

@@ -9,6 +9,7 @@
 #include <placegraph/frontend/scene/horizon.h>
 #include <placegraph/frontend/scene/popup.h>
 #include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/io/models/scene_model_file.h>
@@ -126,7 +127,7 @@ void judge_frame(const SyntheticWorld& world, std::size_t k, const SceneModel& m
   GroundView view = truth;
   view.down =
       estimate_horizon(segments_of(detect_segments(frame.image, {})), view.camera, {}, random).down;
-  score.horizon_deg.push_back(std::acos(std::min(1.0, view.down.dot(truth.down))) * 180 / M_PI);
+  score.horizon_deg.push_back(rad_to_deg(std::acos(std::min(1.0, view.down.dot(truth.down)))));
   const PopUp popup = pop_up(classify_surfaces(model, view_scene(bgr)).surfaces.labels, view);
 
   TrueBox box;

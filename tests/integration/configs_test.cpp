@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "tests/support/paths.h"
 #include "tests/support/scenes/street_files.h"
 
 namespace placegraph {
@@ -14,7 +15,7 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-const std::string kFolder = std::string(PLACEGRAPH_SOURCE_DIR) + "/configs/";
+const std::string kFolder = source_dir() + "/configs/";
 constexpr int kFrames = 8;
 
 RunOptions options_of(const std::string& path) {

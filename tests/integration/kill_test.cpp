@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tests/support/cli_test.h"
+#include "tests/support/paths.h"
 
 namespace placegraph {
 namespace {
@@ -14,8 +15,8 @@ TEST(KilledRun, GoesOnFromWhatItHadSaved) {
       dir.path());
   ASSERT_EQ(rendered.code, 0) << rendered.err;
   constexpr int kRounds = 4;
-  const std::string command = std::string("'") + PLACEGRAPH_SOURCE_DIR + "/scripts/kill_study' '" +
-                              PLACEGRAPH_CLI + "' '" + (dir / "drive") + "' '" + (dir / "out") +
+  const std::string command = "'" + test::source_dir() + "/scripts/kill_study' '" +
+                              test::program() + "' '" + (dir / "drive") + "' '" + (dir / "out") +
                               "' " + std::to_string(kRounds) + " 3 >'" + (dir / "lines") + "' 2>'" +
                               (dir / "err") + "' </dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0) << test::read_file(dir / "err");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>
 #include <placegraph/pipeline/slam.h>
 
@@ -11,8 +12,6 @@
 
 namespace placegraph {
 namespace {
-
-constexpr double kDeg = M_PI / 180;
 
 const SyntheticWorld& corridor() {
   static const SyntheticWorld world([] {
@@ -44,7 +43,7 @@ TEST(DirectionsOfARenderedCorridor, AreKnownAsWellAsTheyClaim) {
     const SO3 R_cam_map = true_rotation(i).inverse();
     const Eigen::Vector3d e =
         (nearest_axes(frame.R_cam_manhattan, R_cam_map).inverse() * R_cam_map).log();
-    if (e.norm() > 2 * kDeg) continue;  // counted below
+    if (e.norm() > 2 * kRadPerDeg) continue;  // counted below
     // The frame is named anew along the same axes: its information is turned with it.
     const Eigen::Matrix3d turn =
         (frame.R_cam_manhattan.inverse() * nearest_axes(frame.R_cam_manhattan, R_cam_map)).matrix();
@@ -53,7 +52,7 @@ TEST(DirectionsOfARenderedCorridor, AreKnownAsWellAsTheyClaim) {
     ++found;
   }
   ASSERT_GT(found, 0.8 * looked);
-  const double anees = nees / (3 * found), rms_deg = std::sqrt(squared / found) / kDeg;
+  const double anees = nees / (3 * found), rms_deg = std::sqrt(squared / found) / kRadPerDeg;
   std::cout << found << " of " << looked << " views, error " << rms_deg
             << " deg, ANEES per degree of freedom " << anees << "\n";
   EXPECT_LT(anees, 2);
@@ -91,7 +90,8 @@ TEST(SlamInARenderedCorridor, TakesDirectionsOfARectangularWorld) {
   // Two views wait for a third before a world begins.
   EXPECT_GE(keyframes, 4);
   EXPECT_GE(seen, keyframes - 2);
-  EXPECT_LT((T_last.rotation().inverse() * true_rotation(kFrames - 1)).log().norm(), 0.3 * kDeg);
+  EXPECT_LT((T_last.rotation().inverse() * true_rotation(kFrames - 1)).log().norm(),
+            0.3 * kRadPerDeg);
 }
 
 }  // namespace

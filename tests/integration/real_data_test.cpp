@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/run.h>
 
 #include "tests/support/data.h"
@@ -81,13 +82,13 @@ TEST(RealData, SevenScenesClosesTrueLoopsOnly) {
     const double error_rad = angle_rad(T_match_query, loop.T_match_query);
     worst_m = std::max(worst_m, error_m), worst_rad = std::max(worst_rad, error_rad);
     const bool is_right = std::abs(loop.query_frame - loop.match_frame) >= 33 && error_m <= 0.10 &&
-                          error_rad <= 5 * M_PI / 180;
+                          error_rad <= deg_to_rad(5);
     right += is_right;
     EXPECT_TRUE(is_right) << "frames " << loop.query_frame << " and " << loop.match_frame << ", "
                           << loop.inliers << " inliers: " << error_m << " m, "
-                          << error_rad * 180 / M_PI << " deg off";
+                          << rad_to_deg(error_rad) << " deg off";
   }
-  std::cout << accepted << " loops, worst " << worst_m << " m, " << worst_rad * 180 / M_PI
+  std::cout << accepted << " loops, worst " << worst_m << " m, " << rad_to_deg(worst_rad)
             << " deg\n";
   EXPECT_GE(right, 20);
 }

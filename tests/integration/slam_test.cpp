@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/run.h>
 
@@ -239,7 +240,7 @@ TEST(SlamOnAStreet, MovesEvenlyFromOneKeyframeToTheNext) {
 TEST(SlamOnAStreet, NeedsNoKeyframesToTurnWhereItsTurnIsTakenOut) {
   std::vector<Frame> frames;
   for (int i = 0; i < 20; ++i) {
-    const SE3 T_world_left = pose({0, 0.4 * i * M_PI / 180, 0}, {0, -kStreetHeight_m, 0});
+    const SE3 T_world_left = pose({0, deg_to_rad(0.4 * i), 0}, {0, -kStreetHeight_m, 0});
     Frame frame;
     frame.id = frame.stamp_ns = i;
     frame.image = render(street_camera(), T_world_left, street(), 2).grey;
@@ -317,8 +318,7 @@ MeasuredMotion slipping_wheels(int slip_begin, int slip_end) {
   for (int i = 0; i + 1 < kFrames; ++i) {
     const SE3 T = street_T_world_cam(i).inverse() * street_T_world_cam(i + 1);
     const double factor = i >= slip_begin && i < slip_end ? 3 : 1.01;
-    const SE3 measured(T.rotation() * SO3::exp({0, 0.02 * M_PI / 180, 0}),
-                       factor * T.translation());
+    const SE3 measured(T.rotation() * SO3::exp({0, deg_to_rad(0.02), 0}), factor * T.translation());
     steps.push_back({drive().stamp_ns(static_cast<std::size_t>(i)),
                      drive().stamp_ns(static_cast<std::size_t>(i) + 1), measured,
                      MotionNoise().covariance(measured)});

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/evaluate.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
@@ -43,7 +44,7 @@ double turn_error_deg(const StreetDataset& dataset, const Trajectory& trajectory
     return SE3(*t.poses.front().T_world_body).rotation().inverse() *
            SE3(*t.poses.back().T_world_body).rotation();
   };
-  return (turn(*dataset.ground_truth()).inverse() * turn(trajectory)).log().norm() * 180 / M_PI;
+  return (turn(*dataset.ground_truth()).inverse() * turn(trajectory)).rad_to_deg(log().norm());
 }
 
 TEST(SlamThatTurnsOnTheSpot, KeepsItsPlaceInTheMapThoughAllItKnewLeavesTheView) {
@@ -84,7 +85,7 @@ TEST(SlamThatTurnsOnTheSpot, ForgetsWhatItSawBeforeTheDarkIfNothingWasPlacedYet)
           SE3(*pose).rotation().inverse() * SE3(*trajectory.poses.back().T_world_body).rotation();
       const SO3 expected = SE3(*truth[i].T_world_body).rotation().inverse() *
                            SE3(*truth.back().T_world_body).rotation();
-      EXPECT_LT((expected.inverse() * turn).log().norm() * 180 / M_PI, 0.7) << "frame " << i;
+      EXPECT_LT((expected.inverse() * turn).rad_to_deg(log().norm()), 0.7) << "frame " << i;
     }
   }
 }

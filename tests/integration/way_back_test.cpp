@@ -1,5 +1,7 @@
 // The way back in a small rendered town: a map is made of a round and a bit, and the way back over
 // its places is replayed with frames that it does not keep.
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/route_check.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>
@@ -24,7 +26,7 @@ Trajectory rounds() {
   Trajectory truth;
   truth.has_times = false;
   for (int i = 0; i < kFrames; ++i) {
-    const double angle = 2 * M_PI * i / kRound;
+    const double angle = 2 * std::numbers::pi * i / kRound;
     const double radius = kRadius_m + 0.5 * std::clamp((i - 60.0) / 30, 0.0, 1.0);
     const Eigen::Vector3d at(kRadius_m - radius * std::cos(angle), 0, radius * std::sin(angle));
     truth.poses.push_back({i, SE3(SO3::exp({0, angle, 0}), at).isometry()});
@@ -91,7 +93,7 @@ TEST(WayBackThroughARenderedTown, IsTheShortestAndEveryPlaceOnItIsRecognized) {
   const Route back = backtracked(shortest_route(run.map.place_graph, first, last));
   ASSERT_TRUE(back.outcome);
   EXPECT_EQ(back.steps.back().place, first);
-  EXPECT_LT(back.length_m(), M_PI * kRadius_m);
+  EXPECT_LT(back.length_m(), std::numbers::pi * kRadius_m);
 
   // Recognition: every step from where the camera was at other times, one of them a metre aside.
   const LoopCloser memory(options.slam.loops, run.calibration, options.slam.seed, run.map);

@@ -1,6 +1,7 @@
 // Vanishing points of real segments against those that people marked.
 #include <gtest/gtest.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/io/datasets/camera_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/measurements/segment_file.h>
@@ -14,7 +15,6 @@ namespace placegraph {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kDeg = M_PI / 180;
 
 /// `u v x y z` a line: the directions, rows 0 to 2 about at right angles.
 std::vector<Eigen::Vector3d> read_directions(const std::string& path) {
@@ -43,7 +43,7 @@ SO3 frame_of(const std::vector<Eigen::Vector3d>& truth) {
 double nearest_deg(const Eigen::Vector3d& v, const std::vector<Eigen::Vector3d>& all) {
   double least = 90;
   for (const Eigen::Vector3d& other : all)
-    least = std::min(least, std::acos(std::min(1.0, std::abs(v.dot(other)))) / kDeg);
+    least = std::min(least, std::acos(std::min(1.0, std::abs(v.dot(other)))) / kRadPerDeg);
   return least;
 }
 
@@ -79,7 +79,7 @@ TEST(YorkUrban, WorldsAndVanishingPointsAreThoseThatPeopleMarked) {
     }
     const SO3 R = frame_of(truth);
     const SO3 estimate = nearest_axes(scene.frames[0].R_cam_manhattan, R);
-    errors_deg.push_back((estimate.inverse() * R).log().norm() / kDeg);
+    errors_deg.push_back((estimate.inverse() * R).log().norm() / kRadPerDeg);
   }
   std::sort(errors_deg.begin(), errors_deg.end());
   const std::size_t n = errors_deg.size();

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/paths.h"
+
 namespace placegraph::test {
 
 /// The folder of research data: PLACEGRAPH_DATA, else ../shared/data beside the project; empty if
@@ -10,7 +12,7 @@ namespace placegraph::test {
 inline std::string data_dir() {
   if (const char* dir = std::getenv("PLACEGRAPH_DATA")) return dir;
   const std::filesystem::path beside =
-      std::filesystem::path(PLACEGRAPH_SOURCE_DIR) / ".." / "shared" / "data";
+      std::filesystem::path(source_dir()) / ".." / "shared" / "data";
   return std::filesystem::is_directory(beside) ? beside.string() : std::string();
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 
@@ -50,7 +52,7 @@ inline PlaceMapper square(bool merge = false) {
   PlaceOptions options;
   options.merge = merge;
   PlaceMapper mapper(options);
-  const SE3 side = pose({0, M_PI / 2 + 0.04, 0}, {0, 0, 5.2});
+  const SE3 side = pose({0, std::numbers::pi / 2 + 0.04, 0}, {0, 0, 5.2});
   mapper.add_keyframe(0, std::nullopt, {}, kDepth_m);
   for (int i = 1; i <= 4; ++i) mapper.add_keyframe(i, link(i - 1, side, 0.1, 0.03), {}, kDepth_m);
   mapper.add_keyframe(5, link(4, kShort), {}, kDepth_m);

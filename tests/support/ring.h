@@ -1,4 +1,6 @@
 #pragma once
+#include <numbers>
+
 #include "tests/support/scenes/pose_walk.h"
 
 namespace placegraph::test {
@@ -11,8 +13,8 @@ PoseGraph ring(int n, bool wound, double step_m = 0.01) {
   typename Group::Tangent step = Group::Tangent::Zero(), turn = Group::Tangent::Zero();
   constexpr int yaw = Group::kDof == 3 ? 2 : 5;
   step[0] = step_m;
-  step[yaw] = 2 * M_PI / n;
-  turn[yaw] = 2 * M_PI / n;
+  step[yaw] = 2 * std::numbers::pi / n;
+  turn[yaw] = 2 * std::numbers::pi / n;
   PoseGraph graph;
   Group T_world_node;
   for (int i = 0; i < n; ++i) {

@@ -285,7 +285,7 @@ TEST_F(Cli, ConfigNamesUnknownKeysAndWrongValues) {
 TEST_F(Cli, OptionsDocumentIsTheOneConfigPrints) {
   const CommandResult result = run("config --markdown");
   EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(read_file(PLACEGRAPH_SOURCE_DIR "/docs/options.md"), result.out)
+  EXPECT_EQ(read_file(source_dir() + "/docs/options.md"), result.out)
       << "run `placegraph config --markdown --out docs/options.md --force`";
 }
 

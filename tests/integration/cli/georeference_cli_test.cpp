@@ -1,4 +1,6 @@
 // `placegraph georeference`.
+#include <placegraph/graph/core/angle.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -44,7 +46,7 @@ std::string circle_oxts(int count = kNodes, double straight_m = 0) {
     const double a = i * kAngle;
     const double east = straight_m > 0 ? 0 : 100 - kRadius_m * (1 - std::cos(a));
     const double north = straight_m > 0 ? straight_m * i : kRadius_m * std::sin(a);
-    out << 49 + north / kMeridian_m * 180 / M_PI << ' ' << 8.4 + east / kParallel_m * 180 / M_PI
+    out << 49 + rad_to_deg(north / kMeridian_m) << ' ' << 8.4 + rad_to_deg(east / kParallel_m)
         << " 115 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0.1 0 4 8 -1 -1 -1\n";
   }
   return out.str();
@@ -89,7 +91,7 @@ TEST_F(GeoreferenceCli, WritesTheMapForEveryProgramThatShowsMaps) {
   EXPECT_EQ(last.at("properties").at("id"), kNodes - 1);
   EXPECT_EQ(last.at("properties").at("stamp_ns"), 9900000000);
   EXPECT_NEAR(last.at("geometry").at("coordinates")[1].get<double>(),
-              49 + kRadius_m * std::sin(99 * kAngle) / kMeridian_m * 180 / M_PI, 1e-7);
+              49 + rad_to_deg(kRadius_m * std::sin(99 * kAngle) / kMeridian_m), 1e-7);
   EXPECT_THAT(read_file(dir / "out/map.kml"), HasSubstr("latitude 49.000000000 deg"));
   EXPECT_THAT(read_file(dir / "out/graph_enu.g2o"), StartsWith("VERTEX_SE2 0 "));
   // "0 x y z qx qy qz qw": heading north.
@@ -102,7 +104,7 @@ TEST_F(GeoreferenceCli, WritesTheMapForEveryProgramThatShowsMaps) {
   first >> t >> x >> y >> z >> qx >> qy >> qz >> qw;
   EXPECT_NEAR(x, 100, 0.02);
   EXPECT_NEAR(y, 0, 0.02);
-  EXPECT_NEAR(2 * std::atan2(qz, qw), M_PI / 2, 1e-3);
+  EXPECT_NEAR(2 * std::atan2(qz, qw), std::numbers::pi / 2, 1e-3);
   const std::string csv = read_file(dir / "out/fixes.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), kNodes + 1);
 }

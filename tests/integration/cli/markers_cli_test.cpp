@@ -1,5 +1,6 @@
 // `placegraph markers`, and the simulated tags of the research data.
 #include <placegraph/frontend/markers/marker_pose.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -109,7 +110,7 @@ TEST(SimulatedTags, CornersAndPosesAreThoseOfTheFile) {
     ASSERT_TRUE(poses.outcome);
     const SE3& T = poses.poses[0].T_cam_marker;
     EXPECT_LT(distance_m(T, tag.T_cam_marker), 0.01 * tag.T_cam_marker.translation().norm());
-    EXPECT_LT(angle_rad(T, tag.T_cam_marker), 0.5 * M_PI / 180);
+    EXPECT_LT(angle_rad(T, tag.T_cam_marker), deg_to_rad(0.5));
     EXPECT_GT(poses.margin(), 100);
   }
 }

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "tests/support/cli_test.h"
@@ -32,7 +33,7 @@ constexpr double kThreePosesCost = 0.2 * 0.2 / 3;
 std::string ring(int n, int first = 0, const std::vector<std::pair<int, int>>& false_loops = {}) {
   std::ostringstream out;
   out.precision(15);
-  const double turn = 2 * M_PI / n;
+  const double turn = 2 * std::numbers::pi / n;
   const char* information = " 100 0 0 100 0 400\n";
   const double radius = 1.1 * 0.5 / std::sin(turn / 2);
   for (int i = 0; i < n; ++i)

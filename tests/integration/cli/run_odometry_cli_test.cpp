@@ -1,4 +1,6 @@
 // `placegraph run --odometry`: the motion that wheels tell beside the pictures.
+#include <placegraph/graph/core/angle.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -65,7 +67,7 @@ std::string wheels(const std::vector<Eigen::Isometry3d>& truth, int slip_begin, 
     if (i > 0) {
       Eigen::Isometry3d step = truth[i - 1].inverse() * truth[i];
       step.translation() *= i >= slip_begin && i < slip_end ? 3 : 1.01;
-      pose = pose * step * Eigen::AngleAxisd(0.1 * M_PI / 180, Eigen::Vector3d::UnitY());
+      pose = pose * step * Eigen::AngleAxisd(deg_to_rad(0.1), Eigen::Vector3d::UnitY());
     }
     const Eigen::Quaterniond q(pose.rotation());
     out << 0.1 * i << ' ' << pose.translation().transpose() << ' ' << q.coeffs().transpose()

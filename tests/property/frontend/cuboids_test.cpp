@@ -1,6 +1,7 @@
 // Boxes and rooms of generated scenes, as a depth camera sees them.
 #include <gtest/gtest.h>
 #include <placegraph/frontend/cloud_planes/cuboids.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/io/synthetic/worlds/cloud_scene.h>
 
 #include <algorithm>
@@ -18,8 +19,8 @@ using synthetic::SolidKind;
 
 /// A room with boxes turned anyhow on its floor, a ball now and then; the camera is held anyhow.
 std::vector<Solid> furnished_room(Random& random) {
-  const SO3 R_sensor_level =
-      SO3::exp({random.uniform(-0.3, 0.5), 0, 0}) * SO3::exp({0, random.uniform(-M_PI, M_PI), 0});
+  const SO3 R_sensor_level = SO3::exp({random.uniform(-0.3, 0.5), 0, 0}) *
+                             SO3::exp({0, random.uniform(-std::numbers::pi, std::numbers::pi), 0});
   const Eigen::Vector3d half(random.uniform(2, 5), random.uniform(1.2, 1.6), random.uniform(2, 6));
   const Eigen::Vector3d middle(random.uniform(-0.6, 0.6) * half.x(), random.uniform(-0.2, 0.4),
                                random.uniform(-0.6, 0.6) * half.z());
@@ -39,7 +40,8 @@ std::vector<Solid> furnished_room(Random& random) {
     Solid box;
     box.first_label = 6 * static_cast<int>(solids.size()) + 1;
     for (int i = 0; i < 3; ++i) box.half[i] = random.uniform(0.15, 0.6);
-    const SO3 R = R_sensor_level * SO3::exp({0, random.uniform(-M_PI, M_PI), 0});
+    const SO3 R =
+        R_sensor_level * SO3::exp({0, random.uniform(-std::numbers::pi, std::numbers::pi), 0});
     box.T_sensor_solid = SE3(R, R_sensor_level * ahead(box.half.y()));
     solids.push_back(box);
   }
@@ -75,7 +77,7 @@ double turn_deg(const Cuboid& cuboid, const Solid& solid) {
   const Eigen::Matrix3d cosines = (cuboid.T_sensor_cuboid.rotation().matrix().transpose() *
                                    solid.T_sensor_solid.rotation().matrix())
                                       .cwiseAbs();
-  return std::acos(std::min(1.0, cosines.rowwise().maxCoeff().minCoeff())) * 180 / M_PI;
+  return rad_to_deg(std::acos(std::min(1.0, cosines.rowwise().maxCoeff().minCoeff())));
 }
 
 /// How far the middle of every seen side is from the nearest of the solid's sides [m].

@@ -1,6 +1,7 @@
 // Vanishing points and rectangular worlds of generated scenes.
 #include <gtest/gtest.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/manhattan_scene.h"
 #include "tests/support/seed.h"
@@ -20,7 +21,7 @@ TEST(Manhattan, CovarianceOfTheFrameIsThatOfItsError) {
     double sum = 0;
     constexpr int kScenes = 40;
     for (int k = 0; k < kScenes; ++k) {
-      const SO3 R = test::random_turn(M_PI, random);
+      const SO3 R = test::random_turn(std::numbers::pi, random);
       const auto segments = test::manhattan_segments(camera, R, 30, 30, noise_px, random);
       const auto frame = estimate_manhattan_frame(segments, camera, {}, {}, random);
       ASSERT_TRUE(frame.outcome) << frame.outcome.reason;
@@ -40,7 +41,7 @@ TEST(Manhattan, CovarianceOfATrackedFrameIsThatOfItsError) {
   double sum = 0;
   constexpr int kScenes = 80;
   for (int k = 0; k < kScenes; ++k) {
-    const SO3 R = test::random_turn(M_PI, random);
+    const SO3 R = test::random_turn(std::numbers::pi, random);
     const auto segments = test::manhattan_segments(camera, R, 30, 30, 0.3, random);
     const auto frame =
         track_manhattan_frame(segments, camera, R * test::random_turn(0.05, random), 0.03, {}, {});
@@ -58,7 +59,7 @@ TEST(Manhattan, CovarianceOfAVanishingPointIsThatOfItsError) {
   double sum = 0;
   constexpr int kScenes = 60;
   for (int k = 0; k < kScenes; ++k) {
-    const Eigen::Vector3d v = test::random_turn(M_PI, random).matrix().col(2);
+    const Eigen::Vector3d v = test::random_turn(std::numbers::pi, random).matrix().col(2);
     std::vector<LineSegment> segments;
     test::add_edges(camera, v, 40, 0.3, random, segments);
     test::add_clutter(camera, 20, random, segments);
@@ -121,12 +122,12 @@ TEST(Manhattan, AxesThatAreNotQuiteAtRightAnglesWidenTheCovariance) {
   int within = 0;
   constexpr int kScenes = 60;
   for (int k = 0; k < kScenes; ++k) {
-    const SO3 R = test::random_turn(M_PI, random);
+    const SO3 R = test::random_turn(std::numbers::pi, random);
     std::vector<LineSegment> segments;
     for (int a = 0; a < 3; ++a) {
       // each axis off its right angle by a degree, at random
       const Eigen::Vector3d w(random.normal(), random.normal(), random.normal());
-      test::add_edges(camera, R * SO3::exp(M_PI / 180 * w) * Eigen::Vector3d::Unit(a), 40, 0.3,
+      test::add_edges(camera, R * SO3::exp(kRadPerDeg * w) * Eigen::Vector3d::Unit(a), 40, 0.3,
                       random, segments);
     }
     const auto frame = estimate_manhattan_frame(segments, camera, {}, {}, random);

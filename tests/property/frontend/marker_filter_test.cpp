@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/markers/marker_filter.h>
 #include <placegraph/frontend/markers/marker_pose.h>
+#include <placegraph/graph/core/angle.h>
 
 #include <iostream>
 
@@ -42,8 +43,9 @@ TEST(MarkerFilterProperty, ChoosesTheMirroredPoseInNoViewAndDecidesMostNearOnes)
   constexpr int kViews = 5000;
   for (int view = 0; view < kViews; ++view) {
     const double range = random.uniform(0.5, 5), sigma_px = random.uniform(0.02, 0.33);
-    const SE3 truth = looking_at_origin(range, random.uniform(0, 75 * M_PI / 180),
-                                        random.uniform(0, 2 * M_PI), random.uniform(0, 2 * M_PI));
+    const SE3 truth = looking_at_origin(range, random.uniform(0, deg_to_rad(75)),
+                                        random.uniform(0, 2 * std::numbers::pi),
+                                        random.uniform(0, 2 * std::numbers::pi));
     MarkerView seen;
     seen.stamp_ns = 1;
     seen.markers = {sighting_of(layout.markers[0], truth, sigma_px, random)};

@@ -3,6 +3,7 @@
 #include <placegraph/frontend/relative_pose/epipolar_error.h>
 #include <placegraph/frontend/relative_pose/pose_3d3d.h>
 #include <placegraph/frontend/relative_pose/pose_gravity.h>
+#include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"
@@ -45,7 +46,7 @@ TEST(RelativePose, FromVerticalsLiesWithinItsCovariance) {
     for (auto& px : scene.px) add_noise(px, 0.4, random);
     GravityPoseOptions options;
     options.threshold_px = 2;
-    const double sigma = options.sigma_gravity_deg * M_PI / 180;
+    const double sigma = deg_to_rad(options.sigma_gravity_deg);
     const auto measured = [&](const Eigen::Vector3d& down) {
       const Eigen::Vector3d e = down.unitOrthogonal();
       return Eigen::Vector3d(

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/io/synthetic/worlds/synthetic_world.h>
 #include <placegraph/io/synthetic/worlds/tours.h>
 #include <placegraph/io/synthetic/worlds/town_builder.h>
@@ -291,7 +292,7 @@ std::vector<bool> revisits(const Tour& tour) {
     for (std::size_t j = 0; j + 300 <= i && !out[i]; ++j) {
       const SE3 &a = tour.T_scene_cam[i], &b = tour.T_scene_cam[j];
       const double angle = (a.rotation().inverse() * b.rotation()).log().norm();
-      out[i] = (a.translation() - b.translation()).norm() < 5 && angle < 30 * M_PI / 180;
+      out[i] = (a.translation() - b.translation()).norm() < 5 && angle < deg_to_rad(30);
     }
   }
   return out;
@@ -323,7 +324,7 @@ TEST(TownLoop, NodsLikeACarFromItsFirstFrameToItsLast) {
   const auto& poses = world.tour().T_scene_cam;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const Eigen::Vector3d turn = (poses[i - 1].rotation().inverse() * poses[i].rotation()).log();
-    EXPECT_LT(std::abs(turn.x()), 0.5 * M_PI / 180) << "frame " << i;
+    EXPECT_LT(std::abs(turn.x()), deg_to_rad(0.5)) << "frame " << i;
   }
 }
 

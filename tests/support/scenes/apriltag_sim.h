@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <map>
+#include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
@@ -36,7 +37,7 @@ inline SimulatedTags read_apriltag_sim(const std::string& folder) {
   camera.cx = 320 - 0.5;
   camera.cy = 240 - 0.5;
   std::ifstream corners(folder + "/corners_tag36_11.txt");
-  const SE3 half_turn(SO3::exp({0, 0, M_PI}), Eigen::Vector3d::Zero());
+  const SE3 half_turn(SO3::exp({0, 0, std::numbers::pi}), Eigen::Vector3d::Zero());
   constexpr int kTheirs[4] = {1, 0, 3, 2};  // of our corner k
   for (int id = 0; corners >> id;) {
     SquareCorners theirs;

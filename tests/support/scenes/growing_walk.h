@@ -3,6 +3,7 @@
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace placegraph::test {
 
@@ -23,7 +24,7 @@ struct GrowingWalk {
   GrowingWalk(int n, double noise, std::uint64_t seed, int round = 15) : random(seed) {
     typename Group::Tangent step = Group::Tangent::Zero();
     step[0] = 1;
-    step[Group::kDof == 3 ? 2 : 5] = 2 * M_PI / round;
+    step[Group::kDof == 3 ? 2 : 5] = 2 * std::numbers::pi / round;
     for (int i = 0; i < n; ++i) {
       truth.push_back(i == 0 ? Group()
                              : truth.back() * Group::exp(step) *

@@ -3,6 +3,7 @@
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <algorithm>
+#include <numbers>
 
 namespace placegraph::test {
 
@@ -24,7 +25,7 @@ struct LoopedWalk {
   explicit LoopedWalk(const LoopedWalkOptions& o) : random(o.seed), options(o) {
     typename Group::Tangent step = Group::Tangent::Zero();
     step[0] = 1;
-    step[Group::kDof == 3 ? 2 : 5] = 2 * M_PI / o.lap;
+    step[Group::kDof == 3 ? 2 : 5] = 2 * std::numbers::pi / o.lap;
     if (Group::kDof > 3) step[2] = 0.02;
     for (int i = 0; i < o.nodes; ++i)
       truth.push_back(i == 0 ? Group() : truth.back() * Group::exp(step) * disturbance(0.05));

@@ -5,6 +5,7 @@
 #include <placegraph/graph/geometry/so3.h>
 
 #include <Eigen/Dense>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -58,7 +59,7 @@ inline void add_edges(const Camera& camera, const Eigen::Vector3d& direction, in
 inline void add_clutter(const Camera& camera, int count, Random& random,
                         std::vector<LineSegment>& segments) {
   while (count > 0) {
-    const double angle = random.uniform(0, M_PI), length = random.uniform(20, 80);
+    const double angle = random.uniform(0, std::numbers::pi), length = random.uniform(20, 80);
     const Eigen::Vector2d px(random.uniform(0, camera.width - 1),
                              random.uniform(0, camera.height - 1));
     const Eigen::Vector2d half = 0.5 * length * Eigen::Vector2d(std::cos(angle), std::sin(angle));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <opencv2/aruco.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -127,7 +128,7 @@ struct MarkerScene {
 /// view.
 inline SE3 looking_at_origin(double range_m, double tilt_rad, double azimuth_rad, double roll_rad) {
   const SO3 R = SO3::exp({0, 0, azimuth_rad}) * SO3::exp({0, tilt_rad, 0}) *
-                SO3::exp({M_PI, 0, 0}) * SO3::exp({0, 0, roll_rad});
+                SO3::exp({std::numbers::pi, 0, 0}) * SO3::exp({0, 0, roll_rad});
   return {R, Eigen::Vector3d(R * Eigen::Vector3d(0, 0, -range_m))};
 }
 

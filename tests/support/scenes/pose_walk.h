@@ -3,6 +3,7 @@
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace placegraph::test {
 
@@ -40,7 +41,7 @@ struct Walk {
     Random random(seed);
     typename Group::Tangent step = Group::Tangent::Zero();
     step[0] = 1;
-    step[Group::kDof == 3 ? 2 : 5] = 2 * M_PI / n;
+    step[Group::kDof == 3 ? 2 : 5] = 2 * std::numbers::pi / n;
     for (int i = 0; i < n; ++i)
       truth.push_back(i == 0 ? Group()
                              : truth.back() * Group::exp(step) *

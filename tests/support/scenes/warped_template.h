@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/scenes/texture.h"
 
@@ -30,7 +31,7 @@ inline Eigen::Matrix3d random_homography(const PlanarTemplate& t, double offset_
                                          Random& random) {
   std::array<Eigen::Vector2d, 4> moved = t.corners_px();
   for (Eigen::Vector2d& corner : moved) {
-    const double angle = random.uniform(0, 2 * M_PI);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
     corner += offset_px * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   }
   return homography_of_corners(t.corners_px(), moved);

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/eval/loops/same_view.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/route.h>
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/pipeline/places/loop_closer.h>
@@ -79,7 +80,7 @@ class WayBack {
     const SE3 error =
         (T_world(keyframe.frame).inverse() * T_world(view.frame)).inverse() * found->T_match_query;
     recognition.position_error_m = error.translation().norm();
-    recognition.angle_error_deg = error.rotation().log().norm() * 180 / M_PI;
+    recognition.angle_error_deg = rad_to_deg(error.rotation().log().norm());
     return recognition;
   }
 
@@ -90,7 +91,7 @@ class WayBack {
   }
   std::pair<double, double> apart(std::int64_t a, std::int64_t b) const {
     const SE3 T_a_b = T_world(a).inverse() * T_world(b);
-    return {T_a_b.translation().norm(), T_a_b.rotation().log().norm() * 180 / M_PI};
+    return {T_a_b.translation().norm(), rad_to_deg(T_a_b.rotation().log().norm())};
   }
 
   const Map& map_;

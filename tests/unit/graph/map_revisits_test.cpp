@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace placegraph {
 namespace {
@@ -52,7 +53,7 @@ TEST(MapRevisits, AreNoneWhereOnlyThePosesLieNear) {
 
 TEST(MapRevisits, LookTheSameWay) {
   Map map = walk({0, 0, 0, 0}, {0, 1, 2, 0.5});
-  map.keyframes[3].T_place_keyframe = SE3(SO3::exp({0, M_PI, 0}), {0.5, 0, 0});
+  map.keyframes[3].T_place_keyframe = SE3(SO3::exp({0, std::numbers::pi, 0}), {0.5, 0, 0});
   EXPECT_TRUE(map_revisits(map, {.min_age = 2, .max_angle_deg = 30}).size() == 1);  // frame 2
   EXPECT_THROW((void)map_revisits(map, {.min_age = 0}), ArgumentError);
 }

@@ -8,6 +8,7 @@
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/factors/reprojection.h>
+#include <placegraph/graph/core/angle.h>
 
 #include "tests/support/jacobian_check.h"
 #include "tests/support/scenes/window_world.h"
@@ -221,11 +222,11 @@ TYPED_TEST(PoseFactors, PositionHasTheJacobiansOfFiniteDifferences) {
 
 TEST(PoseError, InTheQuaternionConventionIsTranslationAndVectorPartWithPositiveScalar) {
   // A rotation by 200 deg is one by -160 deg: the vector part must not jump to sin(100 deg).
-  const double angle_rad = 200 * M_PI / 180;
+  const double angle_rad = deg_to_rad(200);
   const SE3 E(SO3(Eigen::Quaterniond(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitZ()))),
               Eigen::Vector3d(1, 2, 3));
   Vector6d expected;
-  expected << 1, 2, 3, 0, 0, -std::sin(80 * M_PI / 180);
+  expected << 1, 2, 3, 0, 0, -std::sin(deg_to_rad(80));
   EXPECT_LT((pose_error(E, RotationError::kQuaternion) - expected).norm(), 1e-12);
 }
 

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/backend/georeference/georeference.h>
@@ -17,7 +19,8 @@ constexpr std::int64_t kStep_ns = 100'000'000;
 
 /// A drive of `count` poses in the ENU frame: an eight with a bump, 1 m a step, camera-like axes.
 std::vector<SE3> eight(int count) {
-  const SO3 R_body_cam = SO3::exp({-M_PI / 2, 0, 0}) * SO3::exp({0, M_PI / 2, 0});
+  const SO3 R_body_cam =
+      SO3::exp({-std::numbers::pi / 2, 0, 0}) * SO3::exp({0, std::numbers::pi / 2, 0});
   std::vector<SE3> T_enu_cam;
   SE3 T_enu_body(SO3(), {300, -200, 4});
   for (int i = 0; i < count; ++i) {

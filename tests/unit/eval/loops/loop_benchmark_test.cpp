@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
 #include <placegraph/eval/loops/loop_truth_from_poses.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/measurements/loop_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
@@ -96,7 +97,7 @@ TEST(LoopBenchmark, DefinesNoRecallWhereNothingIsToBeFound) {
 TEST(LoopTruthFromPoses, AsksForDistanceHeadingAndAge) {
   Trajectory truth;
   const auto add = [&](double x, double yaw_deg) {
-    truth.poses.push_back({0, isometry({0, yaw_deg * std::numbers::pi / 180, 0}, {x, 0, 0})});
+    truth.poses.push_back({0, isometry({0, deg_to_rad(yaw_deg), 0}, {x, 0, 0})});
   };
   add(0, 0), add(1, 0), add(20, 0), add(4, 40), add(5, 20);
   truth.poses.push_back({0, std::nullopt});

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/loop_check.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <numbers>
@@ -25,7 +26,7 @@ TEST(LoopCheck, TellsTrueFromFalseConstraintsByTheTrueRelativePose) {
   const Trajectory truth = test::winding_drive(100);
   const Eigen::Isometry3d T_10_90 =
       truth.poses[10].T_world_body->inverse() * *truth.poses[90].T_world_body;
-  const double degree = std::numbers::pi / 180;
+  const double degree = kRadPerDeg;
   const LoopCheck check =
       check_loops(truth,
                   {loop(90, 10, T_10_90), loop(90, 10, T_10_90 * isometry({0, 0, 0}, {0, 0.2, 0})),

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/place_check.h>
 #include <placegraph/graph/core/error.h>
@@ -15,7 +17,7 @@ struct Rounds {
 template <class PlaceOf>
 Rounds drive(int stations, int rounds, PlaceOf place_of) {
   Rounds result;
-  const double step = 2 * M_PI / stations, radius = 10 / step;
+  const double step = 2 * std::numbers::pi / stations, radius = 10 / step;
   for (int i = 0; i < stations * rounds; ++i) {
     const Eigen::AngleAxisd turn(step * i, Eigen::Vector3d::UnitY());
     Eigen::Isometry3d T_world_cam = Eigen::Isometry3d::Identity();

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/route_check.h>
 #include <placegraph/graph/core/error.h>
@@ -13,11 +15,12 @@ Trajectory rounds() {
   Trajectory truth;
   for (int i = 0; i < 200; ++i) {
     const int side = i / 40 % 4;
-    const SO3 heading = SO3::exp({0, side * M_PI / 2, 0});
+    const SO3 heading = SO3::exp({0, side * std::numbers::pi / 2, 0});
     Eigen::Vector3d at(i < 160 ? 0 : 0.5, 0, i % 40);
     SE3 T_corner;
     for (int k = 0; k < side; ++k)
-      T_corner = T_corner * SE3(SO3::exp({0, M_PI / 2, 0}), Eigen::Vector3d(0, 0, kSide_m));
+      T_corner =
+          T_corner * SE3(SO3::exp({0, std::numbers::pi / 2, 0}), Eigen::Vector3d(0, 0, kSide_m));
     truth.poses.push_back({i, SE3(heading, T_corner * at).isometry()});
   }
   return truth;

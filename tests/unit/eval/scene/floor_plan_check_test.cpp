@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/eval/plots/floor_plan_plot.h>
 #include <placegraph/eval/scene/floor_plan_check.h>
@@ -51,7 +53,7 @@ IndoorMap told_plan() {
 std::vector<SE3> turning() {
   std::vector<SE3> poses;
   for (int i = 0; i < 24; ++i)
-    poses.emplace_back(SO3::exp({0, i * M_PI / 12, 0}), Eigen::Vector3d(2, 0, 3));
+    poses.emplace_back(SO3::exp({0, i * std::numbers::pi / 12, 0}), Eigen::Vector3d(2, 0, 3));
   return poses;
 }
 

@@ -2,6 +2,7 @@
 #include <placegraph/eval/trajectory/ape.h>
 #include <placegraph/eval/trajectory/kitti_segments.h>
 #include <placegraph/eval/trajectory/rpe.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <numbers>
@@ -12,7 +13,6 @@ namespace placegraph {
 namespace {
 
 using test::isometry;
-constexpr double kDegree = std::numbers::pi / 180;
 
 // A straight line of 1 m steps along z at 10 Hz; the estimate turns by `yaw` every frame, or is
 // `scale` times as long.
@@ -66,7 +66,7 @@ TEST(Ape, SaysThatNoPosedFrameAllowsNoError) {
 }
 
 TEST(Rpe, MeasuresAConstantYawAndLengthErrorExactly) {
-  const RpeResult result = rpe(straight_line(20, 0.5 * kDegree, 1.1));
+  const RpeResult result = rpe(straight_line(20, 0.5 * kRadPerDeg, 1.1));
   ASSERT_TRUE(result.outcome);
   EXPECT_EQ(result.rotation_deg.count, 19);
   EXPECT_NEAR(result.rotation_deg.rmse, 0.5, 1e-9);
@@ -84,9 +84,10 @@ TEST(Rpe, LeavesOutPairsWithALostFrame) {
 }
 
 TEST(RotationAngle, SeesAHundredthDegreeInMatricesOfSevenDigits) {
-  Eigen::Matrix3d R = isometry({0, 0.01 * kDegree, 0}, {0, 0, 0}).linear();
+  Eigen::Matrix3d R = isometry({0, 0.01 * kRadPerDeg, 0}, {0, 0, 0}).linear();
   R = (R * 1e7).array().round() / 1e7;
-  EXPECT_NEAR(rotation_angle(R) / kDegree, 0.01, 1e-5);  // half a unit of the 7th digit: 3e-6 deg
+  EXPECT_NEAR(rotation_angle(R) / kRadPerDeg, 0.01,
+              1e-5);  // half a unit of the 7th digit: 3e-6 deg
   EXPECT_NEAR(rotation_angle(isometry({0, 3.0, 0}, {0, 0, 0}).linear()), 3.0, 1e-12);
 }
 
@@ -105,7 +106,7 @@ TEST(KittiSegments, EndAtTheFirstFrameBeyondTheLength) {
 TEST(KittiSegments, MeasureAConstantYawErrorOnAStraightLineExactly) {
   // Between i and j = i + 11 the estimate turns by 11 yaw and moves sum_k Ry(k yaw) (0 0 1), so
   // E = estimate^-1 truth has the angle 11 yaw and |trans E| = |(0 0 11) - sum_k Ry(k yaw) e_z|.
-  const double yaw = 0.2 * kDegree;
+  const double yaw = 0.2 * kRadPerDeg;
   Eigen::Vector3d end(0, 0, 0);
   for (int k = 0; k < 11; ++k) end += Eigen::Vector3d(std::sin(k * yaw), 0, std::cos(k * yaw));
   const double t_percent = (Eigen::Vector3d(0, 0, 11) - end).norm() / 10 * 100;

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/frontend/align/aligner.h>
 #include <placegraph/frontend/align/alignment_covariance.h>
@@ -125,7 +127,7 @@ TEST(Aligner, SaysThatATemplateHasTooLittleTexture) {
   // Stripes hold it in one direction only.
   Image stripes(kHeight, kWidth, CV_8UC1);
   for (int u = 0; u < kWidth; ++u)
-    stripes.col(u).setTo(to_grey(128 + 80 * std::sin(2 * M_PI * u / 16)));
+    stripes.col(u).setTo(to_grey(128 + 80 * std::sin(2 * std::numbers::pi * u / 16)));
   const PlanarTemplate striped(stripes, kSquare, 2, 2500);
   const AlignResult result = align(striped, stripes, striped.homography(Matrix3d::Identity()), {});
   EXPECT_EQ(result.outcome.code, Code::kDegenerate);

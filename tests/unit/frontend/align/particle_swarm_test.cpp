@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace placegraph {
 namespace {
@@ -15,7 +16,7 @@ double rastrigin(const VectorXd& x) {
   double sum = 0;
   for (const double v : x) {
     const double d = v - 0.7;
-    sum += 4 * d * d + 0.5 * (1 - std::cos(2 * M_PI * d / 0.4));
+    sum += 4 * d * d + 0.5 * (1 - std::cos(2 * std::numbers::pi * d / 0.4));
   }
   return sum;
 }

@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/scenes/board.h"
 #include "tests/support/seed.h"
@@ -170,8 +171,8 @@ TEST(ChanceLikeness, KnowsATextureThatRepeats) {
   Image often(96, 96, CV_8UC1);
   for (int v = 0; v < 96; ++v)
     for (int u = 0; u < 96; ++u)
-      often.at<std::uint8_t>(v, u) =
-          to_grey(128 + 50 * std::sin(2 * M_PI * u / 8) * std::sin(2 * M_PI * v / 8));
+      often.at<std::uint8_t>(v, u) = to_grey(128 + 50 * std::sin(2 * std::numbers::pi * u / 8) *
+                                                       std::sin(2 * std::numbers::pi * v / 8));
   AlignOptions esm = options.align;
   esm.optimizer = AlignOptimizer::kEsm;
   const auto of = [&](const Image& image) {

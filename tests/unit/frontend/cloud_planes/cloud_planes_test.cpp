@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/clouds.h"
@@ -18,7 +19,7 @@ CloudPlanesResult find(const PointCloud& cloud, const CloudPlanesOptions& option
 }
 
 double degrees_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::asin(std::min(1.0, a.cross(b).norm() / b.norm())) * 180 / M_PI;
+  return rad_to_deg(std::asin(std::min(1.0, a.cross(b).norm() / b.norm())));
 }
 
 TEST(CloudPlanes, FindsTheThreePlanesOfACornerAtAnyScale) {

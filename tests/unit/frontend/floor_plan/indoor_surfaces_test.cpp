@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/floor_plan/room_partition.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
@@ -56,7 +57,7 @@ struct TwoRooms {
     const Eigen::Vector3d from = path[static_cast<std::size_t>(sight)];
     for (int a = 0; a < 90; ++a)
       for (int e = -15; e <= 15; ++e) {
-        const double turn = a * M_PI / 45, pitch = e * 0.08;
+        const double turn = a * std::numbers::pi / 45, pitch = e * 0.08;
         const Eigen::Vector3d way(std::cos(turn) * std::cos(pitch),
                                   std::sin(turn) * std::cos(pitch), std::sin(pitch));
         cast(from, way, sight);
@@ -145,7 +146,7 @@ TEST(FloorPlan, TakesTheTurnOfANarrowCorridorForNoDoor) {
   for (const Eigen::Vector3d& from : path)
     for (int a = 0; a < 360; ++a)  // rays end at the outer walls and the inner ones
       for (const double z : {0.7, 1.0, 1.4, 1.7}) {
-        const Eigen::Vector3d way(std::cos(a * M_PI / 180), std::sin(a * M_PI / 180), 0);
+        const Eigen::Vector3d way(std::cos(deg_to_rad(a)), std::sin(deg_to_rad(a)), 0);
         Eigen::Vector3d to(from[0], from[1], z);
         const auto inside = [](const Eigen::Vector3d& p) {
           return p[0] > 0 && p[0] < 4.2 && p[1] > 0 && p[1] < 4.6 && (p[1] < 1.2 || p[0] > 3);

@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/graph/core/error.h>
@@ -35,7 +37,7 @@ TEST(LineFeature, DescriptorsFollowTheirEdgeAndTellEdgesApart) {
   std::vector<LineSegment> here, there;
   for (int k = 0; k < 25; ++k) {
     const Eigen::Vector2d start(random.uniform(60, 500), random.uniform(60, 400));
-    const double angle = random.uniform(-M_PI, M_PI);
+    const double angle = random.uniform(-std::numbers::pi, std::numbers::pi);
     const LineSegment segment{start,
                               start + 50 * Eigen::Vector2d(std::cos(angle), std::sin(angle))};
     here.push_back(segment);

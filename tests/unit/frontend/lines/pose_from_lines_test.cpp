@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
+#include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/line_scene.h"
 #include "tests/support/seed.h"
@@ -32,7 +33,7 @@ TEST(TriangulateLine, IsExactWithoutNoiseAndTellsItsTurn) {
     ++known;
     EXPECT_NEAR(std::abs(line.line_ref.direction().dot(scene.line(i).direction())), 1, 1e-6);
     EXPECT_LT(line.line_ref.distance_to(scene.from[i]), 1e-3);
-    EXPECT_GE(line.turn_rad, 1.5 * M_PI / 180);
+    EXPECT_GE(line.turn_rad, deg_to_rad(1.5));
   }
   EXPECT_GT(known, 5);
 }

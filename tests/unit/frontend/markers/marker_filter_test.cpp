@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/frontend/markers/marker_filter.h>
 #include <placegraph/frontend/markers/marker_pose.h>
@@ -14,7 +16,7 @@ using namespace test;
 using Code = Outcome::Code;
 const Camera kCamera = MarkerScene::usual_camera();
 /// The camera looks down under the body's feet.
-const SE3 kBodyCam(SO3::exp({M_PI, 0, 0}), Eigen::Vector3d(0.05, 0.02, -0.03));
+const SE3 kBodyCam(SO3::exp({std::numbers::pi, 0, 0}), Eigen::Vector3d(0.05, 0.02, -0.03));
 constexpr double kSigma_px = 0.1;
 
 MarkerLayout layout_of(int count) {

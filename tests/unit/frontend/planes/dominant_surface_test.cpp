@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/planes/dominant_surface.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"
@@ -40,7 +41,7 @@ double random_like(const Eigen::Vector3d& ray) {
 }
 
 double angle_deg(const Plane& a, const Plane& b) {
-  return angle_between(a.normal, b.normal) * 180 / M_PI;
+  return rad_to_deg(angle_between(a.normal, b.normal));
 }
 
 TEST(DominantSurface, IsFoundFromAMountingThatIsDegreesAndDecimetresOff) {
@@ -51,9 +52,9 @@ TEST(DominantSurface, IsFoundFromAMountingThatIsDegreesAndDecimetresOff) {
   for (int i = 0; i < 3; ++i) look = surface.look(sensor(truth, random), SE3(), {}, random);
   ASSERT_TRUE(look.outcome) << look.outcome.reason;
   EXPECT_EQ(look.region, SurfaceRegion::kAhead);
-  EXPECT_LT(angle_deg(look.plane_cam, truth), 4 * look.sigma_normal_rad * 180 / M_PI);
+  EXPECT_LT(angle_deg(look.plane_cam, truth), rad_to_deg(4 * look.sigma_normal_rad));
   EXPECT_NEAR(std::log(look.plane_cam.distance_m / kHeight_m), 0, 4 * look.sigma_log_distance);
-  EXPECT_LT(look.sigma_normal_rad, 0.5 * M_PI / 180);
+  EXPECT_LT(look.sigma_normal_rad, deg_to_rad(0.5));
   EXPECT_LT(look.sigma_log_distance, 0.01);
   EXPECT_GT(look.share, 0.95);
 }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/planes/ground_plane.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"
@@ -64,7 +65,7 @@ TEST(GroundPlane, IsFoundToOnePercentWithoutNoise) {
     const auto result = drive.align();
     ASSERT_TRUE(result.outcome) << result.outcome.reason;
     EXPECT_LT(std::abs(drive.log_error(result)), 0.01) << pitch_rad;
-    EXPECT_LT(angle_between(result.plane_ref.normal, drive.truth.normal), 0.3 * M_PI / 180);
+    EXPECT_LT(angle_between(result.plane_ref.normal, drive.truth.normal), deg_to_rad(0.3));
     EXPECT_GT(result.zncc, 0.95);
     EXPECT_GE(result.samples, 400);
     EXPECT_GT(result.sigma_log_distance, 0);
@@ -96,7 +97,7 @@ TEST(GroundPlane, IsFoundFromNothing) {
                                           drive.T_cur_ref, Eigen::Vector3d::UnitY(), {});
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
   EXPECT_LT(std::abs(drive.log_error(result)), 0.02);
-  EXPECT_LT(angle_between(result.plane_ref.normal, drive.truth.normal), 0.6 * M_PI / 180);
+  EXPECT_LT(angle_between(result.plane_ref.normal, drive.truth.normal), deg_to_rad(0.6));
 }
 
 TEST(GroundPlane, SaysNothingOfARoadWithoutTexture) {

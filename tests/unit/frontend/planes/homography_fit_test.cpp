@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/planes/homography_fit.h>
 
+#include <numbers>
 #include <numeric>
 
 #include "tests/support/scenes/planes_world.h"
@@ -64,7 +65,7 @@ TEST(TransferNoise, IsADensityOfUnitMass) {
     for (double r = kStep / 2; r < 300; r += kStep) {
       TransferError error;
       error.squared = r * r;
-      mass += 2 * M_PI * r * kStep * std::exp(-noise.cost(error));
+      mass += 2 * std::numbers::pi * r * kStep * std::exp(-noise.cost(error));
     }
     EXPECT_NEAR(mass, 1, 1e-3) << freedom;
   }

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/relative_pose/mono_initializer.h>
+#include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"
@@ -18,7 +19,7 @@ std::vector<SE3> way(const SE3& T_ref_cur, int steps, double swerve_m = 0) {
   for (int i = 0; i <= steps; ++i) {
     const double share = static_cast<double>(i) / steps;
     views.push_back(SE3::exp(share * T_ref_cur.log()) *
-                    pose({0, 0, 0}, {-swerve_m * std::sin(M_PI * share), 0, 0}));
+                    pose({0, 0, 0}, {-swerve_m * std::sin(std::numbers::pi * share), 0, 0}));
   }
   return views;
 }
@@ -80,8 +81,8 @@ TEST(MonoInitializer, ReadsAPlaneWithTheHelpOfViewsInBetween) {
   const auto result = initialize(scene, true, random);
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
   EXPECT_EQ(result.model, TwoViewModel::kHomography);
-  EXPECT_LT(angle_rad(result.T_ref_cur, kTowards), 1 * M_PI / 180);
-  EXPECT_LT(angle_between(result.T_ref_cur.translation(), kTowards.translation()), 2 * M_PI / 180);
+  EXPECT_LT(angle_rad(result.T_ref_cur, kTowards), deg_to_rad(1));
+  EXPECT_LT(angle_between(result.T_ref_cur.translation(), kTowards.translation()), deg_to_rad(2));
 }
 
 TEST(MonoInitializer, SaysNothingForPureRotation) {

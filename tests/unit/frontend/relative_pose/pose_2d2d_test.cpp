@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/relative_pose/pose_2d2d.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"
@@ -40,7 +41,7 @@ TEST(Pose2d2d, ReadsAGeneralSceneByTheEssentialMatrix) {
   EXPECT_EQ(noisy.model, TwoViewModel::kEssential);
   // The lines let some of the wrong matches through: one in a hundred by chance.
   EXPECT_LE(noisy.inliers.size(), 120u - static_cast<unsigned>(outliers) + 4u);
-  EXPECT_LT(nearest_rad(noisy.T_ref_cur, kTruth), 3 * M_PI / 180);
+  EXPECT_LT(nearest_rad(noisy.T_ref_cur, kTruth), deg_to_rad(3));
 }
 
 TEST(Pose2d2d, ReadsAPlaneByTheHomography) {
@@ -57,7 +58,7 @@ TEST(Pose2d2d, ReadsAPlaneByTheHomography) {
   const auto noisy = estimate_pose_2d2d(kCamera, scene.px[0], scene.px[1], {}, random);
   ASSERT_TRUE(noisy.outcome);
   EXPECT_EQ(noisy.model, TwoViewModel::kHomography);
-  EXPECT_LT(nearest_rad(noisy.T_ref_cur, kTruth), 3 * M_PI / 180);
+  EXPECT_LT(nearest_rad(noisy.T_ref_cur, kTruth), deg_to_rad(3));
 }
 
 TEST(Pose2d2d, SaysWhenThereAreTooFewPointsOrNoConsensus) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/relative_pose/pose_gravity.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"
@@ -63,7 +64,7 @@ TEST(PoseWithGravity, FindsTheMotionAmongHalfOutliers) {
 TEST(PoseWithGravity, CorrectsAVerticalThatIsSlightlyOff) {
   Random random = seeded_random(34);
   const PointScene scene = make_scene(kCamera, {SE3(), kTruth}, 200, random);
-  const double off_rad = 0.2 * M_PI / 180;
+  const double off_rad = deg_to_rad(0.2);
   const Eigen::Vector3d tilted = SO3::exp(off_rad * kDownCur.unitOrthogonal()) * kDownCur;
   GravityPoseOptions options;
   options.threshold_px = 3;

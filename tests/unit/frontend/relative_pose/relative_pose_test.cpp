@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/relative_pose/relative_pose.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/scene.h"
@@ -70,7 +71,7 @@ TEST(RelativePoseOfTwoViews, HasTwoReadingsBeforeOnePlane) {
   for (const SE3& T : readings)
     nearest = std::min(nearest,
                        angle_rad(T, kTruth) + angle_between(T.translation(), kTruth.translation()));
-  EXPECT_LT(nearest, 2 * M_PI / 180);
+  EXPECT_LT(nearest, deg_to_rad(2));
   // Matches before both cameras leave one or two.
   EXPECT_EQ(found.outcome.code, found.rivals.empty() ? Code::kOk : Code::kInconsistent);
   EXPECT_EQ(found.covariance, found.covariance.transpose().eval());
@@ -87,7 +88,7 @@ TEST(RelativePoseOfTwoViews, IsARotationWhereThereIsNoWay) {
   EXPECT_EQ(found.model, Model::kRotation);
   EXPECT_FALSE(found.T_ref_cur);
   // 90 points of 0.28 px at 500 px: hundredths of a degree.
-  EXPECT_LT((found.R_ref_cur->inverse() * turn.rotation()).log().norm(), 0.05 * M_PI / 180);
+  EXPECT_LT((found.R_ref_cur->inverse() * turn.rotation()).log().norm(), deg_to_rad(0.05));
   EXPECT_GT(found.covariance(3, 3), 0);
 
   RelativePoseOptions options;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/scene/horizon.h>
 #include <placegraph/frontend/scene/popup.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>
@@ -8,8 +9,6 @@
 
 namespace placegraph {
 namespace {
-
-constexpr double kRadian = 3.14159265358979323846 / 180;
 
 /// 100 x 80 pixels, the horizon of a level camera in row 39.5.
 GroundView small_view() {
@@ -58,8 +57,8 @@ TEST(PopUp, StandsAWallOnTheGroundItMeetsAndPutsABoxBehindOrBeforeIt) {
 TEST(Horizon, IsWhereLevelAndUprightEdgesSay) {
   // Edges of a street seen by a camera that looks 4 degrees down and leans 2 degrees.
   const Camera camera{640, 480, 500, 500, 319.5, 239.5, Distortion::kNone, {}};
-  const Eigen::Matrix3d R_cam_world = (Eigen::AngleAxisd(4 * kRadian, Eigen::Vector3d::UnitX()) *
-                                       Eigen::AngleAxisd(2 * kRadian, Eigen::Vector3d::UnitZ()))
+  const Eigen::Matrix3d R_cam_world = (Eigen::AngleAxisd(4 * kRadPerDeg, Eigen::Vector3d::UnitX()) *
+                                       Eigen::AngleAxisd(2 * kRadPerDeg, Eigen::Vector3d::UnitZ()))
                                           .toRotationMatrix();
   std::vector<LineSegment> segments;
   Random random(4);
@@ -79,7 +78,7 @@ TEST(Horizon, IsWhereLevelAndUprightEdgesSay) {
   ASSERT_TRUE(horizon.outcome) << horizon.outcome.reason;
   const double off =
       std::acos(std::min(1.0, horizon.down.dot(R_cam_world * Eigen::Vector3d::UnitY())));
-  EXPECT_LT(off / kRadian, 0.5);  // segments of 60 px with ends off by 0.2: 0.3 degrees each
+  EXPECT_LT(off / kRadPerDeg, 0.5);  // segments of 60 px with ends off by 0.2: 0.3 degrees each
   EXPECT_GE(horizon.directions, 2);
 
   const Horizon none = estimate_horizon({}, camera, {}, random);

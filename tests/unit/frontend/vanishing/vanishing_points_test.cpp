@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/manhattan_scene.h"
@@ -42,7 +43,7 @@ TEST(VanishingEvidence, VarianceIsThatOfTheEndsAndOfTheScene) {
   noise.parallel_deg = 0.1;
   const Eigen::Vector3d far(1, 0, 0);  // at infinity to the right
   const VanishingEvidence evidence({{{100, 200}, {150, 200}}}, camera, noise);
-  const double turn = std::sqrt(2.0) * 0.5 / 50, parallel = 0.1 * M_PI / 180;
+  const double turn = std::sqrt(2.0) * 0.5 / 50, parallel = deg_to_rad(0.1);
   EXPECT_NEAR(evidence.error(0, far).variance, turn * turn + parallel * parallel, 1e-12);
   // 175 px from the middle: the middle's own shift of 0.5 / sqrt(2) px is seen as an angle, too
   const Eigen::Vector3d near = camera.unproject({300, 200})->normalized();

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/geometry/geodesy.h>
 
@@ -26,7 +27,7 @@ TEST(EnuFrame, MeasuresASmallStepNorthByTheMeridiansCurvature) {
   // Radius of the meridian at latitude 49 deg: a (1 - e^2) / (1 - e^2 sin^2 49)^1.5 = 6371.849 km.
   const EnuFrame enu({49, 8, 0});
   const Eigen::Vector3d step = enu.to_enu({49.001, 8, 0});
-  EXPECT_NEAR(step.y(), 6371848.6 * 0.001 * M_PI / 180, 1e-3);
+  EXPECT_NEAR(step.y(), deg_to_rad(6371848.6 * 0.001), 1e-3);
   EXPECT_NEAR(step.x(), 0, 1e-9);
   EXPECT_NEAR(step.z(), -step.y() * step.y() / (2 * 6371848.6), 1e-5);
 }

@@ -4,6 +4,7 @@
 #include <placegraph/graph/geometry/line_segment.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/seed.h"
 
@@ -95,7 +96,7 @@ TEST(Collinearity, SeesAngleDistanceAndGap) {
   EXPECT_DOUBLE_EQ(before.gap_px, 4);
   const Collinearity over = collinearity(kAlongU, {{28, 5}, {20, 5}});
   EXPECT_DOUBLE_EQ(over.gap_px, -10);
-  EXPECT_DOUBLE_EQ(collinearity(kAlongU, {{20, 0}, {20, 9}}).angle_rad, M_PI / 2);
+  EXPECT_DOUBLE_EQ(collinearity(kAlongU, {{20, 0}, {20, 9}}).angle_rad, std::numbers::pi / 2);
 }
 
 }  // namespace

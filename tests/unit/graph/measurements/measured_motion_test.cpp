@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/measurements/measured_motion.h>
@@ -49,7 +51,7 @@ TEST(MeasuredMotion, KnowsNothingOutsideTheRecordingAndAcrossGaps) {
 TEST(MeasuredMotion, IsSeenFromAnotherFrameOfTheBody) {
   // A camera 2 m beside the axis: a turn of the body moves it.
   const SE3 T_cam_body = pose({0, 0, 0}, {0, 2, 0});
-  const SE3 turn = pose({0, 0, M_PI / 2}, {0, 0, 0});
+  const SE3 turn = pose({0, 0, std::numbers::pi / 2}, {0, 0, 0});
   Matrix6d covariance = Matrix6d::Zero();
   covariance(5, 5) = 0.01;
   const MeasuredMotion motion = MeasuredMotion({{0, 10, turn, covariance}}).seen_from(T_cam_body);

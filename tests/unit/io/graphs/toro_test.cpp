@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <placegraph/io/graphs/euler_angles.h>
 #include <placegraph/io/graphs/toro.h>
 
@@ -14,7 +16,7 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 
 TEST(EulerAngles, TurnAboutTheFixedAxesXThenYThenZ) {
-  const double right_angle = M_PI / 2;
+  const double right_angle = std::numbers::pi / 2;
   // Roll takes y to z, then pitch z to x, then yaw x to y.
   const SO3 R = rotation_of_euler_angles(right_angle, right_angle, right_angle);
   EXPECT_LT((R * Eigen::Vector3d(0, 1, 0) - Eigen::Vector3d(0, 1, 0)).norm(), 1e-15);

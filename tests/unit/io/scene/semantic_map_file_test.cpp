@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/scene/labelled_mesh_file.h>
 #include <placegraph/io/scene/semantic_map_file.h>
@@ -107,7 +108,7 @@ TEST_F(SemanticMapFile, OutlinesClassesOnTheEarth) {
   // Counter-clockwise from (0, 0): 2 m east, 1.5 m north.
   double east = 0, north = 0;
   for (const json& p : polygons[0][0]) {
-    east = std::max(east, (p[0].get<double>() - 8.4) * 111320 * std::cos(49 * M_PI / 180));
+    east = std::max(east, (p[0].get<double>() - 8.4) * 111320 * std::cos(deg_to_rad(49)));
     north = std::max(north, (p[1].get<double>() - 49) * 111200);
   }
   EXPECT_NEAR(east, 2, 0.02);

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 
 #include "tests/support/scenes/corridor_view.h"
@@ -34,9 +35,9 @@ TEST(ManhattanCueGround, IsTheLevelFloorBetweenWalls) {
   const GroundSight ground = keyframe.cue.ground(keyframe.lane(2));
   ASSERT_TRUE(ground.level);
   const Eigen::Vector3d down = keyframe.corridor.R_cam_manhattan * Eigen::Vector3d::UnitY();
-  EXPECT_LT(std::acos(std::min(1.0, ground.level->dot(down))), 0.1 * M_PI / 180);
+  EXPECT_LT(std::acos(std::min(1.0, ground.level->dot(down))), deg_to_rad(0.1));
   EXPECT_GT(ground.level_sigma_rad, 0);
-  EXPECT_LT(ground.level_sigma_rad, 0.5 * M_PI / 180);
+  EXPECT_LT(ground.level_sigma_rad, deg_to_rad(0.5));
   ASSERT_EQ(ground.mask.size(), cv::Size(640, 480));
   const auto at = [&](double x, double y, double z) {
     const Eigen::Vector2d px = *keyframe.corridor.camera.project(keyframe.corridor.R_cam_manhattan *

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/cues/manhattan_frames.h>
 
@@ -11,14 +12,13 @@ using test::make_window_world;
 using test::WindowWorld;
 using test::WindowWorldOptions;
 
-constexpr double kDeg = M_PI / 180;
 const SO3 kR_map_world = SO3::exp({0.05, 0.3, -0.02});
 
 /// A rotation that maps axes to axes.
 SO3 axes(int which) {
   SO3 R;
-  for (int k = 0; k < which % 4; ++k) R = R * SO3::exp({0, 0, M_PI / 2});
-  for (int k = 0; k < which % 3; ++k) R = R * SO3::exp({M_PI / 2, 0, 0});
+  for (int k = 0; k < which % 4; ++k) R = R * SO3::exp({0, 0, std::numbers::pi / 2});
+  for (int k = 0; k < which % 3; ++k) R = R * SO3::exp({std::numbers::pi / 2, 0, 0});
   return R;
 }
 
@@ -57,7 +57,7 @@ struct Drive {
     if (turn)
       seen = worlds.add(
           id, T_map_cam.rotation().inverse() * kR_map_world * *turn * axes(static_cast<int>(id)),
-          Eigen::Matrix3d::Identity() * std::pow(0.1 * kDeg, 2), window);
+          Eigen::Matrix3d::Identity() * std::pow(0.1 * kRadPerDeg, 2), window);
     if (id > 0) {
       EXPECT_TRUE(window.optimize().outcome);
     }
@@ -81,13 +81,13 @@ TEST(ManhattanWorlds, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
   EXPECT_LT(drive.window.world(ManhattanWorlds::kMapAxes)->log().norm(), 1e-12);
   const auto expected = drive.worlds.expected(drive.window, 7);
   ASSERT_EQ(expected.size(), 1u);
-  EXPECT_LT(std::sqrt(expected[0].covariance.trace()), 2 * kDeg);
+  EXPECT_LT(std::sqrt(expected[0].covariance.trace()), 2 * kRadPerDeg);
 }
 
 TEST(ManhattanWorlds, OfOtherDirectionsAreKeptApartAndFoundAgain) {
   Drive drive({});
   for (int k = 0; k < 4; ++k) (void)drive.see(SO3());
-  const SO3 turn = SO3::exp({0, 10 * kDeg, 0});
+  const SO3 turn = SO3::exp({0, 10 * kRadPerDeg, 0});
   EXPECT_FALSE(drive.see(turn));
   EXPECT_FALSE(drive.see(turn));
   EXPECT_EQ(drive.see(turn), 2);
@@ -115,7 +115,7 @@ TEST(ManhattanWorlds, UnseenOnesAreRememberedUntilThereAreTooMany) {
   options.persistence = 2;
   Drive forgetful(options);
   for (int k = 0; k < 3; ++k) (void)forgetful.see(SO3());
-  for (int k = 0; k < 8; ++k) (void)forgetful.see(SO3::exp({0, 20 * kDeg, 0}));
+  for (int k = 0; k < 8; ++k) (void)forgetful.see(SO3::exp({0, 20 * kRadPerDeg, 0}));
   EXPECT_EQ(forgetful.window.worlds(), (std::vector<std::int64_t>{ManhattanWorlds::kMapAxes, 2}));
 }
 

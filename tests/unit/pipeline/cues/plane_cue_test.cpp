@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/cues/plane_cue.h>
 
@@ -13,7 +14,6 @@ using test::make_window_world;
 using test::WindowWorld;
 using test::WindowWorldOptions;
 
-constexpr double kDeg = M_PI / 180;
 using Seen = std::vector<std::optional<std::int64_t>>;
 
 /// A rectangle of a plane of the map: its middle, two directions of unit length and half extents.
@@ -52,7 +52,7 @@ struct Drive {
     DepthPlane plane;
     const Eigen::Vector3d n = patch.u.cross(patch.v);
     plane.plane_cam = transform_to(T_map_cam, Plane3(n, n.dot(patch.middle)));
-    plane.covariance = plane_information(plane.plane_cam, 0.1 * kDeg, 0.004).inverse();
+    plane.covariance = plane_information(plane.plane_cam, 0.1 * kRadPerDeg, 0.004).inverse();
     for (double a = -1; a <= 1; a += 0.1)
       for (double b = -1; b <= 1; b += 0.1)
         plane.points_cam.push_back(
@@ -121,8 +121,8 @@ TEST(PlaneLandmarks, TheOtherSideOfAThinWallIsAnotherOne) {
   const Matrix6d sure = 1e8 * Matrix6d::Identity();
   // Two keyframes before the wall, two behind it that look back.
   const std::vector<SE3> T_map_cam{SE3(), SE3(SO3(), {0.2, 0, 0}),
-                                   SE3(SO3::exp({0, M_PI, 0}), {0, 0, 24}),
-                                   SE3(SO3::exp({0, M_PI, 0}), {0.2, 0, 24})};
+                                   SE3(SO3::exp({0, std::numbers::pi, 0}), {0, 0, 24}),
+                                   SE3(SO3::exp({0, std::numbers::pi, 0}), {0.2, 0, 24})};
   std::vector<Seen> results;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto id = static_cast<std::int64_t>(k);

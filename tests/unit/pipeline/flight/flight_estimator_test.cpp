@@ -3,6 +3,7 @@
 #include <placegraph/pipeline/flight/flight_estimator.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace placegraph {
 namespace {
@@ -13,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr std::int64_t kBegin_ns = 1'000'000'000, kImage_ns = 50'000'000, kSample_ns = 5'000'000;
 const Camera kCamera{.width = 640, .height = 480, .fx = 400, .fy = 400, .cx = 319.5, .cy = 239.5};
-const SE3 kBodyCam(SO3::exp({M_PI, 0, 0}), Vector3d(0, 0, 0));  // looks down
+const SE3 kBodyCam(SO3::exp({std::numbers::pi, 0, 0}), Vector3d(0, 0, 0));  // looks down
 
 /// A body at 1.5 m that stands still, or slides along x at this speed, over three markers.
 struct Scene {

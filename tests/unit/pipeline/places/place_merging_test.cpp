@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 
@@ -8,7 +10,7 @@ namespace {
 
 using namespace test;
 
-const SE3 kSide = pose({0, M_PI / 2, 0}, {0, 0, 5});
+const SE3 kSide = pose({0, std::numbers::pi / 2, 0}, {0, 0, 5});
 
 /// Twice around a square of 5 m sides, exactly: keyframes 4..7 are back at 0..3.
 PlaceMapper two_rounds() {

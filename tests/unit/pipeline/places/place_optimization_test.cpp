@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/places/place_mapper.h>
@@ -12,7 +14,7 @@ using namespace test;
 constexpr std::int64_t kAll = 1000;  // no keyframe is being refined any more
 
 TEST(PlaceOptimization, GrowsToTheSameOptimumAsTheWholeGraphAtOnce) {
-  const SE3 side = pose({0, M_PI / 2 + 0.04, 0}, {0, 0, 5.2});
+  const SE3 side = pose({0, std::numbers::pi / 2 + 0.04, 0}, {0, 0, 5.2});
   PlaceOptions apart;
   apart.merge = false;
   PlaceMapper growing(apart), whole(apart);
@@ -95,7 +97,7 @@ TEST(PlaceOptimization, MergesPlacesThatALoopShowsToBeOne) {
   const RelativePoseConstraint& last = graph.constraints[3];
   EXPECT_EQ(last.from, 3);
   EXPECT_EQ(last.to, 0);
-  const SE3 side = pose({0, M_PI / 2 + 0.04, 0}, {0, 0, 5.2});
+  const SE3 side = pose({0, std::numbers::pi / 2 + 0.04, 0}, {0, 0, 5.2});
   const SE3 T_place_4 = graph.places[0].members[1].T_place_keyframe;
   EXPECT_LT(distance_m(std::get<SE3>(last.T_from_to), side * T_place_4.inverse()), 1e-9);
   // Less is known of it than of the side alone: where 4 stands in its place adds its share.
@@ -148,7 +150,8 @@ PlaceMapper shrinking_square() {
   PlaceMapper mapper(options);
   mapper.add_keyframe(0, std::nullopt, {}, kDepth_m, false);
   for (int i = 1; i <= 4; ++i) {
-    auto side = link(i - 1, pose({0, M_PI / 2, 0}, {0, 0, 5 / std::pow(1.1, i - 1)}), 0.01, 0.001);
+    auto side = link(i - 1, pose({0, std::numbers::pi / 2, 0}, {0, 0, 5 / std::pow(1.1, i - 1)}),
+                     0.01, 0.001);
     side.sigma_log_scale = 0.05;
     mapper.add_keyframe(i, side, {}, kDepth_m);
   }
@@ -161,7 +164,7 @@ TEST(PlaceOptimization, ClosesScaleDriftByALoopThatTellsTheRatioOfUnits) {
   mapper.add_loop(scaled_loop(4, 0, SE3(), std::pow(1.1, 4)));
   const PlaceGraph graph = optimized(mapper);
   EXPECT_EQ(kind_of(graph.constraints[0].T_from_to), PoseKind::kSim3);
-  const SE3 corner = pose({0, M_PI / 2, 0}, {0, 0, 5});
+  const SE3 corner = pose({0, std::numbers::pi / 2, 0}, {0, 0, 5});
   SE3 truth;
   for (int i = 0; i <= 4; ++i, truth = truth * corner) {
     EXPECT_LT(distance_m(mapper.T_map_keyframe(i), truth), 0.02) << i;

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/scale/ground_plane_scale.h>
 
@@ -107,7 +108,7 @@ TEST_F(GroundScaleOnARoad, TakesALevelFloorAsEdgesTellIt) {
   EXPECT_NEAR(known->factor, 1, 0.01);
   // One that is a degree off is believed as well, and the length with it; not if it is told
   // unsurely.
-  const Eigen::Vector3d wrong = SO3::exp({M_PI / 180, 0, 0}) * down;
+  const Eigen::Vector3d wrong = SO3::exp({kRadPerDeg, 0, 0}) * down;
   const auto misled = fresh.follow(new_, old_, T_old_new(1), {{}, wrong});
   const auto unsure = fresh.follow(new_, old_, T_old_new(1), {{}, wrong, 0.05});
   ASSERT_TRUE(misled && unsure);
@@ -118,7 +119,7 @@ TEST_F(GroundScaleOnARoad, TakesALevelFloorAsEdgesTellIt) {
 TEST_F(GroundScaleOnARoad, RefusesALevelThatItsMountingDoesNotAllow) {
   const Eigen::Vector3d down = T_world_cam(0).rotation().inverse() * Eigen::Vector3d::UnitY();
   EXPECT_TRUE(scale_.may_be_ground(down));
-  EXPECT_FALSE(scale_.may_be_ground(SO3::exp({20 * M_PI / 180, 0, 0}) * down));
+  EXPECT_FALSE(scale_.may_be_ground(SO3::exp({deg_to_rad(20), 0, 0}) * down));
   EXPECT_FALSE(scale_.may_be_ground(-down));
 }
 

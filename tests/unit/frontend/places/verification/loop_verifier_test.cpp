@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/frontend/places/verification/loop_verifier.h>
+#include <placegraph/graph/core/angle.h>
 
 #include "tests/support/scenes/scene.h"
 #include "tests/support/seed.h"
@@ -50,7 +51,7 @@ TEST(LoopVerifier, AcceptsARevisitWithItsPose) {
   EXPECT_LT(error.dot(result.information.topLeftCorner<6, 6>() * error),
             2 * 22.5);  // the points carry noise too
   EXPECT_LT(distance_m(result.T_match_query, kTruth), 0.05);
-  EXPECT_LT(angle_rad(result.T_match_query, kTruth), 0.5 * M_PI / 180);
+  EXPECT_LT(angle_rad(result.T_match_query, kTruth), deg_to_rad(0.5));
 }
 
 TEST(LoopVerifier, RefusesAnotherPlace) {
@@ -154,7 +155,7 @@ TEST(LoopVerifier, FewDepthsGiveTheLengthOfAnEssentialMatrix) {
   EXPECT_EQ(result.model, LoopModel::kEssential);
   EXPECT_GT(result.inliers, 140);
   EXPECT_LT(distance_m(result.T_match_query, kTruth), 0.05);
-  EXPECT_LT(angle_rad(result.T_match_query, kTruth), 0.3 * M_PI / 180);
+  EXPECT_LT(angle_rad(result.T_match_query, kTruth), deg_to_rad(0.3));
   const Vector6d error = (kTruth.inverse() * result.T_match_query).log();
   EXPECT_LT(error.dot(result.information.topLeftCorner<6, 6>() * error), 2 * 22.5);
   // All depths known: by them.
@@ -210,7 +211,7 @@ TEST(LoopVerifier, APlaneIsPlacedByItsHomography) {
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
   EXPECT_EQ(result.model, LoopModel::kHomography);
   EXPECT_LT(distance_m(result.T_match_query, kTruth), 0.08);
-  EXPECT_LT(angle_rad(result.T_match_query, kTruth), 0.6 * M_PI / 180);
+  EXPECT_LT(angle_rad(result.T_match_query, kTruth), deg_to_rad(0.6));
 }
 
 TEST(LoopVerifier, ATurnAloneHasNoWayThatFewDepthsCouldMeasure) {
