@@ -77,8 +77,8 @@ bool learn_lens(const LensEstimator& seen, int pass, const LensOptions& options,
   if (!seen.distorted(refined)) return false;
   lens.add(seen.k1());
   placegraph::log(log, LogLevel::kInfo,
-                  "images are distorted, k1 = " + std::to_string(lens.k1()) + " +- " +
-                      std::to_string(seen.sigma_k1()) + ": once more from the beginning without");
+                  "images are distorted, k1 = {:f} +- {:f}: once more from the beginning without",
+                  lens.k1(), seen.sigma_k1());
   return true;
 }
 
@@ -98,10 +98,6 @@ const char* to_string(Sensor sensor) {
 
 void RunOptions::check() const {
   check_ranges(*this);
-  motion.check();
-  lens.check();
-  scene.indoor.check();
-  scene.urban.check();
   slam.check();
 }
 
@@ -130,10 +126,9 @@ void visit(OptionVisitor& field, SceneOptions& o) {
 
 void MotionOptions::check() const {
   check_ranges(*this);
-  noise.check();
-  require(T_cam_body.size() == 7, "motion.T_cam_body: seven numbers needed, tx ty tz qx qy qz qw");
+  require(T_cam_body.size() == 7, "T_cam_body: seven numbers needed, tx ty tz qx qy qz qw");
   const Eigen::Map<const Eigen::Vector4d> q(T_cam_body.data() + 3);
-  require(std::abs(q.norm() - 1) < 1e-2, "motion.T_cam_body: the quaternion is not of unit length");
+  require(std::abs(q.norm() - 1) < 1e-2, "T_cam_body: the quaternion is not of unit length");
 }
 
 void visit(OptionVisitor& field, MotionOptions& o) {

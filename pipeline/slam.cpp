@@ -5,16 +5,7 @@
 
 namespace placegraph {
 
-void SlamOptions::check() const {
-  check_ranges(*this);
-  odometry.check();
-  loops.check();
-  places.check();
-  pose_graph.check();
-  views.cues.check();
-  semantics.masks.check();
-  context.filter.check();
-}
+void SlamOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, KeyframeViewOptions& o) {
   field("enabled", o.enabled, "keep how keyframes look");
@@ -186,7 +177,7 @@ void Slam::Impl::record_pose(std::int64_t keyframe, const SE3& T_keyframe_cam,
                              FrameResult& result) {
   records.back().keyframe = keyframe;
   records.back().T_keyframe_frame = T_keyframe_cam;
-  T_map_last = camera_pose(mapper.S_map_keyframe(keyframe) * Sim3(T_keyframe_cam));
+  T_map_last = rigid_part(mapper.S_map_keyframe(keyframe) * Sim3(T_keyframe_cam));
   result.T_map_cam = T_map_last;
   result.component = mapper.component_of(keyframe);
 }
@@ -196,7 +187,7 @@ void Slam::Impl::apply(const OdometryUpdate::Rescale& rescale) {
   mapper.rescale(first, rescale.factor);
   closer.rescale(rescale.factor, first);
   untold.record = untold.view = untold.landmark = 0;
-  T_map_last = SE3(T_map_last.rotation(), rescale.factor * T_map_last.translation());
+  T_map_last = T_map_last.scaled(rescale.factor);
   for (FrameRecord& record : records)
     if (record.keyframe >= first && record.T_keyframe_frame)
       record.T_keyframe_frame = SE3(record.T_keyframe_frame->rotation(),
@@ -329,7 +320,7 @@ void Slam::Impl::close_loops(FrameResult& result) {
 
 void Slam::Impl::report(const IncrementalStep& step) const {
   if (!step.outcome)
-    log(log_sink, LogLevel::kWarning, "place graph not optimized: " + step.outcome.reason);
+    log(log_sink, LogLevel::kWarning, "place graph not optimized: {}", step.outcome.reason);
 }
 
 }  // namespace placegraph

@@ -19,9 +19,8 @@ void Slam::Impl::look_around(const OdometryUpdate::NewKeyframe& keyframe) {
   sight.kind = surroundings.add(sight.probabilities);
   environments.push_back(sight);
   if (sight.kind == before) return;
-  log(log_sink, LogLevel::kInfo,
-      "frame " + std::to_string(keyframe.frame.id) + ": environment " +
-          (sight.kind ? environment_name(*sight.kind) : std::string("unknown")));
+  log(log_sink, LogLevel::kInfo, "frame {}: environment {}", keyframe.frame.id,
+      (sight.kind ? environment_name(*sight.kind) : std::string("unknown")));
   if (!options.context.assume) return;
   std::optional<Assumptions> assumptions;
   if (sight.kind) assumptions = assumptions_of(*sight.kind);

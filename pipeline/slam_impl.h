@@ -3,11 +3,6 @@
 
 namespace placegraph {
 
-/// The pose of a camera in the map: scale moves it, but it has none itself.
-inline SE3 camera_pose(const Sim3& S_map_cam) {
-  return SE3(S_map_cam.rotation(), S_map_cam.translation());
-}
-
 /// What Slam keeps; its steps stand in slam.cpp, what it does where tracking breaks off in
 /// slam_recovery.cpp.
 struct Slam::Impl {

@@ -5,7 +5,7 @@
 namespace placegraph {
 
 SE3 Slam::Impl::T_map_located(const Loop& located) const {
-  return camera_pose(mapper.S_map_keyframe(located.match) * Sim3(located.T_match_query));
+  return rigid_part(mapper.S_map_keyframe(located.match) * Sim3(located.T_match_query));
 }
 
 /// Where a frame is by other sensors since the last keyframe, if both are in metres.
@@ -47,9 +47,8 @@ void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, Odomet
   ++lost_in_a_row;
   if (!located) located = closer.relocalize(frame);
   if (located) {
-    log(log_sink, LogLevel::kInfo,
-        "frame " + std::to_string(frame.id) + " relocalized at frame " +
-            std::to_string(frame_of_keyframe.at(located->match)));
+    log(log_sink, LogLevel::kInfo, "frame {} relocalized at frame {}", frame.id,
+        frame_of_keyframe.at(located->match));
     // The new run begins here; its odometry frame is the map frame of this moment.
     bridge = located;
     const SE3 T_map_frame = T_map_located(*located);
@@ -58,7 +57,7 @@ void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, Odomet
     return;
   }
   if (!bridge && update.state == TrackingState::kLost && (bridge = turned(update))) {
-    log(log_sink, LogLevel::kInfo, "frame " + std::to_string(frame.id) + ": a turn on the spot");
+    log(log_sink, LogLevel::kInfo, "frame {}: a turn on the spot", frame.id);
     const double unit = mapper.S_map_keyframe(bridge->match).scale();
     odometry.restart(T_map_located(*bridge), false, unit * odometry.median_depth_m());
     update = odometry.add_frame(frame);
@@ -66,16 +65,14 @@ void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, Odomet
   }
   bridge.reset();
   if (lost_in_a_row == options.max_lost_frames && (bridge = carried(frame))) {
-    log(log_sink, LogLevel::kInfo,
-        "frame " + std::to_string(frame.id) + ": carried on by measured motion");
+    log(log_sink, LogLevel::kInfo, "frame {}: carried on by measured motion", frame.id);
     odometry.restart(T_map_located(*bridge), true);
     update = odometry.add_frame(frame, T_map_located(*bridge));
     if (!odometry.started()) bridge.reset();
     return;
   }
   if (lost_in_a_row == options.max_lost_frames) {
-    log(log_sink, LogLevel::kInfo,
-        "frame " + std::to_string(frame.id) + ": a new component of the map begins");
+    log(log_sink, LogLevel::kInfo, "frame {}: a new component of the map begins", frame.id);
     odometry.restart(T_map_last);
     update = odometry.add_frame(frame);
   }

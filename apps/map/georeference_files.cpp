@@ -108,7 +108,7 @@ PoseGraph metric_graph(const PoseGraph& graph) {
     auto& metric = std::get<RelativePoseConstraint>(out.constraints.back());
     const double scale = scale_of(graph.nodes[index.at(edge->from)].T_world_node);
     const SE3 T = rigid_part(edge->T_from_to);
-    metric.T_from_to = SE3(T.rotation(), scale * T.translation());
+    metric.T_from_to = T.scaled(scale);
     Information information = edge->information.topLeftCorner(6, 6);
     information.topRows(3) /= scale;
     information.leftCols(3) /= scale;

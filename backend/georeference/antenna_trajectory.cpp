@@ -24,8 +24,7 @@ SE3 rigid_part(const Pose& pose) {
     return SE3(SO3::exp({0, 0, T->rotation().angle()}),
                {T->translation().x(), T->translation().y(), 0});
   if (const SE3* T = std::get_if<SE3>(&pose)) return *T;
-  const Sim3& S = std::get<Sim3>(pose);
-  return SE3(S.rotation(), S.translation());
+  return rigid_part(std::get<Sim3>(pose));
 }
 
 double scale_of(const Pose& pose) {
@@ -105,7 +104,7 @@ Trajectory AntennaTrack::moved(const PoseGraph& optimized) const {
       const Pose& moved = optimized.nodes[node].T_world_node;
       const SE3 T_node_body = T_map_node_[node].inverse() * T_map_body;
       const double stretch = scale_of(moved) / scale_[node];
-      return rigid_part(moved) * SE3(T_node_body.rotation(), stretch * T_node_body.translation());
+      return rigid_part(moved) * T_node_body.scaled(stretch);
     };
     const auto [before, after] = neighbours(pose.stamp_ns);
     SE3 T = follow(visits_[before].node);

@@ -387,9 +387,8 @@ void Georeferencer::finish() {
   result_.lever_arm = calibration_.head<3>();
   result_.clock_offset_s = in_.clock_offset_s + calibration_[3];
   result_.trajectory = track_->moved(graph_);
-  log(log_, LogLevel::kInfo,
-      "georeference: " + std::to_string(result_.fixes_used) + " fixes used, " +
-          std::to_string(result_.fixes_rejected) + " rejected");
+  log(log_, LogLevel::kInfo, "georeference: {} fixes used, {} rejected", result_.fixes_used,
+      result_.fixes_rejected);
 }
 
 }  // namespace

@@ -73,10 +73,8 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
   report.graph = std::move(graph);
   report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
   report.chi2_final = sum(report.chi2_by_constraint);
-  log(log_sink, LogLevel::kInfo,
-      "pose graph: chi2 " + std::to_string(report.chi2_initial) + " -> " +
-          std::to_string(report.chi2_final) + " in " + std::to_string(report.iterations) +
-          " iterations, start " + to_string(report.start_used));
+  log(log_sink, LogLevel::kInfo, "pose graph: chi2 {:f} -> {:f} in {} iterations, start {}",
+      report.chi2_initial, report.chi2_final, report.iterations, to_string(report.start_used));
   return report;
 }
 

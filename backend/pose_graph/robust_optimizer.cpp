@@ -214,8 +214,8 @@ RobustSolution solve_robustly(PackedGraph<Group>& graph, const LocalSolverOption
       break;
   }
   if (!result.rejected.empty())
-    log(solver.log, LogLevel::kInfo,
-        "pose graph: " + std::to_string(result.rejected.size()) + " edges left out as false");
+    log(solver.log, LogLevel::kInfo, "pose graph: {} edges left out as false",
+        result.rejected.size());
   return result;
 }
 

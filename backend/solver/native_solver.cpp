@@ -213,9 +213,7 @@ LocalSolution NativeSolver<Group>::solve(PackedGraph<Group>& graph) {
                        : options_.step_rule == StepRule::kGaussNewton ? take(graph, *step)
                                                                       : take_dogleg(graph, *step);
     rejections = taken ? 0 : rejections + 1;
-    if (options_.log)
-      options_.log(LogLevel::kDebug, "iteration " + std::to_string(solution.iterations) +
-                                         ": cost " + std::to_string(cost_));
+    log(options_.log, LogLevel::kDebug, "iteration {}: cost {:f}", solution.iterations, cost_);
     // A step that leads nowhere at any length: the minimum, to rounding.
     if (!taken && (lambda_ == 0 || rejections == kMaxRejections)) {
       solution.outcome = Outcome::ok();

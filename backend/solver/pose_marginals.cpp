@@ -110,21 +110,6 @@ Information PoseMarginals::relative_covariance(std::int64_t from, std::int64_t t
                          joint.bottomRightCorner(dof, dof), joint.topRightCorner(dof, dof));
 }
 
-std::vector<Information> PoseMarginals::all_covariances() const {
-  impl_->require_outcome();
-  const int dof = impl_->dof;
-  const BlockFactor inverse = sparse_inverse(impl_->matrix().factor(), dof);
-  std::vector<Information> covariances;
-  for (std::size_t node = 0; node < impl_->graph.nodes.size(); ++node) {
-    const int block = impl_->block_of(static_cast<int>(node));
-    const int position = block < 0 ? -1 : impl_->matrix().ordering().position[block];
-    covariances.push_back(position < 0
-                              ? Information(Information::Zero(dof, dof))
-                              : Information(inverse_block(inverse, dof, position, position)));
-  }
-  return covariances;
-}
-
 std::vector<Information> PoseMarginals::constraint_covariances() const {
   impl_->require_outcome();
   const int dof = impl_->dof;

@@ -30,10 +30,9 @@ class PoseMarginals {
   Eigen::MatrixXd joint_covariance(const std::vector<std::int64_t>& ids) const;
   /// Of the relative pose T_from_to in its own right tangent.
   Information relative_covariance(std::int64_t from, std::int64_t to) const;
-  /// Of every pose, in the order of the nodes: all at once from the sparse inverse subset.
-  std::vector<Information> all_covariances() const;
   /// Of the relative pose that every relative-pose constraint speaks of, as the graph now knows it,
-  /// in the order of the constraints (empty for other constraints): all at once likewise.
+  /// in the order of the constraints (empty for other constraints): all at once from the sparse
+  /// inverse subset.
   std::vector<Information> constraint_covariances() const;
 
  private:

@@ -270,7 +270,7 @@ void SlidingWindow::rescale(double scale) {
                        plane_map.normal().dot(move(plane_map.distance() * plane_map.normal())));
   // What holds a direction of the way only does so in any unit.
   for (MotionObservation& motion : state.motions) {
-    motion.T_from_to = SE3(motion.T_from_to.rotation(), scale * motion.T_from_to.translation());
+    motion.T_from_to = motion.T_from_to.scaled(scale);
     motion.information.topRows<3>() /= scale;
     motion.information.leftCols<3>() /= scale;
   }

@@ -2,10 +2,7 @@
 
 namespace placegraph {
 
-void RevisitOptions::check() const {
-  check_ranges(*this);
-  same.check();
-}
+void RevisitOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, RevisitOptions& o) {
   field.group("same", o.same, "which views are of one place");

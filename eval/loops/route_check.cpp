@@ -48,10 +48,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_of(std::size_t count, int
 
 }  // namespace
 
-void RouteCheckOptions::check() const {
-  check_ranges(*this);
-  same.check();
-}
+void RouteCheckOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, RouteCheckOptions& o) {
   field.group("same", o.same, "which frames of different passes stand on one road");

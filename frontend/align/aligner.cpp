@@ -255,10 +255,7 @@ const std::vector<std::string>& align_optimizer_names() {
   return names;
 }
 
-void AlignOptions::check() const {
-  check_ranges(*this);
-  genetic.check();
-}
+void AlignOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, AlignOptions& o) {
   field.choice("optimizer", o.optimizer, align_optimizer_names(), "how the warp is found");

@@ -79,10 +79,7 @@ Outcome judge(const DirectMotion& motion, const DirectMotionOptions& o, int visi
 
 }  // namespace
 
-void DirectMotionOptions::check() const {
-  check_ranges(*this);
-  swarm.check();
-}
+void DirectMotionOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, DirectMotionOptions& o) {
   field("levels", o.levels, "of the pyramid, coarse to fine", {1, 8});

@@ -33,7 +33,7 @@ VectorXd child_of(const VectorXd& a, const VectorXd& b, double sigma, const Gene
 
 void GeneticOptions::check() const {
   check_ranges(*this);
-  require(elite < members, "genetic: elite must be below members");
+  require(elite < members, "elite: must be below members");
 }
 
 void visit(OptionVisitor& field, GeneticOptions& o) {

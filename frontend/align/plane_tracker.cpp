@@ -95,10 +95,7 @@ const std::vector<std::string>& plane_track_source_names() {
   return names;
 }
 
-void PlaneTrackerOptions::check() const {
-  check_ranges(*this);
-  align.check();
-}
+void PlaneTrackerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaneTrackerOptions& o) {
   field.group("align", o.align, "alignment of the template");

@@ -293,8 +293,9 @@ class PlaneSweep {
 
 void PlaneSweepOptions::check() const {
   check_ranges(*this);
-  require(min_depth_m < max_depth_m, "plane sweep: max_depth_m must be above min_depth_m");
-  require(window_px % 2 == 1 && block_px % 2 == 1, "plane sweep: windows must be odd");
+  require(min_depth_m < max_depth_m, "max_depth_m: must be above min_depth_m");
+  require(window_px % 2 == 1, "window_px: must be odd");
+  require(block_px % 2 == 1, "block_px: must be odd");
 }
 
 void visit(OptionVisitor& field, PlaneSweepOptions& o) {

@@ -76,13 +76,7 @@ Image dis(const Image& from, const Image& to) {
 
 }  // namespace
 
-void FlowOptions::check() const {
-  check_ranges(*this);
-  interpolation.check();
-  lucas_kanade.check();
-  horn_schunck.check();
-  key_pixels.check();
-}
+void FlowOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, FlowOptions& o) {
   field.choice("method", o.method, flow_method_names(), "how displacements are found");

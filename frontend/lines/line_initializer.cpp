@@ -187,10 +187,7 @@ PoseFromLines pose_view(const Camera& camera, const LineView& view,
 
 }  // namespace
 
-void LineInitializerOptions::check() const {
-  check_ranges(*this);
-  directions.check();
-}
+void LineInitializerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LineInitializerOptions& o) {
   field.group("directions", o.directions, "vanishing points that show the rotation");
@@ -246,11 +243,10 @@ LineInitialization initialize_from_lines(const Camera& camera, const std::vector
     return result;
   }
   const double unit = 1 / found.model[2].translation().norm();
-  const auto scaled = [&](const SE3& T) { return SE3(T.rotation(), unit * T.translation()); };
   std::vector<std::optional<SE3>> T_ref_view(n);
   T_ref_view[0] = SE3();
-  T_ref_view[middle] = scaled(found.model[1]);
-  T_ref_view[n - 1] = scaled(found.model[2]);
+  T_ref_view[middle] = found.model[1].scaled(unit);
+  T_ref_view[n - 1] = found.model[2].scaled(unit);
   result.lines = place_lines(camera, views, T_ref_view);
   for (std::size_t k = 1; k + 1 < n; ++k) {
     if (k == middle) continue;

@@ -43,10 +43,7 @@ std::optional<std::pair<double, double>> consensus(const std::vector<Sample>& sa
 
 }  // namespace
 
-void LineStereoOptions::check() const {
-  check_ranges(*this);
-  flow.check();
-}
+void LineStereoOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LineStereoOptions& o) {
   field.group("flow", o.flow, "alignment in the right eye");

@@ -77,11 +77,7 @@ bool same_edge(const LineSegment& a, const LineSegment& b, double max_distance_p
 
 }  // namespace
 
-void LineTrackerOptions::check() const {
-  check_ranges(*this);
-  detector.check();
-  flow.check();
-}
+void LineTrackerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LineTrackerOptions& o) {
   field.group("detector", o.detector, "where new tracks come from");

@@ -17,7 +17,6 @@ struct MarkerFamily {
   int correctable_bits = 0;  ///< wrong ones with which a marker is still told from all others
 
   int count() const { return codes.rows; }
-  int cells_per_side() const { return bits_per_side + 2; }
 };
 
 /// Throws ArgumentError listing the known names.

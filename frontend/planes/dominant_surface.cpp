@@ -48,8 +48,7 @@ const char* to_string(SurfaceRegion region) {
 
 void DominantSurfaceOptions::check() const {
   check_ranges(*this);
-  fit.check();
-  require(near_heights < far_heights, "dominant_surface: near_heights must be below far_heights");
+  require(near_heights < far_heights, "near_heights: must be below far_heights");
 }
 
 void visit(OptionVisitor& field, DominantSurfaceOptions& o) {

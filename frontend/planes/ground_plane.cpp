@@ -259,7 +259,7 @@ double start_distance(const Level& level, const Matrix3d& R, const Vector3d& t, 
 
 void GroundPlaneOptions::check() const {
   check_ranges(*this);
-  require(near_heights < far_heights, "ground_plane: near_heights must be below far_heights");
+  require(near_heights < far_heights, "near_heights: must be below far_heights");
 }
 
 void visit(OptionVisitor& field, GroundPlaneOptions& o) {

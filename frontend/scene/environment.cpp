@@ -260,7 +260,7 @@ EnvironmentModel parse_environments(const std::string& text, const std::string& 
 
 void EnvironmentFilterOptions::check() const {
   check_ranges(*this);
-  require(leave < enter, "filter: leave must be below enter");
+  require(leave < enter, "leave: must be below enter");
 }
 
 void visit(OptionVisitor& field, EnvironmentFilterOptions& o) {

@@ -29,11 +29,7 @@ std::vector<DepthSample> sample_depth(const Image& depth_m, const Camera& camera
 
 }  // namespace
 
-void UrbanSightOptions::check() const {
-  check_ranges(*this);
-  geometry.check();
-  labeller.check();
-}
+void UrbanSightOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, UrbanSightOptions& o) {
   field("step_px", o.step_px, "between points", {1, 100});

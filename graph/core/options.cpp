@@ -99,6 +99,14 @@ void OptionCollector::begin_group(const char* key, const char* doc) {
 
 void OptionCollector::end_group() { prefix_.pop_back(); }
 
+void OptionCollector::check_group(const std::function<void()>& check) {
+  try {
+    check();
+  } catch (const ArgumentError& error) {
+    throw ArgumentError(join(prefix_, error.what()));
+  }
+}
+
 void OptionCollector::add(const char* key, std::string value, const char* doc, const char* type,
                           Range range, std::vector<std::string> choices) {
   entries.push_back({join(prefix_, key), std::move(value), doc, type, range, std::move(choices)});

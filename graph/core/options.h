@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -46,7 +47,14 @@ class OptionVisitor {
   template <class Options>
   void group(const char* key, Options& options, const char* doc) {
     begin_group(key, doc);
-    visit(*this, options);
+    if constexpr (requires { options.check(); }) {
+      if (checks())
+        check_group([&options] { options.check(); });
+      else
+        visit(*this, options);
+    } else {
+      visit(*this, options);
+    }
     end_group();
   }
 
@@ -55,6 +63,10 @@ class OptionVisitor {
                             const char* doc) = 0;
   virtual void begin_group(const char* key, const char* doc) = 0;
   virtual void end_group() = 0;
+  /// A visitor that checks gets the groups' own `check()`, between begin_group and end_group, in
+  /// place of their fields.
+  virtual bool checks() const { return false; }
+  virtual void check_group(const std::function<void()>& check) { check(); }
 };
 
 /// One field of an options struct, flattened: what `placegraph config` and docs/options.md print.
@@ -87,6 +99,8 @@ class OptionCollector : public OptionVisitor {
                     const char* doc) override;
   void begin_group(const char* key, const char* doc) override;
   void end_group() override;
+  bool checks() const override { return check_; }
+  void check_group(const std::function<void()>& check) override;
 
  private:
   void add(const char* key, std::string value, const char* doc, const char* type, Range range = {},
@@ -106,7 +120,8 @@ std::vector<OptionEntry> list_options(const Options& options) {
   return collector.entries;
 }
 
-/// Throws ArgumentError naming the first field that is NaN or outside its range.
+/// Throws ArgumentError naming the first field that is NaN or outside its range; of a group, what
+/// its own `check()` refuses, with the group's name before it.
 template <class Options>
 void check_ranges(const Options& options) {
   internal::OptionCollector collector(true);

@@ -115,13 +115,6 @@ Eigen::Matrix3d tangent_covariance(const Plane3& plane, const Eigen::Matrix3d& c
   return J_inverse * covariance_closest * J_inverse.transpose();
 }
 
-Eigen::Matrix3d closest_point_covariance(const Plane3& plane,
-                                         const Eigen::Matrix3d& covariance_tangent) {
-  Eigen::Matrix3d J;
-  plane.closest_point(&J);
-  return J * covariance_tangent * J.transpose();
-}
-
 Eigen::Matrix3d plane_information(const Plane3& plane, double sigma_normal_rad,
                                   double sigma_distance_m) {
   require(std::isfinite(sigma_normal_rad) && sigma_normal_rad > 0 &&

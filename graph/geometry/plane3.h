@@ -46,11 +46,9 @@ Plane3 transform_to(const SE3& T_a_b, const Plane3& plane_a,
                     Eigen::Matrix<double, 3, 6>* J_pose = nullptr,
                     Eigen::Matrix3d* J_plane = nullptr);
 
-/// Covariance of a plane's tangent from that of its closest point [m^2], and back. The first throws
-/// ArgumentError where the plane passes through the origin.
+/// Covariance of a plane's tangent from that of its closest point [m^2]. Throws ArgumentError where
+/// the plane passes through the origin.
 Eigen::Matrix3d tangent_covariance(const Plane3& plane, const Eigen::Matrix3d& covariance_closest);
-Eigen::Matrix3d closest_point_covariance(const Plane3& plane,
-                                         const Eigen::Matrix3d& covariance_tangent);
 
 /// Information of a plane's tangent when its normal is known to `sigma_normal_rad` and its distance
 /// from the origin to `sigma_distance_m`.

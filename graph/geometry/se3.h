@@ -33,6 +33,8 @@ class SE3 {
   SE3 operator*(const SE3& other) const { return SE3(R_ * other.R_, t_ + R_ * other.t_); }
   Point operator*(const Point& p) const { return R_ * p + t_; }
   SE3 plus(const Tangent& xi) const { return *this * exp(xi); }
+  /// The same motion in another unit of length: its translation times `factor`.
+  SE3 scaled(double factor) const { return SE3(R_, factor * t_); }
 
   const SO3& rotation() const { return R_; }
   const Eigen::Vector3d& translation() const { return t_; }

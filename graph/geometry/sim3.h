@@ -44,4 +44,7 @@ class Sim3 {
   double s_;
 };
 
+/// A similarity without its scale: the pose of a camera whose unit of length does not matter.
+inline SE3 rigid_part(const Sim3& S) { return SE3(S.rotation(), S.translation()); }
+
 }  // namespace placegraph

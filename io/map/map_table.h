@@ -2,22 +2,26 @@
 #include <placegraph/io/map/map_blobs.h>
 #include <placegraph/io/map/sqlite.h>
 
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace placegraph {
 
-/// The values of a row, as bytes that can be compared.
+/// The values of a row, in the order of its columns behind the key.
 class MapRow {
  public:
-  MapRow& integer(std::int64_t value) { return put('i', &value, sizeof(value)); }
-  MapRow& real(double value) { return put('d', &value, sizeof(value)); }
-  MapRow& text(std::string_view value) { return put('t', value.data(), value.size()); }
-  MapRow& blob(std::string_view value) { return put('b', value.data(), value.size()); }
-  MapRow& null() { return put('n', nullptr, 0); }
+  MapRow& integer(std::int64_t value) { return put(value); }
+  MapRow& real(double value) { return put(Real{value}); }
+  MapRow& text(std::string_view value) { return put(Text{std::string(value)}); }
+  MapRow& blob(std::string_view value) { return put(Blob{std::string(value)}); }
+  MapRow& null() { return put(Null()); }
   MapRow& pose(const SE3& T) {
     std::string bytes;
     BlobWriter(bytes).pose(T);
@@ -30,36 +34,41 @@ class MapRow {
     return blob(bytes);
   }
 
-  const std::string& bytes() const { return bytes_; }
   void bind(SqliteStatement& statement) const {
-    for (std::size_t at = 0; at < bytes_.size();) {
-      const char type = bytes_[at];
-      std::size_t size = 0;
-      std::memcpy(&size, bytes_.data() + at + 1, sizeof(size));
-      const char* data = bytes_.data() + at + 1 + sizeof(size);
-      at += 1 + sizeof(size) + size;
-      if (type == 'i') statement << as<std::int64_t>(data);
-      if (type == 'd') statement << as<double>(data);
-      if (type == 't') statement.text({data, size});
-      if (type == 'b') statement.blob({data, size});
-      if (type == 'n') statement.null();
-    }
+    for (const Value& value : values_)
+      std::visit([&](const auto& v) { bind(statement, v); }, value);
   }
+  bool operator==(const MapRow&) const = default;
 
  private:
-  MapRow& put(char type, const void* data, std::size_t size) {
-    bytes_ += type;
-    bytes_.append(reinterpret_cast<const char*>(&size), sizeof(size));
-    if (size > 0) bytes_.append(static_cast<const char*>(data), size);
+  /// Equal if its bits are: NaN is what it was, and -0 is not 0.
+  struct Real {
+    double value;
+    bool operator==(const Real& other) const {
+      return std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(other.value);
+    }
+  };
+  struct Text {
+    std::string value;
+    bool operator==(const Text&) const = default;
+  };
+  struct Blob {
+    std::string value;
+    bool operator==(const Blob&) const = default;
+  };
+  using Null = std::monostate;
+  using Value = std::variant<Null, std::int64_t, Real, Text, Blob>;
+
+  static void bind(SqliteStatement& statement, Null) { statement.null(); }
+  static void bind(SqliteStatement& statement, std::int64_t value) { statement << value; }
+  static void bind(SqliteStatement& statement, const Real& real) { statement << real.value; }
+  static void bind(SqliteStatement& statement, const Text& text) { statement.text(text.value); }
+  static void bind(SqliteStatement& statement, const Blob& blob) { statement.blob(blob.value); }
+  MapRow& put(Value value) {
+    values_.push_back(std::move(value));
     return *this;
   }
-  template <class Number>
-  static Number as(const char* data) {
-    Number value;
-    std::memcpy(&value, data, sizeof(value));
-    return value;
-  }
-  std::string bytes_;
+  std::vector<Value> values_;
 };
 
 /// A table with one whole number as its key, and what has been written to it.
@@ -71,9 +80,9 @@ class MapTable {
 
   /// Writes the row unless it stands there already.
   void put(std::int64_t key, const MapRow& row) {
-    std::string& written = written_[key];
-    if (written == row.bytes()) return;
-    written = row.bytes();
+    MapRow& written = written_[key];
+    if (written == row) return;
+    written = row;
     write(key, row);
   }
   /// Without remembering what was written.
@@ -109,7 +118,7 @@ class MapTable {
     return sql + ")";
   }
   SqliteStatement put_, erase_;
-  std::map<std::int64_t, std::string> written_;
+  std::map<std::int64_t, MapRow> written_;
 };
 
 }  // namespace placegraph

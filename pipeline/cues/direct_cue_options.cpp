@@ -2,12 +2,7 @@
 
 namespace placegraph {
 
-void SurfaceCueOptions::check() const {
-  check_ranges(*this);
-  surface.check();
-  planes.check();
-  align.check();
-}
+void SurfaceCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SurfaceCueOptions& o) {
   field.group("surface", o.surface, "the ground under a vehicle, by depths");

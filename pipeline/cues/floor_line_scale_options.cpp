@@ -2,10 +2,7 @@
 
 namespace placegraph {
 
-void FloorScaleOptions::check() const {
-  check_ranges(*this);
-  floor.check();
-}
+void FloorScaleOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, FloorScaleOptions& o) {
   field.group("floor", o.floor, "which lines lie on the floor");

@@ -34,14 +34,7 @@ LineSegment moved_segment(const Camera& camera, const LineSegment& seen, const d
 
 }  // namespace
 
-void LineCueOptions::check() const {
-  check_ranges(*this);
-  tracker.check();
-  stereo.check();
-  pose.check();
-  start.check();
-  floor.check();
-}
+void LineCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LineCueOptions& o) {
   field.group("tracker", o.tracker, "lines followed over time");

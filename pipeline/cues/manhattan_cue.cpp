@@ -40,12 +40,7 @@ Image below_walls(const Image& surfaces) {
 
 }  // namespace
 
-void ManhattanCueOptions::check() const {
-  check_ranges(*this);
-  segments.check();
-  directions.check();
-  worlds.check();
-}
+void ManhattanCueOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, ManhattanCueOptions& o) {
   field.group("segments", o.segments, "straight edges");
@@ -137,7 +132,7 @@ bool ManhattanCue::take(std::int64_t keyframe, const std::vector<LineSegment>& s
     text << "directions " << keyframe << " world " << world.value_or(-1) << " turn "
          << w.transpose() << " sigma_deg "
          << frame.covariance.diagonal().cwiseSqrt().transpose() / kRadPerDeg;
-    log(log_, LogLevel::kDebug, text.str());
+    log_(LogLevel::kDebug, text.str());
   }
   for (std::size_t i = 0; i < view_.size(); ++i)
     if (world && frame.axis[i] >= 0 && view_[i].axis < 0)

@@ -68,10 +68,7 @@ std::vector<Eigen::Vector3d> moved(const SE3& T_new_old, const std::vector<Eigen
 
 }  // namespace
 
-void PlaneLandmarkOptions::check() const {
-  check_ranges(*this);
-  depth.check();
-}
+void PlaneLandmarkOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaneLandmarkOptions& o) {
   field("enabled", o.enabled, "walls, floors and tables in the depth of keyframes as landmarks");
@@ -263,7 +260,7 @@ std::vector<std::optional<std::int64_t>> PlaneLandmarks::add(std::int64_t keyfra
       else
         text << (known[k] ? "ambiguous" : "new");
     }
-    log(log_, LogLevel::kDebug, text.str());
+    log_(LogLevel::kDebug, text.str());
   }
   return result;
 }

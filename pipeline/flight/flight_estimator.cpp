@@ -63,15 +63,7 @@ void visit(OptionVisitor& field, HoverOptions& o) {
   field.group("map", o.map, "markers whose place is not known");
 }
 
-void HoverOptions::check() const {
-  check_ranges(*this);
-  detector.check();
-  beacons.check();
-  markers.check();
-  tracker.check();
-  filter.check();
-  map.check();
-}
+void HoverOptions::check() const { check_ranges(*this); }
 
 Hover::Hover(const HoverOptions& options, const Camera& camera, const SE3& T_body_cam,
              const MarkerLayout& layout)

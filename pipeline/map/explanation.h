@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/map/map_database.h>
+#include <placegraph/graph/map.h>
 
 #include <map>
 #include <optional>

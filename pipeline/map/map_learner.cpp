@@ -4,10 +4,7 @@
 
 namespace placegraph {
 
-void MapLearnerOptions::check() const {
-  check_ranges(*this);
-  cues.check();
-}
+void MapLearnerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MapLearnerOptions& o) {
   field.group("cues", o.cues, "what tells places apart, and how much each counts");

@@ -40,7 +40,6 @@ class MapLocalizer {
   /// Throws ArgumentError for a map of fewer than ten views, or whose views cannot be compared.
   MapLocalizer(const LocalizerOptions& options, StoredMap stored);
 
-  bool in_colour() const { return in_colour_; }
   /// Whether poses can be given to frames of this size.
   bool has_geometry(const Image& grey) const;
   /// Images one by one, or consecutive ones of one drive, each with the evidence of those around

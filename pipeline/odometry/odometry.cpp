@@ -127,7 +127,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
     update.inliers += static_cast<int>(both.inliers.size());
   }
   if (!posed) {
-    log(log_, LogLevel::kInfo, "frame " + std::to_string(frame.id) + " lost: " + posed.reason);
+    log(log_, LogLevel::kInfo, "frame {} lost: {}", frame.id, posed.reason);
     update.state = TrackingState::kLost;
     update.turn = turn_since(px_at_keyframe_, random);
     return update;
@@ -143,8 +143,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   if (keyframe_due(frame, update.inliers)) {
     add_keyframe(frame, T_odom_cam, update);
     T_odom_last_ = window_.pose(last_keyframe_);
-    if (update.rescale)
-      T_last_cur_ = SE3(T_last_cur_.rotation(), update.rescale->factor * T_last_cur_.translation());
+    if (update.rescale) T_last_cur_ = T_last_cur_.scaled(update.rescale->factor);
   } else {
     remember(frame.id, heading);
   }
@@ -221,7 +220,7 @@ void Odometry::refine_window() {
   const bool alone = window_.keyframes().size() < 2;  // a first stereo or RGB-D keyframe
   const WindowSummary summary = alone ? WindowSummary{} : window_.optimize();
   if (!alone && !summary.outcome)
-    log(log_, LogLevel::kWarning, "window not optimized: " + summary.outcome.reason);
+    log(log_, LogLevel::kWarning, "window not optimized: {}", summary.outcome.reason);
   if (planes_ && !alone) planes_->prune(window_);
   std::vector<double> depths = keep_fitting_landmarks();
   if (lines_) {

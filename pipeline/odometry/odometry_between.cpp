@@ -45,9 +45,7 @@ void Odometry::pose_between(std::int64_t keyframe, OdometryUpdate& update) {
       }
     if (static_cast<int>(points.size()) < options_.pose.ransac.min_inliers) continue;
     SE3 T_keyframe_cam = between.T_keyframe_cam;
-    if (update.rescale)
-      T_keyframe_cam =
-          SE3(T_keyframe_cam.rotation(), update.rescale->factor * T_keyframe_cam.translation());
+    if (update.rescale) T_keyframe_cam = T_keyframe_cam.scaled(update.rescale->factor);
     Matrix6d normal;
     const SE3 by_points = refine_pose_3d2d(calibration_.camera, points, px, all,
                                            window_.pose(keyframe) * T_keyframe_cam,

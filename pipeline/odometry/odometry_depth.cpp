@@ -114,9 +114,8 @@ void Odometry::calibrate_eyes() {
   calibrated_.insert(fresh.begin(), fresh.end());
   revise_disparities(before);
   const RectificationError now = rectification_->error();
-  log(log_, LogLevel::kDebug,
-      "rectification off by " + std::to_string(now.offset_px) + " + " +
-          std::to_string(now.by_x_px) + " x + " + std::to_string(now.by_y_px) + " y px");
+  log(log_, LogLevel::kDebug, "rectification off by {:f} + {:f} x + {:f} y px", now.offset_px,
+      now.by_x_px, now.by_y_px);
 }
 
 void Odometry::revise_disparities(const RectificationError& before) {

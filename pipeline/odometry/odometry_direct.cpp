@@ -28,7 +28,7 @@ OdometryUpdate Odometry::begin_on_surfaces(const Frame& frame) {
   Random random(seed_, frame.id);
   surfaces_->see(frame);
   if (!surfaces_->become_reference(SE3(), RectificationError(), {}, random)) {
-    log(log_, LogLevel::kDebug, "no surface to begin with in frame " + std::to_string(frame.id));
+    log(log_, LogLevel::kDebug, "no surface to begin with in frame {}", frame.id);
     surfaces_->reset();
     return update;
   }
@@ -112,16 +112,14 @@ OdometryUpdate Odometry::track_surfaces(const Frame& frame) {
   surfaces_->see(frame);
   DirectMotion motion = align_surfaces();
   if (!motion.outcome && frames_since_keyframe_ > 0) {
-    log(log_, LogLevel::kDebug,
-        "frame " + std::to_string(frame.id) + ": from the last one, " + motion.outcome.reason);
+    log(log_, LogLevel::kDebug, "frame {}: from the last one, {}", frame.id, motion.outcome.reason);
     surfaces_->see(last_frame_);
     const bool nearer = add_surface_keyframe(last_frame_, newest_motion_, update);
     surfaces_->see(frame);
     if (nearer) motion = align_surfaces();
   }
   if (!motion.outcome) {
-    log(log_, LogLevel::kInfo,
-        "frame " + std::to_string(frame.id) + " lost: " + motion.outcome.reason);
+    log(log_, LogLevel::kInfo, "frame {} lost: {}", frame.id, motion.outcome.reason);
     update.state = TrackingState::kLost;
     return update;
   }
@@ -166,12 +164,9 @@ bool Odometry::add_surface_keyframe(const Frame& frame, const DirectMotion& moti
   window_.add_keyframe(id, window_.pose(previous) * believed.T_ref_cur);
   window_.add_motion(
       {previous, id, believed.T_ref_cur, believed.covariance.ldlt().solve(Matrix6d::Identity())});
-  log(log_, LogLevel::kDebug,
-      "surfaces " + std::to_string(frame.id) + ": t " +
-          std::to_string(believed.T_ref_cur.translation().norm()) + " agreement " +
-          std::to_string(motion.agreement) + " visible " + std::to_string(motion.visible_share) +
-          " inliers " + std::to_string(motion.inlier_share) +
-          (believed.outcome ? "" : ", " + believed.outcome.reason));
+  log(log_, LogLevel::kDebug, "surfaces {}: t {:f} agreement {:f} visible {:f} inliers {:f}{}",
+      frame.id, believed.T_ref_cur.translation().norm(), motion.agreement, motion.visible_share,
+      motion.inlier_share, (believed.outcome ? "" : ", " + believed.outcome.reason));
   last_keyframe_ = id;
   if (manhattan_) look_at_directions(frame);
   refine_window();

@@ -54,8 +54,7 @@ bool Odometry::place_line_views(const std::vector<std::size_t>& chosen,
   const LineCue before = *lines_;
   for (const std::size_t v : chosen) {
     const SE3& T = start.T_ref_view[v];
-    window_.add_keyframe(next_keyframe_,
-                         T_odom_start_ * SE3(T.rotation(), scale * T.translation()));
+    window_.add_keyframe(next_keyframe_, T_odom_start_ * T.scaled(scale));
     lines_->observe_earlier(next_keyframe_, line_views_[v].lines, window_);
     lines_->hold_course(next_keyframe_++, depth, window_);
   }
@@ -107,7 +106,7 @@ OdometryUpdate Odometry::try_lines(const Frame& frame, const std::optional<SE3>&
       initialize_from_lines(calibration_.camera, views, options_.lines.start, random);
   const std::vector<double> depths = depths_of(calibration_.camera, start, views.front());
   if (!start.outcome || depths.empty()) {
-    log(log_, LogLevel::kDebug, "initialization waits: " + start.outcome.reason);
+    log(log_, LogLevel::kDebug, "initialization waits: {}", start.outcome.reason);
     return update;
   }
   // The unit is arbitrary until the floor shows it.
@@ -144,8 +143,7 @@ OdometryUpdate Odometry::try_lines(const Frame& frame, const std::optional<SE3>&
     const SE3 T_odom_before = window_.pose(first + static_cast<std::int64_t>(i));
     for (std::size_t v = chosen[i] + 1; v < chosen[i + 1]; ++v) {
       const SE3 T = T_ref_before.inverse() * start.T_ref_view[v];
-      update.filled.emplace_back(line_views_[v].frame.id,
-                                 T_odom_before * SE3(T.rotation(), unit * T.translation()));
+      update.filled.emplace_back(line_views_[v].frame.id, T_odom_before * T.scaled(unit));
     }
   }
   const SE3 T_before_last =
@@ -171,8 +169,9 @@ void Odometry::measure_floor(OdometryUpdate& update) {
   constexpr std::int64_t kLong = 30;  // keyframes
   if (!measured && !scale_known_ && last_keyframe_ - first_keyframe_ == kLong)
     log(log_, LogLevel::kWarning,
-        "no floor has given the unit in " + std::to_string(kLong) +
-            " keyframes: camera_height_m is of no use so far, poses wait for it");
+        "no floor has given the unit in {} keyframes: camera_height_m is of no use so far, poses "
+        "wait for it",
+        kLong);
   if (!measured) return;
   const auto ids = window_.keyframes();
   const bool first = !scale_known_;
@@ -187,9 +186,8 @@ void Odometry::measure_floor(OdometryUpdate& update) {
   const double distance_m =
       (first ? 1 : measured->factor) * (window_.pose(old).translation() - here).norm();
   window_.add_distance({old, last_keyframe_, distance_m, measured->sigma_relative * distance_m});
-  log(log_, LogLevel::kDebug,
-      "floor: factor " + std::to_string(measured->factor) + " +- " +
-          std::to_string(measured->sigma_relative));
+  log(log_, LogLevel::kDebug, "floor: factor {:f} +- {:f}", measured->factor,
+      measured->sigma_relative);
 }
 
 }  // namespace placegraph

@@ -19,15 +19,6 @@ void visit(OptionVisitor& field, KeyframeOptions& o) {
 void OdometryOptions::check() const {
   check_ranges(*this);
   (void)parse_cues(cues);
-  tracker.check();
-  turn.check();
-  rectification.check();
-  ground.check();
-  lines.check();
-  manhattan.check();
-  planes.check();
-  surfaces.check();
-  window.check();
 }
 
 void visit(OptionVisitor& field, OdometryOptions& o) {

@@ -96,10 +96,9 @@ void Odometry::measure_ground(const Frame& frame, OdometryUpdate& update) {
     if (!measured) return;
     const double distance_m = measured->factor * length;
     window_.add_distance({old, current, distance_m, measured->sigma_relative * distance_m});
-    log(log_, LogLevel::kDebug,
-        "ground " + std::to_string(keyframe_frames_.at(old).id) + " " + std::to_string(frame.id) +
-            " length " + std::to_string(length) + " measured " + std::to_string(distance_m) +
-            " +- " + std::to_string(measured->sigma_relative * distance_m));
+    log(log_, LogLevel::kDebug, "ground {} {} length {:f} measured {:f} +- {:f}",
+        keyframe_frames_.at(old).id, frame.id, length, distance_m,
+        measured->sigma_relative * distance_m);
     return;
   }
   const auto measured = ground_->find(frame.image, image_old, T_old_new, ground_sight(frame));

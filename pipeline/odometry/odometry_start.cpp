@@ -96,7 +96,7 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   if (start.outcome && turn_since(views_.front().px, random))
     start.outcome = Outcome::failure(Outcome::Code::kDegenerate, "a rotation explains the views");
   if (!start.outcome) {
-    log(log_, LogLevel::kDebug, "initialization waits: " + start.outcome.reason);
+    log(log_, LogLevel::kDebug, "initialization waits: {}", start.outcome.reason);
     return wait_turning(frame, random);
   }
   // The unit is arbitrary until the ground shows it.

@@ -10,12 +10,7 @@
 
 namespace placegraph {
 
-void LoopOptions::check() const {
-  check_ranges(*this);
-  detector.check();
-  database.check();
-  verifier.check();
-}
+void LoopOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, LoopOptions& o) {
   field("enabled", o.enabled, "look for revisits");
@@ -320,8 +315,7 @@ void LoopCloser::rescale(double factor, std::int64_t first_keyframe) {
   for (LoopRecord& record : records_)
     for (const View& view : views_)
       if (view.keyframe >= first_keyframe && view.frame == record.match_frame)
-        record.T_match_query =
-            SE3(record.T_match_query.rotation(), factor * record.T_match_query.translation());
+        record.T_match_query = record.T_match_query.scaled(factor);
 }
 
 }  // namespace placegraph

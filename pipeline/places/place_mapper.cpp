@@ -8,8 +8,6 @@
 namespace placegraph {
 namespace {
 
-SE3 scaled(const SE3& T, double factor) { return SE3(T.rotation(), factor * T.translation()); }
-
 /// Information of the same motion when its unit of length shrinks by `factor`; covariance when it
 /// grows.
 template <int N>
@@ -212,7 +210,7 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
     if (!node.link) continue;
     Link& link = *node.link;
     const bool odometry = link.source == ConstraintSource::kOdometry;
-    if (in_run(link.from)) link.T_from_this = scaled(link.T_from_this, factor);
+    if (in_run(link.from)) link.T_from_this = link.T_from_this.scaled(factor);
     if (in_run(id)) link.information = scaled<6>(link.information, factor);
     if (odometry && in_run(id)) link.sigma_log_scale = 0;
     if (!odometry) link.scale *= (in_run(link.from) ? factor : 1) / (in_run(id) ? factor : 1);
@@ -220,7 +218,7 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
   }
   for (Loop& loop : loops_) {
     if (in_run(loop.match)) {
-      loop.T_match_query = scaled(loop.T_match_query, factor);
+      loop.T_match_query = loop.T_match_query.scaled(factor);
       loop.scale_match_query *= factor;
     }
     if (in_run(loop.query)) {

@@ -153,7 +153,6 @@ class PlaceMapper {
   };
   bool agrees(const Loop& loop) const;
   using Merged = PlaceHistory::Merged;
-  std::vector<Merger> find_mergers(std::int64_t first_open) const;
   std::optional<std::int64_t> known_ground(const Sim3& S_map_here, std::int64_t keyframe,
                                            double reach) const;
   bool same_known_ground(const Node& node, const Sim3& S_place_this) const;

@@ -9,10 +9,7 @@
 
 namespace placegraph {
 
-void GroundScaleOptions::check() const {
-  check_ranges(*this);
-  plane.check();
-}
+void GroundScaleOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, GroundScaleOptions& o) {
   field.group("plane", o.plane, "direct alignment of the road");

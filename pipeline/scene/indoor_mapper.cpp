@@ -223,11 +223,7 @@ class Fusion {
 
 }  // namespace
 
-void IndoorMapperOptions::check() const {
-  check_ranges(*this);
-  sweep.check();
-  views.check();
-}
+void IndoorMapperOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field.group("points", o.points, "surface points of a depth image");

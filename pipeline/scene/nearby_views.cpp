@@ -16,7 +16,7 @@ constexpr std::size_t kMostRead = 2 * kFarthest + 4;
 
 void NearbyViewOptions::check() const {
   check_ranges(*this);
-  require(near_m <= far_m, "nearby views: far_m must not be below near_m");
+  require(near_m <= far_m, "far_m: must not be below near_m");
 }
 
 void visit(OptionVisitor& field, NearbyViewOptions& o) {

@@ -8,13 +8,7 @@
 #include <map>
 
 namespace placegraph {
-void UrbanMapperOptions::check() const {
-  check_ranges(*this);
-  stereo.check();
-  sight.check();
-  seen_through.check();
-  grid.check();
-}
+void UrbanMapperOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, UrbanMapperOptions& o) {
   field.group("stereo", o.stereo, "depth of two eyes");

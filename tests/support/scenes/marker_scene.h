@@ -18,7 +18,7 @@ inline Image marker_picture(const std::string& dictionary, int id, int cell_px) 
   const MarkerFamily family = marker_family(dictionary);
   const cv::aruco::Dictionary codes(family.codes, family.bits_per_side, family.correctable_bits);
   Image picture;
-  codes.drawMarker(id, family.cells_per_side() * cell_px, picture, 1);
+  codes.drawMarker(id, (family.bits_per_side + 2) * cell_px, picture, 1);
   return picture;
 }
 

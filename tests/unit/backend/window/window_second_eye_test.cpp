@@ -54,9 +54,7 @@ SlidingWindow stretched(const Drive& drive, double scale,
                         const SlidingWindowOptions& options = {}) {
   SlidingWindow window(options, drive.camera);
   for (std::size_t k = 0; k < drive.T_map_cam.size(); ++k)
-    window.add_keyframe(
-        static_cast<std::int64_t>(k),
-        SE3(drive.T_map_cam[k].rotation(), scale * drive.T_map_cam[k].translation()));
+    window.add_keyframe(static_cast<std::int64_t>(k), drive.T_map_cam[k].scaled(scale));
   for (std::size_t i = 0; i < drive.lines.size(); ++i)
     window.add_line(
         static_cast<std::int64_t>(i),

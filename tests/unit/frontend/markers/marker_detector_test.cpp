@@ -104,7 +104,7 @@ TEST(MarkerDetector, NamesWhatItDoesNotTake) {
 TEST(MarkerDictionary, DrawsMarkersOfEveryFamily) {
   for (const std::string& name : marker_dictionaries()) {
     const Image picture = marker_picture(name, 0, 2);
-    EXPECT_EQ(picture.cols, 2 * marker_family(name).cells_per_side()) << name;
+    EXPECT_EQ(picture.cols, 2 * (marker_family(name).bits_per_side + 2)) << name;
     EXPECT_EQ(picture.at<std::uint8_t>(0, 0), 0) << name;
   }
 }

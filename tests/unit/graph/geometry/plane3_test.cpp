@@ -74,18 +74,19 @@ TEST(Plane3, HasTheClosestPointItWasMadeOf) {
   }
 }
 
-TEST(Plane3, CarriesCovariancesToTheClosestPointAndBack) {
+TEST(Plane3, CarriesCovariancesFromTheClosestPointToItsTangent) {
   const Plane3 plane({1, -2, 0.5}, 1.7);
   Eigen::Matrix3d root;
   root << 1, 0.2, 0, -0.3, 2, 0.1, 0.4, 0, 0.5;
   const Eigen::Matrix3d covariance = 1e-4 * root * root.transpose();
-  const Eigen::Matrix3d back =
-      closest_point_covariance(plane, tangent_covariance(plane, covariance));
+  Eigen::Matrix3d J;
+  plane.closest_point(&J);
+  const Eigen::Matrix3d back = J * tangent_covariance(plane, covariance) * J.transpose();
   EXPECT_LT((back - covariance).norm(), 1e-12);
   // Along the normal the closest point moves as the plane does.
   const Eigen::Vector3d n = plane.normal();
   const Eigen::Matrix3d of_plane = plane_information(plane, 0.02, 0.1).inverse();
-  EXPECT_NEAR(n.dot(closest_point_covariance(plane, of_plane) * n), 0.1 * 0.1, 1e-12);
+  EXPECT_NEAR(n.dot((J * of_plane * J.transpose()) * n), 0.1 * 0.1, 1e-12);
   EXPECT_THROW((void)tangent_covariance(Plane3({1, 0, 0}, 0), covariance), ArgumentError);
 }
 

@@ -177,7 +177,7 @@ TEST(PlaceMapper, GrowsARunAboutItsFirstKeyframe) {
   mapper.add_keyframe(3, link(2, kShort), {}, kDepth_m);
   mapper.add_keyframe(4, link(3, kLong), {}, kDepth_m);
   mapper.rescale(2, 3);
-  const auto grown = [](const SE3& T) { return SE3(T.rotation(), 3 * T.translation()); };
+  const auto grown = [](const SE3& T) { return T.scaled(3); };
   EXPECT_LT(distance_m(mapper.T_map_keyframe(1), kLong), 1e-12);  // another run
   EXPECT_LT(distance_m(mapper.T_map_keyframe(2), T_map_2), 1e-12);
   EXPECT_LT(distance_m(mapper.T_map_keyframe(3), T_map_2 * grown(kShort)), 1e-9);

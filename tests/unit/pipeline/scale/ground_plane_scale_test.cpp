@@ -33,7 +33,7 @@ Image road(double forward_m) {
 /// The step between the two pictures, `factor` times too long.
 SE3 T_old_new(double factor) {
   const SE3 metric = T_world_cam(0).inverse() * T_world_cam(kStep_m);
-  return SE3(metric.rotation(), factor * metric.translation());
+  return metric.scaled(factor);
 }
 
 class GroundScaleOnARoad : public testing::Test {
