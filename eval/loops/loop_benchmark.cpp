@@ -7,13 +7,13 @@
 namespace placegraph {
 namespace {
 
-enum class Place { kInside, kTooYoung, kOutOfRange };
+enum class RangeTest { kInside, kTooYoung, kOutOfRange };
 
-Place place_of(std::int64_t min_age, std::int64_t id, const LoopQuery& query,
-               std::int64_t candidate) {
-  if (min_age > 0 && id - candidate < min_age) return Place::kTooYoung;
+RangeTest range_test_of(std::int64_t min_age, std::int64_t id, const LoopQuery& query,
+                        std::int64_t candidate) {
+  if (min_age > 0 && id - candidate < min_age) return RangeTest::kTooYoung;
   const bool inside = candidate >= query.first && candidate <= query.last;
-  return inside ? Place::kInside : Place::kOutOfRange;
+  return inside ? RangeTest::kInside : RangeTest::kOutOfRange;
 }
 
 /// What the truth says of an image, matches that are no candidates left out.
@@ -22,7 +22,7 @@ LoopQuery query_of(const LoopTruth& truth, std::int64_t id) {
   if (listed == truth.queries.end()) return {};
   LoopQuery query = listed->second;
   std::erase_if(query.matches, [&](std::int64_t match) {
-    return place_of(truth.min_age, id, query, match) != Place::kInside;
+    return range_test_of(truth.min_age, id, query, match) != RangeTest::kInside;
   });
   return query;
 }
@@ -100,11 +100,11 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
       continue;
     }
     Gathered& of_query = gathered[prediction.query];
-    const Place place =
-        place_of(truth.min_age, prediction.query, of_query.query, prediction.candidate);
-    of_query.too_young |= place == Place::kTooYoung;
-    of_query.out_of_range |= place == Place::kOutOfRange;
-    if (place == Place::kInside)
+    const RangeTest place =
+        range_test_of(truth.min_age, prediction.query, of_query.query, prediction.candidate);
+    of_query.too_young |= place == RangeTest::kTooYoung;
+    of_query.out_of_range |= place == RangeTest::kOutOfRange;
+    if (place == RangeTest::kInside)
       of_query.candidates.push_back(
           {prediction, is_true(of_query.query, prediction.candidate, tolerance)});
     else
