@@ -20,9 +20,8 @@ PoseGraphReport optimize_growing(const PoseGraph& graph, const GraphTask& task, 
   options.rotation_error = task.options.rotation_error;
   const auto watch = [&](int steps, const IncrementalOptimizer& optimizer) {
     if (steps % kStepsPerLine == 0)
-      placegraph::log(
-          log, LogLevel::kDebug,
-          fmt::format("{} of {} poses, cost {:.9g}", steps, graph.nodes.size(), optimizer.cost()));
+      placegraph::log(log, LogLevel::kDebug, "{} of {} poses, cost {:.9g}", steps,
+                      graph.nodes.size(), optimizer.cost());
   };
   IncrementalReplay replay = optimize_incrementally(graph, options, watch);
   step_cpu_ms.insert(step_cpu_ms.end(), replay.step_cpu_ms.begin(), replay.step_cpu_ms.end());

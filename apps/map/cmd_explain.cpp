@@ -138,7 +138,7 @@ json assumed_by(const StoredMap& stored, const RunOptions& options, const Explan
   return assumed;
 }
 
-std::string numbers(const json& list) {
+std::string joined(const json& list) {
   std::string text;
   for (const json& value : list) text += fmt::format("{:.4g} ", value.get<double>());
   return text;
@@ -169,8 +169,8 @@ void print_where(const json& at) {
              at["place"].get<std::int64_t>(), labels_of(at["labels"]),
              at["way_to_keyframe"].get<double>(), unit, at["keyframe"].get<std::int64_t>(),
              at["component"].get<int>());
-  fmt::print("           position {}, orientation {}(x y z w)\n", numbers(at["position"]),
-             numbers(at["quaternion_xyzw"]));
+  fmt::print("           position {}, orientation {}(x y z w)\n", joined(at["position"]),
+             joined(at["quaternion_xyzw"]));
   if (at.contains("sigma_position"))
     fmt::print("           its place known to {:.3g} {}, {:.3g} deg, seen from the first one\n",
                at["sigma_position"].get<double>(), unit, at["sigma_angle_deg"].get<double>());
