@@ -14,8 +14,12 @@ endfunction()
 
 # placegraph_unity(target [size]): sources of one folder are compiled together, `size` (8) at a time, because
 # half of compiling a source is reading headers and instantiating Eigen's templates. File-local names are
-# unique within a folder for that reason.
+# unique within a folder for that reason. PLACEGRAPH_UNITY=OFF compiles each by itself, which is quicker
+# where a source is changed again and again.
 function(placegraph_unity target)
+  if(NOT PLACEGRAPH_UNITY)
+    return()
+  endif()
   set(size 8)
   if(ARGC GREATER 1)
     set(size ${ARGV1})

@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/backend/incremental/graph_change.h>
 #include <placegraph/backend/incremental/incremental_components.h>
-#include <placegraph/backend/incremental/incremental_optimizer.h>
 #include <placegraph/backend/incremental/incremental_terms.h>
 #include <placegraph/backend/linear/elimination_tree.h>
 

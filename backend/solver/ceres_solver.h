@@ -1,5 +1,6 @@
 #pragma once
-#include <placegraph/backend/solver/local_solver.h>
+#include <placegraph/backend/solver/local_solver_options.h>
+#include <placegraph/backend/solver/packed_graph.h>
 
 namespace placegraph {
 

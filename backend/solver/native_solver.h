@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/solver/local_solver.h>
+#include <placegraph/backend/solver/local_solver_options.h>
 #include <placegraph/backend/solver/normal_equations.h>
 
 namespace placegraph {

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/window/distortion_evidence.h>
-#include <placegraph/graph/core/options.h>
-#include <placegraph/graph/core/outcome.h>
+#include <placegraph/backend/window/sliding_window_options.h>
+#include <placegraph/backend/window/window_observations.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/geometry/plane3.h>
@@ -12,118 +12,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct SlidingWindowOptions {
-  int max_keyframes = 8;  ///< the oldest is marginalized beyond this
-  int max_iterations = 10;
-  double huber_px = 2.0;            ///< width of the Huber kernel on reprojection errors, in sigmas
-  double relative_decrease = 1e-4;  ///< of the cost, to stop
-  /// The prior forgets its unit of length by this deviation (logarithm) with each keyframe that
-  /// leaves: a single eye's unit wanders by more than the noise of its points explains.
-  double scale_drift = 0;
-  /// Where the window lies as a whole is integrated out as it moves on, and its oldest keyframe
-  /// stays where it is: for drives whose past is not corrected by the window any more. Otherwise
-  /// the prior holds the window in the map's frame, and a hair of heading it learns late moves all
-  /// of it, the more the longer the way behind it.
-  bool hold_oldest = false;
-  void check() const;
-};
-/// All but what follows from the sensor: scale_drift and hold_oldest are set by the window's owner.
-void visit(OptionVisitor& field, SlidingWindowOptions& options);
-
-/// A landmark seen in a keyframe. The inverse depth (1 / z in the camera frame) comes from stereo
-/// (disparity / (f b)) or a depth camera.
-struct WindowObservation {
-  std::int64_t keyframe = 0;
-  std::int64_t landmark = 0;
-  Eigen::Vector2d px = Eigen::Vector2d::Zero();
-  double sigma_px = 1;
-  std::optional<double> inverse_depth;  ///< [1/m]
-  double sigma_inverse_depth = 1;       ///< [1/m]
-  /// Of px, where it is not alike in all directions: takes the place of sigma_px.
-  std::optional<Eigen::Matrix2d> covariance_px = std::nullopt;
-};
-
-/// A metric length: |t| of T_from_to, as the ground plane under a camera of known height gives it.
-struct DistanceObservation {
-  std::int64_t from = 0, to = 0;
-  double distance_m = 0;
-  double sigma_m = 1;
-};
-
-/// A segment of a line landmark seen in a keyframe; its ends may lie anywhere along the line.
-struct LineObservation {
-  std::int64_t keyframe = 0;
-  std::int64_t line = 0;
-  Eigen::Vector2d start_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d end_px = Eigen::Vector2d::Zero();
-  double sigma_px = 1;  ///< across the line
-
-  /// The same line in a second eye at `eye_cam` [m] in the keyframe's camera, of its orientation
-  /// and calibration: the right eye of a rectified pair, or one made up from depths on the line.
-  struct SecondEye {
-    Eigen::Vector3d eye_cam = Eigen::Vector3d::Zero();
-    Eigen::Vector2d start_px = Eigen::Vector2d::Zero();
-    Eigen::Vector2d end_px = Eigen::Vector2d::Zero();
-    double sigma_px = 1;
-  };
-  std::optional<SecondEye> second = std::nullopt;
-};
-
-/// A camera at a known height above a plane landmark, as above the ground a vehicle drives on.
-struct HeightObservation {
-  std::int64_t keyframe = 0;
-  std::int64_t plane = 0;
-  double height_m = 0;
-  double sigma_m = 1;
-};
-
-/// A plane landmark as a keyframe measures it, by its depth image: error log(q_measured^-1 q_cam),
-/// see PlaneObservationFactor.
-struct PlaneObservation {
-  std::int64_t keyframe = 0;
-  std::int64_t plane = 0;
-  Plane3 plane_cam;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< of its tangent, of full rank
-};
-
-/// A point landmark that lies on a plane landmark.
-struct PlanePoint {
-  std::int64_t plane = 0;
-  std::int64_t landmark = 0;
-  double sigma_m = 1;  ///< how uneven the plane is
-};
-
-/// A rectangular world, a rotation of the window, as a keyframe sees it: error
-/// log(R_map_world^-1 R_map_cam R_cam_world), see AbsoluteRotationFactor.
-struct WorldObservation {
-  std::int64_t keyframe = 0;
-  std::int64_t world = 0;
-  SO3 R_cam_world;
-  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< right tangent, of any rank
-};
-
-/// What is known of a keyframe's pose from elsewhere: error log(T_map_cam_measured^-1 T_map_cam).
-struct PosePrior {
-  std::int64_t keyframe = 0;
-  SE3 T_map_cam;
-  Matrix6d information = Matrix6d::Identity();  ///< of any rank
-};
-
-/// A motion between two keyframes that was measured apart from the landmarks of the window, as by
-/// aligning grey values: error log(T_from_to_measured^-1 T_map_from^-1 T_map_to). Not robust: its
-/// owner judges it.
-struct MotionObservation {
-  std::int64_t from = 0, to = 0;
-  SE3 T_from_to;
-  Matrix6d information = Matrix6d::Identity();  ///< right tangent of T_from_to; of any rank
-};
-
-struct WindowSummary {
-  Outcome outcome;
-  double cost_initial = 0, cost_final = 0;  ///< half the robust sum of squares
-  int iterations = 0;
-};
 
 /// Bundle adjustment over the last keyframes; what leaves is marginalized into a linear prior by
 /// Schur complement, with first-estimate Jacobians for the states that stay in it. Undistorted

@@ -2,7 +2,8 @@
 #include <placegraph/backend/factors/line_reprojection.h>
 #include <placegraph/backend/factors/marginal_prior.h>
 #include <placegraph/backend/factors/reprojection.h>
-#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/sliding_window_options.h>
+#include <placegraph/backend/window/window_observations.h>
 
 #include <map>
 #include <set>

@@ -58,12 +58,16 @@ PLACEGRAPH_EXTERN template void PartialPivLU<MatrixXd>::compute();
 namespace internal {
 
 // What is left of the above where the argument is an expression.
-#define PLACEGRAPH_TRIDIAGONAL(N, M)                                                 \
-  PLACEGRAPH_EXTERN template void tridiagonalization_inplace(Matrix<double, N, N>&,  \
-                                                             Matrix<double, M, 1>&); \
-  PLACEGRAPH_EXTERN template ComputationInfo computeFromTridiagonal_impl(            \
+#define PLACEGRAPH_TRIDIAGONAL(N, M)                                                              \
+  PLACEGRAPH_EXTERN template void tridiagonalization_inplace(Matrix<double, N, N>&,               \
+                                                             Matrix<double, M, 1>&);              \
+  PLACEGRAPH_EXTERN template void tridiagonalization_inplace(                                     \
+      Matrix<double, N, N>&, Matrix<double, N, 1>&, Matrix<double, M, 1>&, Matrix<double, M, 1>&, \
+      bool);                                                                                      \
+  PLACEGRAPH_EXTERN template ComputationInfo computeFromTridiagonal_impl(                         \
       Matrix<double, N, 1>&, Matrix<double, M, 1>&, Index, bool, Matrix<double, N, N>&);
 PLACEGRAPH_TRIDIAGONAL(6, 5)
+PLACEGRAPH_TRIDIAGONAL(7, 6)
 PLACEGRAPH_TRIDIAGONAL(Dynamic, Dynamic)
 
 using Traits = gebp_traits<double, double>;

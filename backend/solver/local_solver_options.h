@@ -1,0 +1,27 @@
+#pragma once
+#include <placegraph/backend/factors/pose_error.h>
+#include <placegraph/graph/core/log.h>
+#include <placegraph/graph/core/outcome.h>
+
+namespace placegraph {
+
+enum class PoseGraphEngine { kNative, kCeres };
+/// How the native engine steps; Ceres always takes Levenberg-Marquardt.
+enum class StepRule { kDogleg, kGaussNewton, kLevenbergMarquardt };
+
+struct LocalSolverOptions {
+  PoseGraphEngine engine = PoseGraphEngine::kNative;
+  RotationError rotation_error = RotationError::kLog;
+  StepRule step_rule = StepRule::kDogleg;
+  int max_iterations = 200;
+  double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
+  LogSink log = {};                 ///< a line for every iteration (kDebug)
+};
+
+struct LocalSolution {
+  Outcome outcome;
+  int iterations = 0;
+  double cost_initial = 0, cost_final = 0;  ///< sum of weight * rho(e^T Omega e)
+};
+
+}  // namespace placegraph
