@@ -12,32 +12,44 @@ function(placegraph_compile_options target)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<BOOL:${PLACEGRAPH_WERROR}>:-Werror>)
 endfunction()
 
-# placegraph_unity(target [size]): sources of one folder are compiled together, `size` (8) at a time, because
-# half of compiling a source is reading headers and instantiating Eigen's templates. File-local names are
-# unique within a folder for that reason. PLACEGRAPH_UNITY=OFF compiles each by itself, which is quicker
-# where a source is changed again and again.
+# placegraph_unity(target): sources of one folder are compiled together, eight at a time, because half of
+# compiling a source is reading headers and instantiating Eigen's templates. File-local names are unique
+# within a folder for that reason. A source with the property SKIP_UNITY_BUILD_INCLUSION is compiled alone.
+# PLACEGRAPH_UNITY=OFF compiles each alone, which is quicker where one is changed again and again.
+# (CMake's own unity builds name the sources by absolute paths, which the compiler cache of another clone
+# cannot find.)
 function(placegraph_unity target)
   if(NOT PLACEGRAPH_UNITY)
     return()
   endif()
-  set(size 8)
-  if(ARGC GREATER 1)
-    set(size ${ARGV1})
-  endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # Files compiled together see each other's using-declarations, which their variables then "shadow".
   target_compile_options(${target} PRIVATE -Wno-shadow)
+  target_include_directories(${target} PRIVATE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
   get_target_property(sources ${target} SOURCES)
+  set(compiled)
+  set(units)
   foreach(source IN LISTS sources)
-    cmake_path(GET source PARENT_PATH folder)
-    if(IS_ABSOLUTE "${source}")
-      continue()  # generated
+    get_source_file_property(alone ${source} SKIP_UNITY_BUILD_INCLUSION)
+    if(alone OR IS_ABSOLUTE "${source}")
+      list(APPEND compiled ${source})
+      continue()
     endif()
-    string(MAKE_C_IDENTIFIER "${folder}" group)
+    cmake_path(GET source PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER "${target}_${folder}" group)
     math(EXPR count_${group} "${count_${group}} + 1")
-    math(EXPR part "(${count_${group}} - 1) / ${size}")
-    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group}_${part})
+    math(EXPR part "(${count_${group}} + 7) / 8")
+    set(unit ${group}_${part})
+    file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    string(APPEND content_${unit} "#include \"${path}\"\n")
+    list(APPEND units ${unit})
   endforeach()
+  list(REMOVE_DUPLICATES units)
+  foreach(unit IN LISTS units)
+    set(file ${CMAKE_CURRENT_BINARY_DIR}/unity/${unit}.cpp)
+    file(CONFIGURE OUTPUT ${file} CONTENT "${content_${unit}}" @ONLY)
+    list(APPEND compiled ${file})
+  endforeach()
+  set_target_properties(${target} PROPERTIES SOURCES "${compiled}")
 endfunction()
 
 # placegraph_library(name SOURCES ... [PUBLIC targets] [PRIVATE targets] [PRECOMPILE headers])
