@@ -5,9 +5,9 @@ york=$data/scene/york_urban_vp
 heading "$title"
 echo "Segments of single images (\`york_urban_vp\`) against vanishing points that people marked." >> "$rows"
 echo >> "$rows"
-command_line "integration_vanishing_tests --gtest_filter='YorkUrban*'"
-cmake --build --preset release -j2 --target integration_vanishing_tests > "$out/york-build.log"
-PLACEGRAPH_DATA=$data build/release/tests/integration/integration_vanishing_tests --gtest_filter='YorkUrban*' > "$out/york.txt" || true
+command_line "integration_york_urban_tests"
+cmake --build --preset release -j"$(nproc)" --target integration_york_urban_tests > "$out/york-build.log"
+PLACEGRAPH_DATA=$data build/release/tests/integration/integration_york_urban_tests > "$out/york.txt" || true
 columns measure target measured "target met"
 # figure PATTERN: the number that follows it
 figure() { sed -n "s/.*$1 \([0-9.]*\).*/\1/p" "$out/york.txt" | head -1; }
