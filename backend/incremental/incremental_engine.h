@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/incremental/incremental_graph.h>
+#include <placegraph/backend/incremental/incremental_optimizer.h>
 
 namespace placegraph {
 
