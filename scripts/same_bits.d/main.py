@@ -82,7 +82,7 @@ def summary(results, seconds):
     return 0
 
 
-def main(arguments, cases=None):
+def main(arguments, cases=None, renamed=os.path.join(HERE, "renamed.txt")):
     chosen = parse(arguments)
     cases = all_cases() if cases is None else cases
     if chosen.list:
@@ -92,11 +92,11 @@ def main(arguments, cases=None):
     try:
         run_these = selected(cases, chosen)
         masks = read_masks(os.path.join(HERE, "masked.txt"))
-        renames = read_renames(os.environ.get("SAME_BITS_RENAMED") or os.path.join(HERE, "renamed.txt"))
+        renames = read_renames(renamed)
         os.makedirs(chosen.out, exist_ok=True)
         base = chosen.base_program or build.build_base(ROOT, chosen.out, chosen.base)
         present = chosen.program or build.build(ROOT, os.path.join(chosen.out, "present.log"))
-    except (build.BuildError, ValueError, OSError) as error:
+    except (build.BuildError, ValueError, OSError) as error:  # bad use, or a build that fails
         print(f"scripts/same_bits: {error}", file=sys.stderr)
         return 2
     begin = time.monotonic()
