@@ -35,6 +35,17 @@ def camera_of(path, sequence, size):
     write(path, f"{P[0]} {P[5]} {P[2]} {P[6]} {size}\n")
 
 
+def camera_of_flight(path, flight):
+    """K.txt of a flight in EuRoC's layout."""
+    found = {}
+    with open(os.path.join(flight, "mav0", "cam0", "sensor.yaml"), encoding="utf-8") as file:
+        for line in file:
+            name, _, value = line.partition(":")
+            if name in ("intrinsics", "resolution"):
+                found[name] = value.strip(" []\n").replace(",", "")
+    write(path, f"{found['intrinsics']} {found['resolution']}\n")
+
+
 def views(folder):
     """Point matches of two views of a scene, for motion and planes: general, two planes, pure rotation, points in space."""
     rng = random.Random(7)

@@ -73,7 +73,8 @@ def summary(results, seconds):
     count = lambda outcome: sum(result.outcome == outcome for result in results)
     files = sum(result.files for result in results)
     print(f"{len(results)} cases: {count('identical')} identical, {count('different')} different, {count('failed')} failed, "
-          f"{count('skipped')} skipped; {files} files compared, {sum(r.masked for r in results)} values masked; {seconds:.0f} s")
+          f"{count('skipped')} skipped; {files} files compared, {sum(r.masked for r in results)} values masked; {seconds:.0f} s, "
+          f"{sum(r.cpu_s for r in results):.0f} s CPU of both programs")
     if count("different") or count("failed"):
         return 1
     if not count("identical") or not files:

@@ -1,5 +1,6 @@
 """One case: its commands through both programs, and the comparison of what they leave."""
 import os
+import resource
 import shlex
 import shutil
 import subprocess
@@ -20,7 +21,13 @@ class CaseResult:
     files: int = 0
     masked: int = 0
     seconds: float = 0
+    cpu_s: float = 0  # of both programs
     notes: list = field(default_factory=list)
+
+
+def cpu_of_programs():
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 class Runner:
@@ -45,7 +52,7 @@ class Runner:
         return PLACEHOLDER.sub(lambda m: places.get(m[1]) or self.folder("base", m[1]), text)
 
     def run(self, case):
-        begin = time.monotonic()
+        begin, cpu_begin = time.monotonic(), cpu_of_programs()
         absent = [p for p in case.data_paths() if not self.data or not os.path.exists(os.path.join(self.data, p))]
         missing = [n for n in case.needs() if self.outcomes.get(n) in (None, "failed", "skipped")]
         if absent:
@@ -55,7 +62,7 @@ class Runner:
             result = CaseResult(case.name, "skipped" if skipped else "failed", notes=[f"needs {', '.join(missing)}"])
         else:
             result = self.run_and_compare(case)
-        result.seconds = time.monotonic() - begin
+        result.seconds, result.cpu_s = time.monotonic() - begin, cpu_of_programs() - cpu_begin
         self.outcomes[case.name] = result.outcome
         return result
 
