@@ -60,6 +60,11 @@ def compare_files(name, base_path, present_path, texts):
     return texts.compare(name, text_a, text_b)
 
 
+def nothing_printed(path, masks):
+    """Nothing but lines that are not compared."""
+    return all(not line or masks.drops_line(line) for line in (as_text(read(path)) or "-").split("\n")) or not os.path.getsize(path)
+
+
 def compare_folders(base, present, masks, renames, folders=(), ignore=()):
     """`masks` are those of the case; `folders` are paths to be masked; `ignore` are paths that are no outputs."""
     texts = TextComparison(masks, renames, folders)
@@ -75,8 +80,8 @@ def compare_folders(base, present, masks, renames, folders=(), ignore=()):
         if path.endswith((".db-wal", ".db-shm")):
             continue  # the log of a database is compared with the database
         base_path, present_path = os.path.join(base, of_base[path]), os.path.join(present, path)
-        if path.startswith(("stdout_", "stderr_")) and os.path.getsize(base_path) == os.path.getsize(present_path) == 0:
-            continue  # nothing was printed
+        if path.startswith(("stdout_", "stderr_")) and nothing_printed(base_path, masks) and nothing_printed(present_path, masks):
+            continue
         finding = compare_files(path, base_path, present_path, texts)
         result.files += 1
         result.masked += finding.masked
