@@ -62,7 +62,8 @@ def compare_files(name, base_path, present_path, texts):
 
 def nothing_printed(path, masks):
     """Nothing but lines that are not compared."""
-    return all(not line or masks.drops_line(line) for line in (as_text(read(path)) or "-").split("\n")) or not os.path.getsize(path)
+    text = as_text(read(path))
+    return text is not None and all(not line or masks.drops_line(line) for line in text.split("\n"))
 
 
 def compare_folders(base, present, masks, renames, folders=(), ignore=()):
