@@ -40,7 +40,7 @@ CASES = [
         "planes {inputs}/cloud.txt --method ransac --out ransac.txt --json",
         "planes {inputs}/cloud.txt --method growing --out growing.txt --json",
         f"planes {HALL}/depth_0/000005.png --calib {{inputs}}/K_hall.txt --depth-scale 0.001 --out depth.png --cuboids cuboids.json",
-        f"planes {HALL}/depth_0/000005.png --calib {{inputs}}/K_hall.txt --depth-scale 0.001 --gt {HALL}/planes_0/000005.png "
+        f"planes {HALL}/depth_0/000005.png --calib {{inputs}}/K_hall.txt --depth-scale 0.001 --gt {HALL}/labels_0/000005.png "
         "--out judged.png --json"), quick=True),
     Case("lines", "line segments of an image, matched, tracked; vanishing points", CAMERAS + (
         Make(inputs.segments, "segments.txt"),
