@@ -1,6 +1,6 @@
 """Compares two results files, figure by figure: what `scripts/results --against` and `--compare` print.
 
-against.py fetch BASELINE                      prints the file that BASELINE names, where it is well formed
+against.py fetch BASELINE [SECTION...]         prints the file that BASELINE names, if it is well formed and has one of them
 against.py compare OLD NEW [SECTION...]        OLD, NEW: files of the form of docs/results.md, or git revisions
   --names OLD NEW     what they are called in messages
   --all               prints figures that are the same to the digit, too
@@ -161,10 +161,15 @@ def compare_sections(old, new, rules):
     return lines
 
 
+def by_new_names(old, new, rules):
+    """The older sections by the names they have now; new: names that are known to be there."""
+    renamed = {name: name if name in new else rules.renamed_section(name) for name in old}
+    return {new_name: old[name] for name, new_name in renamed.items() if new_name is not None}
+
+
 def compare(old, new, rules, chosen, names=("the baseline", "the new results")):
     """Lines of all sections chosen (of all that the older has, where none is), by dictionaries of sections."""
-    renamed = {name: rules.renamed_section(name) if name not in new else name for name in old}
-    older = {new_name: old[name] for name, new_name in renamed.items() if new_name is not None}
+    older = by_new_names(old, new, rules)
     wanted = list(chosen) or list(older)
     unknown = [name for name in wanted if name not in older and name not in new]
     if unknown:
@@ -209,13 +214,26 @@ def told_references(old, new, chosen):
     return ""
 
 
-def run_compare(arguments):
-    names = arguments.names or (arguments.old, arguments.new)
-    source = pathlib.Path(arguments.tolerances)
+def read_rules(file):
+    source = pathlib.Path(file)
     try:
-        rules = rules_module.parse_rules(source.read_text(encoding="utf-8"), source.name)
+        return rules_module.parse_rules(source.read_text(encoding="utf-8"), source.name)
     except OSError as error:
         raise Unusable(f"{source}: {error.strerror}") from None
+
+
+def run_fetch(arguments):
+    text = fetch(arguments.baseline)
+    older = by_new_names(tables.parse(text, arguments.baseline), arguments.sections, read_rules(arguments.tolerances))
+    if arguments.sections and not any(name in older for name in arguments.sections):
+        raise Unusable(f"{arguments.baseline} has no section {', '.join(arguments.sections)}")
+    sys.stdout.write(text)
+    return 0
+
+
+def run_compare(arguments):
+    names = arguments.names or (arguments.old, arguments.new)
+    rules = read_rules(arguments.tolerances)
     old = tables.parse(fetch(arguments.old), names[0])
     new = tables.parse(fetch(arguments.new), names[1])
     lines = compare(old, new, rules, arguments.sections, names)
@@ -227,21 +245,21 @@ def main(argv):
     parser = argparse.ArgumentParser(prog="scripts/results", description=__doc__, allow_abbrev=False,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
-    commands.add_parser("fetch").add_argument("baseline")
+    fetching = commands.add_parser("fetch")
+    fetching.add_argument("baseline")
+    fetching.add_argument("sections", nargs="*")
     comparing = commands.add_parser("compare")
     comparing.add_argument("old")
     comparing.add_argument("new")
     comparing.add_argument("sections", nargs="*")
     comparing.add_argument("--names", nargs=2)
     comparing.add_argument("--all", action="store_true")
-    comparing.add_argument("--tolerances", default=HERE / "tolerances.txt")
+    for command in (fetching, comparing):
+        command.add_argument("--tolerances", default=HERE / "tolerances.txt")
     arguments = parser.parse_args(argv)
     try:
         if arguments.command == "fetch":
-            text = fetch(arguments.baseline)
-            tables.parse(text, arguments.baseline)
-            sys.stdout.write(text)
-            return 0
+            return run_fetch(arguments)
         return run_compare(arguments)
     except (Unusable, tables.Malformed, rules_module.BadRule) as error:
         print(f"scripts/results: {error}", file=sys.stderr)

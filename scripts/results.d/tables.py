@@ -40,9 +40,9 @@ NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 FIGURE = re.compile(
     rf"(?P<verdict>\*\*no\*\*|\byes\b)"
     rf"|(?P<missing>\b(?:none|null|no answer|absent)\b)"
-    rf"|(?<![\w.])(?P<nan>[-+]?(?:nan|inf)\b)"
+    rf"|(?<![\w.@])(?P<nan>[-+]?(?:nan|inf)\b)"
     rf"|(?<![\w./])(?P<value>\d+)(?: of |/)(?P<total>\d+)(?![\w./])"
-    rf"|(?<![\w.])(?P<number>{NUMBER})(?!\w)",
+    rf"|(?<![\w.@])(?P<number>{NUMBER})(?!\w)",
     re.IGNORECASE,
 )
 
@@ -68,7 +68,7 @@ def figures_of(cell):
 
 def masked(text):
     """A name without the numbers in it."""
-    return re.sub(rf"(?<![\w.]){NUMBER}(?!\w)", "#", text)
+    return re.sub(rf"(?<![\w.@]){NUMBER}(?!\w)", "#", text)
 
 
 def cells_of(line):
