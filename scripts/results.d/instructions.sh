@@ -68,7 +68,7 @@ published() {
   row_name=$1 graph=$2; shift 2
   wanted "$row_name" || return 0
   if [ ! -f "$data/posegraphs/$graph.g2o" ]; then cells "$row_name" absent; return 0; fi
-  cp "$data/posegraphs/$graph.g2o" "$work/$graph.g2o"
+  cp -f "$data/posegraphs/$graph.g2o" "$work/$graph.g2o"
   input=$graph.g2o
   if [ "$graph" = intel ]; then
     made synth-graph intel.g2o --false-loops 100 -o intel-100.g2o --force
