@@ -27,10 +27,21 @@ table() { columns figure align "lengths [m]" step target measured met; }
 row() { cells "$@"; }
 absent() { heading "$1"; echo "Absent: the data are not on this machine." >> "$rows"; say "$1: absent"; }
 
+# build_reference: the program of the reference runs, by the compiler alone
+build_reference() { "${CXX:-g++}" -O2 -o "$out/reference_run" scripts/results.d/reference_run.cpp; }
+# reference_seconds: the CPU time of five reference runs, one a line
+reference_seconds() { for k in 1 2 3 4 5; do "$out/reference_run"; done; }
+# told_reference BEFORE AFTER: for the foot of a table
+told_reference() {
+  printf '%s s (%s before, %s after)' "$(digits "$(printf '%s\n' "$1" "$2" | median)")" \
+    "$(digits "$(echo "$1" | median)")" "$(digits "$(echo "$2" | median)")"
+}
+
 # build_bench TARGET...: programs of tests/bench, which the preset leaves out
 build_bench() {
+  [ -z "${PLACEGRAPH:-}" ] || { say "$* would have to be built: run this section without PLACEGRAPH"; return 1; }
   cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
-  cmake --build --preset release -j2 --target "$@"
+  cmake --build --preset release -j"$(nproc)" --target "$@"
   cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
 }
 # tabbed FILE KEY: of lines `key<tab>value`

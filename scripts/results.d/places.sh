@@ -70,7 +70,7 @@ done
 frames=$data/sequences/sevenscenes_rgbd334/image_0
 [ -d "$frames" ] || return 0
 cmake --preset release -DPLACEGRAPH_BENCH=ON > "$out/configure.log"
-cmake --build --preset release -j2 --target bench_place_study > "$out/places-build.log"
+cmake --build --preset release -j"$(nproc)" --target bench_place_study > "$out/places-build.log"
 cmake --preset release -DPLACEGRAPH_BENCH=OFF > "$out/configure.log"
 printf '\nCPU time of an image of 640x480, medians (target: 12 ms with 10,000 views), and memory.\n\n' >> "$rows"
 command_line "bench_place_study \$DATA/sequences/sevenscenes_rgbd334/image_0 --plot docs/images/place_cost.png 1000 3000 10000 30000 100000"
