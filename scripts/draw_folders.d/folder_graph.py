@@ -6,7 +6,7 @@ from source_includes import folder_of, layer_of, project_includes, source_files
 
 
 class FolderGraph:
-    """Folders in the order of the table, from the bottom up; arrows[a] are the folders a includes."""
+    """Folders in the order of the table, bottom up; arrows[a] are the folders that a includes."""
 
     def __init__(self, root):
         files = source_files(root)

@@ -1,4 +1,7 @@
-"""Draws a FolderGraph as SVG: one panel a layer, one box a folder, arrows down."""
+"""Draws a FolderGraph as SVG: one panel a layer, one box a folder, arrows down.
+
+The picture has no counts of files, so that it changes only when folders or their arrows do.
+"""
 from folder_graph import reduced
 from row_layout import chain, lay_out
 from source_includes import layer_of
@@ -7,7 +10,7 @@ WIDTH = 1280
 MARGIN = 20
 BAND_GAP = 40          # between bands of layers
 PAD, TITLE = 14, 18    # inside a panel
-BOX, ROW_GAP = 34, 34  # height of a box, and between rows
+BOX, ROW_GAP = 26, 34  # height of a box, and between rows
 # The layers from the top; those of one band never include each other.
 BANDS = (("apps",), ("pipeline",), ("frontend", "backend", "io", "eval"), ("graph",))
 SHARES = {"frontend": 456, "backend": 300, "io": 328, "eval": 120}
@@ -17,7 +20,6 @@ STYLE = """<style>
 text { font-family: "DejaVu Sans", Verdana, sans-serif; fill: #1f2933; text-anchor: middle; }
 .title { font-size: 14px; font-weight: bold; text-anchor: start; }
 .name { font-size: 12px; }
-.count { font-size: 10px; fill: #52606d; }
 .note { font-size: 12px; text-anchor: start; fill: #3e4c59; }
 .box { fill: #ffffff; stroke: #52606d; }
 .arrow { fill: none; stroke: #52606d; stroke-width: 1.2; }
@@ -25,9 +27,11 @@ text { font-family: "DejaVu Sans", Verdana, sans-serif; fill: #1f2933; text-anch
 .upward { fill: none; stroke: #d62728; stroke-width: 2; }
 </style>
 <defs>
-<marker id="head" markerWidth="8" markerHeight="8" refX="7" refY="4" orient="auto" markerUnits="userSpaceOnUse">
+<marker id="head" markerWidth="8" markerHeight="8" refX="7" refY="4" orient="auto"
+markerUnits="userSpaceOnUse">
 <path d="M0,0.5 L8,4 L0,7.5 z" fill="#52606d"/></marker>
-<marker id="wide" markerWidth="16" markerHeight="16" refX="12" refY="8" orient="auto" markerUnits="userSpaceOnUse">
+<marker id="wide" markerWidth="16" markerHeight="16" refX="12" refY="8" orient="auto"
+markerUnits="userSpaceOnUse">
 <path d="M0,1 L14,8 L0,15 z" fill="#9aa5b1"/></marker>
 </defs>"""
 
@@ -61,7 +65,7 @@ class Panel:
         return self.y + self.height - PAD - BOX - row * (BOX + ROW_GAP)
 
     def ports(self, at_top):
-        """Where each edge meets its box: spread over it in the order of where the edges come from."""
+        """Where each edge meets its box, in the order of the other ends."""
         ends = {}
         for folder in self.folders:
             edges = [e for e in self.layout.edges if e[1 if at_top else 0] == folder]
@@ -92,8 +96,8 @@ class Panel:
         return " ".join(path)
 
     def draw(self):
-        out = [f'<rect x="{self.x}" y="{self.y}" width="{self.width}" height="{self.height}" rx="8" '
-               f'fill="{FILL.get(self.layer, "#eeeeee")}"/>',
+        out = [f'<rect x="{self.x}" y="{self.y}" width="{self.width}" height="{self.height}" '
+               f'rx="8" fill="{FILL.get(self.layer, "#eeeeee")}"/>',
                f'<text class="title" x="{self.x + 10}" y="{self.y + 20}">{self.layer}</text>']
         starts, ends = self.ports(False), self.ports(True)
         for edge in self.layout.edges:
@@ -103,9 +107,7 @@ class Panel:
             x, y, size = self.centre(folder), self.top(self.row_of[folder]), self.sizes[folder]
             out += [f'<rect class="box" x="{x - size // 2}" y="{y}" width="{size}" height="{BOX}" '
                     f'rx="4"/>',
-                    f'<text class="name" x="{x}" y="{y + 16}">{short(folder)}</text>',
-                    f'<text class="count" x="{x}" y="{y + 29}">{self.graph.files[folder]} files'
-                    f'</text>']
+                    f'<text class="name" x="{x}" y="{y + 17}">{short(folder)}</text>']
         return out
 
 
@@ -149,10 +151,11 @@ def draw(graph):
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{height}" '
            f'viewBox="0 0 {WIDTH} {height}">', STYLE,
            f'<rect width="{WIDTH}" height="{height}" fill="#ffffff"/>',
-           f'<text class="note" x="{MARGIN}" y="28">Folders and their includes: an arrow points from '
-           f'a folder to a folder that it includes, a wide arrow from a layer to a layer.</text>',
+           f'<text class="note" x="{MARGIN}" y="28">Folders and their includes: an arrow points '
+           f'from a folder to a folder that it includes, a wide arrow from a layer to '
+           f'a layer.</text>',
            f'<text class="note" x="{MARGIN}" y="48">Arrows that follow from others are left out. '
-           f'Numbers count .h and .cpp files. Drawn from the sources by scripts/draw_folders.</text>']
+           f'Drawn from the sources by scripts/draw_folders.</text>']
     for layer in graph.layers:
         out += panels[layer].draw()
     out += layer_arrows(graph, panels)

@@ -1,8 +1,8 @@
 """Layered drawing of a graph without circles (Sugiyama, Tagawa and Toda 1981), in whole pixels.
 
-Nodes stand in rows so that every arrow points to a lower row; an arrow over several rows passes each
-of them in a gap of its own; rows are sorted by the barycentre of the neighbours. Whole numbers keep
-the picture the same on every machine.
+Nodes stand in rows so that every arrow points to a lower row; an arrow over several rows passes
+each of them in a gap of its own; rows are sorted by the barycentre of the neighbours.
+Whole numbers keep the picture the same on every machine.
 """
 
 GAP = 12         # between the boxes of a row
@@ -62,7 +62,8 @@ def crossings(rows, down):
 def sort_rows(layout, up, down):
     best, fewest = [list(row) for row in layout.rows], crossings(layout.rows, down)
     for sweep in range(SWEEPS):
-        order = range(1, len(layout.rows)) if sweep % 2 == 0 else range(len(layout.rows) - 2, -1, -1)
+        count = len(layout.rows)
+        order = range(1, count) if sweep % 2 == 0 else range(count - 2, -1, -1)
         step, links = (-1, down) if sweep % 2 == 0 else (1, up)
         for r in order:
             place = {item: i for i, item in enumerate(layout.rows[r + step])}

@@ -2,11 +2,14 @@
 
 Reads README.md, CONTRIBUTING.md, CHANGELOG.md and docs/**/*.md below ROOT; prints one line for each
 violation as file:line, and fails if there is one. Checked are
-  words in backticks or code blocks that begin with a folder of the project: `io/graphs/`,
-    `scripts/demo`, `backend/solver/*.h`, `io/graphs/{g2o,toro}`, `backend/window/sliding_window` for
-    the pair of .h and .cpp, `tests/unit/<folder>` up to the placeholder;
+  words in backticks or code blocks that begin with a folder of the project:
+    `io/graphs/`, `scripts/demo`, `backend/solver/*.h`, `io/graphs/{g2o,toro}`,
+    `backend/window/sliding_window` for the pair of .h and .cpp, `tests/unit/<folder>` up to the
+    placeholder;
   headers after `#include <placegraph/`;
   names of a .h or .cpp file alone, which must be those of a file of the project;
+  members such as `Slam::finish`, whose names occur in the sources (CHANGELOG.md may name those
+    that are gone);
   pages such as docs/map.md, in prose, too;
   relative links, and the headings that they lead to.
 """
@@ -22,6 +25,7 @@ WORD = re.compile(r"(?<![\w./:-])(?:placegraph/)?(?:%s)/[\w./*{},<>-]*" %
 INCLUDE = re.compile(r"#include <placegraph/([^>]+)>")
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 CODE = re.compile(r"(?<!`)(`+)(?!`)((?:[^\n]|\n(?!\n))+?)(?<!`)\1(?!`)")
+MEMBER = re.compile(r"(?!std::|cv::|placegraph::)[A-Z]\w*(::\w+)+$")
 SOURCE = re.compile(r"\w+\.(h|cpp)$")
 FENCE = re.compile(r"\s*(```|~~~)")
 
@@ -113,7 +117,7 @@ def named_in(code):
     return headers or [full for word in words_of(code) for full in expanded(word)]
 
 
-def check_document(root, document, sources):
+def check_document(root, document, sources, words):
     with open(os.path.join(root, document), encoding="utf-8") as text:
         pieces, prose = parts_of(text.read())
     found = []
@@ -121,6 +125,9 @@ def check_document(root, document, sources):
         missing = [word for word in named_in(code) if not exists(root, word)]
         if SOURCE.match(code) and code not in sources:
             missing.append(code)
+        if MEMBER.match(code) and document != "CHANGELOG.md":
+            found += [(line, f"no such name in the sources: {name}")
+                      for name in code.split("::") if name not in words]
         found += [(line, f"no such file or folder: {word}") for word in missing]
     plain = CODE.sub(lambda code: "\n" * code.group(0).count("\n"), LINK.sub("", prose))
     for match in WORD.finditer(plain):
@@ -141,14 +148,25 @@ def source_names(root):
             for name in names}
 
 
+def source_words(root):
+    """All words of the headers and sources of the project."""
+    words = set()
+    for folder in FOLDERS:
+        for path in glob.glob(os.path.join(root, folder, "**", "*"), recursive=True):
+            if path.endswith((".h", ".cpp")):
+                with open(path, encoding="utf-8", errors="replace") as text:
+                    words.update(re.findall(r"\w+", text.read()))
+    return words
+
+
 def main():
     root = sys.argv[1]
     names = documents(root)
     if not names:
         print(f"{root}: no documents")
         return 2
-    sources = source_names(root)
-    found = [line for document in names for line in check_document(root, document, sources)]
+    sources, words = source_names(root), source_words(root)
+    found = [line for document in names for line in check_document(root, document, sources, words)]
     for line in found:
         print(line)
     return 1 if found else 0

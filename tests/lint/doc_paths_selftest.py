@@ -1,15 +1,16 @@
-"""doc_paths_selftest.py LINT: doc_paths.py passes a clean tree and catches what is planted into it."""
+"""doc_paths_selftest.py LINT: doc_paths.py passes a clean tree and catches planted faults."""
 import os
 import subprocess
 import sys
 import tempfile
 
 FILES = {
-    "README.md": "See `io/graphs/` and [the map](docs/map.md#saved-maps), not [this](https://a.b/c.md).\n"
+    "README.md": "See `io/graphs/`, [maps](docs/map.md#saved-maps), not [it](https://a.b/c.md).\n"
                  "```cpp\n#include <placegraph/io/graphs/g2o.h>\nfor a in io/graphs/*.h\n```\n",
-    "docs/map.md": "# Saved maps\n\nTwo lines of `frontend\n  places`, `io/graphs/g2o`, `g2o.h`, `io/<name>`,\n"
-                   "`io/graphs/{g2o,\n  toro}.h`, docs/map.md, [above](#saved-maps), [home](../README.md).\n",
-    "io/graphs/g2o.h": "",
+    "docs/map.md": "# Saved maps\n\nTwo lines of `frontend\n  places`, `io/graphs/g2o`, `g2o.h`,\n"
+                   "`io/<name>`, `io/graphs/{g2o,\n  toro}.h`, docs/map.md, [above](#saved-maps),\n"
+                   "[home](../README.md), `G2o::read`.\n",
+    "io/graphs/g2o.h": "struct G2o { void read(); };",
     "io/graphs/toro.h": "",
     "scripts/demo": "",
 }
@@ -21,6 +22,7 @@ PLANTED = (
     ("README.md", "See `io/graphs/{g2o,isam}.h`.", "no such file or folder: io/graphs/isam.h"),
     ("README.md", "See `io/graphs/*.txt`.", "no such file or folder: io/graphs/*.txt"),
     ("README.md", "See `eval/<name>`.", "no such file or folder: eval/<name>"),
+    ("README.md", "See `G2o::write`.", "no such name in the sources: write"),
     ("README.md", "See `isam.h`.", "no such file or folder: isam.h"),
     ("README.md", "See `#include <placegraph/io/isam.h>`.", "no such file or folder: io/isam.h"),
     ("README.md", "See [it](docs/maps.md).", "the link leads nowhere: docs/maps.md"),

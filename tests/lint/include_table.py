@@ -1,4 +1,4 @@
-"""Reads tests/lint/include_directions.txt and proves that no arrow of it points up or closes a circle.
+"""Reads tests/lint/include_directions.txt and proves that no arrow of it points up.
 
     # comment
     [layer: layers it may include]

@@ -35,7 +35,8 @@ def source_files(root):
 
 def without_comments(text):
     """The text with the same lines and without comments; string literals are kept."""
-    pattern = re.compile(r'//[^\n]*|/\*.*?(?:\*/|\Z)|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
+    pattern = re.compile(r'//[^\n]*|/\*.*?(?:\*/|\Z)'
+                         r'|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.S)
 
     def blank(match):
         found = match.group(0)
