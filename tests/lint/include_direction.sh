@@ -1,12 +1,13 @@
 #!/bin/sh
-# include_direction.sh ROOT: every rule of the house that can be read off the sources, one line for
+# include_direction.sh ROOT: every rule of the project that can be read off the sources, one line for
 # each violation as file:line; fails if there is one.
-#   graph/core <- graph <- {frontend, backend, io, eval} <- pipeline <- apps, tests
+#   folders include what ROOT/tests/lint/include_directions.txt permits: include_directions.py
 #   Ceres and CHOLMOD in no header outside backend; OpenGV in no header
 #   OpenCV in headers only through graph/core/image.h, in graph and backend not at all
 #   GeographicLib only in graph/geometry/geodesy.cpp
 #   libraries neither print nor end the process
 set -eu
+lint=$(cd "$(dirname "$0")" && pwd)
 cd "$1"
 
 files=$(for folder in graph frontend backend io eval pipeline apps; do
@@ -14,30 +15,18 @@ files=$(for folder in graph frontend backend io eval pipeline apps; do
 done | LC_ALL=C sort)
 [ -n "$files" ] || { echo "$1: no sources"; exit 2; }
 
+status=0
+PYTHONDONTWRITEBYTECODE=1 python3 "$lint/include_directions.py" . || status=1
+
 # shellcheck disable=SC2086
 awk '
 function complain(what) { printf "%s:%d: %s\n", file, FNR, what; violations++ }
 
-# Where a path under placegraph/ belongs: "core" or its folder.
-function part(path) {
-  if (path ~ /^graph\/core\//) return "core"
-  sub(/\/.*/, "", path)
-  return path
-}
-
-BEGIN {
-  allowed["core"] = " core "
-  allowed["graph"] = " core graph "
-  split("frontend backend io eval", middle, " ")
-  for (i in middle) allowed[middle[i]] = " core graph " middle[i] " "
-  allowed["pipeline"] = " core graph frontend backend io eval pipeline "
-  allowed["apps"] = allowed["pipeline"] "apps "
-}
-
 FNR == 1 {
   file = FILENAME
   sub(/^\.\//, "", file)
-  here = part(file)
+  here = file
+  sub(/\/.*/, "", here)
   header = file ~ /\.h$/
   block = 0
 }
@@ -65,19 +54,14 @@ line ~ /^[ \t]*#[ \t]*include/ {
   project = ""
   if (path ~ /^placegraph\//) project = substr(path, 12)
   else if (path ~ /^(graph|frontend|backend|io|eval|pipeline|apps|tests)\//) project = path
-  else if (line ~ /"/) {
-    if (path ~ /\.\.\//) complain("include by way of the parent folder: " path)
-  }
-  if (project != "" && index(allowed[here], " " part(project) " ") == 0)
-    complain(here " may not include " path)
   if (path ~ /^opencv/) {
     if (header && file != "graph/core/image.h" && here != "apps")
       complain("OpenCV in a header: " path)
-    else if (file != "graph/core/image.h" && (here == "core" || here == "graph" || here == "backend"))
+    else if (file != "graph/core/image.h" && (here == "graph" || here == "backend"))
       complain(here " may not use OpenCV: " path)
   }
   if ((project == "graph/core/image.h" || project == "graph/measurements/frame.h") &&
-      (here == "backend" || (!header && (here == "core" || here == "graph"))))
+      (here == "backend" || (!header && here == "graph")))
     complain(here " must do without OpenCV: " path)
   if (tolower(path) ~ /geographiclib/ && file != "graph/geometry/geodesy.cpp")
     complain("GeographicLib outside graph/geometry/geodesy.cpp: " path)
@@ -99,4 +83,5 @@ here != "apps" {
 }
 
 END { exit violations > 0 }
-' $files
+' $files || status=1
+exit $status

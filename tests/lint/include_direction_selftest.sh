@@ -5,68 +5,157 @@ set -eu
 lint=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+table=tests/lint/include_directions.txt
 
 clean_tree() {
   rm -rf "$work/tree"
   mkdir -p "$work/tree"
   cd "$work/tree"
-  mkdir -p graph/core frontend backend/factors io eval pipeline apps
+  mkdir -p graph/core graph/geometry graph/measurements frontend/lines backend/factors backend/solver
+  mkdir -p io/files eval pipeline apps tests/lint
   echo '#include <opencv2/core/mat.hpp>' > graph/core/image.h
-  echo '#include <GeographicLib/LocalCartesian.hpp>' > graph/geometry/geodesy.cpp
+  printf '#include <GeographicLib/LocalCartesian.hpp>\n#include <placegraph/graph/core/a.h>\n' > graph/geometry/geodesy.cpp
   printf '#include <placegraph/graph/geometry/se3.h>\n/// As in Ceres. /* not cholmod */\n' > graph/map.h
   printf '#include <placegraph/graph/core/image.h>\nint at_exit(int);\n' > graph/measurements/frame.h
   printf '#include <placegraph/graph/map.h>\n#include <opengv/types.hpp>\n#include <opencv2/core.hpp>\n/* abort()\n   printf() */\n' > frontend/tracker.cpp
+  printf '/* a comment\n#include <placegraph/eval/x.h>\n*/ // "\n#include "frontend/tracker.h"\n' > frontend/lines/line.cpp
   printf '#include <ceres/ceres.h>\n#include <placegraph/backend/factors/a.h>\n' > backend/factors/b.h
-  printf 'void f() { throw 1; }  // never exit()\nconst char* s = "printf(";\nint snprintf(char*);\n' > io/file.cpp
+  printf '#include <placegraph/backend/factors/a.h>\n' > backend/solver/a.h
+  printf 'void f() { throw 1; }  // never exit()\nconst char* s = "printf(";\nint snprintf(char*);\n' > io/files/file.cpp
+  printf 'int a;\n' > eval/a.cpp
   printf '#include <placegraph/frontend/x.h>\n#include <placegraph/eval/x.h>\n' > pipeline/slam.cpp
   printf '#include <placegraph/pipeline/slam.h>\n#include <opencv2/core.hpp>\nint main() { std::cout << 1; exit(2); }\n' > apps/main.cpp
+  cat > $table << 'TABLE'
+# The lines are counted below.
+[graph]
+graph/core:
+graph/geometry: graph/core
+graph: graph/geometry
+graph/measurements: graph/core
+[frontend: graph]
+frontend: graph
+frontend/lines: frontend
+[backend: graph]
+backend/factors:
+backend/solver:
+    backend/factors
+[io: graph]
+io/files:
+[eval: graph]
+eval:
+[pipeline: graph frontend eval]
+pipeline: frontend eval
+[apps: graph frontend backend io eval pipeline]
+apps: pipeline
+TABLE
 }
 
 failures=0
+# expect WHAT MESSAGE: the tree, in which WHAT was planted, is refused with MESSAGE alone.
+expect() {
+  if output=$(sh "$lint" "$work/tree"); then
+    echo "not caught: $1"
+    failures=$((failures + 1))
+  elif [ "$output" != "$2" ]; then
+    echo "caught otherwise: $1: $output"
+    failures=$((failures + 1))
+  fi
+}
 # plant FILE LINE MESSAGE: LINE appended to FILE must be reported there with MESSAGE.
 plant() {
   clean_tree
   printf '%s\n' "$2" >> "$1"
   number=$(wc -l < "$1")
-  if output=$(sh "$lint" "$work/tree"); then
-    echo "not caught: $1: $2"
-    failures=$((failures + 1))
-  elif [ "$output" != "$1:$number: $3" ]; then
-    echo "caught otherwise: $1: $2: $output"
-    failures=$((failures + 1))
-  fi
+  expect "$1: $2" "$1:$number: $3"
+}
+# table EDIT MESSAGE: the table after the sed command EDIT must be refused with MESSAGE.
+table() {
+  clean_tree
+  sed "$1" $table > edited
+  mv edited $table
+  expect "$1 in the table" "$2"
 }
 
 clean_tree
 sh "$lint" "$work/tree" || { echo "the clean tree is refused"; failures=1; }
 
+# Includes that the table does not permit.
 plant graph/geometry/so3.h '#include <placegraph/graph/map.h>' \
-  'core may not include placegraph/graph/map.h'
+  'graph/geometry may not include placegraph/graph/map.h'
+plant graph/core/image.h '#include <placegraph/graph/geometry/so3.h>' \
+  'graph/core may not include placegraph/graph/geometry/so3.h'
 plant graph/map.h '#include <placegraph/io/graphs/g2o.h>' 'graph may not include placegraph/io/graphs/g2o.h'
 plant graph/map.h '#include "backend/x.h"' 'graph may not include backend/x.h'
-for from in frontend backend io eval; do
-  for to in frontend backend io eval pipeline apps; do
+plant frontend/tracker.cpp '#include <placegraph/frontend/lines/line.h>' \
+  'frontend may not include placegraph/frontend/lines/line.h'
+plant backend/factors/b.h '#include <placegraph/backend/solver/a.h>' \
+  'backend/factors may not include placegraph/backend/solver/a.h'
+for from in frontend/lines backend/factors io/files eval; do
+  for to in frontend/lines backend/factors io/files eval pipeline apps; do
     [ $from = $to ] || plant $from/a.h "#  include <placegraph/$to/x.h>" \
       "$from may not include placegraph/$to/x.h"
   done
 done
 plant pipeline/slam.cpp '#include <apps/support/output.h>' 'pipeline may not include apps/support/output.h'
-plant io/file.cpp '#include "tests/support/data.h"' 'io may not include tests/support/data.h'
-plant io/file.cpp '#include "../eval/x.h"' 'include by way of the parent folder: ../eval/x.h'
-plant io/file.h '#include <ceres/loss.h>' 'a header outside backend names Ceres or CHOLMOD'
+plant apps/main.cpp '#include <placegraph/io/files/file.h>' 'apps may not include placegraph/io/files/file.h'
+plant io/files/file.cpp '#include "tests/support/data.h"' 'io/files may not include tests/support/data.h'
+plant io/files/file.cpp '#include "../eval/x.h"' 'include by way of the parent folder: ../eval/x.h'
+
+# Tables that do not fit the folders, or in which an arrow points up.
+clean_tree
+mkdir frontend/planes
+echo '#include <placegraph/frontend/tracker.h>' > frontend/planes/plane.h
+expect 'a folder without a line' \
+  "frontend/planes/plane.h:1: folder frontend/planes is missing in $table"
+clean_tree
+for number in $(seq 10 38); do echo 'int a;' > eval/x$number.h; done
+sh "$lint" "$work/tree" || { echo "thirty sources are refused"; failures=$((failures + 1)); }
+echo 'int a;' > eval/x39.h
+expect 'thirty-one sources' \
+  "eval/x39.h:1: folder eval holds 31 sources, more than 30: it holds more than one idea"
+table '8s/$/ graph\/core/' "$table:8: no include uses the permission frontend -> graph/core"
+table '15s/$/\nio\/graphs:/' "$table:16: folder io/graphs holds no sources"
+table '3s/$/ graph\/geometry/' "$table:3: graph/core: graph/geometry has no earlier line: the arrow points up
+$table:3: no include uses the permission graph/core -> graph/geometry"
+table '11s/$/ backend\/factors/' \
+  "$table:11: backend/factors: backend/factors has no earlier line: the arrow points up"
+table '11{h;d};13G' "$table:12: backend/solver: backend/factors has no earlier line: the arrow points up"
+table '18s/ eval//' "$table:19: pipeline: layer pipeline may not include layer eval"
+table '7s/graph/graph eval/' "$table:7: layer frontend: layer eval is not above this line"
+table '15s/$/\nio\/files:/' "$table:16: io/files stands here a second time"
+table '6s/$/ graph\/core/' "$table:6: graph/measurements: graph/core stands here a second time"
+table '15s/$/\ngraph\/map:/' "$table:16: 'graph/map:': not a folder of the layer of this heading"
+# A circle of two folders cannot be written down.
+clean_tree
+echo '#include <placegraph/backend/solver/a.h>' >> backend/factors/b.h
+sed '11s/$/ backend\/solver/' $table > edited
+mv edited $table
+expect 'a circle' "$table:11: backend/factors: backend/solver has no earlier line: the arrow points up"
+
+# Libraries that a layer does without.
+plant io/files/file.h '#include <ceres/loss.h>' 'a header outside backend names Ceres or CHOLMOD'
 plant graph/map.h 'ceres::Solver* solver;' 'a header outside backend names Ceres or CHOLMOD'
 plant eval/a.h 'struct cholmod_common;' 'a header outside backend names Ceres or CHOLMOD'
 plant frontend/a.h 'opengv::points_t points;' 'a header names OpenGV'
-plant backend/a.h 'opengv::points_t points;' 'a header names OpenGV'
-plant io/file.h '#include <opencv2/core.hpp>' 'OpenCV in a header: opencv2/core.hpp'
+plant backend/solver/a.h 'opengv::points_t points;' 'a header names OpenGV'
+plant io/files/file.h '#include <opencv2/core.hpp>' 'OpenCV in a header: opencv2/core.hpp'
 plant graph/map.cpp '#include <opencv2/core.hpp>' 'graph may not use OpenCV: opencv2/core.hpp'
-plant backend/a.cpp '#include <opencv2/core.hpp>' 'backend may not use OpenCV: opencv2/core.hpp'
-plant graph/map.cpp '#include <placegraph/graph/measurements/frame.h>' \
+plant graph/geometry/so3.cpp '#include <opencv2/core.hpp>' 'graph may not use OpenCV: opencv2/core.hpp'
+plant backend/solver/a.cpp '#include <opencv2/core.hpp>' 'backend may not use OpenCV: opencv2/core.hpp'
+plant graph/measurements/frame.cpp '#include <placegraph/graph/measurements/frame.h>' \
   'graph must do without OpenCV: placegraph/graph/measurements/frame.h'
-plant backend/a.h '#include <placegraph/graph/core/image.h>' \
-  'backend must do without OpenCV: placegraph/graph/core/image.h'
+plant graph/geometry/so3.cpp '#include <placegraph/graph/core/image.h>' \
+  'graph must do without OpenCV: placegraph/graph/core/image.h'
 plant graph/geometry/geodesy.h '#include <GeographicLib/Geodesic.hpp>' \
   'GeographicLib outside graph/geometry/geodesy.cpp: GeographicLib/Geodesic.hpp'
+clean_tree
+echo '#include <placegraph/graph/core/image.h>' > backend/solver/a.cpp
+sed 's/^backend\/solver:/& graph\/core/' $table > edited
+mv edited $table
+expect 'an image in the backend' \
+  'backend/solver/a.cpp:1: backend must do without OpenCV: placegraph/graph/core/image.h'
+
+# What only programs do.
 for line in 'std::cout << 1;' 'x(); std::cerr<<1;' 'std::printf("a");' '  printf("a");' \
   'puts("a");' 'fmt::print("a");' 'std::fprintf(stderr, "a");' 'fputs("a", stdout);'; do
   plant eval/a.cpp "$line" 'a library prints'
