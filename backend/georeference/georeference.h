@@ -25,7 +25,7 @@ struct GeoreferenceOptions {
   double min_accuracy_m = 0.02;     ///< no receiver is taken for better
   bool estimate_accuracy = true;    ///< take fixes for worse than stated where they scatter more
   bool estimate_odometry = true;    ///< take edges for worse or better than stated if fixes show it
-  bool estimate_delay = true;       ///< of the map's poses against their stamps (map_delay.h)
+  bool estimate_delay = true;       ///< of the map's poses against their stamps (map_latency.h)
   double max_gap_s = 1.0;           ///< longer gaps of the motion are not bridged
   double dropout_s = 1.0;           ///< a time without a fix that is longer is reported
   bool estimate_lever_arm = false;  ///< about the given one
@@ -85,7 +85,7 @@ struct GeoreferenceResult {
 /// of the map robustly (align_to_fixes); optimize with Huber's kernel, taking the scatter of the
 /// fixes from successive residuals and, where they contradict what the edges claim, that of the
 /// edges by variance components (odometry_scatter.h); undo a delay of the map's poses that shows
-/// clearly (map_delay.h); then with the chosen kernel; with the lever arm and the clock offset as
+/// clearly (map_latency.h); then with the chosen kernel; with the lever arm and the clock offset as
 /// shared unknowns if they are to be estimated. Time without fixes is bridged by the edges; nothing
 /// is extrapolated.
 ///
