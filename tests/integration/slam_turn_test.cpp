@@ -44,7 +44,7 @@ double turn_error_deg(const StreetDataset& dataset, const Trajectory& trajectory
     return SE3(*t.poses.front().T_world_body).rotation().inverse() *
            SE3(*t.poses.back().T_world_body).rotation();
   };
-  return (turn(*dataset.ground_truth()).inverse() * turn(trajectory)).rad_to_deg(log().norm());
+  return rad_to_deg((turn(*dataset.ground_truth()).inverse() * turn(trajectory)).log().norm());
 }
 
 TEST(SlamThatTurnsOnTheSpot, KeepsItsPlaceInTheMapThoughAllItKnewLeavesTheView) {
@@ -85,7 +85,7 @@ TEST(SlamThatTurnsOnTheSpot, ForgetsWhatItSawBeforeTheDarkIfNothingWasPlacedYet)
           SE3(*pose).rotation().inverse() * SE3(*trajectory.poses.back().T_world_body).rotation();
       const SO3 expected = SE3(*truth[i].T_world_body).rotation().inverse() *
                            SE3(*truth.back().T_world_body).rotation();
-      EXPECT_LT((expected.inverse() * turn).rad_to_deg(log().norm()), 0.7) << "frame " << i;
+      EXPECT_LT(rad_to_deg((expected.inverse() * turn).log().norm()), 0.7) << "frame " << i;
     }
   }
 }

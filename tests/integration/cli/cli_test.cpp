@@ -8,6 +8,7 @@
 
 #include "tests/support/cli_test.h"
 #include "tests/support/data.h"
+#include "tests/support/paths.h"
 
 namespace placegraph {
 namespace {
@@ -285,7 +286,7 @@ TEST_F(Cli, ConfigNamesUnknownKeysAndWrongValues) {
 TEST_F(Cli, OptionsDocumentIsTheOneConfigPrints) {
   const CommandResult result = run("config --markdown");
   EXPECT_EQ(result.code, 0);
-  EXPECT_EQ(read_file(source_dir() + "/docs/options.md"), result.out)
+  EXPECT_EQ(read_file(test::source_dir() + "/docs/options.md"), result.out)
       << "run `placegraph config --markdown --out docs/options.md --force`";
 }
 
