@@ -29,6 +29,10 @@ BlockOrdering order_blocks(int block_count, int block_size,
 /// dense enough for BLAS, our block-wise one where it is thin. Ordering and symbolic analysis
 /// happen once, in the constructor; every factorization is numeric only. The same input gives the
 /// same bits.
+///
+/// The native solver, which rests on it, takes 1.8 to 6.2 times less CPU than Ceres with CHOLMOD on
+/// the graphs of docs/results.md (pose graphs): 21 ms against 60 for M3500, 117 against 385 for
+/// city10000.
 class BlockCholesky {
  public:
   BlockCholesky(int block_count, int block_size, const std::vector<std::pair<int, int>>& pairs);

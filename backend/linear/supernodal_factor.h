@@ -8,6 +8,7 @@ namespace placegraph {
 
 /// Cholesky factor of a block-sparse matrix by CHOLMOD's supernodal method: dense kernels of BLAS,
 /// for factors with much fill. The matrix stands in the order of elimination and in postorder.
+/// The factorization is the library's; only the way of the blocks into it and out of it is ours.
 class SupernodalFactor {
  public:
   /// `matrix` must outlive the factor and keep its pattern; its values may change.

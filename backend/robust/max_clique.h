@@ -40,7 +40,8 @@ struct Clique {
 /// A largest set of vertices each joined to each: branch and bound with greedy colouring (Tomita &
 /// Kameda 2007, on bit sets as San Segundo et al. 2011), vertices of high degree first, so that the
 /// first branch is a good heuristic already. `max_steps` (vertices coloured) bounds the search by
-/// count, not by the clock: same graph, same answer.
+/// count, not by the clock: same graph, same answer. Boost.Graph lists all maximal cliques, which
+/// are too many here; it has no search for the largest one that cuts off branches by a bound.
 Clique max_clique(const BitGraph& graph, std::int64_t max_steps);
 
 }  // namespace placegraph

@@ -6,6 +6,13 @@ namespace placegraph {
 
 /// A k-d tree over points that stay where they are (Bentley 1975): cuts at the median of the widest
 /// side down to small leaves.
+///
+/// FLANN's KDTreeSingleIndex in double precision finds the same neighbours and is not faster
+/// throughout: building and asking for eight neighbours of each takes it 140 ms against 149 for
+/// 100,000 points of a room, 147 ms against 132 for 100,000 directions, and 10 ms against 8 for the
+/// 10,000 points of a labelled cloud. In single precision it takes 112 ms for the room, but rounds
+/// points far from the origin. Of points equally far this tree takes those of smaller number, FLANN
+/// those it meets first.
 class NeighbourTree {
  public:
   /// Keeps a reference to `points`.

@@ -2,6 +2,9 @@
 
 namespace placegraph {
 
+// Boost.Math has both for any real degrees of freedom; whole ones need no more than these short
+// functions, and no further dependency.
+
 /// P(chi2 > x) for a chi-squared variable of `dof` >= 1 degrees of freedom; closed form of integer
 /// degrees (Abramowitz & Stegun 26.4.4, 26.4.5).
 double chi_squared_tail(double x, int dof);

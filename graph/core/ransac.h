@@ -34,6 +34,8 @@ struct RansacResult {
 /// MSAC (Torr & Zisserman 2000) over minimal samples, with non-minimal refinement, on the
 /// inliers of the model before, whenever a better model appears: as long as the score falls, four
 /// times at most (local optimization, Chum et al. 2003). Deterministic for a given `random`.
+/// OpenCV's robust estimators are tied to the models they come with, and OpenGV's counts inliers
+/// and draws from a generator of its own; here model, error, refinement and draws are the caller's.
 ///
 /// `solve(sample) -> std::vector<Model>` from `sample_size` indices;
 /// `squared_error(model, i) -> double`, to be compared with `threshold_squared`;
