@@ -1,3 +1,4 @@
+#include <placegraph/backend/inertial/covariance_matrix.h>
 #include <placegraph/backend/inertial/error_state_filter.h>
 #include <placegraph/backend/inertial/state_layout.h>
 #include <placegraph/graph/core/chi_squared.h>
@@ -17,10 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using Code = Outcome::Code;
-
-bool positive_definite(const MatrixXd& matrix) {
-  return matrix.allFinite() && Eigen::LLT<MatrixXd>(matrix).info() == Eigen::Success;
-}
 
 Outcome not_started() { return Outcome::failure(Code::kNotAttempted, "the filter has not begun"); }
 

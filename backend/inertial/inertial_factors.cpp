@@ -1,3 +1,4 @@
+#include <placegraph/backend/inertial/covariance_matrix.h>
 #include <placegraph/backend/inertial/inertial_factors.h>
 #include <placegraph/backend/inertial/state_layout.h>
 
@@ -9,12 +10,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-
-MatrixXd information_of(const MatrixXd& covariance) {
-  const MatrixXd information =
-      covariance.ldlt().solve(MatrixXd::Identity(covariance.rows(), covariance.cols()));
-  return 0.5 * (information + information.transpose());
-}
 
 }  // namespace
 
@@ -88,7 +83,7 @@ StateError inertial_error(const ImuPreintegration& motion, const BodyState& firs
   };
   covariance.block<3, 3>(kGyroBias, kGyroBias) = walk(noise.gyro_bias_walk);
   covariance.block<3, 3>(kAccelBias, kAccelBias) = walk(noise.accel_bias_walk);
-  error.information = information_of(covariance);
+  error.information = symmetric_inverse(covariance);
   return error;
 }
 
@@ -104,7 +99,7 @@ StateError pose_error(const PoseSighting& sighting, const BodyState& state) {
   error.J_first = MatrixXd::Zero(6, 15);
   error.J_first.block<3, 3>(0, kPosition) = to_seen;
   error.J_first.block<3, 3>(3, kAttitude) = SO3::right_jacobian_inverse(turn);
-  error.information = information_of(sighting.covariance);
+  error.information = symmetric_inverse(sighting.covariance);
   return error;
 }
 
@@ -146,7 +141,7 @@ std::optional<StateError> flow_error(const FlowSighting& sighting, const SE3& T_
     error.J_second.block<3, 3>(0, kAttitude) -=
         *sighting.J_turn * SO3::right_jacobian_inverse(Vector3d(-wrong)) * R_cam_body;
   }
-  error.information = information_of(sighting.covariance);
+  error.information = symmetric_inverse(sighting.covariance);
   return error;
 }
 

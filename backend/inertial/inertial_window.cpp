@@ -1,3 +1,4 @@
+#include <placegraph/backend/inertial/covariance_matrix.h>
 #include <placegraph/backend/inertial/inertial_window.h>
 #include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/error.h>
@@ -13,15 +14,6 @@ namespace {
 using Code = Outcome::Code;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-bool usable_covariance(const MatrixXd& matrix) {
-  return matrix.allFinite() && Eigen::LLT<MatrixXd>(matrix).info() == Eigen::Success;
-}
-
-MatrixXd symmetric_inverse(const MatrixXd& matrix) {
-  const MatrixXd result = matrix.ldlt().solve(MatrixXd::Identity(matrix.rows(), matrix.cols()));
-  return 0.5 * (result + result.transpose());
-}
 
 Outcome window_not_started() {
   return Outcome::failure(Code::kNotAttempted, "the window has not begun");
@@ -118,7 +110,7 @@ InertialWindow::InertialWindow(const InertialWindowOptions& options, const SE3& 
 void InertialWindow::start(const BodyState& state) {
   require(state.T_world_body.translation().allFinite() && state.velocity_world.allFinite() &&
               state.gyro_bias.allFinite() && state.accel_bias.allFinite() &&
-              usable_covariance(state.covariance),
+              positive_definite(state.covariance),
           "InertialWindow: the state to start from or its covariance is unusable");
   states_.clear();
   samples_.clear();
@@ -242,7 +234,7 @@ bool InertialWindow::believed(const StateError& error, std::size_t index) const 
 
 Outcome InertialWindow::add(const PoseSighting& sighting) {
   if (states_.empty()) return window_not_started();
-  if (!sighting.T_world_body.translation().allFinite() || !usable_covariance(sighting.covariance))
+  if (!sighting.T_world_body.translation().allFinite() || !positive_definite(sighting.covariance))
     return Outcome::failure(Code::kInconsistent, "the pose or its covariance is unusable");
   std::size_t index = 0;
   const Outcome reached = reach(sighting.stamp_ns, index);
@@ -259,7 +251,7 @@ Outcome InertialWindow::add(const PoseSighting& sighting) {
 
 Outcome InertialWindow::add(const FlowSighting& sighting) {
   if (states_.empty()) return window_not_started();
-  if (!sighting.over_distance.allFinite() || !usable_covariance(sighting.covariance) ||
+  if (!sighting.over_distance.allFinite() || !positive_definite(sighting.covariance) ||
       sighting.to_ns <= sighting.from_ns)
     return Outcome::failure(Code::kInconsistent, "the flow or its covariance is unusable");
   std::size_t from = 0, to = 0;

@@ -121,7 +121,7 @@ double zncc(const Level& level, const Matrix3d& R, const Vector3d& t, const Vect
 /// t = t_start + |t_start| B u with B across it, gain, bias.
 constexpr int kParameters = 10;
 using Parameters = Eigen::Matrix<double, kParameters, 1>;
-using PlaneInformation = Eigen::Matrix<double, kParameters, kParameters>;
+using ParameterMatrix = Eigen::Matrix<double, kParameters, kParameters>;
 
 /// A motion with the directions in which it is corrected.
 struct Motion {
@@ -149,14 +149,14 @@ struct Motion {
 struct Fit {
   Vector3d g;  // n/d
   double gain = 1, bias = 0;
-  PlaneInformation normal =
-      PlaneInformation::Zero();  // whitened by the residuals' spread, prior included
+  ParameterMatrix normal =
+      ParameterMatrix::Zero();  // whitened by the residuals' spread, prior included
   int seen = 0;
 };
 
 /// Adds the priors: pitch and roll of g about the prior's normal, and the motion about its start.
 void add_priors(const GroundPlanePrior& prior, const Vector3d& g, const Motion& motion,
-                PlaneInformation& H, Parameters& b) {
+                ParameterMatrix& H, Parameters& b) {
   const Vector3d& n0 = prior.plane_ref.normal;
   const double length = g.norm();
   const Vector3d n = g / length;
@@ -213,7 +213,7 @@ void align_level(const Level& level, const std::vector<Sample>& samples,
     if (fit.seen < 50) return;
     const double sigma = std::max(1.0, 1.4826 * median_of(magnitudes));
     const double cut = 4.685 * sigma;
-    PlaneInformation H = PlaneInformation::Zero();
+    ParameterMatrix H = ParameterMatrix::Zero();
     Parameters b = Parameters::Zero();
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (!(std::abs(residuals[i]) < cut)) continue;
@@ -317,7 +317,7 @@ GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_
   result.plane_ref = {fit.g / length, 1 / (length * stretch)};
   result.T_cur_ref = SE3(motion.R, motion.t / stretch);
   result.zncc = zncc(levels[0], motion.R, motion.t, fit.g, samples, nullptr);
-  const PlaneInformation covariance = fit.normal.ldlt().solve(PlaneInformation::Identity());
+  const ParameterMatrix covariance = fit.normal.ldlt().solve(ParameterMatrix::Identity());
   const Vector3d n = result.plane_ref.normal;
   const double variance = n.dot(covariance.topLeftCorner<3, 3>() * n) / (length * length);
   result.sigma_log_distance = std::sqrt(std::max(0.0, variance));
