@@ -1,14 +1,37 @@
 #!/bin/sh
 # ccache.sh COMPILER ARGUMENT...: compiles through ccache so that all clones on a machine share what they
 # have compiled. Paths below the clone count as relative to it (base directory), and its own path does not
-# count (no hash of the working directory). Precompiled headers need the sloppiness about defines and times;
-# an old one is removed before it is made anew, because the compiler would read it first and its key would
-# differ from that of a fresh build.
-root=$(dirname "$0")/..
+# count (no hash of the working directory). Precompiled headers need the sloppiness about defines and times.
+#
+# GCC's precompiled header (.gch) is the same in every clone. An old one is removed before it is made anew,
+# because the compiler would read it first and its key would differ from that of a fresh build.
+# Clang's (.pch) holds paths and times of its clone: each clone makes its own, and what is compiled with it
+# is keyed by the checksum beside it (.pch.sum), of the headers that went into it.
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+output=
+dependencies=
 previous=
-for argument; do
-  case "$previous $argument" in "-o "*.gch) rm -f "$argument" ;; esac
-  previous=$argument
+count=$#
+while [ "$count" -gt 0 ]; do
+  argument=$1
+  case $previous in
+    -o) output=$argument ;;
+    -MF) dependencies=$argument ;;
+    -Xclang) argument=${argument#"$PWD"/} ;;  # ccache takes those as they stand
+  esac
+  previous=$1
+  shift
+  set -- "$@" "$argument"
+  count=$((count - 1))
 done
-CCACHE_BASEDIR=$(cd "$root" && pwd) CCACHE_NOHASHDIR=true \
+
+case $output in
+  *.gch) rm -f "$output" ;;
+  *.pch)
+    "$@"
+    sed 's/^[^:]*: //; s/ *\\$//' "$dependencies" | tr -s ' ' '\n' | grep . | xargs cat | sha256sum > "$output.sum"
+    exit ;;
+esac
+CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=true CCACHE_PCH_EXTSUM=true \
   CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime exec ccache "$@"

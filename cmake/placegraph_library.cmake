@@ -12,13 +12,16 @@ function(placegraph_compile_options target)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized> $<$<BOOL:${PLACEGRAPH_WERROR}>:-Werror>)
 endfunction()
 
-# placegraph_unity(target): sources of one folder are compiled together, eight at a time, because half of
-# compiling a source is reading headers and instantiating Eigen's templates. File-local names are unique
-# within a folder for that reason. A source with the property SKIP_UNITY_BUILD_INCLUSION is compiled alone.
+# placegraph_unity(target [ACROSS_FOLDERS]): sources of one folder are compiled together, eight at a time,
+# because half of compiling a source is reading headers and instantiating templates. File-local names are
+# unique within a folder for that reason. ACROSS_FOLDERS takes sixteen at a time, whatever their folders. A
+# source with the property SKIP_UNITY_BUILD_INCLUSION is compiled alone: it pays where a source instantiates
+# so much of its own that GCC, whose time grows faster than the number of types, takes longer for all at once.
 # PLACEGRAPH_UNITY=OFF compiles each alone, which is quicker where one is changed again and again.
 # (CMake's own unity builds name the sources by absolute paths, which the compiler cache of another clone
 # cannot find.)
 function(placegraph_unity target)
+  cmake_parse_arguments(ARG "ACROSS_FOLDERS" "" "" ${ARGN})
   if(NOT PLACEGRAPH_UNITY)
     return()
   endif()
@@ -28,16 +31,21 @@ function(placegraph_unity target)
   get_target_property(sources ${target} SOURCES)
   set(compiled)
   set(units)
+  set(group ${target})
+  set(size 16)
   foreach(source IN LISTS sources)
     get_source_file_property(alone ${source} SKIP_UNITY_BUILD_INCLUSION)
     if(alone OR IS_ABSOLUTE "${source}")
       list(APPEND compiled ${source})
       continue()
     endif()
-    cmake_path(GET source PARENT_PATH folder)
-    string(MAKE_C_IDENTIFIER "${target}_${folder}" group)
+    if(NOT ARG_ACROSS_FOLDERS)
+      cmake_path(GET source PARENT_PATH folder)
+      string(MAKE_C_IDENTIFIER "${target}_${folder}" group)
+      set(size 8)
+    endif()
     math(EXPR count_${group} "${count_${group}} + 1")
-    math(EXPR part "(${count_${group}} + 7) / 8")
+    math(EXPR part "(${count_${group}} + ${size} - 1) / ${size}")
     set(unit ${group}_${part})
     file(RELATIVE_PATH path ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR}/${source})
     string(APPEND content_${unit} "#include \"${path}\"\n")
@@ -52,10 +60,12 @@ function(placegraph_unity target)
   set_target_properties(${target} PROPERTIES SOURCES "${compiled}")
 endfunction()
 
-# placegraph_library(name SOURCES ... [PUBLIC targets] [PRIVATE targets] [PRECOMPILE headers])
-# makes placegraph_<name>, alias placegraph::<name>.
+# placegraph_library(name SOURCES ... [PUBLIC targets] [PRIVATE targets]
+#                    [PRECOMPILE headers | PRECOMPILED_BY library])
+# makes placegraph_<name>, alias placegraph::<name>. PRECOMPILED_BY takes the precompiled headers of another
+# library, whose options must be the same.
 function(placegraph_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED_BY" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   set(target placegraph_${name})
   add_library(${target} ${ARG_SOURCES})
   add_library(placegraph::${name} ALIAS ${target})
@@ -67,6 +77,8 @@ function(placegraph_library name)
   placegraph_unity(${target})
   if(ARG_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${ARG_PRECOMPILE})
+  elseif(ARG_PRECOMPILED_BY)
+    target_precompile_headers(${target} REUSE_FROM placegraph_${ARG_PRECOMPILED_BY})
   endif()
   set_property(GLOBAL APPEND PROPERTY PLACEGRAPH_LIBRARIES ${target})
 endfunction()
