@@ -14,9 +14,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/scene/scene_pictures.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/output.h"
 #include "apps/support/scene_models.h"
@@ -89,12 +89,6 @@ std::string ply_of(const PopUp& popup, const GroundView& view, const Image& bgr)
              "vertex_indices\nend_header\n",
              count, squares) +
          vertices + faces;
-}
-
-void write_png(const std::string& path, const Image& image) {
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", image, bytes);
-  write_file(path, {bytes.begin(), bytes.end()});
 }
 
 Image surfaces_for(const ScenePopupArguments& a, const Image& picture) {

@@ -30,12 +30,6 @@ std::vector<std::string> pictures_of(const std::string& input) {
   return {input};
 }
 
-void write_png(const fs::path& path, const Image& image) {
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", image, bytes);
-  write_file(path.string(), {bytes.begin(), bytes.end()});
-}
-
 struct Tally {
   std::vector<std::int64_t> pixels;  ///< of each class, then unknown ones
   double ms = 0;                     ///< of the processor
@@ -91,6 +85,12 @@ void print_tally(const Tally& all, const ScenePictureArguments& a,
 }
 
 }  // namespace
+
+void write_png(const std::string& path, const Image& image) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".png", image, bytes);
+  write_file(path, {bytes.begin(), bytes.end()});
+}
 
 Image draw_labels(const Image& bgr, const Image& labels, int classes) {
   Image table(1, 256, CV_8UC3, cv::Scalar::all(0));

@@ -25,6 +25,9 @@ void add_scene_picture_options(CLI::App& command, ScenePictureArguments& argumen
 void label_pictures(const ScenePictureArguments& arguments, const std::vector<std::string>& classes,
                     const std::function<SceneLabels(const SceneView&)>& label);
 
+/// Writes a PNG file as a whole or not at all; throws FileError.
+void write_png(const std::string& path, const Image& image);
+
 /// A colour for each class, the picture under it, and black where it is unknown.
 Image draw_labels(const Image& bgr, const Image& labels, int classes);
 

@@ -93,6 +93,8 @@ void assign_choice(const YAML::Node& node, int& index, const std::vector<std::st
   index = static_cast<int>(match - names.begin());
 }
 
+}  // namespace
+
 /// The visitor's seven doors lead into one: find the value of a key, then assign it.
 class AssigningVisitor : public OptionVisitor {
  public:
@@ -127,8 +129,6 @@ class AssigningVisitor : public OptionVisitor {
     });
   }
 };
-
-}  // namespace
 
 class OptionsFile::Reader : public AssigningVisitor {
  public:

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/synthetic/writers/sequence_folder.h>
 
@@ -14,7 +15,7 @@ SequenceFolder::SequenceFolder(const std::string& path, bool force)
     require(fs::is_directory(target_), path + ": is a file, a folder is to be written there");
     require(force || fs::is_empty(target_), path + ": is not empty; --force writes into it");
   }
-  temporary_ = target_.parent_path() / ("." + target_.filename().string() + ".partial");
+  temporary_ = target_.parent_path() / fmt::format(".{}.partial", target_.filename().string());
   std::error_code ignored;
   fs::remove_all(temporary_, ignored);
   make("");
