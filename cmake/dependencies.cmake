@@ -10,6 +10,7 @@ find_package(faiss REQUIRED)
 # It names the machine's libblas and liblapack by file; OpenBLAS is both.
 set_target_properties(faiss PROPERTIES INTERFACE_LINK_LIBRARIES "$<LINK_ONLY:OpenMP::OpenMP_CXX>;BLAS::BLAS")
 find_package(CHOLMOD REQUIRED)
+find_package(CAMD REQUIRED)
 find_package(spectra REQUIRED)
 find_package(Ceres 2.1 REQUIRED)
 find_package(GeographicLib REQUIRED)

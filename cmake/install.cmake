@@ -17,5 +17,5 @@ configure_package_config_file(cmake/placegraphConfig.cmake.in ${CMAKE_BINARY_DIR
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/placegraphConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/placegraphConfig.cmake ${CMAKE_BINARY_DIR}/placegraphConfigVersion.cmake
-    cmake/FindCHOLMOD.cmake cmake/FindGeographicLib.cmake
+    cmake/FindCAMD.cmake cmake/FindCHOLMOD.cmake cmake/FindGeographicLib.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)

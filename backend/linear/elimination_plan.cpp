@@ -1,9 +1,11 @@
 #include <placegraph/backend/linear/elimination_plan.h>
 
+#include <suitesparse/camd.h>
+
 #include <algorithm>
 #include <cstdint>
-#include <functional>
-#include <queue>
+#include <new>
+#include <utility>
 
 namespace placegraph {
 namespace {
@@ -14,135 +16,74 @@ struct Elimination {
   VariableSets met;  ///< set i belongs to order[i]; members not sorted
 };
 
-/// Approximate minimum degree on a growing list of sets: eliminating a variable replaces the sets
-/// that hold it by their union.
-class MinimumDegree {
- public:
-  MinimumDegree(int variables, const VariableSets& sets, const std::vector<char>& late)
-      : late_(late),
-        first_(variables + 1, 0),
-        count_(variables, 0),
-        degree_(variables, 0),
-        mark_(variables, -1),
-        eliminated_(variables, 0) {
-    spans_.reserve(sets.size() + variables);
-    for (int s = 0; s < sets.size(); ++s)
-      spans_.push_back({sets.members.data() + sets.begin[s], sets.begin[s + 1] - sets.begin[s]});
-    stamp_.assign(sets.size() + variables, -1);
-    outside_.assign(sets.size() + variables, 0);
-    for (const int v : sets.members) ++first_[v + 1];
-    for (int v = 0; v < variables; ++v) first_[v + 1] += first_[v];
-    sets_of_.resize(sets.members.size());
-    for (int s = 0; s < sets.size(); ++s)
-      for (int i = 0; i < spans_[s].size; ++i) {
-        const int v = spans_[s].members[i];
-        sets_of_[first_[v] + count_[v]++] = s;
-        degree_[v] += spans_[s].size - 1;
-      }
-    for (int v = 0; v < variables; ++v) push(v);
-  }
-
-  Elimination run() {
-    const int variables = static_cast<int>(degree_.size());
-    Elimination result;
-    result.order.reserve(variables);
-    unions_.reserve(variables);
-    while (static_cast<int>(result.order.size()) < variables) {
-      const Candidate candidate = queue_.top();
-      queue_.pop();
-      if (eliminated_[candidate.variable] || candidate.key != key(candidate.variable)) continue;
-      eliminate(candidate.variable, static_cast<int>(result.order.size()));
-      result.order.push_back(candidate.variable);
-    }
-    for (const std::vector<int>& met : unions_) {
-      result.met.members.insert(result.met.members.end(), met.begin(), met.end());
-      result.met.close();
-    }
-    return result;
-  }
-
- private:
-  struct Span {
-    const int* members;
-    int size;  ///< 0 once replaced
-  };
-  struct Candidate {
-    std::int64_t key;
-    int variable;
-    bool operator>(const Candidate& other) const {
-      return key != other.key ? key > other.key : variable > other.variable;
+/// The order by CAMD: of the graph in which the variables of a set are joined each to each.
+std::vector<int> order_late_last(int variables, const VariableSets& sets,
+                                 const std::vector<char>& late) {
+  std::vector<int> order(variables);
+  if (variables == 0) return order;
+  // Every pair once, repeats where sets overlap: CAMD mirrors and sorts. The pairs take less than a
+  // hundredth of the fronts that a set of as many poses needs: `int` counts them.
+  std::vector<int> begin(variables + 1, 0);
+  const auto for_each_member = [&](const auto& visit) {
+    for (int s = 0; s < sets.size(); ++s) {
+      const int* first = sets.members.data() + sets.begin[s];
+      for (int i = 0; i < sets.begin[s + 1] - sets.begin[s]; ++i) visit(first, i);
     }
   };
+  for_each_member([&](const int* set, int i) { begin[set[i] + 1] += i; });
+  for (int v = 0; v < variables; ++v) begin[v + 1] += begin[v];
+  std::vector<int> joined(std::max(begin.back(), 1)), next(begin.begin(), begin.end() - 1);
+  for_each_member([&](const int* set, int i) {
+    std::copy(set, set + i, joined.begin() + next[set[i]]);
+    next[set[i]] += i;
+  });
+  const std::vector<int> turn(late.begin(), late.end());
+  const bool all_alike = std::find(turn.begin(), turn.end(), 0) == turn.end();
+  if (camd_order(variables, begin.data(), joined.data(), order.data(), nullptr, nullptr,
+                 all_alike ? nullptr : turn.data()) < 0)
+    throw std::bad_alloc();  // all else it could refuse is excluded by construction
+  return order;
+}
 
-  std::int64_t key(int v) const { return degree_[v] + (late_[v] ? std::int64_t{1} << 40 : 0); }
-  void push(int v) { queue_.push({key(v), v}); }
-
-  void eliminate(int v, int step) {
-    eliminated_[v] = true;
-    std::vector<int> met;
-    mark_[v] = step;
-    for (int i = 0; i < count_[v]; ++i) {
-      Span& span = spans_[sets_of_[first_[v] + i]];
-      for (int j = 0; j < span.size; ++j) {
-        const int u = span.members[j];
-        if (mark_[u] == step) continue;
-        mark_[u] = step;
-        met.push_back(u);
+/// Eliminates in `order`: a variable replaces the sets that hold it by their union.
+Elimination eliminate(int variables, const VariableSets& sets, std::vector<int> order) {
+  Elimination result;
+  VariableSets& met = result.met;
+  std::vector<int> step(variables), mark(variables, -1);
+  for (int i = 0; i < variables; ++i) step[order[i]] = i;
+  // Sets, and after them the unions, wait in lists for the first step that takes one of theirs.
+  std::vector<int> waiting(variables, -1), next(sets.size() + variables, -1);
+  const auto wait = [&](int s, const int* members, const int* end) {
+    if (members == end) return;
+    int first = variables;
+    for (; members != end; ++members) first = std::min(first, step[*members]);
+    next[s] = waiting[first];
+    waiting[first] = s;
+  };
+  const auto span = [&](int s) {
+    const VariableSets& of = s < sets.size() ? sets : met;
+    const int k = s < sets.size() ? s : s - sets.size();
+    return std::pair{of.begin[k], of.begin[k + 1]};
+  };
+  for (int s = 0; s < sets.size(); ++s)
+    wait(s, sets.members.data() + sets.begin[s], sets.members.data() + sets.begin[s + 1]);
+  for (int i = 0; i < variables; ++i) {
+    mark[order[i]] = i;
+    for (int s = waiting[i]; s >= 0; s = next[s]) {
+      const auto [begin, end] = span(s);
+      for (int j = begin; j < end; ++j) {
+        const int u = s < sets.size() ? sets.members[j] : met.members[j];
+        if (mark[u] == i) continue;
+        mark[u] = i;
+        met.members.push_back(u);
       }
-      span.size = 0;
     }
-    const int united = static_cast<int>(spans_.size());
-    const int size = static_cast<int>(met.size());
-    unions_.push_back(std::move(met));
-    spans_.push_back({unions_.back().data(), size});
-    for (const int u : unions_.back()) count_outside(u, united, step);
-    for (const int u : unions_.back()) update_degree(u, size);
+    met.close();
+    wait(sets.size() + i, met.members.data() + met.begin[i], met.members.data() + met.begin[i + 1]);
   }
-
-  /// Puts the new set in the place of those it replaced, and counts for every other set of `u` how
-  /// many of its members the new one does not hold.
-  void count_outside(int u, int united, int step) {
-    int kept = 0;
-    for (int i = 0; i < count_[u]; ++i) {
-      const int s = sets_of_[first_[u] + i];
-      if (spans_[s].size == 0) continue;
-      if (stamp_[s] != step) {
-        stamp_[s] = step;
-        outside_[s] = spans_[s].size;
-      }
-      --outside_[s];
-      sets_of_[first_[u] + kept++] = s;
-    }
-    sets_of_[first_[u] + kept++] = united;
-    count_[u] = kept;
-  }
-
-  void update_degree(int u, int united_size) {
-    std::int64_t degree = united_size - 1;
-    int kept = 0;
-    for (int i = 0; i + 1 < count_[u]; ++i) {
-      const int s = sets_of_[first_[u] + i];
-      if (outside_[s] == 0) continue;  // held by the new set: says nothing more
-      degree += outside_[s];
-      sets_of_[first_[u] + kept++] = s;
-    }
-    sets_of_[first_[u] + kept++] = sets_of_[first_[u] + count_[u] - 1];
-    count_[u] = kept;
-    degree_[u] = degree;
-    push(u);
-  }
-
-  const std::vector<char>& late_;
-  std::vector<Span> spans_;
-  std::vector<int> stamp_, outside_;  ///< per set
-  std::vector<int> first_, count_;    ///< per variable: where its sets stand in sets_of_
-  std::vector<int> sets_of_;
-  std::vector<std::int64_t> degree_;
-  std::vector<int> mark_;
-  std::vector<char> eliminated_;
-  std::vector<std::vector<int>> unions_;
-  std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue_;
-};
+  result.order = std::move(order);
+  return result;
+}
 
 /// Fronts while they grow, named by the step of their last variable.
 struct Group {
@@ -182,7 +123,7 @@ void absorb_children(std::vector<Group>& groups, std::vector<int>& children, int
 
 EliminationPlan plan_elimination(int variables, const VariableSets& sets,
                                  const std::vector<char>& late, double zero_share) {
-  Elimination elimination = MinimumDegree(variables, sets, late).run();
+  Elimination elimination = eliminate(variables, sets, order_late_last(variables, sets, late));
   std::vector<int> step(variables);
   for (int i = 0; i < variables; ++i) step[elimination.order[i]] = i;
   VariableSets& met = elimination.met;

@@ -24,9 +24,9 @@ struct EliminationPlan {
 };
 
 /// Plans the elimination of all `variables`: the order by approximate minimum degree (Amestoy,
-/// Davis & Duff 1996) on the sets, those with `late` only after all others; then fronts, with
-/// a child taken into its parent while that stores no more zeros than `zero_share` of its entries.
-/// Among equal degrees the smaller number goes first.
+/// Davis & Duff 1996) on the sets, those with `late` only after all others, by SuiteSparse's CAMD;
+/// then fronts, with a child taken into its parent while that stores no more zeros than
+/// `zero_share` of its entries.
 EliminationPlan plan_elimination(int variables, const VariableSets& sets,
                                  const std::vector<char>& late, double zero_share);
 
