@@ -6,7 +6,7 @@
 # GCC's precompiled header (.gch) is the same in every clone. An old one is removed before it is made anew,
 # because the compiler would read it first and its key would differ from that of a fresh build.
 # Clang's (.pch) holds paths and times of its clone: each clone makes its own, and what is compiled with it
-# is keyed by the checksum beside it (.pch.sum), of the headers that went into it.
+# is keyed by the checksum beside it (.pch.sum), of the arguments and of the headers that went into it.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 output=
@@ -29,8 +29,15 @@ done
 case $output in
   *.gch) rm -f "$output" ;;
   *.pch)
+    rm -f "$output.sum"
     "$@"
-    sed 's/^[^:]*: //; s/ *\\$//' "$dependencies" | tr -s ' ' '\n' | grep . | xargs cat | sha256sum > "$output.sum"
+    # A file of make's dependencies: "target: header header \", blanks within a name behind a backslash.
+    headers=$output.headers
+    sed 's/^[^:]*: //; s/ *\\$//; s/\([^\\]\) /\1\n/g' "$dependencies" | sed 's/^ *//; s/\\ / /g; /^$/d' > "$headers"
+    [ -s "$headers" ] || { echo "ccache.sh: $dependencies names no headers" >&2; exit 1; }
+    { echo "$*" | sed "s|$root||g"; tr '\n' '\0' < "$headers" | xargs -0 cat || echo "unreadable in $root"; } |
+      sha256sum > "$output.sum"
+    rm "$headers"
     exit ;;
 esac
 CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=true CCACHE_PCH_EXTSUM=true \

@@ -13,8 +13,8 @@ function(placegraph_compile_options target)
 endfunction()
 
 # placegraph_unity(target [ACROSS_FOLDERS]): sources of one folder are compiled together, eight at a time,
-# because half of compiling a source is reading headers and instantiating templates. File-local names are
-# unique within a folder for that reason. ACROSS_FOLDERS takes sixteen at a time, whatever their folders. A
+# because half of compiling a source is reading headers and instantiating templates. What sources of one
+# unit keep to themselves needs different names (functions: other parameters). ACROSS_FOLDERS takes sixteen at a time, whatever their folders. A
 # source with the property SKIP_UNITY_BUILD_INCLUSION is compiled alone: it pays where a source instantiates
 # so much of its own that GCC, whose time grows faster than the number of types, takes longer for all at once.
 # PLACEGRAPH_UNITY=OFF compiles each alone, which is quicker where one is changed again and again.

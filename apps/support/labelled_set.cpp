@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::uint8_t kVoid = 255;
 
-std::vector<LabelledPicture> pictures_of(const fs::path& folder) {
+std::vector<LabelledPicture> labelled_pictures_of(const fs::path& folder) {
   std::vector<LabelledPicture> pictures;
   for (const std::string& image : list_images((folder / "images").string())) {
     const std::string name = fs::path(image).stem().string();
@@ -36,8 +36,8 @@ LabelledSet read_labelled_set(const std::string& folder) {
   if (!splits && !fs::exists(list)) list = root.parent_path() / "CLASSES.txt";
   LabelledSet set;
   set.classes = read_class_list(list.string());
-  set.train = pictures_of(splits ? root / "train" : root);
-  if (splits && fs::is_directory(root / "val")) set.val = pictures_of(root / "val");
+  set.train = labelled_pictures_of(splits ? root / "train" : root);
+  if (splits && fs::is_directory(root / "val")) set.val = labelled_pictures_of(root / "val");
   return set;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -16,32 +17,51 @@ struct Elimination {
   VariableSets met;  ///< set i belongs to order[i]; members not sorted
 };
 
-/// The order by CAMD: of the graph in which the variables of a set are joined each to each.
+/// The order by CAMD, those with `late` last. An edge joins two variables; a larger set is a vertex
+/// of its own, joined to its members and eliminated before all variables, which joins these each to
+/// each without their pairs being written out.
 std::vector<int> order_late_last(int variables, const VariableSets& sets,
                                  const std::vector<char>& late) {
-  std::vector<int> order(variables);
-  if (variables == 0) return order;
-  // Every pair once, repeats where sets overlap: CAMD mirrors and sorts. The pairs take less than a
-  // hundredth of the fronts that a set of as many poses needs: `int` counts them.
-  std::vector<int> begin(variables + 1, 0);
-  const auto for_each_member = [&](const auto& visit) {
-    for (int s = 0; s < sets.size(); ++s) {
-      const int* first = sets.members.data() + sets.begin[s];
-      for (int i = 0; i < sets.begin[s + 1] - sets.begin[s]; ++i) visit(first, i);
+  const auto size = [&](int s) { return sets.begin[s + 1] - sets.begin[s]; };
+  int vertices = variables;
+  std::size_t joins = 0;
+  for (int s = 0; s < sets.size(); ++s) {
+    if (size(s) > 2) ++vertices;
+    joins += size(s) == 2 ? 1 : size(s) > 2 ? static_cast<std::size_t>(size(s)) : 0;
+  }
+  if (joins > static_cast<std::size_t>(std::numeric_limits<int>::max()) / 2) throw std::bad_alloc();
+  // Columns of one triangle, repeats where sets overlap: CAMD mirrors and sorts.
+  std::vector<int> begin = {0}, joined;
+  begin.reserve(static_cast<std::size_t>(vertices) + 1);
+  joined.reserve(std::max<std::size_t>(joins, 1));
+  std::vector<std::vector<int>> partners(variables);
+  for (int s = 0; s < sets.size(); ++s)
+    if (size(s) == 2) {
+      const int* pair = sets.members.data() + sets.begin[s];
+      partners[pair[0]].push_back(pair[1]);
     }
-  };
-  for_each_member([&](const int* set, int i) { begin[set[i] + 1] += i; });
-  for (int v = 0; v < variables; ++v) begin[v + 1] += begin[v];
-  std::vector<int> joined(std::max(begin.back(), 1)), next(begin.begin(), begin.end() - 1);
-  for_each_member([&](const int* set, int i) {
-    std::copy(set, set + i, joined.begin() + next[set[i]]);
-    next[set[i]] += i;
-  });
-  const std::vector<int> turn(late.begin(), late.end());
-  const bool all_alike = std::find(turn.begin(), turn.end(), 0) == turn.end();
-  if (camd_order(variables, begin.data(), joined.data(), order.data(), nullptr, nullptr,
-                 all_alike ? nullptr : turn.data()) < 0)
+  for (int v = 0; v < variables; ++v) {
+    joined.insert(joined.end(), partners[v].begin(), partners[v].end());
+    begin.push_back(static_cast<int>(joined.size()));
+  }
+  for (int s = 0; s < sets.size(); ++s) {
+    if (size(s) <= 2) continue;
+    joined.insert(joined.end(), sets.members.begin() + sets.begin[s],
+                  sets.members.begin() + sets.begin[s + 1]);
+    begin.push_back(static_cast<int>(joined.size()));
+  }
+  std::vector<int> turn(vertices, 0);
+  const int first_turn = vertices > variables ? 1 : 0;
+  const bool all_late = std::find(late.begin(), late.end(), 0) == late.end();
+  for (int v = 0; v < variables; ++v) turn[v] = first_turn + (late[v] && !all_late ? 1 : 0);
+  double control[CAMD_CONTROL];
+  camd_defaults(control);
+  control[CAMD_DENSE] = -1;  // no vertex is left out: one of a set joins as many as the set has
+  std::vector<int> order(vertices);
+  if (vertices > 0 && camd_order(vertices, begin.data(), joined.data(), order.data(), control,
+                                 nullptr, turn.data()) < 0)
     throw std::bad_alloc();  // all else it could refuse is excluded by construction
+  std::erase_if(order, [&](int v) { return v >= variables; });
   return order;
 }
 

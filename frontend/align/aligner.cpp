@@ -161,14 +161,10 @@ PlanarWarp follow_members(const Job& job, const PlanarWarp& start,
   return best;
 }
 
-double diagonal_px(const PlanarTemplate& t) {
-  return (t.corners_px()[2] - t.corners_px()[0]).norm();
-}
-
 /// Coarse to fine; false with an outcome where it had to stop.
 bool descend(const Job& job, AlignResult& result) {
   const AlignOptions& o = job.options;
-  double reach_px = diagonal_px(job.planar_template);
+  double reach_px = job.planar_template.diagonal_px();
   for (int level = job.coarsest; level >= 0; --level, reach_px /= 4) {
     const bool searched = is_population(o.optimizer) ||
                           (o.optimizer == AlignOptimizer::kSwarmEsm && level == job.coarsest);

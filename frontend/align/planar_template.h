@@ -39,6 +39,7 @@ class PlanarTemplate {
   double half_px() const { return half_px_; }  ///< half the longer side of the bounding box
   /// The bounding box, clockwise from top left.
   const std::array<Eigen::Vector2d, 4>& corners_px() const { return corners_px_; }
+  double diagonal_px() const { return (corners_px_[2] - corners_px_[0]).norm(); }  ///< of that box
   /// From the template's coordinates to pixels of the reference image.
   Eigen::Matrix3d px_from_template() const;
 

@@ -66,10 +66,6 @@ Eigen::Matrix2d slope_at(const Matrix3d& H, const Vector2d& px) {
   return by_q * H.leftCols<2>();
 }
 
-double diagonal_px(const PlanarTemplate& t) {
-  return (t.corners_px()[2] - t.corners_px()[0]).norm();
-}
-
 AlignOptions swarm_of(AlignOptions options) {
   options.optimizer = AlignOptimizer::kSwarmEsm;
   return options;
@@ -258,7 +254,7 @@ PlaneTrack PlaneTracker::by_second_template(const View& view) const {
 /// About its last place, the further the longer it is lost.
 PlaneTrack PlaneTracker::search(const View& view) const {
   AlignOptions options = swarm_of(options_.align);
-  const double widest = image_size_px_.norm() / diagonal_px(template_);
+  const double widest = image_size_px_.norm() / template_.diagonal_px();
   options.search_sigma = options_.search_sigma;
   options.search_shift_sigma = std::min({options_.search_shift * (1 + 0.5 * lost_), widest, 10.0});
   options.swarm.seed += static_cast<std::uint64_t>(frames_);

@@ -2,8 +2,8 @@
 """summary.py BUILD GROUP...: counts the tests that the ctests of these groups ran.
 
 Every ctest that is a test program writes BUILD/test_results/NAME.xml; the others (lint, examples)
-count as one test each, passed if scripts/test has noted them in BUILD/passed.GROUP. Names the skipped ones with their reasons. Exits 1 where a test failed or a
-program left no results. The line `tests: N passed, M skipped, K failed` is for other scripts.
+count as one test each, passed if scripts/test has noted them in BUILD/passed.GROUP. Names the skipped
+ones with their reasons. Exits 1 where a test failed, a program left no results or nothing was run. The line `tests: N passed, M skipped, K failed` is for other scripts.
 """
 
 import collections
@@ -68,7 +68,7 @@ def main():
     for name in missing:
         print(f"no results: {name} did not come to its end")
     print(f"tests: {passed} passed, {sum(map(len, skipped.values()))} skipped, {len(failed) + len(missing)} failed")
-    return 1 if failed or missing or passed == 0 else 0
+    return 1 if failed or missing or not (passed or skipped) else 0
 
 
 sys.exit(main())

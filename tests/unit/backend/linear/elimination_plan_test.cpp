@@ -2,7 +2,6 @@
 #include <placegraph/backend/linear/elimination_plan.h>
 
 #include <algorithm>
-#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -105,14 +104,50 @@ TEST(EliminationPlan, LateVariablesComeAfterAllOthers) {
   const std::vector<int> step = steps_of(plan, variables);
   expect_covered(plan, sets);
   for (int v = 0; v < variables; ++v)
-    if (late[v]) EXPECT_GE(step[v], variables - 4) << "variable " << v;
+    EXPECT_EQ(late[v] != 0, step[v] >= variables - 4) << "variable " << v;
 }
 
 TEST(EliminationPlan, VariablesWithoutSetsAndAllLateOnesArePlannedToo) {
   EXPECT_TRUE(plan_elimination(0, {}, {}, 0.1).fronts.empty());
+  EXPECT_EQ(plan_elimination(1, {}, {1}, 0.1).fronts.size(), 1u);  // the first pose of a graph
   const EliminationPlan plan = plan_elimination(3, sets_of({{1}}), {1, 1, 1}, 0.1);
   steps_of(plan, 3);
   EXPECT_EQ(plan.fronts.size(), 3u);
+}
+
+TEST(EliminationPlan, ASetIsOneFrontWithoutZeros) {
+  std::vector<std::vector<int>> sets = {{4, 1, 7, 2, 9}, {4, 7}, {9, 1, 2}};
+  const EliminationPlan plan = plan_elimination(10, sets_of(sets), std::vector<char>(10, 0), 0);
+  steps_of(plan, 10);
+  expect_covered(plan, sets);
+  EXPECT_EQ(plan.fronts.size(), 6u);  // five variables without a set, and the set
+}
+
+TEST(EliminationPlan, ChildrenAreMergedAsLongAsZerosAreFew) {
+  const int side = 20, variables = side * side;
+  const std::vector<std::vector<int>> edges = grid(side);
+  const auto planned = [&](double zero_share) {
+    const EliminationPlan plan =
+        plan_elimination(variables, sets_of(edges), std::vector<char>(variables, 0), zero_share);
+    steps_of(plan, variables);
+    expect_covered(plan, edges);
+    return plan.fronts.size();
+  };
+  EXPECT_LT(planned(0.3), planned(0));
+  EXPECT_EQ(planned(1), 1u);
+}
+
+// Separators of many fronts under one: pairs of all members would be 6 * 10^8.
+TEST(EliminationPlan, ManyLargeSetsThatOverlapTakeNoPairs) {
+  const int variables = 2200;
+  std::vector<std::vector<int>> sets(300);
+  for (int s = 0; s < static_cast<int>(sets.size()); ++s) {
+    sets[s].resize(2100);
+    for (int i = 0; i < 2100; ++i) sets[s][i] = (i + s) % variables;
+  }
+  const EliminationPlan plan =
+      plan_elimination(variables, sets_of(sets), std::vector<char>(variables, 0), 0.1);
+  steps_of(plan, variables);
 }
 
 }  // namespace
