@@ -1,9 +1,10 @@
 # Sourced by scripts/test and scripts/sanitizers.
 #
-# run_group BUILD GROUP RESUME [CTEST_ARGUMENT...]: runs the ctests of BUILD that the arguments select, one
-# a core at a time. BUILD/passed.GROUP notes which have passed. With RESUME a group that was
-# interrupted, or failed, goes on with the test programs that have not passed, as long as all programs are
-# the same; what is no test program (lint, examples) looks at other files than programs and runs again.
+# run_group BUILD GROUP RESUME [CTEST_ARGUMENT...]: runs the ctests of BUILD that the arguments select, as
+# many at a time as there are cores, and returns the exit code of ctest. BUILD/passed.GROUP notes which have
+# passed. With RESUME (not empty) a group that was interrupted, or failed, goes on with the test programs
+# that have not passed, as long as all programs are the same; what is no test program (lint, examples) looks
+# at other files than programs and runs again.
 run_group() {
   build=$1 group=$2 resume=$3
   shift 3

@@ -3,7 +3,8 @@
 
 Every ctest that is a test program writes BUILD/test_results/NAME.xml; the others (lint, examples)
 count as one test each, passed if scripts/test has noted them in BUILD/passed.GROUP. Names the skipped
-ones with their reasons. Exits 1 where a test failed, a program left no results or nothing was run. The line `tests: N passed, M skipped, K failed` is for other scripts.
+ones with their reasons. Exits 1 where a test failed, a program left no results or nothing was run. The
+line `tests: N passed, M skipped, K failed` is for other scripts.
 """
 
 import collections
