@@ -30,14 +30,14 @@ constexpr const char* kIndefinite = "the normal equations are indefinite at any 
 }  // namespace
 
 template <class Group>
-IncrementalEngine<Group>::IncrementalEngine(const IncrementalOptions& options)
+IncrementalEngineOf<Group>::IncrementalEngineOf(const IncrementalOptions& options)
     : options_(options), graph_(options.rotation_error), tree_(graph_.tree()) {
   tree_.set_damping(kDamping);
 }
 
 /// False if no damping makes the factor positive: what was added is not finite, or nearly so.
 template <class Group>
-bool IncrementalEngine<Group>::factorize(IncrementalStep& step) {
+bool IncrementalEngineOf<Group>::factorize(IncrementalStep& step) {
   const int nodes = graph_.nodes();
   const double growth = static_cast<double>(nodes) / std::max(1, nodes_when_ordered_);
   if (growth > 1.2 && static_cast<double>(tree_.entries()) >
@@ -59,7 +59,7 @@ bool IncrementalEngine<Group>::factorize(IncrementalStep& step) {
 /// Lowers a raised damping again after a while, longer every time it was of no avail: it costs
 /// a factorization of everything.
 template <class Group>
-void IncrementalEngine<Group>::relax_damping() {
+void IncrementalEngineOf<Group>::relax_damping() {
   if (tree_.damping() == kDamping) return;
   if (++steps_damped_ < patience_) return;
   tree_.set_damping(kDamping);
@@ -68,7 +68,7 @@ void IncrementalEngine<Group>::relax_damping() {
 
 /// Moves the nodes that matter. False, and nothing has moved, if the cost would not fall.
 template <class Group>
-bool IncrementalEngine<Group>::iterate(double threshold, IncrementalStep& step) {
+bool IncrementalEngineOf<Group>::iterate(double threshold, IncrementalStep& step) {
   const std::vector<int>& moved = tree_.solve(threshold);
   const double cost_before = graph_.cost();
   ++step.iterations;
@@ -82,7 +82,7 @@ bool IncrementalEngine<Group>::iterate(double threshold, IncrementalStep& step) 
 }
 
 template <class Group>
-void IncrementalEngine<Group>::optimize(double excess, IncrementalStep& step) {
+void IncrementalEngineOf<Group>::optimize(double excess, IncrementalStep& step) {
   step.cost = graph_.cost();
   double share = kThresholdShare, change = kFirstChange;
   double before = std::numeric_limits<double>::infinity();
@@ -119,7 +119,7 @@ void IncrementalEngine<Group>::optimize(double excess, IncrementalStep& step) {
 }
 
 template <class Group>
-void IncrementalEngine<Group>::solve_from_scratch(IncrementalStep& step) {
+void IncrementalEngineOf<Group>::solve_from_scratch(IncrementalStep& step) {
   step.solved_from_scratch = true;
   PackedGraph<Group> graph = graph_.packed();
   LocalSolverOptions options;
@@ -138,7 +138,7 @@ void IncrementalEngine<Group>::solve_from_scratch(IncrementalStep& step) {
 }
 
 template <class Group>
-Eigen::MatrixXd IncrementalEngine<Group>::covariance(const std::vector<int>& nodes) const {
+Eigen::MatrixXd IncrementalEngineOf<Group>::covariance(const std::vector<int>& nodes) const {
   constexpr int dof = Group::kDof;
   std::vector<int> active, place;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -158,7 +158,7 @@ Eigen::MatrixXd IncrementalEngine<Group>::covariance(const std::vector<int>& nod
 }
 
 template <class Group>
-Information IncrementalEngine<Group>::relative_covariance(int from, int to) const {
+Information IncrementalEngineOf<Group>::relative_covariance(int from, int to) const {
   require(graph_.together(from, to), "incremental optimizer: nothing joins nodes " +
                                          std::to_string(graph_.id(from)) + " and " +
                                          std::to_string(graph_.id(to)));
@@ -170,21 +170,21 @@ Information IncrementalEngine<Group>::relative_covariance(int from, int to) cons
                                          joint.topRightCorner(dof, dof));
 }
 
-template class IncrementalEngine<SE2>;
-template class IncrementalEngine<SE3>;
-template class IncrementalEngine<Sim3>;
+template class IncrementalEngineOf<SE2>;
+template class IncrementalEngineOf<SE3>;
+template class IncrementalEngineOf<Sim3>;
 
-std::unique_ptr<IncrementalOptimizer::Engine> IncrementalOptimizer::Engine::make(
-    PoseKind kind, const IncrementalOptions& options) {
+std::unique_ptr<IncrementalEngine> IncrementalEngine::make(PoseKind kind,
+                                                           const IncrementalOptions& options) {
   switch (kind) {
     case PoseKind::kSE2:
-      return std::make_unique<IncrementalEngine<SE2>>(options);
+      return std::make_unique<IncrementalEngineOf<SE2>>(options);
     case PoseKind::kSE3:
-      return std::make_unique<IncrementalEngine<SE3>>(options);
+      return std::make_unique<IncrementalEngineOf<SE3>>(options);
     case PoseKind::kSim3:
       break;
   }
-  return std::make_unique<IncrementalEngine<Sim3>>(options);
+  return std::make_unique<IncrementalEngineOf<Sim3>>(options);
 }
 
 }  // namespace placegraph

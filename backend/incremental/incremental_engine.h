@@ -1,13 +1,16 @@
 #pragma once
 #include <placegraph/backend/incremental/incremental_graph.h>
-#include <placegraph/backend/incremental/incremental_optimizer.h>
+#include <placegraph/graph/pose_graph/pose_graph.h>
+
+#include <memory>
+#include <vector>
 
 namespace placegraph {
 
 /// What IncrementalOptimizer does, whatever the group.
-class IncrementalOptimizer::Engine {
+class IncrementalEngine {
  public:
-  virtual ~Engine() = default;
+  virtual ~IncrementalEngine() = default;
   virtual PoseKind kind() const = 0;
   /// All that comes in has been checked by the caller.
   virtual void add_node(const PoseNode& node) = 0;
@@ -27,13 +30,13 @@ class IncrementalOptimizer::Engine {
   virtual Eigen::MatrixXd covariance(const std::vector<int>& nodes) const = 0;
   virtual Information relative_covariance(int from, int to) const = 0;
 
-  static std::unique_ptr<Engine> make(PoseKind kind, const IncrementalOptions& options);
+  static std::unique_ptr<IncrementalEngine> make(PoseKind kind, const IncrementalOptions& options);
 };
 
 template <class Group>
-class IncrementalEngine final : public IncrementalOptimizer::Engine {
+class IncrementalEngineOf final : public IncrementalEngine {
  public:
-  explicit IncrementalEngine(const IncrementalOptions& options);
+  explicit IncrementalEngineOf(const IncrementalOptions& options);
 
   PoseKind kind() const override { return static_cast<PoseKind>(Pose(Group()).index()); }
   void add_node(const PoseNode& node) override { graph_.add_node(node); }

@@ -1,4 +1,5 @@
 #include <placegraph/backend/incremental/incremental_engine.h>
+#include <placegraph/backend/incremental/incremental_optimizer.h>
 #include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/graph/core/error.h>
 
@@ -15,8 +16,7 @@ void add_once(PoseGraph& graph, std::vector<std::int64_t>& seen, const PoseNode&
 }
 
 /// The part of the graph that is new, with the earlier nodes that it is joined to.
-PoseGraph neighbourhood(const IncrementalOptimizer::Engine* engine,
-                        const std::vector<PoseNode>& nodes,
+PoseGraph neighbourhood(const IncrementalEngine* engine, const std::vector<PoseNode>& nodes,
                         const std::vector<Constraint>& constraints) {
   PoseGraph graph;
   graph.nodes = nodes;
@@ -51,7 +51,7 @@ bool same_nodes(const Constraint& a, const Constraint& b) {
   return std::get<PositionConstraint>(a).node == std::get<PositionConstraint>(b).node;
 }
 
-void check(const IncrementalOptimizer::Engine* engine, const GraphChange& change) {
+void check(const IncrementalEngine* engine, const GraphChange& change) {
   std::vector<Constraint> measured = change.constraints;
   const auto check_number = [&](int constraint, const std::string& subject) {
     if (!engine || constraint < 0 || constraint >= engine->constraints())
@@ -105,7 +105,7 @@ IncrementalOptimizer::IncrementalOptimizer(const IncrementalOptions& options,
     : IncrementalOptimizer(options) {
   graph.check();
   if (graph.nodes.empty()) return;
-  engine_ = Engine::make(kind_of(graph.nodes.front().T_world_node), options_);
+  engine_ = IncrementalEngine::make(kind_of(graph.nodes.front().T_world_node), options_);
   for (const PoseNode& node : graph.nodes) engine_->add_node(node);
   engine_->add_constraints(graph.constraints, true);
 }
@@ -116,7 +116,8 @@ IncrementalStep IncrementalOptimizer::apply(const GraphChange& change) {
   step.outcome = Outcome::ok();
   step.cost = cost();
   if (!engine_ && change.nodes.empty()) return step;
-  if (!engine_) engine_ = Engine::make(kind_of(change.nodes.front().T_world_node), options_);
+  if (!engine_)
+    engine_ = IncrementalEngine::make(kind_of(change.nodes.front().T_world_node), options_);
   step.first_constraint = engine_->constraints();
   for (const PoseNode& node : change.nodes) engine_->add_node(node);
   engine_->add_constraints(change.constraints, false);

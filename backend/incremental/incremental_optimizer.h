@@ -8,6 +8,8 @@
 
 namespace placegraph {
 
+class IncrementalEngine;
+
 /// Keeps a pose graph at the minimum of sum weight * rho(e^T Omega e) while nodes and constraints
 /// arrive: SE(2), SE(3) or Sim(3), as the first node is.
 ///
@@ -72,11 +74,9 @@ class IncrementalOptimizer {
   /// that nothing joins.
   Information relative_covariance(std::int64_t from, std::int64_t to) const;
 
-  class Engine;
-
  private:
   IncrementalOptions options_;
-  std::unique_ptr<Engine> engine_;  ///< none before the first node
+  std::unique_ptr<IncrementalEngine> engine_;  ///< none before the first node
 };
 
 }  // namespace placegraph

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/initialization/certificate.h>
+#include <placegraph/backend/initialization/certificate_matrix.h>
 #include <placegraph/backend/initialization/isotropic_problem.h>
 
 #include <Eigen/Core>

@@ -20,9 +20,10 @@ struct GeneticOptions {
 };
 void visit(OptionVisitor& field, GeneticOptions& options);
 
-/// A real-coded genetic algorithm with as many evaluations as the swarm, whose baseline it is:
+/// A real-coded genetic algorithm with as many evaluations as the swarm, to compare with it:
 /// tournament selection, blend crossover (Eshelman & Schaffer 1993), normal mutation, elite. The
-/// start and the coordinates are those of swarm_search.
+/// start and the coordinates are those of swarm_search. Nine of ten searches by ZNCC converge from
+/// 24 px, those of the swarm from 32 px, in the same time (docs/results.md, section alignment).
 PopulationResult genetic_search(const PopulationCost& cost, int n, const GeneticOptions& options);
 
 }  // namespace placegraph

@@ -1,5 +1,4 @@
 #include <placegraph/frontend/align/joint_histogram.h>
-#include <placegraph/frontend/align/similarity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +6,6 @@
 namespace placegraph {
 namespace {
 
-constexpr int kBins = kMutualInformationBins;
 /// So far from empty that the logarithm of a bin stays moderate.
 constexpr double kTiny = 1e-6;
 

@@ -9,6 +9,9 @@ namespace placegraph {
 /// is spread over its own range from its least to its greatest value.
 class JointHistogram {
  public:
+  /// Of each list; the outer two on either side are margin for the windows.
+  static constexpr int kBins = 16;
+
   /// Precondition: lists of one size. Values that are all alike fall into one bin.
   JointHistogram(const std::vector<double>& ref, const std::vector<double>& cur);
 

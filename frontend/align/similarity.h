@@ -15,9 +15,6 @@ enum class Similarity {
 };
 const std::vector<std::string>& similarity_names();
 
-/// Bins of the joint histogram; the outer two on either side are margin for the windows.
-inline constexpr int kMutualInformationBins = 16;
-
 /// Greater is more alike: minus the mean squared difference (SSD), the correlation in [-1, 1]
 /// (ZNCC), mutual information in nats (MI). `ref` and `cur` are of one size; worst possible
 /// (-infinity) below two values, 0 (ZNCC, MI) where one list does not vary.

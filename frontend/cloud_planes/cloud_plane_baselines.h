@@ -1,8 +1,13 @@
 #pragma once
-#include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes_options.h>
+#include <placegraph/frontend/cloud_planes/cloud_points.h>
 #include <placegraph/frontend/cloud_planes/plane_labels.h>
 
 namespace placegraph {
+
+// Both are methods of CloudPlanesOptions, so that a caller can hold the cuts against them on data
+// of his own. Of 264 planes of depth images with 2 mm of noise the cuts find 198 in 21 ms an image,
+// RANSAC 155 in 352 ms, region growing 35 in 56 ms (docs/results.md, section cloud_planes).
 
 /// Planes one after the other: the one with the most points within `inlier_sigmas` of those drawn
 /// through three points near each other, its largest connected piece taken away, until none has
