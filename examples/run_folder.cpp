@@ -1,7 +1,7 @@
 /// Runs the system over a recorded sequence, frame by frame as a robot would, prints where the
 /// camera is and writes the trajectory: run_folder SEQUENCE OUT.tum
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/slam.h>
 

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/time.h>
+#include <placegraph/graph/measurements/stamp_plausibility.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/odometry_file.h>
 #include <placegraph/pipeline/lens_correction.h>
@@ -24,14 +27,43 @@ Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
   return wanted;
 }
 
+/// Throws FileError if a motion tells nothing between any two frames; says so if it is little.
+void check_common_time(const std::string& path, const MeasuredMotion& motion,
+                       const std::vector<std::int64_t>& stamps_ns, const LogSink& log) {
+  if (stamps_ns.size() < 2) return;
+  std::size_t told = 0;
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i)
+    told += motion.between(stamps_ns[i - 1], stamps_ns[i]).has_value();
+  const std::size_t pairs = stamps_ns.size() - 1;
+  if (2 * told > pairs) return;
+  std::vector<std::int64_t> motion_ns = {motion.steps().front().from_ns};
+  for (const MotionStep& step : motion.steps()) motion_ns.push_back(step.to_ns);
+  const std::string times =
+      fmt::format("it is from {:.3f} to {:.3f} s, the images are from {:.3f} to {:.3f} s",
+                  seconds(0, motion_ns.front()), seconds(0, motion_ns.back()),
+                  seconds(0, stamps_ns.front()), seconds(0, stamps_ns.back()));
+  if (told > 0) {
+    placegraph::log(log, LogLevel::kWarning,
+                    "{}: tells the motion between {} of {} pairs of frames: {}", path, told, pairs,
+                    times);
+    return;
+  }
+  const std::string clock = other_clock(stamps_ns, motion_ns, "the odometry");
+  throw FileError(path, "has no time in common with the images: " + times +
+                            (clock.empty() ? "" : "; " + clock));
+}
+
 /// Of the camera.
-MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options) {
+MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options,
+                           const LogSink& log) {
   std::vector<std::int64_t> stamps_ns;
   for (std::size_t i = 0; i < dataset.size(); ++i) stamps_ns.push_back(dataset.stamp_ns(i));
   const auto& v = options.T_cam_body;
   const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
   const SE3 T_cam_body(q.normalized().toRotationMatrix(), Eigen::Vector3d(v[0], v[1], v[2]));
-  return read_odometry(options.file, options.noise, stamps_ns).seen_from(T_cam_body);
+  const MeasuredMotion motion = read_odometry(options.file, options.noise, stamps_ns);
+  check_common_time(options.file, motion, stamps_ns, log);
+  return motion.seen_from(T_cam_body);
 }
 
 /// Reads frames in order, one ahead of its user if it may have a thread for that.
@@ -207,7 +239,8 @@ class SequenceRun {
     result_.calibration = lens_.calibration();
     if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
     Slam slam(options_.slam, result_.calibration, log_);
-    if (!options_.motion.file.empty()) slam.set_motion(read_motion(dataset_, options_.motion));
+    if (!options_.motion.file.empty())
+      slam.set_motion(read_motion(dataset_, options_.motion, log_));
     if (surfaces_) slam.set_scene(surfaces_);
     const std::size_t first = go_on(stored, slam);
     FrameReader reader(dataset_, lens_, result_.sensor, end_, options_.threads > 1);

@@ -114,9 +114,11 @@ std::vector<Job> jobs_of(const EvalArguments& arguments) {
   return jobs;
 }
 
+/// `times` are those of a file without times of its own; others keep theirs.
 Trajectory read(const std::string& path, const std::string& times) {
-  return detect_trajectory_format(path) == TrajectoryFormat::kKitti ? read_trajectory(path, times)
-                                                                    : read_trajectory(path);
+  Trajectory trajectory = read_trajectory(path, {}, Orientation::kOptional);
+  if (!trajectory.has_times && !times.empty()) give_times(trajectory, path, times);
+  return trajectory;
 }
 
 EvaluationResult judge(const Job& job, const EvalArguments& arguments) {
@@ -128,7 +130,7 @@ EvaluationResult judge(const Job& job, const EvalArguments& arguments) {
   const fs::path beside = fs::path(job.truth).parent_path() / "times.txt";
   if (!truth.has_times && estimate.has_times && fs::path(job.truth).filename() == "poses.txt" &&
       arguments.options.association != Association::kIndex && fs::exists(beside))
-    truth = read(job.truth, beside.string());
+    give_times(truth, job.truth, beside.string());
   return evaluate(truth, estimate, arguments.options, job.name);
 }
 

@@ -6,7 +6,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/map/explanation.h>
 #include <placegraph/pipeline/run.h>
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 #include <placegraph/pipeline/run.h>
 

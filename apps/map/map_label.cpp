@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/measurements/label_file.h>
 #include <placegraph/pipeline/map/place_labeller.h>

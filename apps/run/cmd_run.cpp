@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/place_graph_export.h>
@@ -155,6 +156,15 @@ void print_summary(const json& summary, const std::string& folder) {
       1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(), folder.c_str());
 }
 
+/// What the reader says of the sequence; lengths that are in doubt are not called metric.
+void add_notes(const Dataset& dataset, json& summary) {
+  summary["notes"] = json::array();
+  for (const DatasetNote& note : dataset.notes()) {
+    summary["notes"].push_back(note.text);
+    if (note.doubts_scale) summary["metric"] = false;
+  }
+}
+
 json describe_stages(const RunResult& run) {
   json stages = json::array();
   for (const StageTimes::Stage& stage : run.stages)
@@ -262,6 +272,7 @@ void run(RunArguments arguments) {
             "--draw: must be another folder than --out");
   }
   const auto dataset = open_dataset(arguments.sequence);
+  for (const DatasetNote& note : dataset->notes()) warn(dataset->name() + ": " + note.text);
   const auto surfaces = surfaces_of(options.slam);
   const OutputFolder folder(arguments.out);
   std::optional<OutputFolder> drawings;
@@ -311,6 +322,7 @@ void run(RunArguments arguments) {
                environment_csv(run.environments));
   }
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
+  add_notes(*dataset, summary);
   summary["sequence"] = dataset->name();
   summary["format"] = dataset->format();
   summary["seed"] = options.slam.seed;

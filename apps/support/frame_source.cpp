@@ -1,6 +1,7 @@
 #include "apps/support/frame_source.h"
 
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
 

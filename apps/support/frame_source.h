@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 
 #include <memory>
 #include <optional>

@@ -4,6 +4,7 @@
 #include <placegraph/frontend/lines/track_consistency.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/run.h>
 
 #include <CLI/CLI.hpp>

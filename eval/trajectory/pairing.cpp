@@ -1,16 +1,22 @@
 #include <placegraph/eval/trajectory/pairing.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
+#include <placegraph/graph/measurements/stamp_plausibility.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace placegraph {
 namespace {
 
-// Above this ratio of line rates the ground truth counts as denser than the estimate.
+/// Above this ratio of line rates the ground truth counts as denser than the estimate.
 constexpr double kDenserRatio = 1.5;
+/// Nearer to a pose of the estimate than this share of its spacing, a frame is not lost.
+constexpr double kNearShare = 0.75;
 
-std::string seconds(double ns) {
+std::string seconds_text(double ns) {
   char text[48];
   std::snprintf(text, sizeof text, "%.3f", ns * 1e-9);
   return text;
@@ -21,14 +27,17 @@ double median_gap_ns(const Trajectory& trajectory) {
   for (std::size_t i = 1; i < trajectory.size(); ++i)
     gaps_ns.push_back(
         static_cast<double>(trajectory.poses[i].stamp_ns - trajectory.poses[i - 1].stamp_ns));
-  if (gaps_ns.empty()) return 0;
-  const auto middle = gaps_ns.begin() + static_cast<std::ptrdiff_t>(gaps_ns.size() / 2);
-  std::nth_element(gaps_ns.begin(), middle, gaps_ns.end());
-  return *middle;
+  return gaps_ns.empty() ? 0 : median_of(std::move(gaps_ns));
+}
+
+std::vector<std::int64_t> stamps_of(const Trajectory& trajectory) {
+  std::vector<std::int64_t> stamps_ns;
+  for (const StampedPose& pose : trajectory.poses) stamps_ns.push_back(pose.stamp_ns);
+  return stamps_ns;
 }
 
 Outcome why_not_by_index(const Trajectory& truth, const Trajectory& estimate) {
-  if (truth.size() == estimate.size()) return Outcome::ok();
+  if (truth.size() == estimate.size() || truth.numbered || estimate.numbered) return Outcome::ok();
   return Outcome::failure(Outcome::Code::kInconsistent,
                           "association by index needs lines of the same number: the ground truth "
                           "has " +
@@ -51,36 +60,66 @@ Outcome why_not_by_time(const Trajectory& truth, const Trajectory& estimate,
   const double last = static_cast<double>(estimate.poses.back().stamp_ns) + offset_ns;
   const auto truth_first = static_cast<double>(truth.poses.front().stamp_ns);
   const auto truth_last = static_cast<double>(truth.poses.back().stamp_ns);
-  if (first > truth_last + slack_ns || last < truth_first - slack_ns)
-    return Outcome::failure(Outcome::Code::kInconsistent,
-                            "the stamps do not overlap: ground truth " + seconds(truth_first) +
-                                " to " + seconds(truth_last) + " s, estimate " + seconds(first) +
-                                " to " + seconds(last) + " s");
-  return Outcome::ok();
+  if (first <= truth_last + slack_ns && last >= truth_first - slack_ns) return Outcome::ok();
+  const std::string clock = other_clock(stamps_of(truth), stamps_of(estimate), "the estimate");
+  return Outcome::failure(Outcome::Code::kInconsistent,
+                          "the stamps do not overlap: ground truth " + seconds_text(truth_first) +
+                              " to " + seconds_text(truth_last) + " s, estimate " +
+                              seconds_text(first) + " to " + seconds_text(last) + " s" +
+                              (clock.empty() ? "" : "; " + clock));
 }
 
-// Keeps the associated frames and, where the estimate has holes, one frame per missing one, so
-// that holes still count as lost.
-std::vector<FramePair> thin(const std::vector<FramePair>& pairs, double estimate_gap_ns) {
-  std::vector<FramePair> kept;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!pairs[i].T_world_estimate) {
-      const auto since_ns = [&](std::int64_t from) {
-        return static_cast<double>(pairs[i].stamp_ns - from);
-      };
-      if (!kept.empty() && since_ns(kept.back().stamp_ns) < estimate_gap_ns * 0.999) continue;
-      // Not just before an associated one: it would be counted beside it.
-      bool associated_soon = false;
-      for (std::size_t j = i + 1; j < pairs.size(); ++j) {
-        if (static_cast<double>(pairs[j].stamp_ns - pairs[i].stamp_ns) >= 0.5 * estimate_gap_ns)
-          break;
-        associated_soon |= pairs[j].T_world_estimate.has_value();
-      }
-      if (associated_soon) continue;
-    }
-    kept.push_back(pairs[i]);
+/// Whether a frame of the ground truth that has no partner is lost, and one of those to judge.
+class LostFrames {
+ public:
+  LostFrames(const Trajectory& truth, const Trajectory& estimate, double offset_s)
+      : gap_ns_(median_gap_ns(estimate)),
+        denser_(gap_ns_ > kDenserRatio * median_gap_ns(truth)),
+        offset_ns_(std::llround(offset_s * 1e9)) {
+    for (const StampedPose& pose : estimate.poses)
+      if (pose.T_world_body) posed_ns_.push_back(pose.stamp_ns + offset_ns_);
   }
-  return kept;
+
+  /// `last_ns`: of the last frame that is judged; none before the first.
+  bool judge(std::int64_t stamp_ns, std::optional<std::int64_t> last_ns) const {
+    if (distance_ns(stamp_ns) < kNearShare * gap_ns_) return false;
+    return !denser_ || !last_ns || static_cast<double>(stamp_ns - *last_ns) >= gap_ns_ * 0.999;
+  }
+
+ private:
+  double distance_ns(std::int64_t stamp_ns) const {
+    const auto after = std::lower_bound(posed_ns_.begin(), posed_ns_.end(), stamp_ns);
+    double distance = std::numeric_limits<double>::infinity();
+    if (after != posed_ns_.end()) distance = static_cast<double>(*after - stamp_ns);
+    if (after != posed_ns_.begin())
+      distance = std::min(distance, static_cast<double>(stamp_ns - *std::prev(after)));
+    return distance;
+  }
+
+  double gap_ns_;
+  bool denser_;
+  std::int64_t offset_ns_;
+  std::vector<std::int64_t> posed_ns_;
+};
+
+/// Of every line of the ground truth, the line of the estimate; -1 none.
+std::vector<int> partners(const Trajectory& truth, const Trajectory& estimate, bool by_time,
+                          const AssociationOptions& options) {
+  std::vector<int> estimate_of(truth.size(), -1);
+  if (by_time) {
+    for (const auto& [i, j] : associate_by_time(truth, estimate, options))
+      estimate_of[static_cast<std::size_t>(i)] = j;
+  } else if (truth.numbered || estimate.numbered) {
+    for (std::size_t i = 0, j = 0; i < truth.size() && j < estimate.size();) {
+      const std::int64_t a = truth.poses[i].stamp_ns, b = estimate.poses[j].stamp_ns;
+      if (a == b) estimate_of[i] = static_cast<int>(j);
+      if (a <= b) ++i;
+      if (b <= a) ++j;
+    }
+  } else {
+    for (std::size_t i = 0; i < truth.size(); ++i) estimate_of[i] = static_cast<int>(i);
+  }
+  return estimate_of;
 }
 
 Association choose(Association wanted, const Trajectory& truth, const Trajectory& estimate,
@@ -121,36 +160,34 @@ PairingResult pair_trajectories(const Trajectory& truth, const Trajectory& estim
       by_time ? why_not_by_time(truth, estimate, options) : why_not_by_index(truth, estimate);
   if (!result.outcome) return result;
 
-  std::vector<int> estimate_of(truth.size(), -1);
-  if (by_time)
-    for (const auto& [i, j] : associate_by_time(truth, estimate, options))
-      estimate_of[static_cast<std::size_t>(i)] = j;
-  else
-    for (std::size_t i = 0; i < truth.size(); ++i) estimate_of[i] = static_cast<int>(i);
-
+  const std::vector<int> estimate_of = partners(truth, estimate, by_time, options);
+  const LostFrames lost(truth, estimate, options.offset_s);
   result.has_times = truth.has_times;
+  result.has_orientation = truth.has_orientation && estimate.has_orientation;
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (!truth.poses[i].T_world_body) continue;
+    ++result.truth_frames;
     FramePair pair;
     pair.frame = static_cast<int>(i);
     pair.stamp_ns = truth.poses[i].stamp_ns;
     pair.T_world_truth = *truth.poses[i].T_world_body;
     if (estimate_of[i] >= 0)
       pair.T_world_estimate = estimate.poses[static_cast<std::size_t>(estimate_of[i])].T_world_body;
+    const auto last_ns = result.pairs.empty()
+                             ? std::nullopt
+                             : std::optional<std::int64_t>(result.pairs.back().stamp_ns);
+    if (by_time && estimate_of[i] < 0 && !lost.judge(pair.stamp_ns, last_ns)) continue;
     result.posed += pair.T_world_estimate.has_value();
     result.pairs.push_back(pair);
   }
-  result.truth_frames = static_cast<int>(result.pairs.size());
-  if (by_time && median_gap_ns(estimate) > kDenserRatio * median_gap_ns(truth)) {
-    result.pairs = thin(result.pairs, median_gap_ns(estimate));
-    result.thinned = true;
-  }
+  result.estimate_frames = static_cast<int>(estimate.posed());
+  result.estimate_without_truth = result.estimate_frames - result.posed;
   if (result.posed < 2)
     result.outcome = Outcome::failure(
         Outcome::Code::kTooFewData,
         "only " + std::to_string(result.posed) + " of " + std::to_string(result.truth_frames) +
             " ground-truth frames have an estimate" +
-            (by_time ? " within " + seconds(options.max_difference_s * 1e9) + " s" : ""));
+            (by_time ? " within " + seconds_text(options.max_difference_s * 1e9) + " s" : ""));
   return result;
 }
 

@@ -10,7 +10,8 @@ namespace placegraph {
 
 enum class Association {
   kAuto,   ///< by time if both have times, by index if neither has; otherwise refused
-  kIndex,  ///< line i with line i; both must be of the same length
+  kIndex,  ///< frames of the same number: line i with line i, both of the same length, unless the
+           ///< files number their frames
   kTime,   ///< nearest stamps
 };
 
@@ -20,14 +21,17 @@ std::string to_string(Association association);  ///< "auto", "index", "time"
 struct PairingResult {
   Outcome outcome;
   Association association = Association::kAuto;  ///< the one used, kIndex or kTime
-  /// The frames to judge, in time order: every posed line of the ground truth, lost ones among
-  /// them. Where the ground truth has several lines per line of the estimate (a motion capture
-  /// system at 200 Hz), it is thinned to the associated ones, and one per missing frame.
+  /// The frames to judge, in time order: posed lines of the ground truth that the estimate has a
+  /// pose of, or should have one and is lost. By time, a line without a partner counts as lost only
+  /// where no pose of the estimate is within three quarters of the estimate's spacing; where the
+  /// ground truth is clearly denser (a motion capture system at 200 Hz), one per missing pose.
   std::vector<FramePair> pairs;
-  bool has_times = false;  ///< FramePair::stamp_ns are times
-  int truth_frames = 0;    ///< posed lines of the ground truth, before thinning
-  int posed = 0;           ///< pairs with an estimate
-  bool thinned = false;
+  bool has_times = false;          ///< FramePair::stamp_ns are times
+  bool has_orientation = true;     ///< on both sides
+  int truth_frames = 0;            ///< posed lines of the ground truth
+  int posed = 0;                   ///< pairs with an estimate
+  int estimate_frames = 0;         ///< posed lines of the estimate
+  int estimate_without_truth = 0;  ///< of those, without a posed partner
 };
 
 /// Pairs two trajectories, or says in `outcome` why it would be a guess: lines of different number

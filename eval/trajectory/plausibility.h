@@ -8,12 +8,15 @@ namespace placegraph {
 
 /// One line for every common mistake of convention the data give evidence for; the figures are
 /// computed from the estimate as it stands all the same.
+///  - never turns: one of the two has one orientation throughout, the other turns;
 ///  - inverted: the motions of the inverted poses (T_cam_world given as T_world_cam) agree clearly
 ///    better with the truth;
+///  - w first, w last: likewise those of quaternions read in the other order, of either;
+///  - other axes: likewise the motions turned by one rotation of more than five degrees, as between
+///    the axes of a camera and of the body;
 ///  - time-shifted: the motions agree clearly better when the estimate is shifted by up to
 ///    five frames.
-/// "Clearly" is half the misfit. Straight motion at constant speed shows neither, and both stay
-/// silent on it.
+/// "Clearly" is half the misfit. Straight motion at constant speed shows none of them.
 std::vector<std::string> convention_warnings(const std::vector<FramePair>& pairs);
 
 /// Misfit of the motions from pair i to pair i + stride, with the estimate's scale fitted: squared

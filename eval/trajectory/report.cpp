@@ -36,7 +36,10 @@ Json object(const EvaluationResult& r) {
   json["align"] = to_string(r.protocol.alignment);
   json["scale"] = r.outcome ? Json(r.alignment.scale) : Json(nullptr);
   json["frames"] = r.frames;
+  json["judged"] = r.judged;
   json["posed"] = r.posed;
+  json["estimate_frames"] = r.estimate_frames;
+  json["estimate_without_truth"] = r.estimate_without_truth;
   for (const Metric& metric : metrics(r)) json[metric.key] = number(metric.value);
   json["path_m"] = r.path_m;
   json["association"] = to_string(r.protocol.association);
@@ -163,7 +166,7 @@ std::string to_latex(const std::vector<EvaluationResult>& results) {
   for (const Metric& metric : columns(metrics(results.front())))
     head += fmt::format(" & {} [{}]", latex_text(metric.name), latex_text(metric.unit));
   for (const EvaluationResult& r : results) {
-    rows += fmt::format("  {} & {}/{}", latex_text(r.name), r.posed, r.frames);
+    rows += fmt::format("  {} & {}/{}", latex_text(r.name), r.posed, r.judged);
     for (const Metric& metric : columns(metrics(r))) rows += " & " + cell(metric.value, "--");
     rows += " \\\\\n";
   }
@@ -176,8 +179,14 @@ std::string to_latex(const std::vector<EvaluationResult>& results) {
 
 std::string to_text(const EvaluationResult& r) {
   if (!r.outcome) return fmt::format("{}: no figures: {}\n", r.name, r.outcome.reason);
-  std::string text = fmt::format("{}: {} of {} frames posed ({:.1f} %), path {:.1f} m\n", r.name,
-                                 r.posed, r.frames, 100 * r.coverage, r.path_m);
+  std::string text =
+      fmt::format("{}: {} of {} {}frames posed ({:.1f} %), path {:.1f} m\n", r.name, r.posed,
+                  r.judged, r.judged < r.frames ? "judged " : "", 100 * r.coverage, r.path_m);
+  if (r.judged < r.frames || r.estimate_without_truth > 0)
+    text += fmt::format(
+        "  {} frames in the ground truth, {} in the estimate, {} of them without "
+        "ground truth\n",
+        r.frames, r.estimate_frames, r.estimate_without_truth);
   text +=
       fmt::format("  align {}, scale {:.6f}, association by {}\n", to_string(r.protocol.alignment),
                   r.alignment.scale, to_string(r.protocol.association));
@@ -202,7 +211,7 @@ std::string to_table(const std::vector<EvaluationResult>& results, bool with_ave
     text += fmt::format(" {:>14}", "[" + metric.unit + "]");
   text += "\n";
   for (const EvaluationResult& r : results) {
-    text += fmt::format("{:<{}} {:>13}", r.name, width, fmt::format("{}/{}", r.posed, r.frames));
+    text += fmt::format("{:<{}} {:>13}", r.name, width, fmt::format("{}/{}", r.posed, r.judged));
     for (const Metric& metric : columns(metrics(r)))
       text += fmt::format(" {:>14}", cell(metric.value, "-"));
     text +=

@@ -25,12 +25,15 @@ struct EvaluationResult {
   Outcome outcome;   ///< of the association and the alignment; without it no figure is meaningful
   std::string name;  ///< of the estimate, for tables and legends
   Protocol protocol;
-  int frames = 0;                ///< of the ground truth
-  int posed = 0;                 ///< of those, with an estimate
-  double coverage = 0;           ///< share of the judged frames that are posed, 0 to 1
-  std::vector<int> lost_frames;  ///< judged frames without an estimate, ground-truth indices
-  double path_m = 0;             ///< length of the true path
-  double posed_path_m = 0;       ///< of its part from the first posed frame to the last
+  int frames = 0;                  ///< posed ones of the ground truth
+  int judged = 0;                  ///< of those; see PairingResult::pairs
+  int posed = 0;                   ///< judged frames with an estimate
+  int estimate_frames = 0;         ///< posed ones of the estimate
+  int estimate_without_truth = 0;  ///< of those
+  double coverage = 0;             ///< share of the judged frames that are posed, 0 to 1
+  std::vector<int> lost_frames;    ///< judged frames without an estimate, ground-truth indices
+  double path_m = 0;               ///< length of the true path
+  double posed_path_m = 0;         ///< of its part from the first posed frame to the last
   AlignmentResult alignment;
   ApeResult ape;
   RpeResult rpe;

@@ -17,7 +17,9 @@ struct StampedPose {
 /// Poses of one moving frame in a fixed one, one per input frame, in time order.
 struct Trajectory {
   std::vector<StampedPose> poses;
-  bool has_times = true;  ///< false: stamps are only indices (a KITTI file without times)
+  bool has_times = true;  ///< false: stamps are numbers of frames (a KITTI file without times)
+  bool numbered = false;  ///< without times: frames may be left out, so that numbers have gaps
+  bool has_orientation = true;  ///< false: positions alone; rotations are the identity
 
   std::size_t size() const { return poses.size(); }
   std::size_t posed() const;

@@ -9,6 +9,13 @@
 
 namespace placegraph {
 
+/// What whoever runs a sequence should know of how it was read: what was left out and why, and what
+/// is odd about its numbers and what to try.
+struct DatasetNote {
+  std::string text;           ///< one line
+  bool doubts_scale = false;  ///< lengths may be wrong: a result is not to be called metric
+};
+
 /// A recorded sequence. Everything foreign ends here: frames are grey, undistorted and (stereo)
 /// rectified, stamps are ns and strictly increasing, poses are T_world_cam of the (left) camera.
 /// `frame()` may be called from several threads at once.
@@ -27,10 +34,7 @@ class Dataset {
   /// missing, unreadable or of another size than the calibration says.
   virtual Frame frame(std::size_t index, Sensor sensor) const = 0;
   virtual const std::optional<Trajectory>& ground_truth() const = 0;
+  virtual std::vector<DatasetNote> notes() const { return {}; }
 };
-
-/// Recognizes what lies at `path` and opens it; see docs/datasets.md for the layouts. Throws
-/// FileError saying what was looked for if nothing is recognized.
-std::unique_ptr<Dataset> open_dataset(const std::string& path);
 
 }  // namespace placegraph

@@ -1,13 +1,18 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
+#include <placegraph/graph/core/time.h>
 #include <placegraph/io/config/yaml_document.h>
 #include <placegraph/io/datasets/euroc.h>
 #include <placegraph/io/datasets/euroc_sensor.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/image_list.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace placegraph {
@@ -26,8 +31,35 @@ struct ImageList {
   std::vector<std::string> paths;
 };
 
+/// A camera's folder without data.csv: images that are named by their stamps [ns].
+ImageList list_of_names(const fs::path& camera_folder) {
+  const std::string missing = (camera_folder / "data.csv").string(),
+                    folder = (camera_folder / "data").string();
+  if (!fs::is_directory(folder)) {
+    const std::string around = images_around(camera_folder.string());
+    throw FileError(missing, "is missing" + (around.empty() ? "" : "; there are " + around));
+  }
+  ImageList list;
+  for (const std::string& path : list_images(folder)) {
+    const std::string stem = fs::path(path).stem().string();
+    const std::optional<std::int64_t> stamp_ns = parse_integer(stem);
+    if (!stamp_ns)
+      throw FileError(missing, "is missing, and " + path +
+                                   " is not named by its time [ns]; there are " +
+                                   images_around(camera_folder.string()));
+    list.stamps_ns.push_back(*stamp_ns);
+    list.paths.push_back(path);
+  }
+  return list;
+}
+
+bool has_images(const fs::path& camera_folder) {
+  return fs::exists(camera_folder / "data.csv") || fs::is_directory(camera_folder / "data");
+}
+
 /// "timestamp [ns],filename" a line.
 ImageList read_list(const fs::path& camera_folder) {
+  if (!fs::exists(camera_folder / "data.csv")) return list_of_names(camera_folder);
   TextFile file((camera_folder / "data.csv").string());
   ImageList list;
   std::string_view line;
@@ -96,15 +128,41 @@ BodyCamera read_sensor(const fs::path& camera_folder) {
   return result;
 }
 
+Trajectory stamps_of(const ImageList& images) {
+  Trajectory stamps;
+  for (const std::int64_t stamp_ns : images.stamps_ns)
+    stamps.poses.push_back({stamp_ns, std::nullopt});
+  return stamps;
+}
+
+/// Eyes are triggered together: what is further apart than a tenth of a frame is no pair.
+constexpr double kMaxPairShare = 0.1;
+
+/// Pairs images by their nearest stamps; says what is left out.
 void take_pairs(const ImageList& left, const ImageList& right, RecordedSequence& sequence) {
-  std::size_t j = 0;
-  for (std::size_t i = 0; i < left.paths.size(); ++i) {
-    while (j < right.paths.size() && right.stamps_ns[j] < left.stamps_ns[i]) ++j;
-    if (j == right.paths.size() || right.stamps_ns[j] != left.stamps_ns[i]) continue;
+  std::vector<double> gaps_s;
+  for (std::size_t i = 1; i < left.stamps_ns.size(); ++i)
+    gaps_s.push_back(seconds(left.stamps_ns[i - 1], left.stamps_ns[i]));
+  AssociationOptions nearest;
+  nearest.max_difference_s = gaps_s.empty() ? 0 : kMaxPairShare * median_of(gaps_s);
+  double apart_s = 0;
+  for (const auto& [l, r] : associate_by_time(stamps_of(left), stamps_of(right), nearest)) {
+    const auto i = static_cast<std::size_t>(l), j = static_cast<std::size_t>(r);
     sequence.stamps_ns.push_back(left.stamps_ns[i]);
     sequence.left.push_back(left.paths[i]);
     sequence.right.push_back(right.paths[j]);
+    apart_s = std::max(apart_s, std::abs(seconds(left.stamps_ns[i], right.stamps_ns[j])));
   }
+  const std::size_t pairs = sequence.left.size();
+  if (pairs < left.paths.size() || pairs < right.paths.size())
+    sequence.notes.push_back({fmt::format(
+        "{} pairs of eyes: {} of {} images of cam0 and {} of {} of cam1 are left out, having no "
+        "partner within {:.3g} ms",
+        pairs, left.paths.size() - pairs, left.paths.size(), right.paths.size() - pairs,
+        right.paths.size(), 1e3 * nearest.max_difference_s)});
+  if (apart_s > 0)
+    sequence.notes.push_back(
+        {fmt::format("the eyes' stamps differ by up to {:.3g} ms", 1e3 * apart_s)});
 }
 
 /// Fills cameras and images; returns T_body_cam of the left camera as handed over.
@@ -114,7 +172,7 @@ SE3 read_mav_eyes(const fs::path& mav, RecordedSequence& sequence) {
   sequence.raw_camera = left.camera;
   require_size(left_images.paths[0], read_image(left_images.paths[0]).grey, left.camera.width,
                left.camera.height);
-  if (!fs::exists(mav / "cam1" / "data.csv")) {
+  if (!has_images(mav / "cam1")) {
     sequence.stamps_ns = left_images.stamps_ns;
     sequence.left = left_images.paths;
     const UndistortedCamera undistorted = undistort_camera(left.camera);
@@ -124,7 +182,7 @@ SE3 read_mav_eyes(const fs::path& mav, RecordedSequence& sequence) {
   }
   const std::string right_list = (mav / "cam1" / "data.csv").string();
   take_pairs(left_images, read_list(mav / "cam1"), sequence);
-  if (sequence.left.empty()) throw FileError(right_list, "has no stamp in common with cam0");
+  if (sequence.left.empty()) throw FileError(right_list, "has no stamp near one of cam0");
   const BodyCamera right = read_sensor(mav / "cam1");
   try {
     RectifiedStereo stereo =
@@ -142,7 +200,9 @@ SE3 read_mav_eyes(const fs::path& mav, RecordedSequence& sequence) {
 }  // namespace
 
 bool is_euroc(const std::string& folder) {
-  return fs::exists(mav_folder(folder) / "cam0" / "data.csv");
+  const fs::path mav = mav_folder(folder);
+  if (mav != fs::path(folder)) return fs::is_directory(mav / "cam0");
+  return fs::exists(mav / "cam0" / "data.csv") || fs::exists(mav / "cam0" / "sensor.yaml");
 }
 
 std::unique_ptr<Dataset> open_euroc(const std::string& folder) {
@@ -158,11 +218,8 @@ EurocBody open_euroc_body(const std::string& folder) {
 
   const fs::path truth = mav / "state_groundtruth_estimate0" / "data.csv";
   if (fs::exists(truth)) {
-    if (detect_trajectory_format(truth.string()) != TrajectoryFormat::kEuroc) {
-      throw FileError(truth.string(), "is not in EuRoC form (t_ns,px,py,pz,qw,qx,qy,qz,...)");
-    }
     sequence.ground_truth =
-        resample(read_trajectory(truth.string()), sequence.stamps_ns, kMaxTruthGap_s);
+        resample(read_timed_poses(truth.string()), sequence.stamps_ns, kMaxTruthGap_s);
     for (StampedPose& pose : sequence.ground_truth->poses) {
       if (pose.T_world_body) *pose.T_world_body = *pose.T_world_body * T_body_cam.isometry();
     }

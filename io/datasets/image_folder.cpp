@@ -21,12 +21,17 @@ std::vector<std::string> list_as_many(const fs::path& folder, std::size_t count)
                   fmt::format("holds {} images, but there are {} left ones", images.size(), count));
 }
 
+/// Where the images of the (left) eye are: in the folder itself, or in one of these inside it.
+std::string folder_of_images(const fs::path& folder) {
+  if (holds_images(folder.string())) return folder.string();
+  for (const char* name : {"images", "image", "left", "rgb"})
+    if (holds_images((folder / name).string())) return (folder / name).string();
+  return folder.string();
+}
+
 void read_ground_truth(const fs::path& path, RecordedSequence& sequence) {
   if (!fs::exists(path)) return;
-  if (detect_trajectory_format(path.string()) != TrajectoryFormat::kKitti) {
-    throw FileError(path.string(), "is not in KITTI form (12 numbers a line)");
-  }
-  Trajectory truth = read_trajectory(path.string());
+  Trajectory truth = read_frame_poses(path.string());
   if (truth.size() != sequence.left.size()) {
     throw FileError(path.string(), fmt::format("holds {} poses, but there are {} images",
                                                truth.size(), sequence.left.size()));
@@ -49,7 +54,7 @@ std::unique_ptr<Dataset> open_image_folder(const std::string& folder) {
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
   sequence.format = "images";
-  sequence.left = list_images(folder);
+  sequence.left = list_images(folder_of_images(path));
   sequence.raw_camera = yaml.camera();
   require_size(sequence.left[0], read_image(sequence.left[0]).grey, yaml.width, yaml.height);
   const UndistortedCamera undistorted = undistort_camera(sequence.raw_camera);

@@ -184,10 +184,7 @@ void read_ground_truth(const fs::path& folder, const Eigen::Vector3d& position_i
     path = normal.parent_path().parent_path() / "poses" / (normal.filename().string() + ".txt");
   }
   if (!fs::exists(path)) return;
-  if (detect_trajectory_format(path.string()) != TrajectoryFormat::kKitti) {
-    throw FileError(path.string(), "is not in KITTI form (12 numbers a line)");
-  }
-  Trajectory truth = read_trajectory(path.string());
+  Trajectory truth = read_frame_poses(path.string());
   require_count(path.string(), truth.size(), sequence.left.size());
   truth.has_times = true;
   for (std::size_t i = 0; i < truth.size(); ++i) {

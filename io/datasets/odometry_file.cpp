@@ -39,9 +39,11 @@ Matrix6d parse_covariance(const TextFile& file, const Fields& fields, std::size_
   return covariance;
 }
 
-MeasuredMotion read_frame_poses(const std::string& path, const MotionNoise& noise,
-                                const std::vector<std::int64_t>& stamps_ns) {
+/// Poses of the frames, or with times of their own, in any form that is read of trajectories.
+MeasuredMotion read_poses(const std::string& path, const MotionNoise& noise,
+                          const std::vector<std::int64_t>& stamps_ns) {
   Trajectory trajectory = read_trajectory(path);
+  if (trajectory.has_times) return MeasuredMotion(trajectory, noise);
   if (trajectory.size() != stamps_ns.size())
     throw FileError(path, std::to_string(trajectory.size()) +
                               " poses without times, but the sequence has " +
@@ -68,11 +70,12 @@ MeasuredMotion read_odometry(const std::string& path, const MotionNoise& noise,
     split_blank(line, fields);
     if (first) {
       count = fields.size();
-      if (count == 12) return read_frame_poses(path, noise, stamps_ns);
+      const bool motion_lines =
+          line.find_first_of(",;") == line.npos &&
+          (count == 8 || count == 9 || count == 14 || count == 15 || count == 29 || count == 30);
+      if (!motion_lines) return read_poses(path, noise, stamps_ns);
     }
     const bool is_pose = count == 8 || count == 14 || count == 29;
-    if (!is_pose && count != 9 && count != 15 && count != 30)
-      file.fail("8, 9, 12, 14, 15, 29 or 30 fields needed, not " + std::to_string(count));
     if (fields.size() != count)
       file.fail(std::to_string(count) + " fields needed as in the first line, not " +
                 std::to_string(fields.size()));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/measurements/stamp_plausibility.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
 
@@ -18,6 +19,11 @@ class RecordedDataset : public Dataset {
                 (!s_.ground_truth || s_.ground_truth->size() == n),
             "recorded sequence: lists of different lengths");
     s_.calibration.check();
+    const std::string odd = odd_spacing(s_.stamps_ns, "frame");
+    if (!odd.empty()) s_.notes.push_back({odd});
+    if (s_.ground_truth && s_.ground_truth->posed() < n)
+      s_.notes.push_back(
+          {fmt::format("{} of {} frames have no ground truth", n - s_.ground_truth->posed(), n)});
   }
 
   const std::string& name() const override { return s_.name; }
@@ -32,6 +38,7 @@ class RecordedDataset : public Dataset {
     return s_.stamps_ns[index];
   }
   const std::optional<Trajectory>& ground_truth() const override { return s_.ground_truth; }
+  std::vector<DatasetNote> notes() const override { return s_.notes; }
 
   Frame frame(std::size_t index, Sensor sensor) const override {
     check_index(index);

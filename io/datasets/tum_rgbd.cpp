@@ -7,6 +7,7 @@
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
+#include <cctype>
 #include <filesystem>
 
 namespace placegraph {
@@ -44,11 +45,56 @@ ImageList read_list(const fs::path& folder, const char* name) {
   return list;
 }
 
+constexpr const char* kAssociations[] = {"associations.txt", "association.txt", "associated.txt",
+                                         "associate.txt"};
+
+/// The file of pairs that stands in the place of rgb.txt and depth.txt; empty if there is none.
+fs::path associations_of(const fs::path& folder) {
+  for (const char* name : kAssociations)
+    if (fs::exists(folder / name)) return folder / name;
+  return {};
+}
+
+/// "time image time depth_image" a line, as the benchmark's script writes it, or depth first, told
+/// by the folder's name. Times are the images'.
+void read_associations(const fs::path& path, RecordedSequence& sequence) {
+  TextFile file(path.string());
+  std::string_view line;
+  std::vector<std::string_view> fields;
+  while (file.next_data(line)) {
+    split_blank(line, fields);
+    if (fields.size() != 4)
+      file.fail(fmt::format("expected time, image, time and depth image, found {} fields",
+                            fields.size()));
+    const bool depth_first = fields[1].find("depth") != fields[1].npos;
+    const std::size_t colour = depth_first ? 2 : 0, depth = depth_first ? 0 : 2;
+    const std::int64_t stamp_ns = file.seconds_as_ns(fields[colour], "time");
+    if (!sequence.stamps_ns.empty() && stamp_ns <= sequence.stamps_ns.back())
+      file.fail("time " + in_quotes(fields[colour]) + " does not increase");
+    sequence.stamps_ns.push_back(stamp_ns);
+    sequence.left.push_back((path.parent_path() / fields[colour + 1]).string());
+    sequence.depth.push_back((path.parent_path() / fields[depth + 1]).string());
+  }
+  if (sequence.left.empty()) throw FileError(path.string(), "holds no images");
+}
+
+/// Whether a name has a word, with neither letters or digits before it nor digits behind it, as in
+/// the benchmark's "rgbd_dataset_freiburg1_xyz".
+bool has_word(const std::string& name, const std::string& word) {
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  for (std::size_t at = name.find(word); at != name.npos; at = name.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    const bool begins = at == 0 || (!is_digit(name[at - 1]) && !is_letter(name[at - 1]));
+    if (begins && (end == name.size() || !is_digit(name[end]))) return true;
+  }
+  return false;
+}
+
 /// The benchmark's own calibration (its documentation, "Calibration of the color camera").
 std::optional<Camera> benchmark_camera(const std::string& name) {
-  const auto is = [&name](const char* number) {
-    return name.find(std::string("freiburg") + number) != name.npos ||
-           name.find(std::string("fr") + number) != name.npos;
+  const auto is = [&name](const std::string& number) {
+    return has_word(name, "freiburg" + number) ||
+           (name.starts_with("fr" + number) && has_word(name, "fr" + number));
   };
   const Distortion model = Distortion::kRadialTangential;
   if (is("1")) {
@@ -115,11 +161,19 @@ void take_images(const ImageList& colour, const ImageList* depth, RecordedSequen
     sequence.left.push_back(colour.paths[i]);
     sequence.depth.push_back(depth->paths[static_cast<std::size_t>(d)]);
   }
+  const std::size_t pairs = sequence.left.size();
+  if (pairs < colour.paths.size())
+    sequence.notes.push_back({fmt::format(
+        "{} of {} images are left out: no depth image within {:g} ms (depth.txt has {})",
+        colour.paths.size() - pairs, colour.paths.size(), 1e3 * kMaxDepthDelay_s,
+        depth->paths.size())});
 }
 
 }  // namespace
 
-bool is_tum_rgbd(const std::string& folder) { return fs::exists(fs::path(folder) / "rgb.txt"); }
+bool is_tum_rgbd(const std::string& folder) {
+  return fs::exists(fs::path(folder) / "rgb.txt") || !associations_of(folder).empty();
+}
 
 std::unique_ptr<Dataset> open_tum_rgbd(const std::string& folder) {
   const fs::path path(folder);
@@ -128,10 +182,18 @@ std::unique_ptr<Dataset> open_tum_rgbd(const std::string& folder) {
   sequence.format = "tum";
   const RgbdCameras cameras = read_cameras(path, sequence.name);
 
-  const ImageList colour = read_list(path, "rgb.txt");
-  const bool has_depth = fs::exists(path / "depth.txt");
-  const ImageList depth = has_depth ? read_list(path, "depth.txt") : ImageList{};
-  take_images(colour, has_depth ? &depth : nullptr, sequence);
+  bool has_depth = true;
+  if (fs::exists(path / "rgb.txt")) {
+    const ImageList colour = read_list(path, "rgb.txt");
+    has_depth = fs::exists(path / "depth.txt");
+    const ImageList depth = has_depth ? read_list(path, "depth.txt") : ImageList{};
+    take_images(colour, has_depth ? &depth : nullptr, sequence);
+    if (!has_depth && fs::is_directory(path / "depth"))
+      sequence.notes.push_back(
+          {"depth.txt is missing, so that depth/ is not used: the sequence is run as one eye"});
+  } else {
+    read_associations(associations_of(path), sequence);
+  }
   if (sequence.left.empty()) {
     throw FileError((path / "depth.txt").string(),
                     "no depth image lies within 20 ms of any image of rgb.txt");
@@ -154,10 +216,7 @@ std::unique_ptr<Dataset> open_tum_rgbd(const std::string& folder) {
   }
   if (fs::exists(path / "groundtruth.txt")) {
     const std::string truth = (path / "groundtruth.txt").string();
-    if (detect_trajectory_format(truth) != TrajectoryFormat::kTum) {
-      throw FileError(truth, "is not in TUM form (t tx ty tz qx qy qz qw)");
-    }
-    sequence.ground_truth = resample(read_trajectory(truth), sequence.stamps_ns, kMaxTruthGap_s);
+    sequence.ground_truth = resample(read_timed_poses(truth), sequence.stamps_ns, kMaxTruthGap_s);
   }
   return make_dataset(std::move(sequence));
 }

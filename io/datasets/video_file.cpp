@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/time.h>
 #include <placegraph/io/datasets/calibration_file.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/datasets/video_file.h>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <mutex>
 #include <opencv2/videoio.hpp>
@@ -36,13 +38,7 @@ class VideoDataset : public Dataset {
     calibration_.camera = undistorted_.camera;
     if (yaml.camera_height_m > 0) calibration_.camera_height_m = yaml.camera_height_m;
 
-    cv::VideoCapture capture = open_capture(path);
-    double rate_hz = yaml.fps > 0 ? yaml.fps : capture.get(cv::CAP_PROP_FPS);
-    if (!(rate_hz > 0.01 && rate_hz < 1e5)) rate_hz = kDefaultRateHz;
-    std::size_t count = 0;
-    while (capture.grab()) ++count;
-    if (count == 0) throw FileError(path, "holds no frames");
-    stamps_ns_ = synthetic_stamps_ns(count, rate_hz);
+    read_times(yaml.fps);
   }
 
   const std::string& name() const override { return name_; }
@@ -57,6 +53,7 @@ class VideoDataset : public Dataset {
     return stamps_ns_[index];
   }
   const std::optional<Trajectory>& ground_truth() const override { return ground_truth_; }
+  std::vector<DatasetNote> notes() const override { return notes_; }
 
   Frame frame(std::size_t index, Sensor sensor) const override {
     check_index(index);
@@ -73,6 +70,43 @@ class VideoDataset : public Dataset {
   }
 
  private:
+  /// Those of the container where its rate varies, else counted at its rate or at the given one.
+  void read_times(double given_hz) {
+    cv::VideoCapture capture = open_capture(path_);
+    double rate_hz = given_hz > 0 ? given_hz : capture.get(cv::CAP_PROP_FPS);
+    const bool rate_told = rate_hz > 0.01 && rate_hz < 1e5;
+    if (!rate_told) rate_hz = kDefaultRateHz;
+    const double announced = capture.get(cv::CAP_PROP_FRAME_COUNT);
+    std::vector<std::int64_t> container_ns;
+    while (capture.grab())
+      container_ns.push_back(std::llround(capture.get(cv::CAP_PROP_POS_MSEC) * 1e6));
+    const std::size_t count = container_ns.size();
+    if (count == 0) throw FileError(path_, "holds no frames");
+    stamps_ns_ = synthetic_stamps_ns(count, rate_hz);
+    // An estimate in some containers: only a clear difference means something.
+    if (announced > 1.05 * static_cast<double>(count) + 2)
+      notes_.push_back({fmt::format(
+          "{} frames of {:.0f} that the video announces: is it cut short?", count, announced)});
+    if (given_hz > 0 || count < 2) return;
+    bool increase = true;
+    double furthest_s = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+      increase &= container_ns[i] > container_ns[i - 1];
+      furthest_s = std::max(furthest_s, std::abs(seconds(stamps_ns_[i] - stamps_ns_[0],
+                                                         container_ns[i] - container_ns[0])));
+    }
+    if (furthest_s < 0.5 / rate_hz) return;
+    if (increase) {
+      stamps_ns_ = std::move(container_ns);
+      notes_.push_back({"the frame rate varies: times are those of the video"});
+    } else {
+      notes_.push_back(
+          {fmt::format("the video has no times that increase: they are counted at {:g} Hz; "
+                       "fps in its yaml sets the rate",
+                       rate_hz)});
+    }
+  }
+
   void check_index(std::size_t index) const {
     if (index < size()) return;
     throw ArgumentError(fmt::format("{}: frame {} of {}", name_, index, size()));
@@ -103,6 +137,7 @@ class VideoDataset : public Dataset {
   Calibration calibration_;
   std::vector<std::int64_t> stamps_ns_;
   std::optional<Trajectory> ground_truth_;
+  std::vector<DatasetNote> notes_;
   mutable std::mutex mutex_;
   mutable cv::VideoCapture capture_;
   mutable std::size_t next_ = 0;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_list.h>
+#include <placegraph/io/files/name_order.h>
 #include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
@@ -37,30 +38,17 @@ std::vector<fs::path> images_in(const std::string& folder) {
   return images;
 }
 
-std::string_view digits_at(std::string_view text, std::size_t begin) {
-  std::size_t end = begin;
-  while (end < text.size() && is_digit(text[end])) ++end;
-  return text.substr(begin, end - begin);
-}
-
-bool natural_less(const std::string& a, const std::string& b) {
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[j])) {
-      std::string_view x = digits_at(a, i), y = digits_at(b, j);
-      i += x.size();
-      j += y.size();
-      x.remove_prefix(std::min(x.find_first_not_of('0'), x.size()));
-      y.remove_prefix(std::min(y.find_first_not_of('0'), y.size()));
-      if (x.size() != y.size()) return x.size() < y.size();
-      if (x != y) return x < y;
-    } else {
-      if (a[i] != b[j]) return a[i] < b[j];
-      ++i, ++j;
-    }
-  }
-  const std::size_t rest_a = a.size() - i, rest_b = b.size() - j;
-  return rest_a != rest_b ? rest_a < rest_b : a < b;
+/// Refuses `7.png` beside `7.jpg`: which of them is the frame?
+void require_one_a_name(const std::vector<std::string>& images) {
+  std::vector<std::pair<std::string, std::string>> stems;
+  for (const std::string& image : images)
+    stems.emplace_back(fs::path(image).stem().string(), image);
+  std::ranges::sort(stems);
+  for (std::size_t i = 1; i < stems.size(); ++i)
+    if (stems[i].first == stems[i - 1].first)
+      throw FileError(stems[i].second, "is the same frame as " +
+                                           fs::path(stems[i - 1].second).filename().string() +
+                                           ": only one of them may be there");
 }
 
 }  // namespace
@@ -91,9 +79,34 @@ std::vector<std::string> list_numbered_images(const std::string& folder) {
 std::vector<std::string> list_images(const std::string& folder) {
   std::vector<std::string> images;
   for (const fs::path& path : images_in(folder)) images.push_back(path.string());
-  if (images.empty()) throw FileError(folder, "holds no images");
-  std::ranges::sort(images, natural_less);
+  if (images.empty()) {
+    const std::string around = images_around(folder);
+    throw FileError(folder, "holds no images" + (around.empty() ? "" : "; there are " + around));
+  }
+  require_one_a_name(images);
+  sort_by_name(images);
   return images;
+}
+
+bool holds_images(const std::string& folder) {
+  return fs::is_directory(folder) && !images_in(folder).empty();
+}
+
+std::string images_around(const std::string& folder) {
+  std::error_code error;
+  std::vector<fs::path> folders = {fs::path(folder)};
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.is_directory(error)) folders.push_back(entry.path());
+  std::ranges::sort(folders);
+  std::string text;
+  for (const fs::path& path : folders) {
+    const std::size_t count = images_in(path.string()).size();
+    if (count == 0) continue;
+    const std::string name =
+        path == fs::path(folder) ? "the folder itself" : path.filename().string() + "/";
+    text += fmt::format("{}{} images in {}", text.empty() ? "" : ", ", count, name);
+  }
+  return text;
 }
 
 }  // namespace placegraph

@@ -22,6 +22,8 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+bool ends_a_field(char c) { return is_blank(c) || c == ',' || c == ';'; }
+
 std::string read_whole(const std::string& path) {
   if (std::filesystem::is_directory(path)) throw FileError(path, "is a folder, not a file");
   std::ifstream stream(path, std::ios::binary);
@@ -45,7 +47,13 @@ std::string read_whole(const std::string& path) {
 
 }  // namespace
 
-TextFile::TextFile(std::string path) : path_(std::move(path)), text_(read_whole(path_)) {}
+TextFile::TextFile(std::string path) : path_(std::move(path)), text_(read_whole(path_)) {
+  const std::string_view text = text_;
+  if (text.starts_with("\xEF\xBB\xBF")) begin_ = 3;
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw FileError(path_, "is text in UTF-16: save it as UTF-8");
+  rewind();
+}
 
 bool TextFile::next(std::string_view& line) {
   if (position_ >= text_.size()) return false;
@@ -61,7 +69,9 @@ bool TextFile::next(std::string_view& line) {
 bool TextFile::next_data(std::string_view& line) {
   while (next(line)) {
     const std::string_view content = trimmed(line);
-    if (!content.empty() && content.front() != '#') return true;
+    if (content.empty() || content.front() == '#') continue;
+    line = without_comment(line);
+    return true;
   }
   return false;
 }
@@ -96,6 +106,12 @@ std::int64_t TextFile::seconds_as_ns(std::string_view field, const char* what) c
   return *value;
 }
 
+std::string_view without_comment(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != line.npos; at = line.find('#', at + 1))
+    if (at > 0 && ends_a_field(line[at - 1])) return trimmed(line.substr(0, at));
+  return line;
+}
+
 void split_blank(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   std::size_t begin = 0;
@@ -108,14 +124,18 @@ void split_blank(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
-void split_comma(std::string_view line, std::vector<std::string_view>& fields) {
+void split_at(char separator, std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   for (;;) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return;
-    line.remove_prefix(comma + 1);
+    const std::size_t end = line.find(separator);
+    fields.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return;
+    line.remove_prefix(end + 1);
   }
+}
+
+void split_comma(std::string_view line, std::vector<std::string_view>& fields) {
+  split_at(',', line, fields);
 }
 
 std::optional<double> parse_double(std::string_view field) {
@@ -140,7 +160,7 @@ std::optional<std::int64_t> parse_integer(std::string_view field) {
   return value;
 }
 
-std::optional<std::int64_t> parse_seconds_as_ns(std::string_view field) {
+std::optional<std::int64_t> parse_decimal(std::string_view field, int power, bool* exact) {
   bool negative = false;
   if (!field.empty() && (field[0] == '-' || field[0] == '+')) {
     negative = field[0] == '-';
@@ -167,18 +187,23 @@ std::optional<std::int64_t> parse_seconds_as_ns(std::string_view field) {
   int exponent = 0;
   if (i < field.size()) {
     if (field[i] != 'e' && field[i] != 'E') return std::nullopt;
-    std::string_view power = field.substr(i + 1);
-    if (!power.empty() && power[0] == '+') power.remove_prefix(1);
-    const auto [end, error] = std::from_chars(power.data(), power.data() + power.size(), exponent);
-    if (error != std::errc() || end != power.data() + power.size()) return std::nullopt;
+    std::string_view digits_of_power = field.substr(i + 1);
+    if (!digits_of_power.empty() && digits_of_power[0] == '+') digits_of_power.remove_prefix(1);
+    const auto [end, error] = std::from_chars(
+        digits_of_power.data(), digits_of_power.data() + digits_of_power.size(), exponent);
+    if (error != std::errc() || end != digits_of_power.data() + digits_of_power.size())
+      return std::nullopt;
     if (std::abs(exponent) > 400) return std::nullopt;
   }
+  if (exact) *exact = true;
   if (digits.empty()) return 0;
-  // 0.d1 d2 d3 ... times 10^point_at, counted in nanoseconds.
-  const int point_at = before_point + exponent + 9;
+  // 0.d1 d2 d3 ... times 10^point_at.
+  const int point_at = before_point + exponent + power;
   if (point_at > 19) return std::nullopt;
+  const auto kept = static_cast<std::size_t>(std::max(point_at, 0));
+  if (exact)
+    *exact = digits.find_last_not_of('0') == digits.npos || digits.find_last_not_of('0') < kept;
   if (point_at < 0) return 0;
-  const auto kept = static_cast<std::size_t>(point_at);
   const bool round_up = digits.size() > kept && digits[kept] >= '5';
   digits.resize(kept, '0');
   std::int64_t value = 0;
@@ -192,6 +217,10 @@ std::optional<std::int64_t> parse_seconds_as_ns(std::string_view field) {
     ++value;
   }
   return negative ? -value : value;
+}
+
+std::optional<std::int64_t> parse_seconds_as_ns(std::string_view field) {
+  return parse_decimal(field, 9);
 }
 
 std::string in_quotes(std::string_view text) {

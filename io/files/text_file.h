@@ -10,19 +10,20 @@ namespace placegraph {
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// A text file read whole and handed out line by line. It keeps the line number, so that whoever
-/// parses a line can say `file:line` in its error. Throws FileError if the file is missing, a
-/// folder, unreadable or larger than 2 GiB. What is read is what the file holds: no count found
-/// inside it ever sizes an allocation.
+/// parses a line can say `file:line` in its error. A UTF-8 byte order mark is no part of the text.
+/// Throws FileError if the file is missing, a folder, unreadable, larger than 2 GiB or UTF-16. What
+/// is read is what the file holds: no count found inside it ever sizes an allocation.
 class TextFile {
  public:
   explicit TextFile(std::string path);
 
   /// The next line without its line end; false at the end of the file.
   bool next(std::string_view& line);
-  /// The next line that is neither blank nor a comment (first character `#`).
+  /// The next line that is neither blank nor a comment: `#` at its begin, or behind a blank, a
+  /// comma or a semicolon, whence the rest is left out.
   bool next_data(std::string_view& line);
   /// Back to the begin.
-  void rewind() { position_ = 0, line_ = 0; }
+  void rewind() { position_ = begin_, line_ = 0; }
 
   int line() const { return line_; }  ///< of the line handed out last, from 1; 0 before the first
   const std::string& path() const { return path_; }
@@ -40,18 +41,26 @@ class TextFile {
 
  private:
   std::string path_, text_;
-  std::size_t position_ = 0;
+  std::size_t begin_ = 0, position_ = 0;
   int line_ = 0;
 };
 
+/// The line without a comment: from a `#` behind a blank, a comma or a semicolon on; a `#` in a
+/// name begins none.
+std::string_view without_comment(std::string_view line);
 /// Splits at blanks and tabs into `fields`, empty fields dropped.
 void split_blank(std::string_view line, std::vector<std::string_view>& fields);
-/// Splits at every comma; blanks around a field are dropped, empty fields kept.
+/// Splits at every separator; blanks around a field are dropped, empty fields kept.
+void split_at(char separator, std::string_view line, std::vector<std::string_view>& fields);
+/// Likewise at commas.
 void split_comma(std::string_view line, std::vector<std::string_view>& fields);
 
 /// The whole field as a number (nan and infinity included), nothing if it is not one or overflows.
 std::optional<double> parse_double(std::string_view field);
 std::optional<std::int64_t> parse_integer(std::string_view field);
+/// The nearest integer to a decimal number, with or without exponent, times 10^power: exact, not
+/// through double. `exact` says whether nothing was rounded.
+std::optional<std::int64_t> parse_decimal(std::string_view field, int power, bool* exact = nullptr);
 std::optional<std::int64_t> parse_seconds_as_ns(std::string_view field);
 
 /// The text in quotes as error messages show it: at most 40 characters, unprintable ones as '?'.

@@ -7,9 +7,11 @@ namespace {
 using Fields = PoseGraphBuilder::Fields;
 
 /// Omega = R^T R.
-Information information_of_root(const PoseGraphBuilder& builder, const Fields& fields,
-                                std::size_t at, int n) {
+Information information_of_root(const TextFile& file, const PoseGraphBuilder& builder,
+                                const Fields& fields, std::size_t at, int n) {
   const Information R = builder.upper_triangle(fields, at, n);
+  if ((R.diagonal().array() == 0).any())
+    file.fail("the root of the information has a zero on its diagonal: a direction has no weight");
   return R.transpose() * R;
 }
 
@@ -20,11 +22,11 @@ void parse_isam_line(const TextFile& file, const Fields& fields, PoseGraphBuilde
     std::optional<ConstraintSource> source;
     if (tag == "ODOMETRY") source = ConstraintSource::kOdometry;
     builder.add_edge(fields[1], fields[2], builder.se2(fields, 3),
-                     information_of_root(builder, fields, 6, 3), source);
+                     information_of_root(file, builder, fields, 6, 3), source);
   } else if (tag == "EDGE3") {
     builder.require_count(fields, 29);
     builder.add_edge(fields[1], fields[2], parse_euler_pose(file, fields, 3),
-                     information_of_root(builder, fields, 9, 6));
+                     information_of_root(file, builder, fields, 9, 6));
   } else if (tag == "LANDMARK" || tag == "POINT3") {
     file.fail(std::string(tag) + ": landmarks are no part of a pose graph");
   } else {
@@ -35,7 +37,7 @@ void parse_isam_line(const TextFile& file, const Fields& fields, PoseGraphBuilde
 }  // namespace
 
 PoseGraph parse_isam(TextFile& file, const PoseGraphReading& reading) {
-  return parse_lines(file, parse_isam_line).finish_from_edges(reading);
+  return parse_lines(file, parse_isam_line).finish(reading);
 }
 
 PoseGraph read_isam(const std::string& path, const PoseGraphReading& reading) {

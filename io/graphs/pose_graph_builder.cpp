@@ -108,12 +108,16 @@ int PoseGraphBuilder::find(const NodeIndex& index, std::int64_t id, int line) co
 void PoseGraphBuilder::require_connected() const {
   const std::vector<int> component = graph_.components();
   const int count = 1 + *std::max_element(component.begin(), component.end());
-  if (count == 1) return;
+  std::vector<char> is_fixed(static_cast<std::size_t>(count), 0);
+  for (std::size_t i = 0; i < graph_.nodes.size(); ++i)
+    if (graph_.nodes[i].fixed) is_fixed[static_cast<std::size_t>(component[i])] = 1;
+  if (count == 1 || std::find(is_fixed.begin(), is_fixed.end(), 0) == is_fixed.end()) return;
   const auto apart = static_cast<std::size_t>(std::find(component.begin(), component.end(), 1) -
                                               component.begin());
   throw FileError(
       file_->path(), node_lines_[apart],
-      fmt::format("vertex {} is not connected with vertex {}: the graph falls into {} components",
+      fmt::format("vertex {} is not connected with vertex {}: the graph falls into {} components; "
+                  "--components optimizes each by itself, FIX holds a vertex of each",
                   graph_.nodes[apart].id, graph_.nodes[0].id, count));
 }
 
@@ -147,7 +151,10 @@ void PoseGraphBuilder::tell_odometry_by_order() {
 }
 
 PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
-  if (graph_.nodes.empty()) throw FileError(file_->path(), "holds no vertices");
+  const bool edges_alone = graph_.nodes.empty();
+  if (edges_alone && graph_.constraints.empty())
+    throw FileError(file_->path(), "holds no vertices");
+  if (edges_alone) add_nodes_of_edges();
   const NodeIndex index = graph_.index_by_id();
   for (std::size_t i = 0; i < graph_.nodes.size(); ++i)
     if (index.find(graph_.nodes[i].id) != static_cast<int>(i))
@@ -161,6 +168,7 @@ PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
   tell_odometry_by_order();
   for (const auto& [id, line] : fixed_) graph_.nodes[find(index, id, line)].fixed = true;
   if (reading.connected) require_connected();
+  if (edges_alone) integrate_odometry(graph_);
   return std::move(graph_);
 }
 
@@ -177,13 +185,6 @@ void PoseGraphBuilder::add_nodes_of_edges() {
     graph_.nodes.push_back({id, identity_of(*kind_), false});
     node_lines_.push_back(line);
   }
-}
-
-PoseGraph PoseGraphBuilder::finish_from_edges(const PoseGraphReading& reading) {
-  add_nodes_of_edges();
-  PoseGraph graph = finish(reading);
-  integrate_odometry(graph);
-  return graph;
 }
 
 PoseGraphBuilder parse_lines(TextFile& file,

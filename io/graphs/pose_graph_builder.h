@@ -7,7 +7,9 @@
 namespace placegraph {
 
 struct PoseGraphReading {
-  bool connected = false;  ///< refuse a graph that falls apart
+  /// Refuse a graph that falls into components, unless each has a fixed vertex: then all stand in
+  /// one frame.
+  bool connected = false;
 };
 
 /// Puts a pose graph together from the lines of a text file, whatever the format; edges may precede
@@ -38,14 +40,13 @@ class PoseGraphBuilder {
                 const Information& information, std::optional<ConstraintSource> source = {});
   void fix(std::string_view id);
 
-  /// The graph, in the order of the file. Where ids leave gaps so that hardly an edge joins
+  /// The graph, in the order of the file. Of edges alone the vertices are those the edges name, by
+  /// ascending id, with poses chained along the spanning tree (odometry first) from the origin.
+  /// Where ids leave gaps so that hardly an edge joins
   /// consecutive ones (every tenth frame is a node), edges from an id to the next larger one that
   /// is there are the odometry instead. Refuses ids that are there twice, edges and fixes on
-  /// vertices that are not there, no vertices at all, and what `reading` asks to refuse.
+  /// vertices that are not there, neither, and what `reading` asks to refuse.
   [[nodiscard]] PoseGraph finish(const PoseGraphReading& reading);
-  /// For files of edges alone: the vertices are those the edges name, by ascending id, with poses
-  /// chained along the spanning tree (odometry first) from the origin.
-  [[nodiscard]] PoseGraph finish_from_edges(const PoseGraphReading& reading);
 
  private:
   void require_kind(PoseKind kind);

@@ -12,11 +12,23 @@ std::string_view tag_of(std::string_view line) {
   return line.substr(0, line.find_first_of(" \t\v\f\r"));
 }
 
+/// Whether the six numbers of an EDGE2 are TORO's information. iSAM's root of it has the diagonal
+/// in the first, fourth and sixth place, TORO's correlations stand in the fifth and sixth: a zero
+/// there cannot be iSAM's.
+bool has_toro_information(std::string_view line) {
+  std::vector<std::string_view> fields;
+  split_blank(line, fields);
+  if (fields.size() < 12) return false;
+  for (const std::size_t i : {6, 9, 11})
+    if (parse_double(fields[i]) == 0.0) return true;
+  return false;
+}
+
 }  // namespace
 
 PoseGraphFormat pose_graph_format(TextFile& file) {
   std::optional<PoseGraphFormat> format;
-  bool edges = false;
+  bool edges = false, toro_edges = false;
   for (std::string_view line; !format && file.next_data(line);) {
     const std::string_view tag = tag_of(line);
     if (tag.starts_with("VERTEX_") || tag.starts_with("EDGE_") || tag.starts_with("PARAMS_") ||
@@ -27,11 +39,11 @@ PoseGraphFormat pose_graph_format(TextFile& file) {
     else if (tag == "ODOMETRY" || tag == "LANDMARK" || tag == "POINT3")
       format = PoseGraphFormat::kIsam;
     else if (tag == "EDGE2" || tag == "EDGE3")
-      edges = true;
+      edges = true, toro_edges = toro_edges || (tag == "EDGE2" && has_toro_information(line));
     else
       file.fail(in_quotes(tag) + ": no tag of a pose graph in the form of g2o, TORO or iSAM");
   }
-  if (!format && edges) format = PoseGraphFormat::kIsam;
+  if (!format && edges) format = toro_edges ? PoseGraphFormat::kToro : PoseGraphFormat::kIsam;
   if (!format) throw FileError(file.path(), "holds no vertices");
   file.rewind();
   return *format;

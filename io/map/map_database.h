@@ -1,36 +1,12 @@
 #pragma once
-#include <placegraph/graph/map_changes.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/io/map/stored_map.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace placegraph {
 
-struct StoredMap;
-
-/// Version of the tables (`PRAGMA user_version`): one that is newer is refused.
-constexpr int kMapSchema = 2;
-
-/// What a map was made from, and how.
-struct MapOrigin {
-  std::string sequence;  ///< as it can be opened again
-  Sensor sensor = Sensor::kMono;
-  std::optional<Calibration> calibration;  ///< without one no pose of the map means anything
-  std::string options;                     ///< of the run, YAML
-  std::string view_options;                ///< of the keyframes' views, YAML
-  double lens_k1 = 0;                      ///< radial distortion that was taken out of the images
-  int lens_pass = 0;                       ///< how many times the run has begun anew to do so
-};
-
-/// Everything of a map that is saved.
-struct StoredMap {
-  MapOrigin origin;
-  Map map;
-  PlaceHistory history;  ///< empty for a map that no run can go on with
-  bool finished = true;  ///< false: the run that made it was broken off
-};
+struct MapWriter;
 
 /// A saved map that is being written: one SQLite file (docs/map.md). A commit is a transaction and
 /// writes only what has changed; whatever ends the program between or in commits, the file holds
@@ -57,11 +33,10 @@ class MapDatabase {
 
  private:
   friend void write_map(const std::string& path, const StoredMap& stored);
-  struct Impl;
-  explicit MapDatabase(std::unique_ptr<Impl> impl);
-  static std::unique_ptr<Impl> made(const std::string& path, const MapOrigin& origin,
-                                    bool synchronized);
-  std::unique_ptr<Impl> impl_;
+  explicit MapDatabase(std::unique_ptr<MapWriter> writer);
+  static std::unique_ptr<MapWriter> made(const std::string& path, const MapOrigin& origin,
+                                         bool synchronized);
+  std::unique_ptr<MapWriter> writer_;  ///< none once it is closed
 };
 
 /// Writes a whole map at once. Throws ArgumentError if the members of its places are not the

@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-void MapDatabase::Impl::put_history(const PlaceHistory& history) {
+void MapWriter::put_history(const PlaceHistory& history) {
   for (const PlaceHistory::Keyframe& keyframe : history.keyframes) {
     MapRow row;
     row.integer(keyframe.part).integer(keyframe.run);
@@ -31,7 +31,7 @@ void MapDatabase::Impl::put_history(const PlaceHistory& history) {
   put_mergers(history);
 }
 
-void MapDatabase::Impl::put_mergers(const PlaceHistory& history) {
+void MapWriter::put_mergers(const PlaceHistory& history) {
   std::int64_t number = 0, part_number = 0;
   std::set<std::int64_t> kept, parts_kept;
   for (const PlaceHistory::Merged& merger : history.merged) {
@@ -49,7 +49,7 @@ void MapDatabase::Impl::put_mergers(const PlaceHistory& history) {
     parted.put(number++, MapRow().integer(one).integer(other));
 }
 
-void MapDatabase::Impl::put_runs(const PlaceHistory& history) {
+void MapWriter::put_runs(const PlaceHistory& history) {
   std::int64_t number = 0;
   for (const PlaceHistory::Motion& motion : history.motions)
     motions.put(number++, MapRow()

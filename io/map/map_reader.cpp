@@ -1,4 +1,5 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/map/map_database.h>
 #include <placegraph/io/map/map_reader.h>
 
 #include <algorithm>

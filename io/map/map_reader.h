@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/io/map/map_blobs.h>
-#include <placegraph/io/map/map_database.h>
 #include <placegraph/io/map/map_schema.h>
+#include <placegraph/io/map/stored_map.h>
 
 #include <limits>
 #include <set>

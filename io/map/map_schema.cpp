@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/map/map_database.h>
 #include <placegraph/io/map/map_schema.h>
+#include <placegraph/io/map/stored_map.h>
 
 namespace placegraph {
 namespace {

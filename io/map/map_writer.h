@@ -1,9 +1,9 @@
 #pragma once
-// Inside io only: what MapDatabase keeps.
+// Inside io only.
 #include <placegraph/io/map/map_blobs.h>
-#include <placegraph/io/map/map_database.h>
 #include <placegraph/io/map/map_schema.h>
 #include <placegraph/io/map/map_table.h>
+#include <placegraph/io/map/stored_map.h>
 
 #include <map>
 #include <string>
@@ -11,8 +11,9 @@
 
 namespace placegraph {
 
-struct MapDatabase::Impl {
-  Impl(const std::string& path, bool synchronized)
+/// The open file of a MapDatabase: its tables, and what of them is written already.
+struct MapWriter {
+  MapWriter(const std::string& path, bool synchronized)
       : database(path, SqliteDatabase::Access::kWrite),
         places(prepared(synchronized), "place", "id", 7),
         labels(database, "label", "place", 3),
@@ -53,6 +54,7 @@ struct MapDatabase::Impl {
     return database;
   }
 
+  /// All of `changes` in one transaction, or nothing of them.
   void commit(const MapChanges& changes, bool finished);
   void put_places(const MapChanges& changes);
   void put_keyframes(const MapChanges& changes);

@@ -2,103 +2,52 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
+#include <placegraph/io/trajectories/pose_table.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
-#include <cmath>
 #include <iterator>
 
 namespace placegraph {
 namespace {
 
-using Fields = std::vector<std::string_view>;
-
-constexpr double kQuaternionTolerance = 1e-2;
-constexpr double kRotationTolerance = 1e-2;
-
-std::optional<TrajectoryFormat> format_of_line(std::string_view line) {
-  if (line.find(',') != line.npos) return TrajectoryFormat::kEuroc;
-  Fields fields;
-  split_blank(line, fields);
-  if (fields.size() == 12) return TrajectoryFormat::kKitti;
-  if (fields.size() == 8) return TrajectoryFormat::kTum;
-  return std::nullopt;
-}
-
-void check_rotation(const TextFile& file, const Eigen::Matrix3d& R) {
-  const double deviation = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (deviation > kRotationTolerance || R.determinant() < 0) {
-    file.fail(
-        fmt::format("the 3x3 part is not a rotation (R^T R differs from 1 by {:.3g}, "
-                    "determinant {:.3g})",
-                    deviation, R.determinant()));
+/// Collects the lines of a table.
+class Reader {
+ public:
+  explicit Reader(const PoseTable& table) : table_(table) {
+    trajectory_.has_times = table.columns().has_times();
+    trajectory_.numbered = table.columns().unit == StampUnit::kFrameNumber;
   }
-}
 
-std::optional<Eigen::Isometry3d> parse_kitti(const TextFile& file, const Fields& fields) {
-  if (fields.size() != 12) {
-    file.fail(fmt::format("expected 12 numbers of a 3x4 pose, found {}", fields.size()));
+  void add(const PoseLine& line) {
+    const auto index = static_cast<std::int64_t>(trajectory_.size());
+    const std::int64_t stamp = table_.columns().stamp ? line.stamp : index;
+    if (index > 0 && stamp <= trajectory_.poses.back().stamp_ns)
+      table_.file().fail(trajectory_.numbered
+                             ? fmt::format("the number {} of the frame does not increase", stamp)
+                             : fmt::format("time {} ns does not increase", stamp));
+    if (line.T_world_body && !line.oriented && table_.columns().quaternion && !first_bare_line_)
+      first_bare_line_ = table_.file().line();
+    oriented_ += line.T_world_body && line.oriented;
+    if (index == 0) first_line_ = table_.file().line();
+    trajectory_.poses.push_back({stamp, line.T_world_body});
   }
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  int nans = 0;
-  for (int i = 0; i < 12; ++i) {
-    const double value = file.number_or_nan(fields[static_cast<std::size_t>(i)], "pose");
-    T.matrix()(i / 4, i % 4) = value;
-    nans += std::isnan(value);
-  }
-  if (nans == 12) return std::nullopt;
-  if (nans > 0) file.fail(fmt::format("{} of 12 numbers are nan: a lost frame has twelve", nans));
-  check_rotation(file, T.linear());
-  return T;
-}
 
-Eigen::Isometry3d pose_from(const TextFile& file, const Eigen::Vector3d& t,
-                            const Eigen::Quaterniond& q) {
-  if (!(std::abs(q.norm() - 1) <= kQuaternionTolerance)) {
-    file.fail(fmt::format("the quaternion has length {:.6g}, not 1", q.norm()));
-  }
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = q.normalized().toRotationMatrix();
-  T.translation() = t;
-  return T;
-}
+  int first_line() const { return first_line_; }
 
-StampedPose parse_tum(const TextFile& file, const Fields& fields) {
-  if (fields.size() != 8) {
-    file.fail(fmt::format("expected 8 numbers (t tx ty tz qx qy qz qw), found {}", fields.size()));
+  Trajectory finish() {
+    trajectory_.has_orientation = oriented_ > 0 || trajectory_.posed() == 0;
+    if (oriented_ > 0 && first_bare_line_ > 0)
+      throw FileError(table_.file().path(), first_bare_line_,
+                      "the quaternion has length 0 or is nan, not 1 as on other lines");
+    return std::move(trajectory_);
   }
-  double v[7];
-  for (std::size_t i = 0; i < 7; ++i) v[i] = file.number(fields[i + 1], "pose");
-  return {file.seconds_as_ns(fields[0], "time"),
-          pose_from(file, {v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]})};
-}
 
-StampedPose parse_euroc(const TextFile& file, const Fields& fields) {
-  if (fields.size() < 8) {
-    file.fail(fmt::format("expected t_ns,px,py,pz,qw,qx,qy,qz, found {} columns", fields.size()));
-  }
-  double v[7];
-  for (std::size_t i = 0; i < 7; ++i) v[i] = file.number(fields[i + 1], "pose");
-  return {file.integer(fields[0], "time [ns]"),
-          pose_from(file, {v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]})};
-}
-
-void add_in_order(const TextFile& file, StampedPose pose, Trajectory& trajectory) {
-  if (!trajectory.poses.empty() && pose.stamp_ns <= trajectory.poses.back().stamp_ns) {
-    file.fail(fmt::format("time {} ns does not increase", pose.stamp_ns));
-  }
-  trajectory.poses.push_back(std::move(pose));
-}
-
-void set_times(const std::string& path, const std::string& times_path, Trajectory& trajectory) {
-  trajectory.has_times = !times_path.empty();
-  if (times_path.empty()) return;
-  const std::vector<std::int64_t> stamps_ns = read_times(times_path);
-  if (stamps_ns.size() != trajectory.size()) {
-    throw FileError(times_path, fmt::format("holds {} times, but {} holds {} poses",
-                                            stamps_ns.size(), path, trajectory.size()));
-  }
-  for (std::size_t i = 0; i < stamps_ns.size(); ++i) trajectory.poses[i].stamp_ns = stamps_ns[i];
-}
+ private:
+  const PoseTable& table_;
+  Trajectory trajectory_;
+  std::size_t oriented_ = 0;
+  int first_line_ = 0, first_bare_line_ = 0;
+};
 
 using Buffer = std::back_insert_iterator<fmt::memory_buffer>;
 
@@ -138,6 +87,8 @@ void format_euroc(const StampedPose& pose, Buffer out) {
 }
 
 void check_writable(const Trajectory& trajectory, TrajectoryFormat format) {
+  require(trajectory.has_orientation,
+          "the trajectory has positions alone: its poses have no orientation to write");
   if (format != TrajectoryFormat::kKitti && !trajectory.has_times) {
     throw ArgumentError("the trajectory has no times, which TUM and EuRoC files need");
   }
@@ -154,49 +105,50 @@ void check_writable(const Trajectory& trajectory, TrajectoryFormat format) {
 
 }  // namespace
 
-TrajectoryFormat detect_trajectory_format(const std::string& path) {
-  TextFile file(path);
-  std::string_view line;
-  if (!file.next_data(line)) throw FileError(path, "holds no poses");
-  if (const auto format = format_of_line(line)) return *format;
-  file.fail(
-      "is no trajectory: expected 12 numbers (KITTI), 8 numbers (TUM) or commas (EuRoC), found " +
-      in_quotes(line));
+void give_times(Trajectory& trajectory, const std::string& path, const std::string& times_path) {
+  require(!trajectory.has_times,
+          path + ": has times of its own, so that none are taken from " + times_path);
+  const std::vector<std::int64_t> stamps_ns = read_times(times_path);
+  const bool numbered = trajectory.numbered;
+  if (!numbered && stamps_ns.size() != trajectory.size())
+    throw FileError(times_path, fmt::format("holds {} times, but {} holds {} poses",
+                                            stamps_ns.size(), path, trajectory.size()));
+  for (StampedPose& pose : trajectory.poses) {
+    if (pose.stamp_ns < 0 || pose.stamp_ns >= static_cast<std::int64_t>(stamps_ns.size()))
+      throw FileError(times_path, fmt::format("holds {} times, but {} holds frame {}",
+                                              stamps_ns.size(), path, pose.stamp_ns));
+    pose.stamp_ns = stamps_ns[static_cast<std::size_t>(pose.stamp_ns)];
+  }
+  trajectory.has_times = true;
+  trajectory.numbered = false;
 }
 
-Trajectory read_trajectory(const std::string& path, const std::string& times_path) {
-  TextFile file(path);
-  std::string_view line;
-  std::optional<TrajectoryFormat> format;
-  Fields fields;
-  Trajectory trajectory;
-  while (file.next_data(line)) {
-    if (!format) format = format_of_line(line);
-    if (!format) {
-      file.fail(
-          "is no trajectory: expected 12 numbers (KITTI), 8 numbers (TUM) or commas (EuRoC), "
-          "found " +
-          in_quotes(line));
-    }
-    if (*format == TrajectoryFormat::kEuroc) {
-      split_comma(line, fields);
-      add_in_order(file, parse_euroc(file, fields), trajectory);
-      continue;
-    }
-    split_blank(line, fields);
-    if (*format == TrajectoryFormat::kTum) {
-      add_in_order(file, parse_tum(file, fields), trajectory);
-    } else {
-      const auto index = static_cast<std::int64_t>(trajectory.size());
-      trajectory.poses.push_back({index, parse_kitti(file, fields)});
-    }
-  }
-  if (!format) throw FileError(path, "holds no poses");
-  if (*format == TrajectoryFormat::kKitti) {
-    set_times(path, times_path, trajectory);
-  } else if (!times_path.empty()) {
-    throw ArgumentError(path + ": has times of its own, so that none are taken from " + times_path);
-  }
+Trajectory read_trajectory(const std::string& path, const std::string& times_path,
+                           Orientation orientation) {
+  PoseTable table(path);
+  Reader reader(table);
+  PoseLine line;
+  while (table.next(line)) reader.add(line);
+  Trajectory trajectory = reader.finish();
+  if (orientation == Orientation::kNeeded && !trajectory.has_orientation)
+    throw FileError(
+        path, reader.first_line(),
+        "has positions alone (" + table.columns().text() + "), but orientations are needed here");
+  if (!times_path.empty()) give_times(trajectory, path, times_path);
+  return trajectory;
+}
+
+Trajectory read_timed_poses(const std::string& path, Orientation orientation) {
+  Trajectory trajectory = read_trajectory(path, {}, orientation);
+  if (!trajectory.has_times)
+    throw FileError(path, "has poses without times, which are needed here");
+  return trajectory;
+}
+
+Trajectory read_frame_poses(const std::string& path) {
+  Trajectory trajectory = read_trajectory(path);
+  if (trajectory.has_times)
+    throw FileError(path, "has times of its own, but is read frame by frame (KITTI: 12 numbers)");
   return trajectory;
 }
 

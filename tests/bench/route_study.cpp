@@ -7,6 +7,7 @@
 #include <placegraph/eval/loops/route_check.h>
 #include <placegraph/eval/trajectory/statistics.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/run.h>
 
 #include <cstdio>

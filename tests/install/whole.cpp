@@ -2,7 +2,7 @@
 // eval and graph of the installed library.
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>

@@ -31,10 +31,9 @@ struct RawDrive {
 RawDrive read_drive(const std::string& path) {
   if (fs::is_directory(path)) throw FileError(path, "is a folder, not a pose file");
   const std::string times = (fs::path(path).parent_path() / "times.txt").string();
-  if (fs::exists(path) && detect_trajectory_format(path) != TrajectoryFormat::kKitti)
-    throw FileError(path, "is not in KITTI form (12 numbers a line)");
-  const bool timed = fs::exists(times) && fs::exists(path);
-  const Trajectory trajectory = read_trajectory(path, timed ? times : std::string());
+  Trajectory trajectory = read_frame_poses(path);
+  const bool timed = fs::exists(times);
+  if (timed) give_times(trajectory, path, times);
   if (trajectory.size() < kMinPoses) throw FileError(path, "holds fewer than 2 poses");
   RawDrive raw;
   for (std::size_t i = 0; i < trajectory.size(); ++i) {

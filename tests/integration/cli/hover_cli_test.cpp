@@ -148,7 +148,7 @@ TEST_F(HoverCli, RefusesBrokenFlightsWithFileAndLine) {
        "dictionary: mine\nmarkers:\n  - {id: 1, side_m: 0.1, position: [0, 0, 0], quaternion: [1, "
        "0, 0, 0]}\n",
        "mine");
-  with("mav0/state_groundtruth_estimate0/data.csv", "7,1,2\n", "data.csv:1: expected");
+  with("mav0/state_groundtruth_estimate0/data.csv", "7,1,2\n", "data.csv:1: has positions alone");
   fs::remove(at + "/mav0/imu0/sensor.yaml");
   expect_usage_error("hover " + at + " --out out", "imu0/sensor.yaml");
   EXPECT_FALSE(fs::exists(dir / "out"));

@@ -1,4 +1,4 @@
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/synthetic/writers/sequence_writer.h>
 
 #include <opencv2/core.hpp>

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/initialization/certificate.h>
+#include <placegraph/backend/initialization/certificate_matrix.h>
 #include <placegraph/backend/initialization/certified_initialization.h>
 #include <placegraph/backend/initialization/initialization.h>
 #include <placegraph/backend/pose_graph/initialization_selection.h>

@@ -87,6 +87,89 @@ TEST(Evaluate, WarnsOfAShiftInTimeAndSaysByHowMuch) {
               Contains(HasSubstr("3 frames earlier")));
 }
 
+/// The quaternions of the poses with their four numbers moved by one place.
+Trajectory reordered(Trajectory trajectory, bool scalar_to_front) {
+  for (StampedPose& pose : trajectory.poses) {
+    const Eigen::Quaterniond q(pose.T_world_body->linear());
+    const Eigen::Quaterniond moved = scalar_to_front
+                                         ? Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y())
+                                         : Eigen::Quaterniond(q.x(), q.y(), q.z(), q.w());
+    pose.T_world_body->linear() = moved.toRotationMatrix();
+  }
+  return trajectory;
+}
+
+TEST(Evaluate, NamesQuaternionsOfTheOtherOrder) {
+  Random random(9);
+  const Trajectory truth = winding_drive(300);
+  const Trajectory estimate = test::drifting(truth, 0.02, 0.002, random);
+  const auto warnings = [&](const Trajectory& a, const Trajectory& b) {
+    return evaluate(a, b, with(Alignment::kSe3)).warnings;
+  };
+  // Written w first and read w last: the numbers read as x y z w are w x y z.
+  EXPECT_THAT(warnings(truth, reordered(estimate, true)),
+              Contains(HasSubstr("the estimate's quaternions seem to have w first, not last")));
+  EXPECT_THAT(warnings(truth, reordered(estimate, false)),
+              Contains(HasSubstr("the estimate's quaternions seem to have w last, not first")));
+  EXPECT_THAT(warnings(reordered(truth, true), estimate),
+              Contains(HasSubstr("the ground truth's quaternions seem to have w first")));
+}
+
+TEST(Evaluate, NamesTheAxesOfAnotherSensor) {
+  Random random(10);
+  const Trajectory truth = winding_drive(300);
+  Trajectory estimate = test::drifting(truth, 0.02, 0.002, random);
+  Eigen::Matrix3d R_cam_body;  // x right, y down, z forward to x forward, y left, z up
+  R_cam_body << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  for (StampedPose& pose : estimate.poses)
+    pose.T_world_body->linear() = pose.T_world_body->linear() * R_cam_body;
+  EXPECT_THAT(evaluate(truth, estimate, with(Alignment::kSe3)).warnings,
+              Contains(HasSubstr("axes are turned by 120 deg")));
+}
+
+TEST(Evaluate, NamesWhatNeverTurnsOrNeverMoves) {
+  const Trajectory truth = winding_drive(300);
+  Trajectory still = truth, stuck = truth;
+  for (StampedPose& pose : still.poses) pose.T_world_body->linear().setIdentity();
+  EXPECT_THAT(evaluate(still, truth, with(Alignment::kSe3)).warnings,
+              Contains(HasSubstr("the ground truth never turns")));
+  EXPECT_THAT(evaluate(truth, still, with(Alignment::kSe3)).warnings,
+              Contains(HasSubstr("the estimate never turns")));
+  for (StampedPose& pose : stuck.poses) pose.T_world_body = truth.poses[0].T_world_body;
+  EXPECT_THAT(evaluate(truth, stuck, with(Alignment::kSe3)).outcome.reason,
+              HasSubstr("the estimate never moves"));
+  EXPECT_THAT(evaluate(stuck, truth, with(Alignment::kSe3)).outcome.reason,
+              HasSubstr("the ground truth never moves"));
+}
+
+TEST(Evaluate, GivesWhatPositionsAloneAllow) {
+  Random random(11);
+  Trajectory truth = winding_drive(300);
+  const Trajectory estimate = test::drifting(truth, 0.02, 0.002, random);
+  const double rmse_m = evaluate(truth, estimate, with(Alignment::kSim3)).ape.error_m.rmse;
+  for (StampedPose& pose : truth.poses) pose.T_world_body->linear().setIdentity();
+  truth.has_orientation = false;
+  const EvaluationResult r = evaluate(truth, estimate, with(Alignment::kSim3));
+  ASSERT_TRUE(r.outcome) << r.outcome.reason;
+  EXPECT_EQ(r.ape.error_m.rmse, rmse_m);
+  EXPECT_THAT(r.warnings, Contains(HasSubstr("no RPE: RPE needs orientations")));
+  EXPECT_THAT(r.warnings, Contains(HasSubstr("no t_rel and r_rel: ")));
+  for (const Metric& metric : metrics(r)) {
+    const bool of_motion =
+        metric.key.starts_with("rpe") || metric.key.find("_rel_") != std::string::npos;
+    EXPECT_EQ(metric.value.has_value(), !of_motion) << metric.key;
+  }
+  EXPECT_THAT(evaluate(truth, estimate, with(Alignment::kOrigin)).outcome.reason,
+              HasSubstr("align origin needs orientations"));
+}
+
+TEST(Evaluate, NamesTimesOfAnotherUnit) {
+  Trajectory truth = winding_drive(300);
+  for (StampedPose& pose : truth.poses) pose.stamp_ns *= 1000;
+  EXPECT_THAT(evaluate(truth, truth, with(Alignment::kSe3)).warnings,
+              Contains(HasSubstr("the ground truth has a pose every 100 s (0.01 Hz)")));
+}
+
 TEST(Evaluate, ListsLostFramesAndCountsOnlyPosedOnes) {
   const Trajectory truth = winding_drive(100, 1, false);
   Trajectory estimate = truth;

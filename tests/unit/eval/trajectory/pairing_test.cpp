@@ -29,7 +29,7 @@ TEST(Pairing, GoesByTimeWhereBothHaveTimes) {
   EXPECT_EQ(result.truth_frames, 20);
   EXPECT_EQ(result.posed, 19);
   EXPECT_FALSE(result.pairs[7].T_world_estimate);
-  EXPECT_FALSE(result.thinned);
+  EXPECT_EQ(result.truth_frames, static_cast<int>(result.pairs.size()));
 }
 
 TEST(Pairing, GoesByIndexWhereNeitherHasTimes) {
@@ -93,7 +93,6 @@ TEST(Pairing, ThinsADenserGroundTruthAndKeepsHolesAsLostFrames) {
     if (i != 100 && i != 110 && i < 170) estimate.poses.push_back(truth.poses[i]);
   const PairingResult result = pair_trajectories(truth, estimate, Association::kTime, {0.004, 0});
   ASSERT_TRUE(result.outcome);
-  EXPECT_TRUE(result.thinned);
   EXPECT_EQ(result.truth_frames, 200);
   EXPECT_EQ(result.posed, 15);
   ASSERT_EQ(result.pairs.size(), 20u);
@@ -110,6 +109,48 @@ TEST(Pairing, LeavesOutLinesTheGroundTruthItselfHasLost) {
   const PairingResult result = pair_trajectories(truth, estimate, Association::kAuto, {});
   EXPECT_EQ(result.truth_frames, 9);
   EXPECT_EQ(result.pairs[4].frame, 5);
+}
+
+TEST(Pairing, CountsAsLostOnlyWhatIsFarFromEveryEstimate) {
+  // The truth at 12 Hz, the estimate at 10 Hz without a hole: no frame is lost.
+  Trajectory truth = winding_drive(96), estimate = winding_drive(80);
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    truth.poses[i].stamp_ns = static_cast<std::int64_t>(i) * 1'000'000'000 / 12;
+  for (std::size_t i = 0; i < estimate.size(); ++i)
+    estimate.poses[i].stamp_ns = static_cast<std::int64_t>(i) * 100'000'000;
+  const PairingResult whole = pair_trajectories(truth, estimate, Association::kTime, {});
+  EXPECT_EQ(whole.posed, static_cast<int>(whole.pairs.size()));
+  EXPECT_EQ(whole.estimate_frames, 80);
+  EXPECT_EQ(whole.estimate_without_truth, 80 - whole.posed);
+  EXPECT_GT(whole.estimate_without_truth, 0);
+  estimate.poses.erase(estimate.poses.begin() + 40, estimate.poses.begin() + 60);  // two seconds
+  const PairingResult hole = pair_trajectories(truth, estimate, Association::kTime, {});
+  EXPECT_NEAR(static_cast<double>(hole.pairs.size()) - hole.posed, 2 * 12, 2);
+}
+
+TEST(Pairing, GoesByTheNumbersOfFramesWhereAFileHasThem) {
+  const Trajectory truth = winding_drive(60, 1, false);
+  Trajectory estimate = truth;
+  estimate.numbered = true;
+  std::erase_if(estimate.poses, [](const StampedPose& pose) { return pose.stamp_ns % 5 == 2; });
+  const PairingResult result = pair_trajectories(truth, estimate, Association::kAuto, {});
+  ASSERT_TRUE(result.outcome) << result.outcome.reason;
+  EXPECT_EQ(result.association, Association::kIndex);
+  EXPECT_EQ(result.pairs.size(), 60u);
+  EXPECT_EQ(result.posed, 48);
+  EXPECT_FALSE(result.pairs[7].T_world_estimate);
+  EXPECT_EQ(result.pairs[8].T_world_estimate->matrix(), truth.poses[8].T_world_body->matrix());
+}
+
+TEST(Pairing, NamesAnotherUnitOrClockWhereStampsDoNotOverlap) {
+  const Trajectory truth = winding_drive(20);
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate.poses) pose.stamp_ns = 1'000'000'000'000 + 1000 * pose.stamp_ns;
+  EXPECT_THAT(pair_trajectories(truth, estimate, Association::kTime, {}).outcome.reason,
+              HasSubstr("in milliseconds"));
+  EXPECT_THAT(pair_trajectories(truth, later(truth, 1'000'000'000'000), Association::kTime, {})
+                  .outcome.reason,
+              HasSubstr("of another clock"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #include <placegraph/io/datasets/calibration_file.h>
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/image_list.h>
 
 #include <opencv2/videoio.hpp>

@@ -1,4 +1,4 @@
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 
 #include <opencv2/imgproc.hpp>
 
@@ -201,7 +201,7 @@ TEST(KittiOdometry, RefusesListsOfDifferentLengths) {
   folder.write("s/poses.txt", kPoses + kPoses);
   EXPECT_THAT(opening_fails_with(folder), HasSubstr("poses.txt: holds 6 entries, but there are 3"));
   folder.write("s/poses.txt", "0 0 0 0 0 0 0 1\n");
-  EXPECT_THAT(opening_fails_with(folder), HasSubstr("poses.txt: is not in KITTI form"));
+  EXPECT_THAT(opening_fails_with(folder), HasSubstr("poses.txt: has times of its own"));
   folder.write("s/poses.txt", kPoses);
   folder.write("s/calib.txt", kP0 + kP1);
   write_numbered(folder, "s/image_1", 2);

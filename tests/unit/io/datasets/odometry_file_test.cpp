@@ -65,7 +65,7 @@ TEST_F(OdometryFile, ReadsPosesOfFrames) {
 
 TEST_F(OdometryFile, RefusesWhatIsNone) {
   using testing::HasSubstr;
-  EXPECT_THAT(refusal("1 2 3\n"), HasSubstr("odometry.txt:1: 8, 9, 12, 14, 15, 29 or 30 fields"));
+  EXPECT_THAT(refusal("1 2 3\n"), HasSubstr("odometry.txt:1: has positions alone"));
   EXPECT_THAT(refusal("1 0 0 0 0 0 0 1\n2 0 0 0 0 0 0 1 5\n"),
               HasSubstr("odometry.txt:2: 8 fields needed as in the first line, not 9"));
   EXPECT_THAT(refusal("1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n"),

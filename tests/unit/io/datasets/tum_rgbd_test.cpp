@@ -1,4 +1,4 @@
-#include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/datasets/open_dataset.h>
 
 #include "tests/support/message_of.h"
 #include "tiny_images.h"
@@ -72,6 +72,41 @@ TEST(TumRgbd, LeavesFramesFarFromAnyTruthWithoutAPose) {
   EXPECT_TRUE(dataset->ground_truth()->poses[1].T_world_body);
 }
 
+TEST(TumRgbd, ReadsPairsFromAssociationsInEitherOrder) {
+  const TemporaryFolder folder;
+  write_sequence(folder);
+  std::filesystem::remove(folder / "s/rgb.txt");
+  std::filesystem::remove(folder / "s/depth.txt");
+  std::vector<std::string> colour, depth;
+  for (const char* kind : {"rgb", "depth"})
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "s/" + kind))
+      (kind[0] == 'r' ? colour : depth)
+          .push_back(std::string(kind) + "/" + entry.path().filename().string());
+  ASSERT_GE(std::min(colour.size(), depth.size()), 2u);
+  std::sort(colour.begin(), colour.end());
+  std::sort(depth.begin(), depth.end());
+  folder.write("s/associations.txt", "1.0 " + colour[0] + " 1.01 " + depth[0] + "\n1.1 " +
+                                         colour[1] + " 1.11 " + depth[1] + "\n");
+  const auto dataset = open_dataset(folder / "s");
+  EXPECT_EQ(dataset->size(), 2u);
+  EXPECT_EQ(dataset->stamp_ns(1), 1'100'000'000);
+  EXPECT_EQ(dataset->sensors().front(), Sensor::kRgbd);
+  folder.write("s/associations.txt", "1.01 " + depth[0] + " 1.0 " + colour[0] + "\n");
+  EXPECT_EQ(open_dataset(folder / "s")->stamp_ns(0), 1'000'000'000);
+  folder.write("s/associations.txt", "1.01 " + depth[0] + "\n");
+  EXPECT_THAT(message_of([&] { open_dataset(folder / "s"); }),
+              HasSubstr("associations.txt:1: expected time, image, time and depth image, found 2"));
+}
+
+TEST(TumRgbd, TellsWhatItLeavesOut) {
+  const TemporaryFolder folder;
+  write_sequence(folder);
+  EXPECT_THAT(open_dataset(folder / "s")->notes().front().text,
+              HasSubstr("no depth image within 20 ms"));
+  std::filesystem::remove(folder / "s/depth.txt");
+  EXPECT_THAT(open_dataset(folder / "s")->notes().front().text, HasSubstr("depth.txt is missing"));
+}
+
 TEST(TumRgbd, KnowsTheBenchmarksLensesByTheFoldersName) {
   const TemporaryFolder folder;
   for (const char* name :
@@ -95,6 +130,17 @@ TEST(TumRgbd, KnowsTheBenchmarksLensesByTheFoldersName) {
   EXPECT_EQ(open_dataset(folder / "fr3_office")->calibration(Sensor::kMono).camera.fy, 539.2);
 }
 
+TEST(TumRgbd, DoesNotTakeOtherNamesForTheBenchmarks) {
+  const TemporaryFolder folder;
+  for (const char* name :
+       {"room_fr30", "office_fr1080p", "my_fr2_room", "frank", "afreiburg1", "freiburg12"}) {
+    folder.write(std::string(name) + "/rgb.txt", "1.0 rgb/0.png\n");
+    EXPECT_THAT(message_of([&] { open_dataset(folder / name); }),
+                HasSubstr("the intrinsics are unknown"))
+        << name;
+  }
+}
+
 TEST(TumRgbd, NamesTheFileAndLineOfEveryFault) {
   const TemporaryFolder folder;
   write_sequence(folder);
@@ -114,7 +160,7 @@ TEST(TumRgbd, NamesTheFileAndLineOfEveryFault) {
   EXPECT_THAT(message("depth.txt", "9.0 depth/a.png\n"),
               HasSubstr("depth.txt: no depth image lies"));
   EXPECT_THAT(message("groundtruth.txt", "1 2 3\n"), HasSubstr("groundtruth.txt:1: "));
-  EXPECT_THAT(message("groundtruth.txt", "1,0,0,0,1,0,0,0\n"), HasSubstr("is not in TUM form"));
+  EXPECT_THAT(message("groundtruth.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n"), HasSubstr("without times"));
   EXPECT_THAT(message("calibration.yaml", kCalibration + "baseline_m: 1\n"), HasSubstr("one eye"));
   EXPECT_THAT(message("calibration.yaml", "width: 9\n" + kCalibration.substr(9)),
               HasSubstr("0.png: image is 8x6, but 9x6 is expected"));

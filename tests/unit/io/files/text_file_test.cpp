@@ -29,6 +29,26 @@ TEST(TextFile, CountsLinesThroughCommentsBlanksAndCarriageReturns) {
   EXPECT_THAT(message_of([&] { file.fail("odd"); }), EndsWith("a.txt:5: odd"));
 }
 
+TEST(TextFile, LeavesOutByteOrderMarksAndCommentsBehindData) {
+  const TemporaryFolder folder;
+  TextFile file(folder.write("a",
+                             "\xEF\xBB\xBF"
+                             "1 2 # first\na#1.png\n3,# c\n #\n"));
+  std::string_view line;
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_TRUE(file.next_data(line));
+    EXPECT_EQ(line, "1 2");
+    ASSERT_TRUE(file.next_data(line));
+    EXPECT_EQ(line, "a#1.png");
+    ASSERT_TRUE(file.next_data(line));
+    EXPECT_EQ(line, "3,");
+    EXPECT_FALSE(file.next_data(line));
+    file.rewind();
+  }
+  EXPECT_THAT(message_of([&] { TextFile text(folder.write("b", "\xFE\xFF")); }),
+              HasSubstr("b: is text in UTF-16"));
+}
+
 TEST(TextFile, RefusesWhatIsMissingOrAFolder) {
   const TemporaryFolder folder;
   EXPECT_THAT(message_of([&] { TextFile(folder / "none.txt"); }), HasSubstr("none.txt: "));
@@ -72,6 +92,20 @@ TEST(ParseSeconds, KeepsNanosecondsThatADoubleWouldLose) {
   EXPECT_EQ(parse_seconds_as_ns("000.000"), 0);
   EXPECT_EQ(parse_seconds_as_ns("7"), 7000000000);
   EXPECT_EQ(parse_seconds_as_ns("1e-300"), 0);
+}
+
+TEST(ParseDecimal, ScalesByPowersOfTenAndSaysWhetherItRounded) {
+  bool exact = false;
+  EXPECT_EQ(parse_decimal("1600000000000000000.0", 0, &exact), 1600000000000000000);
+  EXPECT_TRUE(exact);
+  EXPECT_EQ(parse_decimal("1.600000000100000001e+18", 0, &exact), 1600000000100000001);
+  EXPECT_TRUE(exact);
+  EXPECT_EQ(parse_decimal("2.5", 0, &exact), 3);
+  EXPECT_FALSE(exact);
+  EXPECT_EQ(parse_decimal("2.5", 6, &exact), 2500000);
+  EXPECT_TRUE(exact);
+  EXPECT_EQ(parse_decimal("1e-3", 0, &exact), 0);
+  EXPECT_FALSE(exact);
 }
 
 TEST(ParseSeconds, RefusesWhatIsNoTimeOrDoesNotFit) {

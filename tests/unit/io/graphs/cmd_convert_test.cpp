@@ -46,7 +46,7 @@ TEST(ConvertCommand, GoesByContentInAndByNameOrFlagOut) {
   const TemporaryFolder folder;
   const std::string tum = folder.write("misnamed.csv", "1 0 0 0 0 0 0 1\n");
   convert({tum, folder / "out.dat", "--to", "kitti"});
-  EXPECT_EQ(detect_trajectory_format(folder / "out.dat"), TrajectoryFormat::kKitti);
+  EXPECT_FALSE(read_trajectory(folder / "out.dat").has_times);
   EXPECT_THAT(message_of<ArgumentError>([&] {
                 convert({tum, folder / "other.dat"});
               }),

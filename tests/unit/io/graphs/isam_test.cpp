@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         std::pair{"EDGE2 0 1 1 0 0 1 0 0 1 0", "a.txt:2: EDGE2: expected 11 numbers, found 10"},
         std::pair{"ODOMETRY 1 1 1 0 0 1 0 0 1 0 1", "a.txt:2: an edge from 1 to itself"},
-        std::pair{"EDGE2 0 1 1 0 0 0 0 0 0 0 0", "a.txt:2: the information is all zero"},
+        std::pair{"EDGE2 0 1 1 0 0 0 0 0 0 0 0", "a.txt:2: the root of the information has a zero"},
         std::pair{"EDGE2 0 1 1 0 0 1e200 0 0 1 0 1", "a.txt:2: the information is not finite"},
         std::pair{"EDGE3 0 1 1 0 0 0 0 0", "a.txt:2: EDGE3: expected 29 numbers, found 8"},
         std::pair{"LANDMARK 0 1 1 0 1 0 1", "a.txt:2: LANDMARK: landmarks are no part"},

@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 
@@ -72,6 +73,48 @@ TEST(PoseGraphFile, IsRefusedInPartsWhereItHasToBeConnected) {
   EXPECT_THAT(
       message_of([&] { read_pose_graph(path, {.connected = true}); }),
       HasSubstr("a.g2o:3: vertex 6 is not connected with vertex 4: the graph falls into 3"));
+}
+
+TEST(PoseGraphFile, OfPartsThatEachHaveAFixedVertexHangsTogether) {
+  const TemporaryFolder folder;
+  const std::string parts =
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_SE2 2 5 0 0\nVERTEX_SE2 3 6 0 0\n"
+      "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 2 3 1 0 0 1 0 0 1 0 1\nFIX 0\n";
+  const std::string one = folder.write("one.g2o", parts),
+                    both = folder.write("both.g2o", parts + "FIX 3\n");
+  EXPECT_EQ(read_pose_graph(both, {.connected = true}).nodes.size(), 4u);
+  EXPECT_THAT(message_of([&] { read_pose_graph(one, {.connected = true}); }),
+              HasSubstr("falls into 2 components; --components optimizes each by itself"));
+}
+
+TEST(PoseGraphFile, OfEdgesAloneChainsItsVertices) {
+  const TemporaryFolder folder;
+  const auto end_of = [&](const std::string& text) {
+    const PoseGraph graph = read_pose_graph(folder.write("a", text));
+    EXPECT_EQ(graph.nodes.size(), 3u);
+    return position_of(graph.nodes.back().T_world_node);
+  };
+  EXPECT_EQ(end_of("EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1 2 0 1 0 0 1 0 1\nFIX 0\n"),
+            Eigen::Vector3d(2, 2, 0));
+  const std::string upper = " 1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1\n";
+  EXPECT_EQ(
+      end_of("EDGE_SE3:QUAT 0 1 1 0 0 0 0 0 1" + upper + "EDGE_SE3:QUAT 1 2 0 0 4 0 0 0 1" + upper),
+      Eigen::Vector3d(1, 0, 4));
+  // TORO's information of a diagonal matrix has zeros in iSAM's diagonal.
+  const PoseGraph toro = read_pose_graph(
+      folder.write("b", "EDGE2 0 1 1 0 0 100 0 100 400 0 0\nEDGE2 1 2 1 0 0 100 0 100 400 0 0\n"));
+  const auto& edge = std::get<RelativePoseConstraint>(toro.constraints[0]);
+  EXPECT_EQ(Eigen::Vector3d(edge.information.diagonal()), Eigen::Vector3d(100, 100, 400));
+  EXPECT_THAT(
+      message_of([&] { read_pose_graph(folder.write("c", "ODOMETRY 0 1 1 0 0 1 0 0 0 0 1\n")); }),
+      HasSubstr("c:1: the root of the information has a zero on its diagonal"));
+}
+
+TEST(PoseGraphFile, MayHaveCommentsBehindItsNumbers) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(
+      read_pose_graph(folder.write("a", "\xEF\xBB\xBFVERTEX_SE2 0 0 0 0 # begin\n")).nodes.size(),
+      1u);
 }
 
 }  // namespace

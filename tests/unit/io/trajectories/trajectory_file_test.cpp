@@ -14,18 +14,6 @@ using testing::HasSubstr;
 
 const std::string kIdentityLine = "1 0 0 0 0 1 0 0 0 0 1 0\n";
 
-TEST(TrajectoryFormat, IsFoundByContentWhateverTheExtension) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(detect_trajectory_format(folder.write("a.csv", "# k\n" + kIdentityLine)),
-            TrajectoryFormat::kKitti);
-  EXPECT_EQ(detect_trajectory_format(folder.write("b.kitti", "\n0.5 1 2 3 0 0 0 1\n")),
-            TrajectoryFormat::kTum);
-  EXPECT_EQ(detect_trajectory_format(folder.write("c.tum", "#timestamp,..\n5,1,2,3,1,0,0,0\n")),
-            TrajectoryFormat::kEuroc);
-  const std::string odd = folder.write("d", "# x\n1 2 3\n");
-  EXPECT_THAT(message_of([&] { detect_trajectory_format(odd); }), HasSubstr("d:2: "));
-}
-
 TEST(KittiTrajectory, HoldsThePoseOfTheCameraInTheWorldRowByRow) {
   const TemporaryFolder folder;
   // Camera turned by +90 degrees about y (z forward becomes x), at (1, 2, 3).
@@ -73,14 +61,14 @@ TEST(KittiTrajectory, NamesTheLineOfEveryFault) {
     const std::string path = folder.write("p.txt", kIdentityLine + second_line);
     return message_of([&] { read_trajectory(path); });
   };
-  EXPECT_THAT(message("1 0 0 0 0 1 0"),
-              HasSubstr("p.txt:2: expected 12 numbers of a 3x4 pose, found 7"));
+  EXPECT_THAT(message("1 0 0 0 0 1 0"), HasSubstr("p.txt:2: expected 12 fields (m00 m01"));
   EXPECT_THAT(message("1 0 0 0 0 1 0 0 0 0 1 x"), HasSubstr("p.txt:2: pose: 'x' is not a number"));
   EXPECT_THAT(message("1 0 0 inf 0 1 0 0 0 0 1 0"),
               HasSubstr("p.txt:2: pose: 'inf' is not finite"));
   EXPECT_THAT(message("2 0 0 0 0 2 0 0 0 0 2 0"),
               HasSubstr("p.txt:2: the 3x3 part is not a rotation"));
   EXPECT_THAT(message("-1 0 0 0 0 1 0 0 0 0 1 0"), HasSubstr("p.txt:2: the 3x3 part is not"));
+  EXPECT_THAT(message("1 0 0 0 0 1 0"), HasSubstr("found 7"));
   EXPECT_THAT(message(std::string(1 << 16, '1')), HasSubstr("p.txt:2: expected 12"));
 }
 
@@ -101,7 +89,8 @@ TEST(TumTrajectory, NamesTheLineOfEveryFault) {
     const std::string path = folder.write("p.txt", "1 0 0 0 0 0 0 1\n" + second_line);
     return message_of([&] { read_trajectory(path); });
   };
-  EXPECT_THAT(message("2 0 0 0 0 0 0"), HasSubstr("p.txt:2: expected 8 numbers"));
+  EXPECT_THAT(message("2 0 0 0 0 0 0"),
+              HasSubstr("p.txt:2: expected 8 fields (t x y z qx qy qz qw), found 7"));
   EXPECT_THAT(message("2 0 0 nan 0 0 0 1"), HasSubstr("p.txt:2: pose: 'nan' is not finite"));
   EXPECT_THAT(message("2 0 0 a 0 0 0 1"), HasSubstr("p.txt:2: pose: 'a' is not a number"));
   EXPECT_THAT(message("2 0 0 0 0 0 0 0.9"), HasSubstr("p.txt:2: the quaternion has length 0.9"));
@@ -127,12 +116,62 @@ TEST(EurocTrajectory, NamesTheLineOfEveryFault) {
     const std::string path = folder.write("p.csv", "1,0,0,0,1,0,0,0\n" + second_line);
     return message_of([&] { read_trajectory(path); });
   };
-  EXPECT_THAT(message("2,0,0,0,1,0,0"), HasSubstr("p.csv:2: expected t_ns,px"));
+  EXPECT_THAT(message("2,0,0,0,1,0,0"),
+              HasSubstr("p.csv:2: expected 8 fields (t_ns x y z qw qx qy qz ...)"));
   EXPECT_THAT(message("2,0,0,nan,1,0,0,0"), HasSubstr("p.csv:2: pose: 'nan' is not finite"));
   EXPECT_THAT(message("2,0,0,,1,0,0,0"), HasSubstr("p.csv:2: pose: '' is not a number"));
-  EXPECT_THAT(message("2.5,0,0,0,1,0,0,0"),
-              HasSubstr("p.csv:2: time [ns]: '2.5' is not an integer"));
+  EXPECT_THAT(message_of([&] {
+                read_trajectory(folder.write("p.csv",
+                                             "1600000000000000000,0,0,0,1,0,0,0\n"
+                                             "1600000000000000002.5,0,0,0,1,0,0,0\n"));
+              }),
+              HasSubstr("p.csv:2: time [ns]: '1600000000000000002.5' is not a whole number"));
   EXPECT_THAT(message("99999999999999999999,0,0,0,1,0,0,0"), HasSubstr("p.csv:2: time [ns]"));
+}
+
+TEST(Trajectory, OfNumberedFramesKeepsTheirNumbersAndTakesTheirTimes) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("p", "0 " + kIdentityLine + "2 " + kIdentityLine);
+  const Trajectory read = read_trajectory(path);
+  EXPECT_TRUE(read.numbered);
+  EXPECT_FALSE(read.has_times);
+  EXPECT_EQ(read.poses[1].stamp_ns, 2);
+  const Trajectory timed = read_trajectory(path, folder.write("t", "0.5\n0.6\n0.7\n"));
+  EXPECT_TRUE(timed.has_times);
+  EXPECT_EQ(timed.poses[1].stamp_ns, 700'000'000);
+  const std::string two = folder.write("two", "0.5\n0.6\n");
+  EXPECT_THAT(message_of([&] { read_trajectory(path, two); }),
+              HasSubstr("two: holds 2 times, but"));
+  EXPECT_THAT(message_of([&] {
+                read_trajectory(folder.write("q", "2 " + kIdentityLine + "2 " + kIdentityLine));
+              }),
+              HasSubstr("q:2: the number 2 of the frame does not increase"));
+}
+
+TEST(Trajectory, OfPositionsAloneIsTakenOnlyWhereTheyAreEnough) {
+  const TemporaryFolder folder;
+  for (const char* text : {"1 2 3 4\n2 2 3 5\n", "1 2 3 4 0 0 0 0\n2 2 3 5 0 0 0 0\n",
+                           "1 2 3 4 nan nan nan nan\n2 2 3 5 nan nan nan nan\n"}) {
+    const std::string path = folder.write("p", text);
+    const Trajectory read = read_trajectory(path, {}, Orientation::kOptional);
+    EXPECT_FALSE(read.has_orientation);
+    EXPECT_EQ(read.poses[1].T_world_body->translation(), Eigen::Vector3d(2, 3, 5)) << text;
+    EXPECT_THAT(message_of([&] { read_trajectory(path); }), HasSubstr("p:1: has positions alone"));
+    EXPECT_THROW(write_trajectory(folder / "out", read, TrajectoryFormat::kTum), ArgumentError);
+  }
+  const std::string mixed = folder.write("m", "1 2 3 4 0 0 0 1\n2 2 3 5 0 0 0 0\n");
+  EXPECT_THAT(message_of([&] { read_trajectory(mixed, {}, Orientation::kOptional); }),
+              HasSubstr("m:2: the quaternion has length 0"));
+}
+
+TEST(Trajectory, WithTimesWhereFramesAreReadIsRefusedAndTheOtherWayRound) {
+  const TemporaryFolder folder;
+  const std::string timed = folder.write("timed", "1 0 0 0 0 0 0 1\n");
+  const std::string frames = folder.write("frames", kIdentityLine);
+  EXPECT_EQ(read_timed_poses(timed).size(), 1u);
+  EXPECT_EQ(read_frame_poses(frames).size(), 1u);
+  EXPECT_THAT(message_of([&] { read_frame_poses(timed); }), HasSubstr("has times of its own"));
+  EXPECT_THAT(message_of([&] { read_timed_poses(frames); }), HasSubstr("without times"));
 }
 
 TEST(Trajectory, ThatIsMissingOrEmptyIsRefused) {
