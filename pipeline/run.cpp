@@ -27,30 +27,36 @@ Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
   return wanted;
 }
 
-/// Throws FileError if a motion tells nothing between any two frames; says so if it is little.
+/// Throws FileError if a motion and the images have no time in common, or the images lie within a
+/// step or two of many; says so if the motion tells little.
 void check_common_time(const std::string& path, const MeasuredMotion& motion,
                        const std::vector<std::int64_t>& stamps_ns, const LogSink& log) {
   if (stamps_ns.size() < 2) return;
-  std::size_t told = 0;
+  std::size_t told = 0, steps_in_common = 0;
   for (std::size_t i = 1; i < stamps_ns.size(); ++i)
     told += motion.between(stamps_ns[i - 1], stamps_ns[i]).has_value();
-  const std::size_t pairs = stamps_ns.size() - 1;
-  if (2 * told > pairs) return;
   std::vector<std::int64_t> motion_ns = {motion.steps().front().from_ns};
-  for (const MotionStep& step : motion.steps()) motion_ns.push_back(step.to_ns);
+  for (const MotionStep& step : motion.steps()) {
+    motion_ns.push_back(step.to_ns);
+    steps_in_common += step.to_ns > stamps_ns.front() && step.from_ns < stamps_ns.back();
+  }
+  const std::size_t pairs = stamps_ns.size() - 1;
+  const bool within_few = steps_in_common <= 2 && motion.steps().size() > 2 && pairs > 2;
+  if (2 * told > pairs && !within_few) return;
   const std::string times =
       fmt::format("it is from {:.3f} to {:.3f} s, the images are from {:.3f} to {:.3f} s",
                   seconds(0, motion_ns.front()), seconds(0, motion_ns.back()),
                   seconds(0, stamps_ns.front()), seconds(0, stamps_ns.back()));
-  if (told > 0) {
+  if (told > 0 && !within_few) {
     placegraph::log(log, LogLevel::kWarning,
                     "{}: tells the motion between {} of {} pairs of frames: {}", path, told, pairs,
                     times);
     return;
   }
   const std::string clock = other_clock(stamps_ns, motion_ns, "the odometry");
-  throw FileError(path, "has no time in common with the images: " + times +
-                            (clock.empty() ? "" : "; " + clock));
+  throw FileError(path, (told > 0 ? "has hardly a time in common with the images: "
+                                  : "has no time in common with the images: ") +
+                            times + (clock.empty() ? "" : "; " + clock));
 }
 
 /// Of the camera.

@@ -59,7 +59,8 @@ test::TemporaryFolder* RunOdometryCli::sequence = nullptr;
 
 /// Stamped poses of wheels that go 1 % too far, turn 0.1 deg too much a frame, and slip in
 /// [slip_begin, slip_end), where they go three times as far as the vehicle.
-std::string wheels(const std::vector<Eigen::Isometry3d>& truth, int slip_begin, int slip_end) {
+std::string wheels(const std::vector<Eigen::Isometry3d>& truth, int slip_begin, int slip_end,
+                   double begin_s = 0, double unit_s = 1) {
   std::ostringstream out;
   out.precision(12);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -70,8 +71,8 @@ std::string wheels(const std::vector<Eigen::Isometry3d>& truth, int slip_begin, 
       pose = pose * step * Eigen::AngleAxisd(deg_to_rad(0.1), Eigen::Vector3d::UnitY());
     }
     const Eigen::Quaterniond q(pose.rotation());
-    out << 0.1 * i << ' ' << pose.translation().transpose() << ' ' << q.coeffs().transpose()
-        << '\n';
+    out << (begin_s + 0.1 * i) / unit_s << ' ' << pose.translation().transpose() << ' '
+        << q.coeffs().transpose() << '\n';
   }
   return out.str();
 }
@@ -98,6 +99,20 @@ TEST_F(RunOdometryCli, GivesOneEyeItsUnitAlthoughTheWheelsSlip) {
   EXPECT_EQ(json::parse(result.out).at("metric"), true);
   // The wheels say 1 %, what is seen of so few metres is good to a few more; slip were 17 %.
   EXPECT_LT(ate_m("out/trajectory_optimized.tum"), 0.03 * (kFrames - 1));
+}
+
+TEST_F(RunOdometryCli, OfAnotherClockIsRefusedAndOfAShortTimeIsTold) {
+  const auto refusal = [&](double begin_s, double unit_s, const std::string& message) {
+    write_file(dir / "wheels.tum", wheels(truth(), 0, 0, begin_s, unit_s));
+    expect_usage_error("run '" + drive() + "' --odometry wheels.tum --out new/out", message);
+  };
+  refusal(0, 1e-3, "seems to have its times in milliseconds");
+  refusal(1000, 1, "wheels.tum: has no time in common with the images: it is from 1000.000 to");
+  refusal(1000, 1e-3, "seems to have its times in milliseconds");
+  write_file(dir / "wheels.tum", wheels(truth(), 0, 0, 1.9));
+  const CommandResult late = run_with("--sensor stereo --odometry wheels.tum");
+  EXPECT_EQ(late.code, 0);
+  EXPECT_THAT(late.err, HasSubstr("tells the motion between 4 of 23 pairs of frames"));
 }
 
 TEST_F(RunOdometryCli, ABrokenFileGivesOneLineAndNothingIsWritten) {
