@@ -121,7 +121,8 @@ Trajectory read(const std::string& path, const std::string& times) {
   return trajectory;
 }
 
-EvaluationResult judge(const Job& job, const EvalArguments& arguments) {
+/// The trajectories are gone when it returns: long ones take most of the memory.
+PairingResult pair(const Job& job, const EvalArguments& arguments) {
   const std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
   const std::string estimate_times = arguments.times.empty() ? "" : arguments.times.back();
   const Trajectory estimate = read(job.estimate, estimate_times);
@@ -131,7 +132,11 @@ EvaluationResult judge(const Job& job, const EvalArguments& arguments) {
   if (!truth.has_times && estimate.has_times && fs::path(job.truth).filename() == "poses.txt" &&
       arguments.options.association != Association::kIndex && fs::exists(beside))
     give_times(truth, job.truth, beside.string());
-  return evaluate(truth, estimate, arguments.options, job.name);
+  return pair_trajectories(truth, estimate, arguments.options.association, arguments.options.time);
+}
+
+EvaluationResult judge(const Job& job, const EvalArguments& arguments) {
+  return evaluate(pair(job, arguments), arguments.options, job.name);
 }
 
 void check_outputs(const EvalArguments& arguments) {

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/plausibility.h>
-#include <placegraph/graph/measurements/stamp_plausibility.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,15 +98,6 @@ std::string who_stands(const std::vector<FramePair>& pairs) {
   return truth_m < kNoWay_m ? ": the ground truth never moves" : "";
 }
 
-/// What is odd about either trajectory by itself.
-void add_doubts(const Trajectory& trajectory, const std::string& whose, EvaluationResult& r) {
-  if (!trajectory.has_times) return;
-  std::vector<std::int64_t> stamps_ns;
-  for (const StampedPose& pose : trajectory.poses) stamps_ns.push_back(pose.stamp_ns);
-  const std::string odd = odd_spacing(stamps_ns, "pose");
-  if (!odd.empty()) r.warnings.push_back(whose + " has " + odd);
-}
-
 Outcome needs_orientation(const char* what) {
   return Outcome::failure(Outcome::Code::kTooFewData,
                           std::string(what) + " needs orientations, but there are positions alone");
@@ -141,9 +131,15 @@ void visit(OptionVisitor& field, EvaluationOptions& o) {
 EvaluationResult evaluate(const Trajectory& truth, const Trajectory& estimate,
                           const EvaluationOptions& options, const std::string& name) {
   options.check();
+  return evaluate(pair_trajectories(truth, estimate, options.association, options.time), options,
+                  name);
+}
+
+EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options,
+                          const std::string& name) {
+  options.check();
   EvaluationResult r;
   r.name = name;
-  PairingResult paired = pair_trajectories(truth, estimate, options.association, options.time);
   r.protocol = {options.alignment,     paired.association,         options.time.max_difference_s,
                 options.time.offset_s, options.segments.lengths_m, options.segments.step};
   r.frames = paired.truth_frames;
@@ -157,8 +153,7 @@ EvaluationResult evaluate(const Trajectory& truth, const Trajectory& estimate,
   if (r.outcome && by_first_pose && !paired.has_orientation)
     r.outcome = needs_orientation(("align " + to_string(options.alignment)).c_str());
   if (!r.outcome) return r;
-  add_doubts(truth, "the ground truth", r);
-  add_doubts(estimate, "the estimate", r);
+  r.warnings = std::move(paired.warnings);
 
   for (const FramePair& pair : paired.pairs)
     if (!pair.T_world_estimate) r.lost_frames.push_back(pair.frame);

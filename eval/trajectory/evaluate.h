@@ -24,5 +24,9 @@ void visit(OptionVisitor& field, EvaluationOptions& options);
 [[nodiscard]] EvaluationResult evaluate(const Trajectory& truth, const Trajectory& estimate,
                                         const EvaluationOptions& options = {},
                                         const std::string& name = "estimate");
+/// The same of what pair_trajectories made with the options' association: for long trajectories,
+/// which need not be kept beside their pairs.
+[[nodiscard]] EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options = {},
+                                        const std::string& name = "estimate");
 
 }  // namespace placegraph

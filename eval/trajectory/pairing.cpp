@@ -36,6 +36,13 @@ std::vector<std::int64_t> stamps_of(const Trajectory& trajectory) {
   return stamps_ns;
 }
 
+/// What is odd about the times of a trajectory; empty if nothing is.
+std::string odd_times(const Trajectory& trajectory, const char* whose) {
+  if (!trajectory.has_times) return {};
+  const std::string odd = odd_spacing(stamps_of(trajectory), "pose");
+  return odd.empty() ? odd : std::string(whose) + " has " + odd;
+}
+
 Outcome why_not_by_index(const Trajectory& truth, const Trajectory& estimate) {
   if (truth.size() == estimate.size() || truth.numbered || estimate.numbered) return Outcome::ok();
   return Outcome::failure(Outcome::Code::kInconsistent,
@@ -162,8 +169,12 @@ PairingResult pair_trajectories(const Trajectory& truth, const Trajectory& estim
 
   const std::vector<int> estimate_of = partners(truth, estimate, by_time, options);
   const LostFrames lost(truth, estimate, options.offset_s);
+  for (std::string odd :
+       {odd_times(truth, "the ground truth"), odd_times(estimate, "the estimate")})
+    if (!odd.empty()) result.warnings.push_back(std::move(odd));
   result.has_times = truth.has_times;
   result.has_orientation = truth.has_orientation && estimate.has_orientation;
+  result.pairs.reserve(by_time ? std::min(truth.size(), estimate.size()) : truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (!truth.poses[i].T_world_body) continue;
     ++result.truth_frames;

@@ -26,12 +26,13 @@ struct PairingResult {
   /// where no pose of the estimate is within three quarters of the estimate's spacing; where the
   /// ground truth is clearly denser (a motion capture system at 200 Hz), one per missing pose.
   std::vector<FramePair> pairs;
-  bool has_times = false;          ///< FramePair::stamp_ns are times
-  bool has_orientation = true;     ///< on both sides
-  int truth_frames = 0;            ///< posed lines of the ground truth
-  int posed = 0;                   ///< pairs with an estimate
-  int estimate_frames = 0;         ///< posed lines of the estimate
-  int estimate_without_truth = 0;  ///< of those, without a posed partner
+  bool has_times = false;             ///< FramePair::stamp_ns are times
+  bool has_orientation = true;        ///< on both sides
+  int truth_frames = 0;               ///< posed lines of the ground truth
+  int posed = 0;                      ///< pairs with an estimate
+  int estimate_frames = 0;            ///< posed lines of the estimate
+  int estimate_without_truth = 0;     ///< of those, without a posed partner
+  std::vector<std::string> warnings;  ///< what is odd about the times of either
 };
 
 /// Pairs two trajectories, or says in `outcome` why it would be a guess: lines of different number

@@ -68,6 +68,8 @@ struct Motions {
           const Reading& of_estimate) {
     const int n = static_cast<int>(pairs.size());
     double truth_length = 0, estimate_length = 0;
+    truth.reserve(pairs.size());
+    estimate.reserve(pairs.size());
     // The same window of ground truth for every shift, so that misfits can be compared.
     for (int i = kMaxShift; i + stride + kMaxShift < n; ++i) {
       const auto& a = pairs[static_cast<std::size_t>(i + shift)].T_world_estimate;

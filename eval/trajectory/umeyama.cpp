@@ -32,13 +32,12 @@ Outcome too_few(std::size_t have, int need) {
       std::to_string(have) + " associated poses, the alignment needs " + std::to_string(need));
 }
 
-AlignmentResult align_first_pose(const std::vector<FramePair>& posed,
-                                 const std::vector<Eigen::Vector3d>& from,
+AlignmentResult align_first_pose(const FramePair& first, const std::vector<Eigen::Vector3d>& from,
                                  const std::vector<Eigen::Vector3d>& to, bool with_scale) {
   AlignmentResult result;
-  result.pairs = static_cast<int>(posed.size());
-  const Eigen::Isometry3d& T_world_truth = posed.front().T_world_truth;
-  const Eigen::Isometry3d& T_world_estimate = *posed.front().T_world_estimate;
+  result.pairs = static_cast<int>(from.size());
+  const Eigen::Isometry3d& T_world_truth = first.T_world_truth;
+  const Eigen::Isometry3d& T_world_estimate = *first.T_world_estimate;
   result.R_truth_estimate = T_world_truth.linear() * T_world_estimate.linear().inverse();
   result.outcome = Outcome::ok();
   if (with_scale) {
@@ -128,29 +127,29 @@ AlignmentResult umeyama(const std::vector<Eigen::Vector3d>& points_from,
 }
 
 AlignmentResult align(const std::vector<FramePair>& pairs, Alignment alignment) {
-  std::vector<FramePair> posed;
+  const FramePair* first = nullptr;
   std::vector<Eigen::Vector3d> from, to;
   for (const FramePair& pair : pairs) {
     if (!pair.T_world_estimate) continue;
-    posed.push_back(pair);
+    if (!first) first = &pair;
     from.push_back(pair.T_world_estimate->translation());
     to.push_back(pair.T_world_truth.translation());
   }
   AlignmentResult result;
   const bool scale_only = alignment == Alignment::kScale;
-  if (posed.size() < (scale_only ? 2u : 1u)) {
-    result.outcome = too_few(posed.size(), scale_only ? 2 : 1);
+  if (from.size() < (scale_only ? 2u : 1u)) {
+    result.outcome = too_few(from.size(), scale_only ? 2 : 1);
     return result;
   }
   switch (alignment) {
     case Alignment::kNone:
-      result.pairs = static_cast<int>(posed.size());
+      result.pairs = static_cast<int>(from.size());
       result.rmse_m = rmse_after(result, from, to);
       result.outcome = Outcome::ok();
       return result;
     case Alignment::kOrigin:
     case Alignment::kScale:
-      return align_first_pose(posed, from, to, scale_only);
+      return align_first_pose(*first, from, to, scale_only);
     case Alignment::kSe3:
       return umeyama(from, to, false);
     case Alignment::kSim3:
