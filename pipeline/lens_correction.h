@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/measurements/frame.h>
-#include <placegraph/io/datasets/rectification.h>
+#include <placegraph/io/calibration/rectification.h>
 
 namespace placegraph {
 

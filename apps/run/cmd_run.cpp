@@ -2,6 +2,7 @@
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/text_file.h>
@@ -156,10 +157,18 @@ void print_summary(const json& summary, const std::string& folder) {
       1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(), folder.c_str());
 }
 
-/// What the reader says of the sequence; lengths that are in doubt are not called metric.
-void add_notes(const Dataset& dataset, json& summary) {
+/// What the reader says of the sequence, and what is odd about the options.
+std::vector<DataNote> notes_of(const Dataset& dataset, const RunOptions& options) {
+  std::vector<DataNote> notes = dataset.notes();
+  if (options.camera_height_m > 0)
+    if (const auto note = odd_camera_height(options.camera_height_m)) notes.push_back(*note);
+  return notes;
+}
+
+/// Lengths that are in doubt are not called metric.
+void add_notes(const std::vector<DataNote>& notes, json& summary) {
   summary["notes"] = json::array();
-  for (const DatasetNote& note : dataset.notes()) {
+  for (const DataNote& note : notes) {
     summary["notes"].push_back(note.text);
     if (note.doubts_scale) summary["metric"] = false;
   }
@@ -272,7 +281,8 @@ void run(RunArguments arguments) {
             "--draw: must be another folder than --out");
   }
   const auto dataset = open_dataset(arguments.sequence);
-  for (const DatasetNote& note : dataset->notes()) warn(dataset->name() + ": " + note.text);
+  const std::vector<DataNote> notes = notes_of(*dataset, options);
+  for (const DataNote& note : notes) warn(dataset->name() + ": " + note.text);
   const auto surfaces = surfaces_of(options.slam);
   const OutputFolder folder(arguments.out);
   std::optional<OutputFolder> drawings;
@@ -322,7 +332,7 @@ void run(RunArguments arguments) {
                environment_csv(run.environments));
   }
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
-  add_notes(*dataset, summary);
+  add_notes(notes, summary);
   summary["sequence"] = dataset->name();
   summary["format"] = dataset->format();
   summary["seed"] = options.slam.seed;

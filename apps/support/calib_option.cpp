@@ -1,8 +1,9 @@
 #include "apps/support/calib_option.h"
 
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/calibration_file.h>
-#include <placegraph/io/datasets/camera_file.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/camera_file.h>
+#include <placegraph/io/calibration/foreign_calibration.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -25,10 +26,18 @@ CLI::Option* add_calib_option(CLI::App& command, std::string& path, const std::s
 
 Camera read_calib(const std::string& path) {
   const std::string kind = std::filesystem::path(path).extension().string();
-  if (kind != ".yaml" && kind != ".yml") return read_camera_file(path);
-  CalibrationYaml yaml;
-  read_calibration_yaml(path, yaml);
-  return yaml.camera();
+  Camera camera;
+  if (kind == ".yaml" || kind == ".yml" || kind == ".xml" || kind == ".json") {
+    CalibrationYaml yaml;
+    read_calibration_yaml(path, yaml);
+    camera = yaml.camera();
+  } else if (const auto foreign = read_foreign_calibration(path)) {
+    camera = foreign->camera;
+  } else {
+    return read_camera_file(path);
+  }
+  if (camera.width == 0 || camera.height == 0) throw FileError(path, "tells no size of the images");
+  return camera;
 }
 
 Camera read_calib_without_distortion(const std::string& path, const std::string& what) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/graph/geometry/trajectory.h>
+#include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/graph/measurements/frame.h>
 
 #include <memory>
@@ -8,13 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// What whoever runs a sequence should know of how it was read: what was left out and why, and what
-/// is odd about its numbers and what to try.
-struct DatasetNote {
-  std::string text;           ///< one line
-  bool doubts_scale = false;  ///< lengths may be wrong: a result is not to be called metric
-};
 
 /// A recorded sequence. Everything foreign ends here: frames are grey, undistorted and (stereo)
 /// rectified, stamps are ns and strictly increasing, poses are T_world_cam of the (left) camera.
@@ -34,7 +28,8 @@ class Dataset {
   /// missing, unreadable or of another size than the calibration says.
   virtual Frame frame(std::size_t index, Sensor sensor) const = 0;
   virtual const std::optional<Trajectory>& ground_truth() const = 0;
-  virtual std::vector<DatasetNote> notes() const { return {}; }
+  /// What was left out in reading, and what is odd.
+  virtual std::vector<DataNote> notes() const { return {}; }
 };
 
 }  // namespace placegraph

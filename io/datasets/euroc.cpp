@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/time.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/config/yaml_document.h>
 #include <placegraph/io/datasets/euroc.h>
 #include <placegraph/io/datasets/euroc_sensor.h>
@@ -175,7 +176,8 @@ SE3 read_mav_eyes(const fs::path& mav, RecordedSequence& sequence) {
   if (!has_images(mav / "cam1")) {
     sequence.stamps_ns = left_images.stamps_ns;
     sequence.left = left_images.paths;
-    const UndistortedCamera undistorted = undistort_camera(left.camera);
+    const UndistortedCamera undistorted =
+        undistort_plausibly((mav / "cam0" / "sensor.yaml").string(), left.camera);
     sequence.calibration.camera = undistorted.camera;
     sequence.left_remap = undistorted.remap;
     return left.T_body_cam;
@@ -184,6 +186,8 @@ SE3 read_mav_eyes(const fs::path& mav, RecordedSequence& sequence) {
   take_pairs(left_images, read_list(mav / "cam1"), sequence);
   if (sequence.left.empty()) throw FileError(right_list, "has no stamp near one of cam0");
   const BodyCamera right = read_sensor(mav / "cam1");
+  require_plausible_camera((mav / "cam0" / "sensor.yaml").string(), left.camera);
+  require_plausible_camera((mav / "cam1" / "sensor.yaml").string(), right.camera);
   try {
     RectifiedStereo stereo =
         rectify_stereo(left.camera, right.camera, left.T_body_cam.inverse() * right.T_body_cam);

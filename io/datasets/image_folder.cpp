@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/calibration_file.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/datasets/image_folder.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
@@ -55,9 +56,11 @@ std::unique_ptr<Dataset> open_image_folder(const std::string& folder) {
   sequence.name = folder_name(folder);
   sequence.format = "images";
   sequence.left = list_images(folder_of_images(path));
+  if (auto note = fit_to_image(sequence.left[0], read_image(sequence.left[0]).grey, yaml))
+    sequence.notes.push_back(*note);
   sequence.raw_camera = yaml.camera();
-  require_size(sequence.left[0], read_image(sequence.left[0]).grey, yaml.width, yaml.height);
-  const UndistortedCamera undistorted = undistort_camera(sequence.raw_camera);
+  const UndistortedCamera undistorted =
+      undistort_plausibly((path / "calibration.yaml").string(), sequence.raw_camera);
   sequence.calibration.camera = undistorted.camera;
   sequence.left_remap = undistorted.remap;
   if (yaml.camera_height_m > 0) sequence.calibration.camera_height_m = yaml.camera_height_m;

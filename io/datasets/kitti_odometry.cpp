@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/config/yaml_document.h>
 #include <placegraph/io/datasets/kitti_odometry.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
@@ -99,6 +100,7 @@ Eigen::Vector3d read_eyes(const fs::path& folder, RecordedSequence& sequence) {
   Camera camera = camera_from(path, left_key, P_left->second);
   sequence.left = list_numbered_images((folder / fmt::format("image_{}", left)).string());
   set_size(sequence.left[0], read_image(sequence.left[0]).grey, camera);
+  require_plausible_camera(path, camera);
   sequence.raw_camera = sequence.calibration.camera = camera;
 
   const fs::path right_folder = folder / fmt::format("image_{}", left + 1);

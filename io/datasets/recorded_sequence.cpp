@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/measurements/stamp_plausibility.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
+#include <placegraph/io/datasets/image_levels.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -19,6 +22,10 @@ class RecordedDataset : public Dataset {
                 (!s_.ground_truth || s_.ground_truth->size() == n),
             "recorded sequence: lists of different lengths");
     s_.calibration.check();
+    for (DataNote& note : odd_calibration(s_.calibration)) s_.notes.push_back(std::move(note));
+    ImageLevels levels = sample_levels(s_.left);
+    bits_ = s_.right.empty() ? levels.bits : std::max(levels.bits, sample_levels(s_.right).bits);
+    for (DataNote& note : levels.notes) s_.notes.push_back(std::move(note));
     const std::string odd = odd_spacing(s_.stamps_ns, "frame");
     if (!odd.empty()) s_.notes.push_back({odd});
     if (s_.ground_truth && s_.ground_truth->posed() < n)
@@ -38,7 +45,7 @@ class RecordedDataset : public Dataset {
     return s_.stamps_ns[index];
   }
   const std::optional<Trajectory>& ground_truth() const override { return s_.ground_truth; }
-  std::vector<DatasetNote> notes() const override { return s_.notes; }
+  std::vector<DataNote> notes() const override { return s_.notes; }
 
   Frame frame(std::size_t index, Sensor sensor) const override {
     check_index(index);
@@ -68,7 +75,7 @@ class RecordedDataset : public Dataset {
   }
 
   GreyAndColour read_eye(const std::string& path, const Remap& remap) const {
-    GreyAndColour eye = read_image(path);
+    GreyAndColour eye = read_image(path, bits_);
     require_size(path, eye.grey, s_.raw_camera.width, s_.raw_camera.height);
     if (remap.is_identity()) return eye;
     if (eye.colour.empty()) return {remap.bilinear(eye.grey), {}};
@@ -78,6 +85,7 @@ class RecordedDataset : public Dataset {
   }
 
   RecordedSequence s_;
+  int bits_ = 16;  ///< in use of images of 16 bits
 };
 
 }  // namespace

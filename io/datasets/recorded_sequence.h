@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/io/calibration/rectification.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/datasets/rectification.h>
 
 #include <functional>
 
@@ -17,7 +17,7 @@ struct RecordedSequence {
   Remap left_remap, right_remap, depth_remap;
   double depth_unit_m = 0.001;  ///< metres of one step of the depth images
   std::optional<Trajectory> ground_truth;
-  std::vector<DatasetNote> notes;  ///< those of the reader; odd times are added by make_dataset
+  std::vector<DataNote> notes;  ///< those of the reader; odd times are added by make_dataset
 };
 
 /// Reads images on demand. Throws ArgumentError if the lists' lengths disagree.

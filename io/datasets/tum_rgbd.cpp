@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/calibration_file.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/datasets/tum_rgbd.h>
 #include <placegraph/io/files/image_file.h>
@@ -111,30 +112,16 @@ std::optional<Camera> benchmark_camera(const std::string& name) {
   return std::nullopt;
 }
 
-struct RgbdCameras {
-  Camera raw;
-  DepthCamera depth;
-  bool registered = true;
-  double depth_unit_m = kDepthUnit_m;
-  std::optional<double> camera_height_m;
-};
-
-RgbdCameras read_cameras(const fs::path& folder, const std::string& name) {
-  RgbdCameras cameras;
+/// That of calibration.yaml, else the benchmark's, as the folder's name says.
+CalibrationYaml read_calibration(const fs::path& folder, const std::string& name) {
+  CalibrationYaml yaml;
+  yaml.depth.unit_m = kDepthUnit_m;
   const fs::path path = folder / "calibration.yaml";
   if (fs::exists(path)) {
-    CalibrationYaml yaml;
-    yaml.depth.unit_m = kDepthUnit_m;
     read_calibration_yaml(path.string(), yaml);
-    if (yaml.baseline_m > 0) {
+    if (yaml.baseline_m > 0)
       throw FileError(path.string(), "baseline_m: a TUM sequence has one eye");
-    }
-    cameras.raw = yaml.camera();
-    cameras.depth = yaml.depth_camera();
-    cameras.registered = yaml.depth.fx == 0;
-    cameras.depth_unit_m = yaml.depth.unit_m;
-    if (yaml.camera_height_m > 0) cameras.camera_height_m = yaml.camera_height_m;
-    return cameras;
+    return yaml;
   }
   const auto camera = benchmark_camera(name);
   if (!camera) {
@@ -142,8 +129,11 @@ RgbdCameras read_cameras(const fs::path& folder, const std::string& name) {
                     "the intrinsics are unknown: the folder's name has no freiburg1, freiburg2 or "
                     "freiburg3, and there is no calibration.yaml in it");
   }
-  cameras.raw = cameras.depth.camera = *camera;
-  return cameras;
+  yaml.width = camera->width, yaml.height = camera->height;
+  yaml.fx = camera->fx, yaml.fy = camera->fy, yaml.cx = camera->cx, yaml.cy = camera->cy;
+  yaml.distortion = camera->distortion;
+  yaml.coefficients.assign(camera->coefficients.begin(), camera->coefficients.end());
+  return yaml;
 }
 
 void take_images(const ImageList& colour, const ImageList* depth, RecordedSequence& sequence) {
@@ -180,7 +170,7 @@ std::unique_ptr<Dataset> open_tum_rgbd(const std::string& folder) {
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
   sequence.format = "tum";
-  const RgbdCameras cameras = read_cameras(path, sequence.name);
+  CalibrationYaml yaml = read_calibration(path, sequence.name);
 
   bool has_depth = true;
   if (fs::exists(path / "rgb.txt")) {
@@ -198,18 +188,19 @@ std::unique_ptr<Dataset> open_tum_rgbd(const std::string& folder) {
     throw FileError((path / "depth.txt").string(),
                     "no depth image lies within 20 ms of any image of rgb.txt");
   }
-  require_size(sequence.left[0], read_image(sequence.left[0]).grey, cameras.raw.width,
-               cameras.raw.height);
+  if (auto note = fit_to_image(sequence.left[0], read_image(sequence.left[0]).grey, yaml))
+    sequence.notes.push_back(*note);
 
-  const UndistortedCamera undistorted = undistort_camera(cameras.raw);
-  sequence.raw_camera = cameras.raw;
+  const UndistortedCamera undistorted =
+      undistort_plausibly((path / "calibration.yaml").string(), yaml.camera());
+  sequence.raw_camera = yaml.camera();
   sequence.calibration.camera = undistorted.camera;
-  sequence.calibration.camera_height_m = cameras.camera_height_m;
+  if (yaml.camera_height_m > 0) sequence.calibration.camera_height_m = yaml.camera_height_m;
   sequence.left_remap = undistorted.remap;
   if (has_depth) {
-    sequence.calibration.depth = cameras.depth;
-    sequence.depth_unit_m = cameras.depth_unit_m;
-    if (cameras.registered) {  // it shares the lens distortion of the image it is registered to
+    sequence.calibration.depth = yaml.depth_camera();
+    sequence.depth_unit_m = yaml.depth.unit_m;
+    if (yaml.depth.fx == 0) {  // it shares the lens distortion of the image it is registered to
       sequence.calibration.depth->camera = undistorted.camera;
       sequence.depth_remap = undistorted.remap;
     }

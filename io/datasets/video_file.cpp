@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/time.h>
-#include <placegraph/io/datasets/calibration_file.h>
+#include <placegraph/graph/measurements/stamp_plausibility.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/datasets/video_file.h>
 #include <placegraph/io/files/image_file.h>
@@ -32,13 +34,19 @@ cv::VideoCapture open_capture(const std::string& path) {
 
 class VideoDataset : public Dataset {
  public:
-  VideoDataset(const std::string& path, const CalibrationYaml& yaml)
-      : path_(path), raw_(yaml.camera()), undistorted_(undistort_camera(raw_)) {
+  VideoDataset(const std::string& path, const std::string& yaml_path, CalibrationYaml yaml)
+      : path_(path) {
+    if (auto note = fit_to_image(path, decode(0), yaml)) notes_.push_back(*note);
+    raw_ = yaml.camera();
+    undistorted_ = undistort_plausibly(yaml_path, raw_);
     name_ = fs::path(path).stem().string();
     calibration_.camera = undistorted_.camera;
     if (yaml.camera_height_m > 0) calibration_.camera_height_m = yaml.camera_height_m;
 
     read_times(yaml.fps);
+    for (DataNote& note : odd_calibration(calibration_)) notes_.push_back(std::move(note));
+    const std::string odd = odd_spacing(stamps_ns_, "frame");
+    if (!odd.empty()) notes_.push_back({odd});
   }
 
   const std::string& name() const override { return name_; }
@@ -53,7 +61,7 @@ class VideoDataset : public Dataset {
     return stamps_ns_[index];
   }
   const std::optional<Trajectory>& ground_truth() const override { return ground_truth_; }
-  std::vector<DatasetNote> notes() const override { return notes_; }
+  std::vector<DataNote> notes() const override { return notes_; }
 
   Frame frame(std::size_t index, Sensor sensor) const override {
     check_index(index);
@@ -137,7 +145,7 @@ class VideoDataset : public Dataset {
   Calibration calibration_;
   std::vector<std::int64_t> stamps_ns_;
   std::optional<Trajectory> ground_truth_;
-  std::vector<DatasetNote> notes_;
+  std::vector<DataNote> notes_;
   mutable std::mutex mutex_;
   mutable cv::VideoCapture capture_;
   mutable std::size_t next_ = 0;
@@ -165,7 +173,7 @@ std::unique_ptr<Dataset> open_video_file(const std::string& path) {
   CalibrationYaml yaml;
   read_calibration_yaml(yaml_path, yaml);
   if (yaml.baseline_m > 0) throw FileError(yaml_path, "baseline_m: a video has one eye");
-  auto dataset = std::make_unique<VideoDataset>(path, yaml);
+  auto dataset = std::make_unique<VideoDataset>(path, yaml_path, yaml);
   dataset->frame(0, Sensor::kMono);  // of the size the calibration says, or refused now
   return dataset;
 }

@@ -58,9 +58,12 @@ cv::Mat decode(const std::string& path, int flags) {
 
 }  // namespace
 
-GreyAndColour read_image(const std::string& path) {
+GreyAndColour read_image(const std::string& path, int bits) {
   GreyAndColour result;
-  const cv::Mat image = decode(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  int flags = cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION;
+  if (bits < 16) flags |= cv::IMREAD_ANYDEPTH;
+  cv::Mat image = decode(path, flags);
+  if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / (1 << (bits - 8)), -0.5);
   if (std::min(image.cols, image.rows) < kLeastSide)
     throw FileError(path, fmt::format("image is {}x{}: no picture is under {} px high or wide",
                                       image.cols, image.rows, kLeastSide));

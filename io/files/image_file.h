@@ -10,9 +10,10 @@ struct GreyAndColour {
   Image grey, colour;
 };
 
-/// Reads PNG, JPEG, PGM/PPM, TIFF or BMP; pixels as stored (EXIF orientation is not applied).
-/// Throws FileError if the file is missing, truncated, no image, or under 4 px high or wide.
-GreyAndColour read_image(const std::string& path);
+/// Reads PNG, JPEG, PGM/PPM, TIFF or BMP; pixels as stored (EXIF orientation is not applied). Of a
+/// file of 16 bits the upper eight of `bits` are kept. Throws FileError if the file is missing,
+/// truncated, no image, or under 4 px high or wide.
+GreyAndColour read_image(const std::string& path, int bits = 16);
 
 /// Channels and depth as in the file. Throws like `read_image`.
 Image read_image_as_stored(const std::string& path);

@@ -27,9 +27,9 @@ std::string sensor(double y_in_body_m) {
          "distortion_coefficients: [-0.05, 0.01, 0, 0]\n";
 }
 
-std::vector<std::string> texts(const std::vector<DatasetNote>& notes) {
+std::vector<std::string> texts(const std::vector<DataNote>& notes) {
   std::vector<std::string> result;
-  for (const DatasetNote& note : notes) result.push_back(note.text);
+  for (const DataNote& note : notes) result.push_back(note.text);
   return result;
 }
 

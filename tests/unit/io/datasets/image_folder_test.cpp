@@ -1,4 +1,4 @@
-#include <placegraph/io/datasets/calibration_file.h>
+#include <placegraph/io/calibration/calibration_file.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/image_list.h>
 
@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{kCalibration + "distortion: {model: equidistant, coefficients: [0.1]}\n",
                   "distortion.coefficients: equidistant has 4"},
         std::pair{kCalibration + "distortion: {model: radial_tangential, coefficients: [0.1]}\n",
-                  "distortion.coefficients: radial_tangential has 4 or 5"},
+                  "distortion.coefficients: a radial-tangential lens has 4 or 5"},
         std::pair{kCalibration + "baseline_m: 0.1\ndistortion: {model: radial_tangential, "
                                  "coefficients: [0.1, 0, 0, 0]}\n",
                   "baseline_m: a folder of stereo images must be rectified"},
@@ -193,8 +193,8 @@ TEST(VideoFile, IsRefusedWithoutCalibrationOfAnotherSizeOrUnreadable) {
   };
   EXPECT_THAT(message("drive.avi"),
               HasSubstr("drive.avi: a video needs its calibration beside it"));
-  folder.write("drive.yaml", kCalibration);
-  EXPECT_THAT(message("drive.avi"), HasSubstr("drive.avi: image is 64x48, but 8x6 is expected"));
+  folder.write("drive.yaml", "width: 9\n" + kCalibration.substr(9));
+  EXPECT_THAT(message("drive.avi"), HasSubstr("drive.avi: image is 64x48, but 9x6 is expected"));
   folder.write("drive.yaml", kCalibration + "baseline_m: 1\n");
   EXPECT_THAT(message("drive.avi"), HasSubstr("drive.yaml: baseline_m: a video has one eye"));
   folder.write("text.avi", "no video");

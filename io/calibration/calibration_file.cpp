@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/foreign_calibration.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/datasets/calibration_file.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace placegraph {
 namespace {
@@ -34,7 +36,12 @@ void check(const std::string& path, const CalibrationYaml& yaml) {
            "distortion.coefficients: given, but distortion.model is none");
       break;
     case Distortion::kRadialTangential:
-      need(n == 4 || n == 5, "distortion.coefficients: radial_tangential has 4 or 5");
+      try {
+        Camera camera;
+        set_radial_tangential(yaml.coefficients, camera);
+      } catch (const ArgumentError& error) {
+        need(false, (std::string("distortion.coefficients: ") + error.what()).c_str());
+      }
       break;
     case Distortion::kEquidistant:
       need(n == 4, "distortion.coefficients: equidistant has 4");
@@ -104,7 +111,31 @@ void visit(OptionVisitor& field, CalibrationYaml& yaml) {
   field.group("depth", yaml.depth, "depth images in depth/");
 }
 
+namespace {
+
+/// The baseline is that of eyes in right/; files of this form give one to RGB-D cameras, too.
+void take(const ForeignCalibration& foreign, bool has_right, CalibrationYaml& yaml) {
+  const Camera& camera = foreign.camera;
+  yaml.width = camera.width, yaml.height = camera.height;
+  yaml.fx = camera.fx, yaml.fy = camera.fy, yaml.cx = camera.cx, yaml.cy = camera.cy;
+  yaml.distortion = camera.distortion;
+  if (camera.distortion != Distortion::kNone)
+    yaml.coefficients.assign(
+        camera.coefficients.begin(),
+        camera.coefficients.begin() + (camera.distortion == Distortion::kEquidistant ? 4 : 5));
+  if (has_right) yaml.baseline_m = foreign.baseline_m;
+  if (foreign.fps > 0) yaml.fps = foreign.fps;
+  if (foreign.depth_unit_m > 0) yaml.depth.unit_m = foreign.depth_unit_m;
+}
+
+}  // namespace
+
 void read_calibration_yaml(const std::string& path, CalibrationYaml& yaml) {
+  if (const auto foreign = read_foreign_calibration(path)) {
+    const auto folder = std::filesystem::path(path).parent_path();
+    take(*foreign, std::filesystem::is_directory(folder / "right"), yaml);
+    return;
+  }
   read_options(path, yaml);
   check(path, yaml);
   try {

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/camera_file.h>
+#include <placegraph/io/calibration/camera_file.h>
 #include <placegraph/io/files/text_file.h>
 
 namespace placegraph {

@@ -32,9 +32,10 @@ struct CalibrationYaml {
 };
 void visit(OptionVisitor& field, CalibrationYaml& yaml);
 
-/// Strict: unknown keys, wrong types and values out of range are FileErrors with the line; so are
-/// missing width, height, fx, fy, cx, cy, and coefficients that do not fit the distortion model.
-/// What the file does not give keeps the value it has in `yaml`.
+/// Reads that form, or one of another program (read_foreign_calibration), which may leave width and
+/// height 0; see fit_to_images. Strict: unknown keys, wrong types and values out of range are
+/// FileErrors with the line; so are missing width, height, fx, fy, cx, cy, and coefficients that do
+/// not fit the distortion model. What the file does not give keeps the value it has in `yaml`.
 void read_calibration_yaml(const std::string& path, CalibrationYaml& yaml);
 
 }  // namespace placegraph

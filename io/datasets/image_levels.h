@@ -1,0 +1,21 @@
+#pragma once
+#include <placegraph/graph/measurements/data_note.h>
+
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// How images use the grey levels that their files have room for.
+struct ImageLevels {
+  /// Bits in use of images of 16: 8 to 16. One number for a sequence, so that brightness stays
+  /// comparable from image to image.
+  int bits = 16;
+  std::vector<DataNote> notes;  ///< few bits of 16, very dark images, hardly any contrast
+};
+
+/// Looks at up to eight images, evenly spaced in the list. Unreadable ones are passed over: whoever
+/// needs them says so.
+ImageLevels sample_levels(const std::vector<std::string>& paths);
+
+}  // namespace placegraph
