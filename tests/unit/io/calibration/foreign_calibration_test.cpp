@@ -1,0 +1,91 @@
+#include <placegraph/io/calibration/foreign_calibration.h>
+
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace placegraph {
+namespace {
+
+using test::message_of;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+struct Foreign {
+  const char* program;
+  const char* file;
+  const char* text;
+};
+
+void PrintTo(const Foreign& foreign, std::ostream* out) { *out << foreign.program; }
+
+class ForeignCalibrations : public testing::TestWithParam<Foreign> {};
+
+/// All say the same camera: 320x240, fx 262, fy 263, principal point (159, 119), k1 -0.1.
+TEST_P(ForeignCalibrations, AreRead) {
+  const TemporaryFolder folder;
+  const auto read = read_foreign_calibration(folder.write(GetParam().file, GetParam().text));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->program, GetParam().program);
+  const Camera& camera = read->camera;
+  EXPECT_EQ(camera.width, 320);
+  EXPECT_EQ(camera.height, 240);
+  EXPECT_EQ(camera.fx, 262);
+  EXPECT_EQ(camera.fy, 263);
+  EXPECT_EQ(camera.cx, 159);
+  EXPECT_EQ(camera.cy, 119);
+  EXPECT_EQ(camera.distortion, Distortion::kRadialTangential);
+  EXPECT_EQ(camera.coefficients[0], -0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Programs, ForeignCalibrations,
+    testing::Values(
+        Foreign{"OpenCV", "c.yaml",
+                "%YAML:1.0\n---\nimage_width: 320\nimage_height: 240\n"
+                "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n"
+                "   data: [ 262., 0., 159., 0., 263., 119., 0., 0., 1. ]\n"
+                "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n"
+                "   data: [ -0.1, 0., 0., 0., 0. ]\n"},
+        Foreign{"ROS", "c.yaml",
+                "image_width: 320\nimage_height: 240\ncamera_name: a\n"
+                "camera_matrix: {rows: 3, cols: 3, data: [262, 0, 159, 0, 263, 119, 0, 0, 1]}\n"
+                "distortion_model: rational_polynomial\n"
+                "distortion_coefficients: {rows: 1, cols: 8, data: [-0.1, 0, 0, 0, 0, 0, 0, 0]}\n"},
+        Foreign{"Kalibr", "c.yaml",
+                "cam0:\n  camera_model: pinhole\n  distortion_coeffs: [-0.1, 0, 0, 0]\n"
+                "  distortion_model: radtan\n  intrinsics: [262, 263, 159, 119]\n"
+                "  resolution: [320, 240]\n"},
+        Foreign{"ORB-SLAM", "c.yaml",
+                "%YAML:1.0\nCamera.type: \"PinHole\"\nCamera.fx: 262.\nCamera.fy: 263.\n"
+                "Camera.cx: 159.\nCamera.cy: 119.\nCamera.k1: -0.1\nCamera.width: 320\n"
+                "Camera.height: 240\nCamera.bf: 40.0\n"},
+        Foreign{
+            "RealSense", "c.json",
+            "{\"color\": {\"width\": 320, \"height\": 240, \"fx\": 262, \"fy\": 263, \"ppx\": 159, "
+            "\"ppy\": 119, \"model\": \"Brown Conrady\", \"coeffs\": [-0.1, 0, 0, 0, 0]}}\n"},
+        Foreign{"COLMAP", "cameras.txt",
+                "# Camera list\n1 OPENCV 320 240 262 263 159.5 119.5 -0.1 0 0 0\n"}));
+
+TEST(ForeignCalibration, IsNoneOfTheProgramsOwnForm) {
+  const TemporaryFolder folder;
+  EXPECT_FALSE(read_foreign_calibration(folder.write("c.yaml", "width: 8\nheight: 6\nfx: 10\n")));
+  EXPECT_FALSE(read_foreign_calibration(folder.write("c.txt", "10 10 4 3 8 6\n")));
+}
+
+TEST(ForeignCalibration, NamesTheLineOfWhatIsNotKnown) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const char* file, const std::string& text) {
+    const std::string path = folder.write(file, text);
+    return message_of([&] { (void)read_foreign_calibration(path); });
+  };
+  EXPECT_THAT(refusal("c.yaml", "cam0:\n  camera_model: omni\n"),
+              HasSubstr("c.yaml:2: Kalibr's calibration: camera_model: 'omni' is not known"));
+  EXPECT_THAT(refusal("c.yaml", "K: [1, 2]\n"), HasSubstr("c.yaml:1: OpenCV's calibration: "));
+  EXPECT_THAT(refusal("c.yaml", "K: [9, 0, 4, 0, 9, 3, 0, 0, 1]\nD: [.1, 0, 0, 0, 0, .2, 0, 0]\n"),
+              HasSubstr("c.yaml:2: OpenCV's calibration: a radial-tangential lens has 4 or 5"));
+  EXPECT_THAT(refusal("cameras.txt", "1 FOV 320 240 1 2 3 4 5\n"),
+              HasSubstr("cameras.txt:1: COLMAP's calibration: the model 'FOV' is not known"));
+}
+
+}  // namespace
+}  // namespace placegraph
