@@ -63,7 +63,11 @@ GreyAndColour read_image(const std::string& path, int bits) {
   int flags = cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION;
   if (bits < 16) flags |= cv::IMREAD_ANYDEPTH;
   cv::Mat image = decode(path, flags);
-  if (image.depth() == CV_16U) image.convertTo(image, CV_8U, 1.0 / (1 << (bits - 8)), -0.5);
+  if (image.depth() == CV_16U) {
+    // Rounded down, as the lower bits are dropped: half a step keeps convertTo from rounding up.
+    const double scale = 1.0 / (1 << (bits - 8));
+    image.convertTo(image, CV_8U, scale, 0.5 * scale - 0.5);
+  }
   if (std::min(image.cols, image.rows) < kLeastSide)
     throw FileError(path, fmt::format("image is {}x{}: no picture is under {} px high or wide",
                                       image.cols, image.rows, kLeastSide));
