@@ -26,6 +26,7 @@
 #include "apps/places/cmd_vocabulary.h"
 #include "apps/run/cmd_config.h"
 #include "apps/run/cmd_flight.h"
+#include "apps/run/cmd_inspect.h"
 #include "apps/run/cmd_run.h"
 #include "apps/scene/cmd_scene.h"
 #include "apps/support/output.h"
@@ -85,6 +86,7 @@ int main(int argc, char** argv) {
     add_flow_command(app);
     add_georeference_command(app);
     add_hover_command(app);
+    add_inspect_command(app);
     add_lines_command(app);
     add_localize_command(app);
     add_loops_command(app);

@@ -65,13 +65,6 @@ GeoreferenceInput read_run(const std::string& folder) {
   return input;
 }
 
-json numbers(const Eigen::Ref<const Eigen::MatrixXd>& matrix) {
-  json list = json::array();
-  for (Eigen::Index i = 0; i < matrix.size(); ++i)
-    list.push_back(matrix(i / matrix.cols(), i % matrix.cols()));
-  return list;
-}
-
 }  // namespace
 
 GeoreferenceInput read_georeference_input(const std::string& path, const std::string& times_path) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace placegraph::apps {
 
@@ -14,5 +15,14 @@ nlohmann::json pose_json(const SE3& T);
 /// Its inverse. Throws nlohmann::json::exception where the form is another, ArgumentError where
 /// numbers are no pose.
 SE3 pose_of(const nlohmann::json& pose);
+
+/// A matrix row by row, a vector from its first on.
+template <class Matrix>
+std::vector<double> numbers(const Eigen::MatrixBase<Matrix>& matrix) {
+  std::vector<double> values;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
+  return values;
+}
 
 }  // namespace placegraph::apps

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/json_file.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
 #include "apps/views/cmd_planes_cloud.h"
@@ -28,15 +29,6 @@ struct PlanesArguments {
   PlanarRegionsOptions regions;
   MotionFromPlanesOptions planes_motion;
 };
-
-/// Row by row.
-template <class Matrix>
-std::vector<double> numbers(const Matrix& matrix) {
-  std::vector<double> values;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
-  return values;
-}
 
 ordered_json regions_json(const PlanarRegionsResult& result) {
   ordered_json json = ordered_json::array();

@@ -1,4 +1,5 @@
 #include "apps/views/plane_track_files.h"
+#include "apps/support/json_file.h"
 
 #include <fmt/format.h>
 
@@ -10,14 +11,6 @@ namespace placegraph::apps {
 namespace {
 
 using nlohmann::ordered_json;
-
-template <class Matrix>
-ordered_json numbers(const Matrix& matrix) {
-  ordered_json values = ordered_json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
-  return values;
-}
 
 ordered_json motion_json(const PlaneTrack& track) {
   ordered_json json;

@@ -1,4 +1,3 @@
-#include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/euroc.h>
 #include <placegraph/io/datasets/image_folder.h>
 #include <placegraph/io/datasets/kitti_odometry.h>
@@ -20,7 +19,7 @@ std::unique_ptr<Dataset> open_dataset(const std::string& path) {
   if (is_kitti_odometry(path)) return open_kitti_odometry(path);
   if (is_image_folder(path)) return open_image_folder(path);
   const std::string around = fs::is_directory(path) ? images_around(path) : "";
-  throw FileError(
+  throw UnknownLayout(
       path,
       "no sequence is recognized here; looked for mav0/cam0 (EuRoC), rgb.txt or associations.txt "
       "(TUM), calib.txt with image_0 or image_2 (KITTI), calibration.yaml (images), or a video "
