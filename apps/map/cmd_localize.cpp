@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 #include <placegraph/pipeline/run.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "apps/map/map_learn.h"
+#include "apps/map/query_images.h"
 #include "apps/results/map_file.h"
 #include "apps/support/json_file.h"
 #include "apps/support/output.h"
@@ -70,22 +69,45 @@ json json_of(std::int64_t image, const Localization& at) {
   return entry;
 }
 
-/// Images of the map's camera come as its data set hands them over (undistorted), others as files.
-MapLocalizer::Frames frames_of(const ImageRange& images, std::shared_ptr<Dataset> dataset) {
-  if (!dataset) return [images](std::size_t i) { return read_frame(images, i); };
-  const Sensor sensor = dataset->sensors().front();
-  return [dataset, sensor, first = images.first](std::size_t i) {
-    return dataset->frame(static_cast<std::size_t>(first) + i, sensor);
-  };
+/// How many images were placed, and what became of the others.
+struct Counts {
+  std::size_t images = 0, placed = 0, posed = 0;
+  std::map<std::string, std::size_t> refused;  ///< by the stage that decided
+};
+
+Counts count(const std::vector<Localization>& answers) {
+  Counts counts;
+  counts.images = answers.size();
+  for (const Localization& answer : answers) {
+    counts.placed += answer.placed;
+    counts.posed += answer.T_map_cam.has_value();
+    if (!answer.placed) ++counts.refused[answer.stage];
+  }
+  return counts;
 }
 
-std::shared_ptr<Dataset> dataset_of(const std::string& path, std::size_t images) {
-  try {
-    std::shared_ptr<Dataset> dataset = open_dataset(path);
-    return dataset->size() >= images ? dataset : nullptr;
-  } catch (const Error&) {
-    return nullptr;  // a folder of images without a camera
+std::string text_of(const Counts& counts, const std::string& without_pose) {
+  std::string text = fmt::format("{} images, {} placed ({} with a pose", counts.images,
+                                 counts.placed, counts.posed);
+  if (counts.posed < counts.placed)
+    text += fmt::format("; {} without: {}", counts.placed - counts.posed, without_pose);
+  text += fmt::format("), {} refused", counts.images - counts.placed);
+  const char* separator = " (";
+  for (const auto& [stage, images] : counts.refused) {
+    text += fmt::format("{}{} by {}", separator, images, stage);
+    separator = ", ";
   }
+  return text + (counts.refused.empty() ? "" : ")");
+}
+
+json json_of(const Counts& counts, const std::string& without_pose) {
+  json summary = {{"images", counts.images},
+                  {"placed", counts.placed},
+                  {"posed", counts.posed},
+                  {"refused", counts.images - counts.placed},
+                  {"refused_by", counts.refused}};
+  if (counts.posed < counts.placed) summary["without_pose"] = without_pose;
+  return summary;
 }
 
 void run(const LocalizeArguments& arguments) {
@@ -93,51 +115,43 @@ void run(const LocalizeArguments& arguments) {
   const std::string path = map_path_of(arguments.map);
   StoredMap stored = read_stored_map(arguments.map);
   const LocalizerOptions options = options_of(arguments, stored, path);
-  const ImageRange images = images_of(arguments.images, arguments.range);
-  const auto dataset =
-      stored.origin.calibration
-          ? dataset_of(arguments.images,
-                       images.paths.size() + static_cast<std::size_t>(images.first))
-          : nullptr;
-  const auto frames = frames_of(images, dataset);
+  const QueryImages images = query_images(arguments.images, arguments.range, stored.origin);
+  for (const std::string& note : images.notes) warn(arguments.images + ": " + note);
   cv::setNumThreads(1);
   const MapLocalizer localizer(options, std::move(stored));
-  if (dataset == nullptr && localizer.has_geometry(read_frame(images, 0).image))
-    warn(arguments.images + ": no camera is given; taken for the map's");
+  const std::string without_pose =
+      !localizer.has_geometry()      ? "the map has no camera or no features of known depth, or "
+                                       "geometry is off"
+      : !images.without_pose.empty() ? images.without_pose
+                                     : "their features agree with no view of the map";
   const Stopwatch watch;
-  Progress progress("placing", static_cast<std::int64_t>(images.paths.size()), "images");
+  Progress progress("placing", static_cast<std::int64_t>(images.count), "images");
   const auto answers = localizer.localize(
-      images.paths.size(),
+      images.count,
       [&](std::size_t i) {
         progress.update(static_cast<std::int64_t>(i) + 1);
-        return frames(i);
+        return images.frame(i);
       },
       arguments.sequence);
   std::string text;
   json list = json::array();
-  std::size_t placed = 0, posed = 0;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const std::int64_t image = images.first + static_cast<std::int64_t>(i);
     text += line_of(image, answers[i]);
     list.push_back(json_of(image, answers[i]));
-    placed += answers[i].placed;
-    posed += answers[i].T_map_cam.has_value();
   }
   write_file(arguments.out, arguments.as_json ? json{{"images", list}}.dump(1) + "\n" : text);
+  const Counts counts = count(answers);
   const double ms = watch.cpu_ms() / static_cast<double>(answers.size());
-  if (arguments.as_json)
-    fmt::print("{}\n", json{{"images", answers.size()},
-                            {"placed", placed},
-                            {"posed", posed},
-                            {"refused", answers.size() - placed},
-                            {"cpu_ms_an_image", ms}}
-                           .dump(1));
-  else
-    fmt::print(
-        "{} images, {} placed ({} with a pose), {} refused, {:.1f} ms CPU an image, written "
-        "to {}\n",
-        answers.size(), placed, posed, answers.size() - placed, ms, arguments.out);
-  if (placed == 0) throw NoAnswer(arguments.images + ": none of the images could be placed");
+  if (arguments.as_json) {
+    json summary = json_of(counts, without_pose);
+    summary["cpu_ms_an_image"] = ms;
+    fmt::print("{}\n", summary.dump(1));
+  } else {
+    fmt::print("{}, {:.1f} ms CPU an image, written to {}\n", text_of(counts, without_pose), ms,
+               arguments.out);
+  }
+  if (counts.placed == 0) throw NoAnswer(arguments.images + ": none of the images could be placed");
 }
 
 }  // namespace

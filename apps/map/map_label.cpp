@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/map/map_learn.h"
+#include "apps/map/image_range.h"
 #include "apps/results/map_file.h"
 #include "apps/support/output.h"
 

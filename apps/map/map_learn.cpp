@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/support/image_folder_of.h"
+#include "apps/map/image_range.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 
@@ -53,26 +53,6 @@ void learn(MapLearnArguments arguments) {
 }
 
 }  // namespace
-
-ImageRange images_of(const std::string& folder, const std::vector<int>& range) {
-  ImageRange images{list_images(image_folder_of(folder)), 0};
-  if (range.empty()) return images;
-  const int last = static_cast<int>(images.paths.size()) - 1;
-  require(range.size() == 2 && range[0] >= 0 && range[0] <= range[1] && range[1] <= last,
-          fmt::format("--range: two numbers of images needed, from 0 to {}", last));
-  images.first = range[0];
-  images.paths = {images.paths.begin() + range[0], images.paths.begin() + range[1] + 1};
-  return images;
-}
-
-Frame read_frame(const ImageRange& images, std::size_t index) {
-  const GreyAndColour image = read_image(images.paths.at(index));
-  Frame frame;
-  frame.id = frame.stamp_ns = images.first + static_cast<std::int64_t>(index);
-  frame.image = image.grey;
-  frame.colour = image.colour;
-  return frame;
-}
 
 void add_map_learn_command(CLI::App& map) {
   auto arguments = std::make_shared<MapLearnArguments>();

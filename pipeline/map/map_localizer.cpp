@@ -49,7 +49,7 @@ MapLocalizer::MapLocalizer(const LocalizerOptions& options, StoredMap stored)
     closer_.emplace(options_.loops, *stored_.origin.calibration, 0, stored_.map);
 }
 
-bool MapLocalizer::has_geometry(const Image& grey) const {
+bool MapLocalizer::by_map_camera(const Image& grey) const {
   return closer_ && grey.cols == stored_.origin.calibration->camera.width &&
          grey.rows == stored_.origin.calibration->camera.height;
 }
@@ -166,7 +166,7 @@ std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames
             "image " + std::to_string(i) + " is grey, and the map's views have colour");
     lists.push_back(likenesses(
         describe_place(in_colour_ ? frame.colour : frame.image, options_.recognizer.cues, true)));
-    verified.push_back(has_geometry(frame.image) ? verify(frame, lists.back()) : std::nullopt);
+    verified.push_back(by_map_camera(frame.image) ? verify(frame, lists.back()) : std::nullopt);
   }
   const NearViews near = [this](int a, int b) { return this->near(a, b); };
   std::vector<ViewAnswer> answers;

@@ -40,15 +40,16 @@ class MapLocalizer {
   /// Throws ArgumentError for a map of fewer than ten views, or whose views cannot be compared.
   MapLocalizer(const LocalizerOptions& options, StoredMap stored);
 
-  /// Whether poses can be given to frames of this size.
-  bool has_geometry(const Image& grey) const;
+  /// Whether the map can give poses: it has a camera and features of known depth.
+  bool has_geometry() const { return closer_.has_value(); }
   /// Images one by one, or consecutive ones of one drive, each with the evidence of those around
-  /// it. `frames`: grey image, and `colour` where the map's views have colour (ArgumentError).
-  /// Called with each index once.
+  /// it. `frames`: grey image as by the map's camera (others are placed without a pose),
+  /// and `colour` where the map's views have colour (ArgumentError). Called with each index once.
   using Frames = std::function<Frame(std::size_t)>;
   std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
 
  private:
+  bool by_map_camera(const Image& grey) const;
   std::vector<PlaceLikeness> likenesses(const PlaceView& view) const;
   void learn_near();
   int lag_of_likeness() const;

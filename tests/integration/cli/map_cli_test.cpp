@@ -3,7 +3,11 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/map/map_database.h>
 
+#include <placegraph/io/trajectories/trajectory_file.h>
+
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "tests/support/cli_test.h"
@@ -187,6 +191,105 @@ TEST_F(MapCli, FramesOfTheDriveStandWhereTheyWere) {
     if (fields >> x >> y >> z) ++posed;
   }
   EXPECT_GE(posed, 30);
+}
+
+/// Another camera at the places of the drive, and how its images come from the drive's.
+struct OtherCamera {
+  const char* what;
+  int width, height;
+  double zoom;             ///< focal length over that of the drive's camera
+  double cx, cy;           ///< [px]
+  const char* distortion;  ///< line of calibration.yaml
+};
+
+void PrintTo(const OtherCamera& camera, std::ostream* out) { *out << camera.what; }
+
+class LocalizeByAnotherCamera : public MapCli, public testing::WithParamInterface<OtherCamera> {
+ protected:
+  static constexpr int kStep = 4;
+  /// Every fourth image of the drive as the other camera takes it.
+  void write_queries(const OtherCamera& other) {
+    const Camera camera = read_map(whole() + "/map.db").origin.calibration->camera;
+    Camera query = camera;
+    query.width = other.width, query.height = other.height;
+    query.fx *= other.zoom, query.fy *= other.zoom;
+    query.cx = other.cx, query.cy = other.cy;
+    const std::string distortion = other.distortion;
+    if (!distortion.empty()) {
+      query.distortion = Distortion::kRadialTangential;
+      query.coefficients = {-0.2, 0.05};
+    }
+    cv::Mat map_x(query.height, query.width, CV_32FC1), map_y = map_x.clone();
+    for (int v = 0; v < query.height; ++v)
+      for (int u = 0; u < query.width; ++u) {
+        const auto ray = query.unproject({u, v});
+        map_x.at<float>(v, u) = static_cast<float>(camera.fx * ray->x() + camera.cx);
+        map_y.at<float>(v, u) = static_cast<float>(camera.fy * ray->y() + camera.cy);
+      }
+    fs::create_directory(dir / "query");
+    for (int i = 0; i < 40; i += kStep) {
+      const std::string name = "/" + std::string(i < 10 ? "00000" : "0000") + std::to_string(i);
+      cv::Mat image = cv::imread(drive() + "/image_0" + name + ".png", cv::IMREAD_GRAYSCALE), taken;
+      cv::remap(image, taken, map_x, map_y, cv::INTER_AREA);
+      cv::imwrite(dir / "query" + name + ".png", taken);
+    }
+    std::ostringstream text;
+    text << "width: " << query.width << "\nheight: " << query.height << "\nfx: " << query.fx
+         << "\nfy: " << query.fy << "\ncx: " << query.cx << "\ncy: " << query.cy << "\n"
+         << distortion;
+    dir.write("query/calibration.yaml", text.str());
+  }
+};
+
+TEST_P(LocalizeByAnotherCamera, StandsWhereTheDriveWas) {
+  write_queries(GetParam());
+  const CommandResult result = run("localize " + whole() + " query --out placed.txt");
+  ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("resampled to the map's"));
+  const Trajectory drive = read_trajectory(whole() + "/trajectory_optimized.kitti");
+  std::istringstream lines(read_file(dir / "placed.txt"));
+  std::string line;
+  int posed = 0;
+  while (std::getline(lines, line)) {
+    std::istringstream fields(line);
+    std::size_t image;
+    std::string place, view, probability, stage;
+    Eigen::Vector3d position;
+    fields >> image >> place >> view >> probability >> stage;
+    if (!(fields >> position.x() >> position.y() >> position.z())) continue;
+    ++posed;
+    EXPECT_LT((position - drive.poses[kStep * image].T_world_body->translation()).norm(), 0.5)
+        << line;
+  }
+  EXPECT_GE(posed, 6);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cameras, LocalizeByAnotherCamera,
+    testing::Values(OtherCamera{"half the size", 224, 140, 0.5, 111.5, 69.5, ""},
+                    OtherCamera{"a longer lens", 448, 280, 1.3, 223.5, 139.5, ""},
+                    OtherCamera{"other middle and aspect", 300, 400, 1.1, 149.5, 199.5, ""},
+                    OtherCamera{"a lens with distortion", 448, 280, 1.25, 223.5, 139.5,
+                                "distortion: {model: radial_tangential, coefficients: [-0.2, "
+                                "0.05, 0, 0]}\n"}));
+
+TEST_F(MapCli, QueriesWithoutOrWithABrokenCalibrationAreToldSo) {
+  fs::create_directory(dir / "query");
+  for (const char* name : {"/000004.png", "/000020.png"}) {
+    cv::Mat small;
+    cv::resize(cv::imread(drive() + "/image_0" + name), small, {224, 140}, 0, 0, cv::INTER_AREA);
+    cv::imwrite(dir / "query" + name, small);
+  }
+  CommandResult result = run("localize " + whole() + " query --out placed.txt --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const json counts = json::parse(result.out);
+  EXPECT_EQ(counts["images"], 2);
+  EXPECT_EQ(counts["posed"], 0);
+  EXPECT_THAT(counts["without_pose"].get<std::string>(),
+              HasSubstr("224 x 140 px, the map's camera is of 448 x 280 px"));
+  dir.write("query/calibration.yaml", "width: 224\nheight: 140\nfx: abc\nfy: 1\ncx: 1\ncy: 1\n");
+  expect_usage_error("localize " + whole() + " query --out no.txt", "calibration.yaml:3");
+  EXPECT_FALSE(fs::exists(dir / "no.txt"));
 }
 
 TEST_F(MapCli, AMapOfImagesAloneHasPlacesAndNoPoses) {

@@ -1,0 +1,26 @@
+#pragma once
+#include <placegraph/graph/measurements/frame.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace placegraph::apps {
+
+/// First and last number that `--range` selects of `count`, all where it is empty. Throws
+/// ArgumentError if it is not two ascending numbers below `count`.
+std::pair<std::int64_t, std::int64_t> selected_range(const std::vector<int>& range,
+                                                     std::size_t count);
+
+/// The images of a folder (itself, or images/ or image_0/ in it) that `range` selects.
+struct ImageRange {
+  std::vector<std::string> paths;
+  std::int64_t first = 0;
+};
+ImageRange images_of(const std::string& folder, const std::vector<int>& range);
+
+/// Grey and, where the file has it, in colour.
+Frame read_frame(const ImageRange& images, std::size_t index);
+
+}  // namespace placegraph::apps

@@ -1,0 +1,97 @@
+#include "apps/map/query_images.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/calibration/camera_change.h>
+#include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/pipeline/lens_correction.h>
+
+#include <memory>
+
+#include "apps/map/image_range.h"
+
+namespace placegraph::apps {
+namespace {
+
+std::string camera_text(const Camera& camera) {
+  return fmt::format("{} x {} px, fx {:.1f}, fy {:.1f}, cx {:.1f}, cy {:.1f}", camera.width,
+                     camera.height, camera.fx, camera.fy, camera.cx, camera.cy);
+}
+
+QueryImages bare_images(const std::string& path, const std::vector<int>& range) {
+  const ImageRange images = images_of(path, range);
+  return {images.paths.size(),
+          images.first,
+          [images](std::size_t i) { return read_frame(images, i); },
+          {},
+          {}};
+}
+
+/// Images whose camera nobody tells: those of the size of the map's are taken for its own.
+QueryImages images_without_camera(const std::string& path, const std::vector<int>& range,
+                                  const Camera& map_camera) {
+  QueryImages images = bare_images(path, range);
+  const Image first = images.frame(0).image;
+  if (first.cols == map_camera.width && first.rows == map_camera.height) {
+    images.notes.push_back("no camera is given; taken for the map's");
+    return images;
+  }
+  images.without_pose = fmt::format(
+      "images are of {} x {} px, the map's camera is of {} x {} px, and no calibration.yaml tells "
+      "theirs",
+      first.cols, first.rows, map_camera.width, map_camera.height);
+  return images;
+}
+
+/// The distortion that the run which made the map found in its images is in these, too, if they are
+/// of the same camera as it was given.
+std::optional<LensCorrection> lens_of_map(const Calibration& given, const MapOrigin& origin) {
+  if (origin.lens_k1 == 0) return std::nullopt;
+  LensCorrection lens(given);
+  lens.add(origin.lens_k1);
+  const CameraChange change(lens.calibration().camera, origin.calibration->camera);
+  if (!change.is_identity()) return std::nullopt;
+  return lens;
+}
+
+std::string change_text(const Camera& camera, const Camera& map_camera, double seen_share) {
+  return fmt::format(
+      "another camera ({}) than the map's ({}): its images are resampled to the map's, of which "
+      "they show {:.0f} %",
+      camera_text(camera), camera_text(map_camera), 100 * seen_share);
+}
+
+}  // namespace
+
+QueryImages query_images(const std::string& path, const std::vector<int>& range,
+                         const MapOrigin& origin) {
+  if (!origin.calibration) return bare_images(path, range);
+  const Camera& map_camera = origin.calibration->camera;
+  std::shared_ptr<const Dataset> dataset;
+  try {
+    dataset = open_dataset(path);
+  } catch (const UnknownLayout&) {
+    return images_without_camera(path, range, map_camera);
+  }
+  QueryImages images;
+  const auto [first, last] = selected_range(range, dataset->size());
+  images.first = first;
+  images.count = static_cast<std::size_t>(last - first + 1);
+  for (const DataNote& note : dataset->notes()) images.notes.push_back(note.text);
+  const Calibration given = dataset->calibration(Sensor::kMono);
+  const auto lens = lens_of_map(given, origin);
+  const auto change = std::make_shared<const CameraChange>(
+      lens ? lens->calibration().camera : given.camera, map_camera);
+  if (!change->is_identity())
+    images.notes.push_back(change_text(given.camera, map_camera, change->seen_share()));
+  const Sensor sensor = change->is_identity() ? dataset->sensors().front() : Sensor::kMono;
+  images.frame = [=, first = static_cast<std::size_t>(first)](std::size_t i) {
+    Frame frame = dataset->frame(first + i, sensor);
+    if (lens) lens->apply(frame);
+    change->apply(frame);
+    return frame;
+  };
+  return images;
+}
+
+}  // namespace placegraph::apps
