@@ -35,7 +35,9 @@ std::vector<std::optional<double>> lookup_depth(const Image& depth_m, const Came
     }
   }
   std::vector<std::optional<double>> depths(px.size());
-  const int reach = static_cast<int>(std::ceil(options.margin_px));
+  const double margin_px = std::max(std::min(options.radius_px, options.margin_px),
+                                    options.margin_px * (camera.fx / options.margin_focal_px));
+  const int reach = static_cast<int>(std::ceil(margin_px));
   for (std::size_t i = 0; i < px.size(); ++i) {
     const int u0 = cvRound(px[i].x()), v0 = cvRound(px[i].y());
     double sum = 0, weight = 0;
@@ -44,7 +46,7 @@ std::vector<std::optional<double>> lookup_depth(const Image& depth_m, const Came
       for (int u = std::max(0, u0 - reach); u <= std::min(camera.width - 1, u0 + reach); ++u) {
         const float z = registered.at<float>(v, u);
         const double distance = std::hypot(u - px[i].x(), v - px[i].y());
-        if (z == 0 || distance > options.margin_px) continue;
+        if (z == 0 || distance > margin_px) continue;
         nearest = std::min(nearest, z);
         farthest = std::max(farthest, z);
         if (distance > options.radius_px) continue;

@@ -60,7 +60,8 @@ std::vector<std::optional<DepthAlong>> lookup_depth_along(
     const Image& depth_m, const Camera& camera, const DepthCamera& depth_camera,
     const std::vector<LineSegment>& segments) {
   DepthLookupOptions options;
-  options.margin_px = 1;  // near the edge on purpose: each side is judged as a whole
+  options.margin_focal_px = camera.fx;  // the margin is in pixels of this camera
+  options.margin_px = 1;                // near the edge on purpose: each side is judged as a whole
   std::vector<Eigen::Vector2f> px;
   for (const LineSegment& segment : segments)
     for (const double side : {-1.0, 1.0})

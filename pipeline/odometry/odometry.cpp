@@ -156,6 +156,9 @@ OdometryUpdate Odometry::track(const Frame& frame) {
 bool Odometry::keyframe_due(const Frame& frame, int inliers) const {
   const KeyframeOptions& o = options_.keyframe;
   if (inliers < o.min_tracked_share * landmarks_at_keyframe_) return true;
+  // Before too few are left to pose a frame by: other tracks become landmarks where there are some.
+  const bool others = static_cast<int>(tracker_.tracks().size()) > inliers;
+  if (cues_.points && others && inliers < 2 * options_.pose.ransac.min_inliers) return true;
   std::vector<double> flow_px;
   std::vector<FlowVector> flow;
   for (const PointTrack& track : tracker_.tracks()) {

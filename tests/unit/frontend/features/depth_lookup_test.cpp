@@ -53,6 +53,28 @@ TEST(DepthLookup, SaysNothingWhereNearAndFarMeet) {
   EXPECT_NEAR(*at(12), 3, 0.03);
 }
 
+TEST(DepthLookup, FindsTheSameInImagesOfEverySize) {
+  // A floor seen at a slant: its depth changes by so much an angle, not by so much a pixel.
+  for (const double size : {0.25, 0.5, 1.0, 2.0}) {
+    const Camera camera =
+        pinhole(static_cast<int>(640 * size), static_cast<int>(480 * size), 525 * size);
+    const DepthCamera depth{camera, SE3(), 0.005};
+    Image image(camera.height, camera.width, CV_32FC1, cv::Scalar(0));
+    for (int v = 0; v < image.rows; ++v)
+      if (const double down = (v - camera.cy) / camera.fy; down > 0.05)
+        image.row(v).setTo(1.4 / down);
+    std::vector<Eigen::Vector2f> px;
+    for (const double down : {0.1, 0.25, 0.35, 0.4})
+      px.emplace_back(static_cast<float>(camera.cx),
+                      static_cast<float>(camera.cy + camera.fy * down));
+    const auto found = lookup_depth(image, camera, depth, px);
+    EXPECT_FALSE(found[0]) << size;
+    EXPECT_FALSE(found[1]) << size;
+    ASSERT_TRUE(found[3]) << size;
+    EXPECT_NEAR(*found[3], 3.5, 0.05) << size;
+  }
+}
+
 TEST(DepthLookup, SaysNothingWhereNothingWasMeasured) {
   DepthCamera depth{kCamera, SE3(), 0.005};
   Image image(120, 160, CV_32FC1, cv::Scalar(2.0f));
