@@ -14,19 +14,6 @@
 namespace placegraph {
 namespace {
 
-Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
-  const auto offered = dataset.sensors();
-  if (choice == SensorChoice::kAuto) return offered.front();
-  const Sensor wanted = static_cast<Sensor>(static_cast<int>(choice) - 1);
-  std::string all;
-  for (const Sensor sensor : offered)
-    all += (all.empty() ? "" : ", ") + std::string(to_string(sensor));
-  require(
-      std::find(offered.begin(), offered.end(), wanted) != offered.end(),
-      dataset.name() + ": has not what " + to_string(wanted) + " needs; it can be run as " + all);
-  return wanted;
-}
-
 /// Throws FileError if a motion and the images have no time in common, or the images lie within a
 /// step or two of many; says so if the motion tells little.
 void check_common_time(const std::string& path, const MeasuredMotion& motion,
@@ -132,6 +119,19 @@ const char* to_string(Sensor sensor) {
       return "rgbd";
   }
   return "";
+}
+
+Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
+  const auto offered = dataset.sensors();
+  if (choice == SensorChoice::kAuto) return offered.front();
+  const Sensor wanted = static_cast<Sensor>(static_cast<int>(choice) - 1);
+  std::string all;
+  for (const Sensor sensor : offered)
+    all += (all.empty() ? "" : ", ") + std::string(to_string(sensor));
+  require(
+      std::find(offered.begin(), offered.end(), wanted) != offered.end(),
+      dataset.name() + ": has not what " + to_string(wanted) + " needs; it can be run as " + all);
+  return wanted;
 }
 
 void RunOptions::check() const {

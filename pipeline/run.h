@@ -74,6 +74,9 @@ struct MapFile {
   bool resume = false;   ///< go on with the run that was broken off there
 };
 
+/// The sensor that a sequence is run as. Throws ArgumentError if it lacks what that needs.
+Sensor choose_sensor(const Dataset& dataset, SensorChoice choice);
+
 /// Called after each frame with the number done and of all, and what became of it.
 using RunProgress = std::function<void(std::size_t done, std::size_t total, const FrameResult&)>;
 

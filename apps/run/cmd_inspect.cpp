@@ -8,6 +8,7 @@
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/image_list.h>
 #include <placegraph/pipeline/run.h>
+#include <placegraph/pipeline/stereo_check.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -213,7 +214,10 @@ void inspect(const InspectArguments& arguments) {
     if (!holds_images(image_folder_of(arguments.path))) throw;
     return inspect_images(arguments, reason.what());
   }
-  const DatasetSummary summary = summarize(*dataset);
+  DatasetSummary summary = summarize(*dataset);
+  if (summary.sensors.front() == Sensor::kStereo)
+    if (auto note = odd_rows(look_at_rows(*dataset), summary.calibration.camera))
+      summary.notes.push_back(*std::move(note));
   UnreadableFrames unreadable;
   if (arguments.read_all) unreadable = read_all(*dataset, summary.sensors.front());
   if (arguments.as_json) {

@@ -11,6 +11,7 @@
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/elements.h>
+#include <placegraph/pipeline/stereo_check.h>
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -157,9 +158,13 @@ void print_summary(const json& summary, const std::string& folder) {
       1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(), folder.c_str());
 }
 
-/// What the reader says of the sequence, and what is odd about the options.
+/// What the reader says of the sequence, what its images show, and what is odd about the options.
 std::vector<DataNote> notes_of(const Dataset& dataset, const RunOptions& options) {
   std::vector<DataNote> notes = dataset.notes();
+  if (choose_sensor(dataset, options.sensor) == Sensor::kStereo)
+    if (const auto note =
+            odd_rows(look_at_rows(dataset), dataset.calibration(Sensor::kStereo).camera))
+      notes.push_back(*note);
   if (options.camera_height_m > 0)
     if (const auto note = odd_camera_height(options.camera_height_m)) notes.push_back(*note);
   return notes;
