@@ -150,6 +150,7 @@ Json describe(const OptimizeArguments& arguments, const Costs& before, const Cos
   report["peak_mb"] = solution.peak_mb;
   describe_certificate(solution, report);
   describe_steps(solution.step_cpu_ms, report);
+  report["loops_judged"] = arguments.robust != "none" && solution.loops_judged;
   report["rejected"] = solution.rejected.size();
   report["rejected_edges"] = rejected_edges(solution);
   report["doubtful"] = doubtful_edges(solution);
@@ -253,6 +254,9 @@ void run(OptimizeArguments arguments) {
     throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
   if (!arguments.plot.empty()) draw(arguments, drawn, solution, after);
   if (!arguments.quiet) warn_of_misfit(arguments, solution, after);
+  if (!solution.loops_judged)
+    warn(arguments.in + ": too few loops agree to know the noise's scale: --robust " +
+         arguments.robust + " judged none of them, and left none out");
   write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
   const Json report = describe(arguments, before, after, solution);
   if (arguments.json)

@@ -41,6 +41,7 @@ PoseGraphReport optimize(PoseGraph graph, const GraphTask& task, const LogSink& 
   if (!report.outcome) throw NoAnswer(report.outcome.reason);
   solution.iterations += report.iterations;
   solution.start = to_string(report.start_used);
+  solution.loops_judged = solution.loops_judged && report.loops_judged;
   solution.refined_from_certified = report.refined_from_certified;
   return report;
 }

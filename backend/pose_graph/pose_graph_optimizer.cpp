@@ -48,6 +48,7 @@ void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
     found.solution = std::move(robust.local);
     found.refined_from_certified = found.used == PoseGraphStart::kCertified;
     report.rejected = std::move(robust.rejected);
+    report.loops_judged = robust.judged;
   }
   report.outcome = found.solution.outcome;
   report.iterations = found.solution.iterations;

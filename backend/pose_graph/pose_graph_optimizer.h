@@ -31,6 +31,9 @@ struct PoseGraphReport {
   /// Left out of the solution as false, by RobustOptions; in the order of graph.constraints. The
   /// sums above count them all the same.
   std::vector<RejectedEdge> rejected;
+  /// False: there were loops, but too few of them agree to know the noise's scale, so that none was
+  /// judged.
+  bool loops_judged = true;
 };
 
 /// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed, leaving out what

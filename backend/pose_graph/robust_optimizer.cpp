@@ -81,8 +81,7 @@ RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>&
                           const RobustOptions& options, bool free_start) {
   // Where many loops stand alone the plain minimum is not worth its time: false loops are many.
   constexpr double kManyAlone = 0.05;
-  std::size_t loops = 0;
-  for (const auto& cluster : support.clusters) loops += cluster.size();
+  const std::size_t loops = support.loops();
   RobustSolution result;
   PackedGraph<Group> plain = graph;
   const bool tried = support.alone <= kManyAlone * static_cast<double>(loops) || loops < 50;
@@ -129,7 +128,7 @@ std::vector<RejectedEdge> edges_without_weight(const PackedGraph<Group>& graph,
     const auto& edge = graph.edges[loop.edge];
     if (edge.weight > 0) continue;
     const char* reason = "residual";
-    if (chain.run(loop.from) == chain.run(loop.to) && drift_chi2(loop, chain) > gate)
+    if (chain.run(loop.from) == chain.run(loop.to) && drift_misclosure(loop, chain).chi2 > gate)
       reason = "inconsistent with odometry";
     else if (alone[loop.edge])
       reason = "pairwise";
@@ -148,6 +147,11 @@ RobustSolution solve_rejecting(PackedGraph<Group>& graph, const LocalSolverOptio
   const LoopSupport support = support_loops(graph, chain, options.support);
   const double quantile = chi_squared_quantile(options.gate_probability, Group::kDof);
   RobustSolution result;
+  if (!support.clusters.empty() && !support.scale_is_known) {
+    result.judged = false;
+    result.local = LocalSolver<Group>(solver).solve(graph);
+    return result;
+  }
   if (options.method == RobustMethod::kAuto) {
     result = solve_auto(graph, chain, support, solver, options, free_start);
   } else if (options.method == RobustMethod::kPcm) {

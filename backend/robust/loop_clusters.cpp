@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace placegraph {
 namespace {
@@ -19,6 +20,8 @@ struct Mixture {
 constexpr double kWide = 100;
 /// Rings that must close at a scale, lest a pair of equal loops be taken for one.
 constexpr double kLeast = 10;
+/// Single loops that tell the scale against the odometry, where rings of two do not.
+constexpr std::size_t kFewestLoops = 4;
 /// Below this share of the map, misclosures are rounding and the solver's tolerance rather than
 /// noise.
 constexpr double kLeastShare = 1e-7;
@@ -154,19 +157,21 @@ void visit(OptionVisitor& field, LoopSupportOptions& o) {
         "that two loops are both true, for them to support each other", {0.01, 0.9999});
 }
 
-RingMixture fit_rings(const std::vector<LoopPair>& pairs, int dof, double volume) {
-  RingMixture result;
-  if (pairs.empty()) return result;
+namespace {
+
+/// The likeliest mixture from several starting scales; nothing where too few rings close to tell.
+std::optional<Mixture> likeliest_mixture(const std::vector<RingMisclosure>& rings, int dof,
+                                         double log_volume) {
   // A few rings choose where to begin, more of them give the few numbers.
   constexpr std::size_t kFew = 500, kSample = 4000;
   constexpr int kFewIterations = 20, kIterations = 60;
   const auto sample = [&](std::size_t size) {
-    std::vector<RingMisclosure> rings;
-    for (std::size_t i = 0; i < pairs.size(); i += 1 + pairs.size() / size)
-      rings.push_back(pairs[i].ring);
-    return rings;
+    std::vector<RingMisclosure> some;
+    for (std::size_t i = 0; i < rings.size(); i += 1 + rings.size() / size)
+      some.push_back(rings[i]);
+    return some;
   };
-  const double log_volume = std::log(volume);
+  if (rings.empty()) return std::nullopt;
   const std::vector<RingMisclosure> few = sample(kFew);
   Mixture best;
   const double least = least_scale(few, dof, log_volume);
@@ -177,12 +182,44 @@ RingMixture fit_rings(const std::vector<LoopPair>& pairs, int dof, double volume
     const Mixture mixture = fit(few, dof, log_volume, start, least, kFewIterations);
     if (mixture.log_likelihood > best.log_likelihood) best = mixture;
   }
-  if (best.log_likelihood > -std::numeric_limits<double>::infinity())
-    best = fit(sample(kSample), dof, log_volume, best, least, kIterations);
-  result.noise_scale = best.scale;
-  const RingPosterior posterior(best, dof, log_volume);
-  for (const LoopPair& pair : pairs) result.probability.push_back(posterior(pair.ring).closes);
+  const bool told = best.log_likelihood > -std::numeric_limits<double>::infinity();
+  if (told) best = fit(sample(kSample), dof, log_volume, best, least, kIterations);
+  if (!(best.log_likelihood > -std::numeric_limits<double>::infinity())) return std::nullopt;
+  return best;
+}
+
+/// The rings that single loops close with the odometry between their ends, where it is of one run.
+template <class Group>
+std::vector<RingMisclosure> drift_rings(const std::vector<LoopOnChain<Group>>& loops,
+                                        const OdometryChain<Group>& chain) {
+  std::vector<RingMisclosure> rings;
+  for (const LoopOnChain<Group>& loop : loops)
+    if (chain.run(loop.from) == chain.run(loop.to)) rings.push_back(drift_misclosure(loop, chain));
+  return rings;
+}
+
+}  // namespace
+
+RingMixture fit_rings(const std::vector<LoopPair>& pairs, const std::vector<RingMisclosure>& drift,
+                      int dof, double volume) {
+  RingMixture result;
+  const double log_volume = std::log(volume);
+  std::vector<RingMisclosure> rings;
+  for (const LoopPair& pair : pairs) rings.push_back(pair.ring);
+  std::optional<Mixture> mixture = likeliest_mixture(rings, dof, log_volume);
+  if (!mixture && drift.size() >= kFewestLoops) mixture = likeliest_mixture(drift, dof, log_volume);
+  result.scale_is_known = mixture.has_value();
+  if (!mixture) mixture.emplace();
+  result.noise_scale = mixture->scale;
+  const RingPosterior posterior(*mixture, dof, log_volume);
+  for (const RingMisclosure& ring : rings) result.probability.push_back(posterior(ring).closes);
   return result;
+}
+
+std::size_t LoopSupport::loops() const {
+  std::size_t count = 0;
+  for (const auto& cluster : clusters) count += cluster.size();
+  return count;
 }
 
 template <class Group>
@@ -199,8 +236,10 @@ LoopSupport support_loops(const PackedGraph<Group>& graph, const OdometryChain<G
     return true;
   });
   const auto pairs = neighbouring_pairs(loops, chain, options.reach, options.neighbours);
-  const RingMixture rings = fit_rings(pairs, Group::kDof, tangent_volume(graph, chain));
+  const RingMixture rings =
+      fit_rings(pairs, drift_rings(loops, chain), Group::kDof, tangent_volume(graph, chain));
   support.noise_scale = rings.noise_scale;
+  support.scale_is_known = rings.scale_is_known;
   support.clusters = clusters_of(loops, pairs, rings.probability, options.least_probability);
   for (const auto& cluster : support.clusters) support.alone += cluster.size() == 1;
   support.clusters.insert(support.clusters.end(), steps.begin(), steps.end());

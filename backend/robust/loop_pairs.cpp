@@ -57,11 +57,12 @@ RingMisclosure ring_misclosure(const LoopOnChain<Group>& a, const LoopOnChain<Gr
 }
 
 template <class Group>
-double drift_chi2(const LoopOnChain<Group>& loop, const OdometryChain<Group>& chain) {
+RingMisclosure drift_misclosure(const LoopOnChain<Group>& loop, const OdometryChain<Group>& chain) {
   const typename Group::Jacobian covariance =
       loop.covariance + chain.covariance(loop.from, loop.to);
   const typename Group::Tangent e = loop.W.log();
-  return e.dot(covariance.llt().solve(e));
+  const Eigen::LLT<typename Group::Jacobian> factor(covariance);
+  return {e.dot(factor.solve(e)), 2 * factor.matrixLLT().diagonal().array().log().sum()};
 }
 
 template <class Group>
@@ -113,7 +114,8 @@ std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>& 
                                                           const OdometryChain<Group>&);         \
   template RingMisclosure ring_misclosure(const LoopOnChain<Group>&, const LoopOnChain<Group>&, \
                                           const OdometryChain<Group>&);                         \
-  template double drift_chi2(const LoopOnChain<Group>&, const OdometryChain<Group>&);           \
+  template RingMisclosure drift_misclosure(const LoopOnChain<Group>&,                           \
+                                           const OdometryChain<Group>&);                        \
   template std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>&,     \
                                                     const OdometryChain<Group>&, int, int);
 PLACEGRAPH_INSTANTIATE(SE2)

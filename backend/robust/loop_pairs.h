@@ -36,7 +36,7 @@ RingMisclosure ring_misclosure(const LoopOnChain<Group>& a, const LoopOnChain<Gr
 /// The same of the ring that one loop closes with the odometry between its ends, which must lie in
 /// one run: what drift would have to explain.
 template <class Group>
-double drift_chi2(const LoopOnChain<Group>& loop, const OdometryChain<Group>& chain);
+RingMisclosure drift_misclosure(const LoopOnChain<Group>& loop, const OdometryChain<Group>& chain);
 
 struct LoopPair {
   int a, b;  ///< positions in the vector of loops, a < b

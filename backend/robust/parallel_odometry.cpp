@@ -142,7 +142,7 @@ class Surroundings {
     };
     for (const Ring& ring : rings)
       sum += cost(ring.b < 0
-                      ? drift_chi2(moved(loops_[ring.a]), chain_)
+                      ? drift_misclosure(moved(loops_[ring.a]), chain_).chi2
                       : ring_misclosure(moved(loops_[ring.a]), moved(loops_[ring.b]), chain_).chi2);
     return sum;
   }

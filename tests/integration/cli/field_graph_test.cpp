@@ -1,0 +1,116 @@
+// Pose graphs as people have them: files of the cases folder with right values, and others of their
+// kinds.
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "tests/support/cli_test.h"
+#include "tests/support/data.h"
+
+namespace placegraph {
+namespace {
+
+using nlohmann::json;
+using test::CommandResult;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class FieldGraphs : public test::CliTest {
+ protected:
+  static std::string file(const std::string& relative) {
+    return test::cases_dir() + "/" + relative;
+  }
+  json optimize(const std::string& path, const std::string& options = "") {
+    const CommandResult result =
+        run("optimize " + path + " -o out.g2o --force --quiet --json " + options);
+    EXPECT_EQ(result.code, 0) << result.err;
+    said = result.err;
+    return result.code == 0 ? json::parse(result.out) : json();
+  }
+  std::vector<std::pair<int, int>> rejected(const json& report) const {
+    std::vector<std::pair<int, int>> edges;
+    for (const json& edge : report["rejected_edges"]) edges.emplace_back(edge["from"], edge["to"]);
+    std::ranges::sort(edges);
+    return edges;
+  }
+  std::string said;
+};
+
+/// A walk of 40 steps round a square, with noise of `factor` times what the information promises as
+/// a variance; the loops given lead from one id to another, the false ones 4 m beside it.
+std::string noisy_square(double factor, const std::vector<std::pair<int, int>>& loops,
+                         const std::vector<std::pair<int, int>>& false_loops) {
+  std::mt19937 generator(4);
+  std::normal_distribution<double> normal;
+  const auto position = [](int i) {
+    const int side = i / 10 % 4, along = i % 10;
+    const double corners[4][2] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+    const double steps[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    return std::array<double, 3>{corners[side][0] + along * steps[side][0],
+                                 corners[side][1] + along * steps[side][1],
+                                 side * 1.5707963267948966};
+  };
+  std::ostringstream out;
+  out.precision(17);
+  const double weight = 1 / factor;
+  const auto edge = [&](int from, int to, double beside) {
+    const auto a = position(from), b = position(to);
+    const double dx = b[0] - a[0], dy = b[1] - a[1], c = std::cos(a[2]), s = std::sin(a[2]);
+    out << "EDGE_SE2 " << from << " " << to << " " << c * dx + s * dy + 0.05 * normal(generator)
+        << " " << -s * dx + c * dy + beside + 0.05 * normal(generator) << " "
+        << std::remainder(b[2] - a[2], 6.283185307179586) + 0.01 * normal(generator) << " "
+        << 400 * weight << " 0 0 " << 400 * weight << " 0 " << 10000 * weight << "\n";
+  };
+  for (int i = 0; i < 41; ++i) {
+    const auto p = position(i);
+    out << "VERTEX_SE2 " << i << " " << p[0] << " " << p[1] << " " << p[2] << "\n";
+  }
+  for (int i = 0; i < 40; ++i) edge(i, i + 1, 0);
+  for (const auto& [from, to] : loops) edge(from, to, 0);
+  for (const auto& [from, to] : false_loops) edge(from, to, 4);
+  return out.str();
+}
+
+TEST_F(FieldGraphs, ACommonFactorOfFewLoopsChangesNothing) {
+  PLACEGRAPH_CASE_OR_SKIP("graph_few_loops_common_factor");
+  const std::vector<std::pair<int, int>> false_loops = {{2, 14}, {5, 16}, {8, 18}};
+  for (const char* method : {"auto", "gnc", "pcm"}) {
+    const std::string options = std::string("--robust ") + method;
+    const json as_measured =
+        optimize(file("graph_few_loops_common_factor/as_measured.g2o"), options);
+    EXPECT_NEAR(as_measured["chi2_log"].get<double>(), 4.446071, 1e-5) << method;
+    EXPECT_EQ(rejected(as_measured), false_loops) << method;
+    const json less = optimize(file("graph_few_loops_common_factor/times_0.01.g2o"), options);
+    EXPECT_NEAR(less["chi2_log"].get<double>(), 0.04446071, 1e-7) << method;
+    EXPECT_EQ(rejected(less), false_loops) << method;
+  }
+}
+
+TEST_F(FieldGraphs, FewLoopsAreJudgedAtAnyScaleOfTheNoise) {
+  const std::vector<std::pair<int, int>> false_loops = {{3, 24}, {12, 35}};
+  for (const double factor : {1e-4, 1.0, 1e4}) {
+    test::write_file(
+        dir / "square.g2o",
+        noisy_square(factor, {{0, 40}, {1, 39}, {2, 38}, {5, 36}, {8, 32}, {10, 30}}, false_loops));
+    const json report = optimize("square.g2o", "--robust auto");
+    EXPECT_EQ(rejected(report), false_loops) << factor;
+    EXPECT_TRUE(report["loops_judged"].get<bool>());
+  }
+}
+
+TEST_F(FieldGraphs, TooFewLoopsAreNotJudgedAndThatIsSaid) {
+  for (const double factor : {1e-4, 1.0, 1e4}) {
+    test::write_file(dir / "square.g2o", noisy_square(factor, {{0, 40}}, {{3, 24}}));
+    const json report = optimize("square.g2o", "--robust auto");
+    EXPECT_THAT(rejected(report), IsEmpty());
+    EXPECT_FALSE(report["loops_judged"].get<bool>());
+    EXPECT_THAT(said, HasSubstr("too few loops agree to know the noise's scale"));
+  }
+  // Without any there is nothing to judge.
+  test::write_file(dir / "chain.g2o", noisy_square(1, {}, {}));
+  EXPECT_TRUE(optimize("chain.g2o", "--robust auto")["loops_judged"].get<bool>());
+  EXPECT_THAT(said, IsEmpty());
+}
+
+}  // namespace
+}  // namespace placegraph
