@@ -99,6 +99,35 @@ void warn_of_misfit(const OptimizeArguments& arguments, const GraphSolution& sol
                arguments.in.c_str(), costs.log / expected);
 }
 
+/// "3, 5, 7 and 12 more"
+std::string some_ids(const PoseGraph& graph, const std::vector<int>& nodes) {
+  constexpr std::size_t kMost = 10;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, nodes.size()); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", graph.nodes[nodes[i]].id);
+  if (nodes.size() > kMost) text += fmt::format(" and {} more", nodes.size() - kMost);
+  return text;
+}
+
+/// One line where another start may end elsewhere at the same cost.
+void warn_of_free_directions(const OptimizeArguments& arguments, const GraphSolution& solution) {
+  const FreeDirections& free = solution.free;
+  if (free.count == 0) return;
+  warn(
+      fmt::format("{}: the minimum is not unique: the constraints leave {}{} directions free, at "
+                  "{} vertices ({}); their information may have been written in another order, or "
+                  "has zeros",
+                  arguments.in, free.count >= FreeDirections::kMost ? "at least " : "", free.count,
+                  free.nodes.size(), some_ids(solution.graph, free.nodes)));
+}
+
+void describe_free_directions(const GraphSolution& solution, Json& report) {
+  report["free_directions"] = solution.free.count;
+  report["free_vertices"] = Json::array();
+  for (const int node : solution.free.nodes)
+    report["free_vertices"].push_back(solution.graph.nodes[node].id);
+}
+
 void describe_steps(std::vector<double> cpu_ms, Json& report) {
   if (cpu_ms.empty()) return;
   std::sort(cpu_ms.begin(), cpu_ms.end());
@@ -148,6 +177,7 @@ Json describe(const OptimizeArguments& arguments, const Costs& before, const Cos
   report["cpu_ms"] = solution.cpu_ms;
   report["wall_ms"] = solution.wall_ms;
   report["peak_mb"] = solution.peak_mb;
+  describe_free_directions(solution, report);
   describe_certificate(solution, report);
   describe_steps(solution.step_cpu_ms, report);
   report["loops_judged"] = arguments.robust != "none" && solution.loops_judged;
@@ -254,6 +284,7 @@ void run(OptimizeArguments arguments) {
     throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
   if (!arguments.plot.empty()) draw(arguments, drawn, solution, after);
   if (!arguments.quiet) warn_of_misfit(arguments, solution, after);
+  warn_of_free_directions(arguments, solution);
   if (!solution.loops_judged)
     warn(arguments.in + ": too few loops agree to know the noise's scale: --robust " +
          arguments.robust + " judged none of them, and left none out");

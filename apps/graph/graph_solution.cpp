@@ -29,6 +29,7 @@ PoseGraphReport optimize_growing(const PoseGraph& graph, const GraphTask& task, 
   report.outcome = replay.outcome;
   report.iterations = replay.iterations;
   report.graph = std::move(replay.graph);
+  if (report.outcome) report.free = find_free_directions(report.graph, options.rotation_error);
   report.start_used = PoseGraphStart::kOdometry;
   return report;
 }
@@ -50,6 +51,7 @@ void solve_whole(PoseGraph graph, const GraphTask& task, const LogSink& log,
                  GraphSolution& solution) {
   PoseGraphReport report = optimize(std::move(graph), task, log, solution);
   solution.graph = std::move(report.graph);
+  solution.free = std::move(report.free);
   solution.rejected = std::move(report.rejected);
   solution.chi2_by_constraint = std::move(report.chi2_by_constraint);
 }
@@ -70,6 +72,8 @@ void solve_parts(PoseGraph graph, const GraphTask& task, const LogSink& log,
     }
     for (std::size_t i = 0; i < part.nodes.size(); ++i)
       solution.graph.nodes[part.nodes[i]].T_world_node = report.graph.nodes[i].T_world_node;
+    solution.free.count += report.free.count;
+    for (const int node : report.free.nodes) solution.free.nodes.push_back(part.nodes[node]);
     for (std::size_t i = 0; i < report.chi2_by_constraint.size(); ++i)
       solution.chi2_by_constraint[part.constraints[i]] = report.chi2_by_constraint[i];
     for (RejectedEdge& edge : report.rejected) {
@@ -77,6 +81,7 @@ void solve_parts(PoseGraph graph, const GraphTask& task, const LogSink& log,
       solution.rejected.push_back(std::move(edge));
     }
   }
+  std::sort(solution.free.nodes.begin(), solution.free.nodes.end());
   std::sort(solution.rejected.begin(), solution.rejected.end(),
             [](const auto& a, const auto& b) { return a.constraint < b.constraint; });
 }

@@ -26,6 +26,7 @@ struct GraphSolution {
   std::vector<RejectedEdge> rejected;      ///< in the order of graph.constraints
   std::vector<double> chi2_by_constraint;  ///< in the order of graph.constraints; incremental: none
   bool loops_judged = true;  ///< false: in a component too few loops to know the noise's scale
+  FreeDirections free;       ///< of all components together
   std::vector<double> step_cpu_ms;  ///< incremental: of every pose
   double cpu_ms = 0, wall_ms = 0, peak_mb = 0;
   std::optional<ChordalIsotropicCertificate> certificate;  ///< its cost is not in the times

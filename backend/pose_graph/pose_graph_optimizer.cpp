@@ -50,6 +50,7 @@ void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
     report.rejected = std::move(robust.rejected);
     report.loops_judged = robust.judged;
   }
+  if (!found.solution.regular) report.free = find_free_directions(graph, options.rotation_error);
   report.outcome = found.solution.outcome;
   report.iterations = found.solution.iterations;
   report.start_used = found.used;

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/backend/pose_graph/initialization_selection.h>
 #include <placegraph/backend/pose_graph/robust_optimizer.h>
+#include <placegraph/backend/solver/free_directions.h>
 
 namespace placegraph {
 
@@ -34,6 +35,9 @@ struct PoseGraphReport {
   /// False: there were loops, but too few of them agree to know the noise's scale, so that none was
   /// judged.
   bool loops_judged = true;
+  /// Directions that the constraints leave open at the solution, and the nodes that move along
+  /// them: another start may end elsewhere at the same cost.
+  FreeDirections free;
 };
 
 /// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed, leaving out what

@@ -22,6 +22,9 @@ struct LocalSolution {
   Outcome outcome;
   int iterations = 0;
   double cost_initial = 0, cost_final = 0;  ///< sum of weight * rho(e^T Omega e)
+  /// The normal equations were positive definite near the end: the minimum is the only one around.
+  /// False where they were not, or nobody looked (Ceres).
+  bool regular = false;
 };
 
 }  // namespace placegraph

@@ -221,6 +221,8 @@ LocalSolution NativeSolver<Group>::solve(PackedGraph<Group>& graph) {
     }
   }
   solution.cost_final = cost_;
+  const BlockCholesky& H = equations_->matrix();
+  solution.regular = lambda_ == 0 && H.has_factor() && H.smallest_pivot() >= kSingularPivot;
   return solution;
 }
 

@@ -2,8 +2,10 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/io/graphs/pose_graph_builder.h>
+#include <placegraph/io/graphs/printed_rounding.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace placegraph {
 namespace {
@@ -45,6 +47,7 @@ Information PoseGraphBuilder::upper_triangle(const Fields& fields, std::size_t a
 }
 
 Information PoseGraphBuilder::symmetric(const Fields& fields, std::size_t at, int n) const {
+  information_fields_ = std::span(fields).subspan(at, static_cast<std::size_t>(n * (n + 1) / 2));
   Information matrix(n, n);
   for (int row = 0; row < n; ++row)
     for (int column = row; column < n; ++column)
@@ -66,6 +69,18 @@ void PoseGraphBuilder::require_near(const Pose& pose) const {
     file_->fail(fmt::format("a position beyond {:g} m", kMaxDistance_m));
 }
 
+Information PoseGraphBuilder::plausible(const Information& information) const {
+  const auto fields = std::exchange(information_fields_, {});
+  const char* fault = fault_of(information);
+  if (!fault) return information;
+  double rounding = 0;
+  for (const std::string_view field : fields)
+    rounding = std::max(rounding, printed_rounding(field));
+  const Information nearest = without_rounding(information, rounding);
+  if (fault_of(nearest)) file_->fail(std::string("the ") + fault);
+  return nearest;
+}
+
 void PoseGraphBuilder::add_node(std::string_view id, const Pose& T_world_node) {
   require_kind(kind_of(T_world_node));
   require_near(T_world_node);
@@ -74,11 +89,10 @@ void PoseGraphBuilder::add_node(std::string_view id, const Pose& T_world_node) {
 }
 
 void PoseGraphBuilder::add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
-                                const Information& information,
-                                std::optional<ConstraintSource> source) {
+                                const Information& given, std::optional<ConstraintSource> source) {
   require_kind(kind_of(T_from_to));
   require_near(T_from_to);
-  if (const char* fault = fault_of(information)) file_->fail(std::string("the ") + fault);
+  const Information information = plausible(given);
   if (information.cwiseAbs().maxCoeff() > kMaxInformation)
     file_->fail(fmt::format("the information is above {:g}", kMaxInformation));
   RelativePoseConstraint& edge =

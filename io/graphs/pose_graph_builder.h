@@ -3,6 +3,7 @@
 #include <placegraph/io/files/text_file.h>
 
 #include <optional>
+#include <span>
 
 namespace placegraph {
 
@@ -33,7 +34,8 @@ class PoseGraphBuilder {
 
   /// Refuses SE2, SE3 and Sim3 mixed, and positions beyond 1e50 m.
   void add_node(std::string_view id, const Pose& T_world_node);
-  /// Refuses mixed kinds, an edge from a node to itself, information that is indefinite, all
+  /// Refuses mixed kinds, an edge from a node to itself, information that is indefinite (by more
+  /// than its printed digits allow), all
   /// zero or above 1e100, and positions beyond 1e50 m. Edges of
   /// consecutive ids are odometry, others loops, unless `source` says what they are; see finish().
   void add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
@@ -51,12 +53,15 @@ class PoseGraphBuilder {
  private:
   void require_kind(PoseKind kind);
   void require_near(const Pose& pose) const;
+  Information plausible(const Information& information) const;
   int find(const NodeIndex& index, std::int64_t id, int line) const;
   void require_connected() const;
   void add_nodes_of_edges();
   void tell_odometry_by_order();
 
   const TextFile* file_;
+  /// Where the last matrix was read from, in the present line.
+  mutable std::span<const std::string_view> information_fields_;
   PoseGraph graph_;
   std::optional<PoseKind> kind_;
   std::vector<int> node_lines_, edge_lines_;

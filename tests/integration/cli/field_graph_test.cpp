@@ -112,5 +112,55 @@ TEST_F(FieldGraphs, TooFewLoopsAreNotJudgedAndThatIsSaid) {
   EXPECT_THAT(said, IsEmpty());
 }
 
+/// A square of four poses and a fifth that hangs on the last by one edge with this information.
+std::string square_with_tail(const std::string& information) {
+  const std::string good = " 100 0 0 100 0 400\n";
+  return "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 1.57\nVERTEX_SE2 2 1 1 3.14\nVERTEX_SE2 3 0 1 "
+         "-1.57\nVERTEX_SE2 7 0 0.5 -1.57\n"
+         "EDGE_SE2 0 1 1 0 1.5707963" +
+         good + "EDGE_SE2 1 2 1 0 1.5707963" + good + "EDGE_SE2 2 3 1 0 1.5707963" + good +
+         "EDGE_SE2 3 0 1 0.02 1.5707963" + good + "EDGE_SE2 3 7 0.5 0 0 " + information + "\n";
+}
+
+TEST_F(FieldGraphs, AMinimumThatIsNotUniqueIsToldFromEveryStart) {
+  PLACEGRAPH_CASE_OR_SKIP("graph_lower_triangle_information");
+  for (const char* options :
+       {"--start file", "--start certified", "--engine ceres", "--incremental", "--robust huber"}) {
+    const json report = optimize(file("graph_lower_triangle_information/lower.g2o"), options);
+    EXPECT_EQ(report["free_directions"], 57 - 42) << options;
+    EXPECT_EQ(report["free_vertices"].size(), 19u) << options;
+    EXPECT_THAT(said, HasSubstr("the minimum is not unique")) << options;
+  }
+}
+
+TEST_F(FieldGraphs, FreeDirectionsAreToldWithTheirVertices) {
+  // Its place across is not measured.
+  test::write_file(dir / "tail.g2o", square_with_tail("100 0 0 0 0 400"));
+  json report = optimize("tail.g2o");
+  EXPECT_EQ(report["free_directions"], 1);
+  EXPECT_EQ(report["free_vertices"], json({7}));
+  EXPECT_THAT(said, HasSubstr("1 directions free, at 1 vertices (7)"));
+  // Nor its direction.
+  test::write_file(dir / "tail.g2o", square_with_tail("100 0 0 0 0 0"));
+  EXPECT_EQ(optimize("tail.g2o")["free_directions"], 2);
+  test::write_file(dir / "tail.g2o", square_with_tail("100 0 0 1e-3 0 400"));
+  report = optimize("tail.g2o");
+  EXPECT_EQ(report["free_directions"], 0);
+  EXPECT_THAT(said, IsEmpty());
+}
+
+TEST_F(FieldGraphs, InformationIsSemiDefiniteWithinItsPrintedDigits) {
+  // Of rank one in the plane, printed with six digits: the smaller eigenvalue is -1e-4.
+  test::write_file(dir / "tail.g2o", square_with_tail("100.003 57.7368 0 33.3340 0 400"));
+  EXPECT_EQ(optimize("tail.g2o")["free_directions"], 1);
+  test::write_file(dir / "tail.g2o", square_with_tail("1.00003e2 5.77368e1 0 3.33340e1 0 4e2"));
+  EXPECT_EQ(optimize("tail.g2o")["free_directions"], 1);
+  // What is farther off, or exact, is refused.
+  test::write_file(dir / "tail.g2o", square_with_tail("100.003 58.7368 0 33.3340 0 400"));
+  expect_usage_error("optimize tail.g2o -o no.g2o", "tail.g2o:10: the information is indefinite");
+  test::write_file(dir / "tail.g2o", square_with_tail("1 2 0 1 0 400"));
+  expect_usage_error("optimize tail.g2o -o no.g2o", "tail.g2o:10: the information is indefinite");
+}
+
 }  // namespace
 }  // namespace placegraph

@@ -1,0 +1,17 @@
+#pragma once
+#include <placegraph/graph/pose_graph/constraint.h>
+
+#include <string_view>
+#include <vector>
+
+namespace placegraph {
+
+/// Half a unit of the last printed digit of a number: "100.1" 0.05, "1.25e3" 5; 0 for numbers
+/// without a point, which are taken for exact.
+double printed_rounding(std::string_view number);
+
+/// The nearest positive semi-definite matrix, if rounding every entry by `rounding` can have made
+/// it indefinite and is small against its largest eigenvalue; else the matrix as it is.
+Information without_rounding(const Information& information, double rounding);
+
+}  // namespace placegraph
