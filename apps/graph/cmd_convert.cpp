@@ -80,16 +80,24 @@ Trajectory poses_of(PoseGraph graph) {
 
 void convert_graph(const ConvertArguments& arguments, Form to) {
   if (!arguments.times.empty()) throw ArgumentError("--times: a pose graph has none");
-  const PoseGraph graph = read_pose_graph(arguments.in, {.connected = false});
+  const LandmarkGraph graph = read_landmark_graph(arguments.in, {.connected = false});
   if (to == TrajectoryFormat::kKitti) {
-    write_trajectory(arguments.out, poses_of(graph), *to);
-    fmt::print("{}: {} poses in the order of their ids, written to {}\n", arguments.in,
-               graph.nodes.size(), arguments.out);
+    write_trajectory(arguments.out, poses_of(graph.poses), *to);
+    fmt::print(
+        "{}: {} poses in the order of their ids{}, written to {}\n", arguments.in,
+        graph.poses.nodes.size(),
+        graph.points.empty() ? "" : fmt::format(" ({} landmarks left out)", graph.points.size()),
+        arguments.out);
     return;
   }
   write_g2o(arguments.out, graph);
-  fmt::print("{}: {} nodes, {} constraints, written to {}\n", arguments.in, graph.nodes.size(),
-             graph.constraints.size(), arguments.out);
+  fmt::print("{}: {} nodes, {} constraints{}, written to {}\n", arguments.in,
+             graph.poses.nodes.size(), graph.poses.constraints.size(),
+             graph.has_poses_alone()
+                 ? ""
+                 : fmt::format(", {} priors, {} landmarks seen {} times", graph.priors.size(),
+                               graph.points.size(), graph.sights.size()),
+             arguments.out);
 }
 
 void convert_trajectory(const ConvertArguments& arguments, TrajectoryFormat to) {

@@ -16,6 +16,7 @@
 #include <numeric>
 
 #include "apps/graph/graph_solution.h"
+#include "apps/graph/landmark_solution.h"
 #include "apps/support/output.h"
 #include "apps/support/plot_file.h"
 
@@ -260,9 +261,41 @@ void check(OptimizeArguments& arguments) {
   if (!arguments.plot.empty()) require_free(arguments.plot, arguments.force);
 }
 
+/// Graphs with priors and point landmarks are solved as factor graphs: what belongs to pose graphs
+/// alone is refused.
+void run_landmarks(const OptimizeArguments& arguments, LandmarkGraph graph) {
+  const PoseGraphOptions& options = arguments.task.options;
+  require(options.robust.method == RobustMethod::kNone && !arguments.task.incremental &&
+              !arguments.task.split && !arguments.task.certify &&
+              (options.start == PoseGraphStart::kAuto || options.start == PoseGraphStart::kFile) &&
+              arguments.plot.empty(),
+          arguments.in +
+              ": has priors or point landmarks, which --robust, --incremental, "
+              "--components, --certify, --plot and --start odometry, chordal and "
+              "certified do not take");
+  Json report;
+  report["in"] = arguments.in;
+  report["out"] = arguments.out;
+  report["cost"] = arguments.cost;
+  try {
+    report.update(solve_landmarks(graph, options));
+  } catch (const NoAnswer& reason) {
+    throw NoAnswer(arguments.in + ": " + reason.what());
+  }
+  if (!std::isfinite(report["chi2_log"].get<double>() + report["chi2_g2o"].get<double>()))
+    throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
+  write_g2o(arguments.out, graph);
+  if (arguments.json)
+    std::puts(report.dump(2).c_str());
+  else
+    print_landmarks(report);
+}
+
 void run(OptimizeArguments arguments) {
   check(arguments);
-  PoseGraph start = read_pose_graph(arguments.in, {.connected = !arguments.task.split});
+  LandmarkGraph read = read_landmark_graph(arguments.in, {.connected = !arguments.task.split});
+  if (!read.has_poses_alone()) return run_landmarks(arguments, std::move(read));
+  PoseGraph start = std::move(read.poses);
   const Costs before = costs_of(start);
   if (!std::isfinite(before.g2o + before.log))
     throw FileError(arguments.in, "the cost at the given poses is not finite: numbers too large");

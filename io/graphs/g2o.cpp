@@ -26,6 +26,14 @@ SE3 parse_se3(const TextFile& file, const Fields& fields, std::size_t at) {
   return {SO3(q), Eigen::Vector3d(v[0], v[1], v[2])};
 }
 
+/// Two or three numbers, z 0 where there are two.
+Eigen::Vector3d parse_point(const TextFile& file, const Fields& fields, std::size_t at, int dim) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (int i = 0; i < dim; ++i)
+    point[i] = file.number(fields[at + static_cast<std::size_t>(i)], "position");
+  return point;
+}
+
 Sim3 parse_sim3(const TextFile& file, const Fields& fields, std::size_t at) {
   Vector7d xi;
   for (int i = 0; i < 7; ++i) xi[kSim3Order[i]] = file.number(fields[at + i], "pose");
@@ -41,6 +49,43 @@ Information parse_sim3_information(const PoseGraphBuilder& builder, const Fields
   for (int i = 0; i < 7; ++i)
     for (int j = 0; j < 7; ++j) information(kSim3Order[i], kSim3Order[j]) = of_file(i, j);
   return information;
+}
+
+/// Priors, point landmarks and where sensors sit; false for any other tag.
+bool parse_landmark_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
+  const std::string_view tag = fields[0];
+  LandmarkLines& lines = builder.landmarks();
+  if (tag == "PARAMS_SE3OFFSET") {
+    builder.require_count(fields, 8);
+    lines.add_offset(fields[1], parse_se3(file, fields, 2));
+  } else if (tag == "EDGE_SE3_PRIOR") {
+    builder.require_count(fields, 30);
+    lines.add_prior(fields[1], parse_se3(file, fields, 3), builder.symmetric(fields, 10, 6),
+                    fields[2]);
+  } else if (tag == "EDGE_PRIOR_SE2") {
+    builder.require_count(fields, 10);
+    lines.add_prior(fields[1], builder.se2(fields, 2), builder.symmetric(fields, 5, 3));
+  } else if (tag == "EDGE_PRIOR_SE2_XY") {
+    builder.require_count(fields, 6);
+    builder.add_position(fields[1], parse_point(file, fields, 2, 2).head<2>(),
+                         builder.symmetric(fields, 4, 2));
+  } else if (tag == "VERTEX_XY" || tag == "VERTEX_TRACKXYZ") {
+    const int dim = tag == "VERTEX_XY" ? 2 : 3;
+    builder.require_count(fields, 1 + static_cast<std::size_t>(dim));
+    lines.add_point(fields[1], parse_point(file, fields, 2, dim), dim == 2);
+  } else if (tag == "EDGE_SE2_XY") {
+    builder.require_count(fields, 7);
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    information.topLeftCorner<2, 2>() = builder.symmetric(fields, 5, 2);
+    lines.add_sight(fields[1], fields[2], parse_point(file, fields, 3, 2), information, true);
+  } else if (tag == "EDGE_SE3_TRACKXYZ") {
+    builder.require_count(fields, 12);
+    lines.add_sight(fields[1], fields[2], parse_point(file, fields, 4, 3),
+                    builder.symmetric(fields, 7, 3), false, fields[3]);
+  } else {
+    return false;
+  }
+  return true;
 }
 
 void parse_g2o_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
@@ -69,10 +114,11 @@ void parse_g2o_line(const TextFile& file, const Fields& fields, PoseGraphBuilder
   } else if (tag == "FIX") {
     if (fields.size() < 2) file.fail("FIX: expected an id");
     for (std::size_t i = 1; i < fields.size(); ++i) builder.fix(fields[i]);
-  } else if (!tag.starts_with("PARAMS_")) {
+  } else if (!parse_landmark_line(file, fields, builder) && !tag.starts_with("PARAMS_")) {
     file.fail(in_quotes(tag) +
-              ": unknown tag; known are VERTEX_ and EDGE_ of SE2, SE3:QUAT and SIM3:EXPMAP, FIX, "
-              "PARAMS_*");
+              ": unknown tag; known are VERTEX_ and EDGE_ of SE2, SE3:QUAT and SIM3:EXPMAP, "
+              "EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, EDGE_SE3_PRIOR, VERTEX_XY, EDGE_SE2_XY, "
+              "VERTEX_TRACKXYZ, EDGE_SE3_TRACKXYZ, FIX, PARAMS_*");
   }
 }
 
@@ -116,6 +162,64 @@ void format_edge(Buffer out, const RelativePoseConstraint& edge) {
   fmt::format_to(out, "\n");
 }
 
+/// The upper triangle of the first `size` rows and columns, and the end of the line.
+template <class Matrix>
+void format_information(Buffer out, const Matrix& information, int size) {
+  for (int row = 0; row < size; ++row)
+    for (int column = row; column < size; ++column) format_number(out, information(row, column));
+  fmt::format_to(out, "\n");
+}
+
+void format_point(Buffer out, const Eigen::Vector3d& point, bool planar) {
+  for (int i = 0; i < (planar ? 2 : 3); ++i) format_number(out, point[i]);
+}
+
+void format_position(Buffer out, const PositionConstraint& position, PoseKind kind) {
+  require(kind == PoseKind::kSE2 && position.lever_arm.isZero(0),
+          "g2o: there is no text form for positions in space or beside a node");
+  fmt::format_to(out, "EDGE_PRIOR_SE2_XY {}", position.node);
+  format_point(out, position.position_world, true);
+  format_information(out, position.information, 2);
+}
+
+/// Of the node itself: parameters 0 are the identity.
+void format_prior(Buffer out, const PosePriorConstraint& prior) {
+  const bool planar = kind_of(prior.T_world_node) == PoseKind::kSE2;
+  fmt::format_to(out, "{} {}{}", planar ? "EDGE_PRIOR_SE2" : "EDGE_SE3_PRIOR", prior.node,
+                 planar ? "" : " 0");
+  format_pose(out, prior.T_world_node);
+  format_information(out, prior.information, planar ? 3 : 6);
+}
+
+void format_sight(Buffer out, const PointSight& sight, bool planar) {
+  fmt::format_to(out, "{} {} {}{}", planar ? "EDGE_SE2_XY" : "EDGE_SE3_TRACKXYZ", sight.node,
+                 sight.point, planar ? "" : " 0");
+  format_point(out, sight.position_node, planar);
+  format_information(out, sight.information, planar ? 2 : 3);
+}
+
+void format_vertices(Buffer out, const LandmarkGraph& graph) {
+  const PoseKind kind = graph.poses.kind();
+  const bool planar = kind == PoseKind::kSE2;
+  if (!graph.has_poses_alone() && !planar)
+    fmt::format_to(out, "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n");
+  for (const PoseNode& node : graph.poses.nodes) {
+    fmt::format_to(out, "VERTEX_{} {}", suffix_of(kind), node.id);
+    format_pose(out, node.T_world_node);
+    if (kind == PoseKind::kSim3) fmt::format_to(out, kNoCamera);
+    fmt::format_to(out, "\n");
+  }
+  for (const GraphPoint& point : graph.points) {
+    fmt::format_to(out, "{} {}", planar ? "VERTEX_XY" : "VERTEX_TRACKXYZ", point.id);
+    format_point(out, point.position_world, planar);
+    fmt::format_to(out, "\n");
+  }
+  for (const PoseNode& node : graph.poses.nodes)
+    if (node.fixed) fmt::format_to(out, "FIX {}\n", node.id);
+  for (const GraphPoint& point : graph.points)
+    if (point.fixed) fmt::format_to(out, "FIX {}\n", point.id);
+}
+
 }  // namespace
 
 PoseGraph parse_g2o(TextFile& file, const PoseGraphReading& reading) {
@@ -127,24 +231,28 @@ PoseGraph read_g2o(const std::string& path, const PoseGraphReading& reading) {
   return parse_g2o(file, reading);
 }
 
+LandmarkGraph parse_g2o_landmarks(TextFile& file, const PoseGraphReading& reading) {
+  return parse_lines(file, parse_g2o_line).finish_landmarks(reading);
+}
+
 void write_g2o(const std::string& path, const PoseGraph& graph) {
+  write_g2o(path, LandmarkGraph{graph, {}, {}, {}});
+}
+
+void write_g2o(const std::string& path, const LandmarkGraph& graph) {
   graph.check();
   fmt::memory_buffer text;
   const Buffer out = std::back_inserter(text);
-  for (const PoseNode& node : graph.nodes) {
-    fmt::format_to(out, "VERTEX_{} {}", suffix_of(graph.kind()), node.id);
-    format_pose(out, node.T_world_node);
-    if (graph.kind() == PoseKind::kSim3) fmt::format_to(out, kNoCamera);
-    fmt::format_to(out, "\n");
+  format_vertices(out, graph);
+  for (const Constraint& constraint : graph.poses.constraints) {
+    if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
+      format_edge(out, *edge);
+    else
+      format_position(out, std::get<PositionConstraint>(constraint), graph.poses.kind());
   }
-  for (const PoseNode& node : graph.nodes) {
-    if (node.fixed) fmt::format_to(out, "FIX {}\n", node.id);
-  }
-  for (const Constraint& constraint : graph.constraints) {
-    const auto* edge = std::get_if<RelativePoseConstraint>(&constraint);
-    require(edge != nullptr, "g2o: there is no text form for position constraints");
-    format_edge(out, *edge);
-  }
+  for (const PosePriorConstraint& prior : graph.priors) format_prior(out, prior);
+  for (const PointSight& sight : graph.sights)
+    format_sight(out, sight, graph.poses.kind() == PoseKind::kSE2);
   AtomicFile file(path);
   file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
   file.commit();

@@ -25,7 +25,7 @@ Pose identity_of(PoseKind kind) {
 
 }  // namespace
 
-PoseGraphBuilder::PoseGraphBuilder(const TextFile& file) : file_(&file) {}
+PoseGraphBuilder::PoseGraphBuilder(const TextFile& file) : file_(&file), landmarks_(file) {}
 
 void PoseGraphBuilder::require_count(const Fields& fields, std::size_t count) const {
   if (fields.size() == count + 1) return;
@@ -109,6 +109,18 @@ void PoseGraphBuilder::add_edge(std::string_view from, std::string_view to, cons
   edge_lines_.push_back(file_->line());
 }
 
+void PoseGraphBuilder::add_position(std::string_view node, const Eigen::Vector2d& position_world,
+                                    const Eigen::Matrix2d& information) {
+  require_kind(PoseKind::kSE2);
+  PositionConstraint position;
+  position.node = file_->integer(node, "id");
+  position.position_world.head<2>() = position_world;
+  position.information.setZero();
+  position.information.topLeftCorner<2, 2>() = information;
+  if (const char* fault = fault_of(position.information)) file_->fail(std::string("the ") + fault);
+  positions_.emplace_back(position, file_->line());
+}
+
 void PoseGraphBuilder::fix(std::string_view id) {
   fixed_.emplace_back(file_->integer(id, "id"), file_->line());
 }
@@ -119,12 +131,15 @@ int PoseGraphBuilder::find(const NodeIndex& index, std::int64_t id, int line) co
   throw FileError(file_->path(), line, fmt::format("there is no vertex {}", id));
 }
 
-void PoseGraphBuilder::require_connected() const {
-  const std::vector<int> component = graph_.components();
+void PoseGraphBuilder::require_connected(const PoseGraph& graph) const {
+  const std::vector<int> component = graph.components();
   const int count = 1 + *std::max_element(component.begin(), component.end());
   std::vector<char> is_fixed(static_cast<std::size_t>(count), 0);
-  for (std::size_t i = 0; i < graph_.nodes.size(); ++i)
-    if (graph_.nodes[i].fixed) is_fixed[static_cast<std::size_t>(component[i])] = 1;
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i)
+    if (graph.nodes[i].fixed) is_fixed[static_cast<std::size_t>(component[i])] = 1;
+  const NodeIndex index = graph.index_by_id();
+  for (const auto& [position, line] : positions_)
+    is_fixed[static_cast<std::size_t>(component[index.find(position.node)])] = 1;
   if (count == 1 || std::find(is_fixed.begin(), is_fixed.end(), 0) == is_fixed.end()) return;
   const auto apart = static_cast<std::size_t>(std::find(component.begin(), component.end(), 1) -
                                               component.begin());
@@ -132,7 +147,7 @@ void PoseGraphBuilder::require_connected() const {
       file_->path(), node_lines_[apart],
       fmt::format("vertex {} is not connected with vertex {}: the graph falls into {} components; "
                   "--components optimizes each by itself, FIX holds a vertex of each",
-                  graph_.nodes[apart].id, graph_.nodes[0].id, count));
+                  graph.nodes[apart].id, graph.nodes[0].id, count));
 }
 
 void PoseGraphBuilder::tell_odometry_by_order() {
@@ -165,6 +180,24 @@ void PoseGraphBuilder::tell_odometry_by_order() {
 }
 
 PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
+  if (!landmarks_.empty())
+    throw FileError(
+        file_->path(), landmarks_.first_line(),
+        "the graph has priors or point landmarks, which only optimize and convert take");
+  PoseGraph graph = finish_poses();
+  if (reading.connected) require_connected(graph);
+  return graph;
+}
+
+LandmarkGraph PoseGraphBuilder::finish_landmarks(const PoseGraphReading& reading) {
+  if (landmarks_.empty()) return {finish(reading), {}, {}, {}};
+  LandmarkGraph graph;
+  graph.poses = finish_poses();
+  landmarks_.add_to(graph);
+  return graph;
+}
+
+PoseGraph PoseGraphBuilder::finish_poses() {
   const bool edges_alone = graph_.nodes.empty();
   if (edges_alone && graph_.constraints.empty())
     throw FileError(file_->path(), "holds no vertices");
@@ -180,9 +213,11 @@ PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
     find(index, edge.to, edge_lines_[i]);
   }
   tell_odometry_by_order();
-  for (const auto& [id, line] : fixed_) graph_.nodes[find(index, id, line)].fixed = true;
-  if (reading.connected) require_connected();
+  for (const auto& [id, line] : fixed_)
+    if (!landmarks_.fix(id)) graph_.nodes[find(index, id, line)].fixed = true;
+  for (const auto& [position, line] : positions_) find(index, position.node, line);
   if (edges_alone) integrate_odometry(graph_);
+  for (const auto& [position, line] : positions_) graph_.constraints.emplace_back(position);
   return std::move(graph_);
 }
 

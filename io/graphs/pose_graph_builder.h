@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/graph/pose_graph/pose_graph.h>
 #include <placegraph/io/files/text_file.h>
+#include <placegraph/io/graphs/landmark_lines.h>
 
 #include <optional>
 #include <span>
@@ -40,7 +41,11 @@ class PoseGraphBuilder {
   /// consecutive ids are odometry, others loops, unless `source` says what they are; see finish().
   void add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
                 const Information& information, std::optional<ConstraintSource> source = {});
+  /// A measured position of a node in the plane [m].
+  void add_position(std::string_view node, const Eigen::Vector2d& position_world,
+                    const Eigen::Matrix2d& information);
   void fix(std::string_view id);
+  LandmarkLines& landmarks() { return landmarks_; }
 
   /// The graph, in the order of the file. Of edges alone the vertices are those the edges name, by
   /// ascending id, with poses chained along the spanning tree (odometry first) from the origin.
@@ -48,14 +53,18 @@ class PoseGraphBuilder {
   /// consecutive ones (every tenth frame is a node), edges from an id to the next larger one that
   /// is there are the odometry instead. Refuses ids that are there twice, edges and fixes on
   /// vertices that are not there, neither, and what `reading` asks to refuse.
+  /// Priors and landmarks are refused.
   [[nodiscard]] PoseGraph finish(const PoseGraphReading& reading);
+  /// The same with them. Parts of which each is tied to the world need not be connected.
+  [[nodiscard]] LandmarkGraph finish_landmarks(const PoseGraphReading& reading);
 
  private:
+  PoseGraph finish_poses();
   void require_kind(PoseKind kind);
   void require_near(const Pose& pose) const;
   Information plausible(const Information& information) const;
   int find(const NodeIndex& index, std::int64_t id, int line) const;
-  void require_connected() const;
+  void require_connected(const PoseGraph& graph) const;
   void add_nodes_of_edges();
   void tell_odometry_by_order();
 
@@ -65,6 +74,8 @@ class PoseGraphBuilder {
   PoseGraph graph_;
   std::optional<PoseKind> kind_;
   std::vector<int> node_lines_, edge_lines_;
+  std::vector<std::pair<PositionConstraint, int>> positions_;  ///< and their lines
+  LandmarkLines landmarks_;
   std::vector<char> source_is_told_;                 ///< of the edges, by their tags
   std::vector<std::pair<std::int64_t, int>> fixed_;  ///< id and line
 };

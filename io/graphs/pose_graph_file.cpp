@@ -49,6 +49,12 @@ PoseGraphFormat pose_graph_format(TextFile& file) {
   return *format;
 }
 
+LandmarkGraph read_landmark_graph(const std::string& path, const PoseGraphReading& reading) {
+  TextFile file(path);
+  if (pose_graph_format(file) == PoseGraphFormat::kG2o) return parse_g2o_landmarks(file, reading);
+  return {read_pose_graph(path, reading), {}, {}, {}};
+}
+
 PoseGraph read_pose_graph(const std::string& path, const PoseGraphReading& reading) {
   TextFile file(path);
   switch (pose_graph_format(file)) {

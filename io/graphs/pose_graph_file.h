@@ -16,5 +16,7 @@ PoseGraphFormat pose_graph_format(TextFile& file);
 
 /// Reads a graph in any of these forms. Throws FileError as read_g2o.
 PoseGraph read_pose_graph(const std::string& path, const PoseGraphReading& reading = {});
+/// The same with the priors and point landmarks that a file in g2o's form may hold.
+LandmarkGraph read_landmark_graph(const std::string& path, const PoseGraphReading& reading = {});
 
 }  // namespace placegraph

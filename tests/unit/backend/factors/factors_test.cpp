@@ -5,6 +5,7 @@
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/marginal_prior.h>
 #include <placegraph/backend/factors/point_factor.h>
+#include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/factors/reprojection.h>
@@ -218,6 +219,21 @@ TYPED_TEST(PoseFactors, PositionHasTheJacobiansOfFiniteDifferences) {
   const CeresFactor<PositionFactor<Group>> factor(
       PositionFactor<Group>({1, 2, 3}, {0.4, -0.3, 0.2}, W));
   test::expect_jacobians_match(factor, {pose_block(random_element<Group>(random, 2, 1), manifold)});
+}
+
+TEST(PointInNodeFactor, HasTheJacobiansOfFiniteDifferences) {
+  Random random(11);
+  Eigen::Matrix3d W;
+  W << 2, 1, 0, 0, 1, -1, 0.5, 0, 3;
+  const Block point{{3, -2, 1.5}};
+  const VariableManifold<SE3> in_space;
+  test::expect_jacobians_match(
+      CeresFactor<PointInNodeFactor<SE3>>(PointInNodeFactor<SE3>({1, 2, 3}, W)),
+      {pose_block(random_element<SE3>(random, 2, 1), in_space), point});
+  const VariableManifold<SE2> in_plane;
+  test::expect_jacobians_match(
+      CeresFactor<PointInNodeFactor<SE2>>(PointInNodeFactor<SE2>({1, 2}, W.topLeftCorner<2, 2>())),
+      {pose_block(random_element<SE2>(random, 2, 1), in_plane), point});
 }
 
 TEST(PoseError, InTheQuaternionConventionIsTranslationAndVectorPartWithPositiveScalar) {

@@ -1,0 +1,58 @@
+#include "apps/graph/landmark_solution.h"
+
+#include <fmt/format.h>
+#include <placegraph/backend/factor_graph/landmark_graph_optimizer.h>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/support/output.h"
+#include "apps/support/usage.h"
+
+namespace placegraph::apps {
+
+using Json = nlohmann::ordered_json;
+
+Json solve_landmarks(LandmarkGraph& graph, const PoseGraphOptions& options) {
+  const Stopwatch stopwatch;
+  Json report;
+  report["kind"] = graph.poses.kind() == PoseKind::kSE2 ? "SE2" : "SE3";
+  report["nodes"] = graph.poses.nodes.size();
+  report["constraints"] = graph.poses.constraints.size();
+  report["priors"] = graph.priors.size();
+  report["landmarks"] = graph.points.size();
+  report["sights"] = graph.sights.size();
+  report["components"] = count_components(graph);
+  report["chi2_g2o_initial"] = chi2(graph, RotationError::kQuaternion);
+  report["chi2_log_initial"] = chi2(graph, RotationError::kLog);
+  LandmarkGraphReport solved = optimize_landmark_graph(
+      std::move(graph),
+      {options.rotation_error, options.max_iterations, options.relative_decrease});
+  if (!solved.outcome) throw NoAnswer(solved.outcome.reason);
+  graph = std::move(solved.graph);
+  report["chi2_g2o"] = chi2(graph, RotationError::kQuaternion);
+  report["chi2_log"] = chi2(graph, RotationError::kLog);
+  report["iterations"] = solved.iterations;
+  report["cpu_ms"] = stopwatch.cpu_ms();
+  report["wall_ms"] = stopwatch.wall_ms();
+  report["peak_mb"] = peak_mb();
+  return report;
+}
+
+void print_landmarks(const Json& report) {
+  const auto text = [&](const char* key) { return report[key].get<std::string>(); };
+  const auto count = [&](const char* key) { return report[key].get<std::size_t>(); };
+  const auto number = [&](const char* key) { return report[key].get<double>(); };
+  fmt::print(
+      "{}: {}, {} nodes, {} constraints, {} priors, {} landmarks seen {} times, minimized "
+      "in the {} convention\n",
+      text("in"), text("kind"), count("nodes"), count("constraints"), count("priors"),
+      count("landmarks"), count("sights"), text("cost"));
+  fmt::print("  chi2 (g2o: half-angle quaternion) {:.6f} -> {:.6f}\n", number("chi2_g2o_initial"),
+             number("chi2_g2o"));
+  fmt::print("  chi2 (logarithm)                  {:.6f} -> {:.6f}\n", number("chi2_log_initial"),
+             number("chi2_log"));
+  fmt::print("  {} iterations, {:.1f} ms CPU, {:.0f} MB at most; written to {}\n",
+             count("iterations"), number("cpu_ms"), number("peak_mb"), text("out"));
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,36 @@
+#pragma once
+#include <placegraph/backend/factor_graph/factor_graph.h>
+#include <placegraph/graph/pose_graph/landmark_graph.h>
+
+namespace placegraph {
+
+struct LandmarkGraphOptions {
+  RotationError rotation_error = RotationError::kLog;
+  int max_iterations = 200;
+  double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
+};
+
+struct LandmarkGraphReport {
+  Outcome outcome;
+  LandmarkGraph graph;                      ///< with the estimate
+  double chi2_initial = 0, chi2_final = 0;  ///< sum of e^T Omega e
+  int iterations = 0;
+};
+
+/// Minimizes the sum of e^T Omega e over edges, measured positions, priors and sights from where
+/// poses and points are. A connected part that no fixed node or point, prior or measured position
+/// ties to the world keeps its first node. Throws as LandmarkGraph::check.
+[[nodiscard]] LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
+                                                          const LandmarkGraphOptions& options);
+
+/// Sum of e^T Omega e over all of it. Throws as LandmarkGraph::check.
+double chi2(const LandmarkGraph& graph, RotationError rotation_error);
+
+/// As a factor graph: the nodes, then the points; the terms of the pose graph, then priors and
+/// sights. Held are the fixed ones, and nodes as above.
+FactorGraph to_factor_graph(const LandmarkGraph& graph, RotationError rotation_error);
+
+/// The parts that hang together by edges and sights, and what is measured of the world in them.
+int count_components(const LandmarkGraph& graph);
+
+}  // namespace placegraph

@@ -1,0 +1,44 @@
+#pragma once
+#include <placegraph/graph/pose_graph/pose_graph.h>
+
+namespace placegraph {
+
+/// A measured pose of a node, as by motion capture: error = Log(T_world_node_measured^-1 *
+/// T_world_node).
+struct PosePriorConstraint {
+  std::int64_t node = 0;
+  Pose T_world_node;  ///< measured
+  Information information;
+};
+
+/// A point of the world that nodes see; in the plane z is 0 and stays so.
+struct GraphPoint {
+  std::int64_t id = 0;  ///< no node has it
+  Eigen::Vector3d position_world = Eigen::Vector3d::Zero();
+  bool fixed = false;
+};
+
+/// A point as a node sees it: error = T_world_node^-1 * position_world - position_node. In the
+/// plane the third components are left out.
+struct PointSight {
+  std::int64_t node = 0, point = 0;
+  Eigen::Vector3d position_node = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
+};
+
+/// A pose graph with measured poses and point landmarks beside it. SE(2) and SE(3).
+struct LandmarkGraph {
+  PoseGraph poses;
+  std::vector<PosePriorConstraint> priors;
+  std::vector<GraphPoint> points;
+  std::vector<PointSight> sights;
+
+  /// Whether it is a pose graph and no more.
+  bool has_poses_alone() const { return priors.empty() && points.empty() && sights.empty(); }
+  /// Throws ArgumentError as PoseGraph::check, and for priors, points and sights: unknown nodes and
+  /// points, an id that is there twice, values that are not finite, information that is indefinite
+  /// or all zero, a graph of similarities.
+  void check() const;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,180 @@
+// `placegraph optimize` and `convert` of graphs with priors and point landmarks.
+#include <placegraph/graph/geometry/se3.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/cli_test.h"
+#include "tests/support/data.h"
+
+namespace placegraph {
+namespace {
+
+using nlohmann::json;
+using test::CommandResult;
+using testing::HasSubstr;
+
+class LandmarkGraphs : public test::CliTest {
+ protected:
+  json optimize(const std::string& path) {
+    const CommandResult result = run("optimize " + path + " -o out.g2o --force --quiet --json");
+    EXPECT_EQ(result.code, 0) << result.err;
+    return result.code == 0 ? json::parse(result.out) : json();
+  }
+  /// The numbers behind a tag and an id of the written graph.
+  std::vector<double> written(const std::string& tag, int id) {
+    std::istringstream lines(test::read_file(dir / "out.g2o"));
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream fields(line);
+      std::string name;
+      int number = -1;
+      if (!(fields >> name >> number) || name != tag || number != id) continue;
+      std::vector<double> values;
+      for (double v; fields >> v;) values.push_back(v);
+      return values;
+    }
+    ADD_FAILURE() << "no " << tag << " " << id;
+    return {};
+  }
+};
+
+std::string numbers_of(const SE3& T) {
+  std::ostringstream out;
+  out.precision(17);
+  const auto& q = T.rotation().quaternion();
+  out << T.translation().x() << " " << T.translation().y() << " " << T.translation().z() << " "
+      << q.x() << " " << q.y() << " " << q.z() << " " << q.w();
+  return out.str();
+}
+
+std::string numbers_of(const Eigen::Vector3d& p) {
+  std::ostringstream out;
+  out.precision(17);
+  out << p.x() << " " << p.y() << " " << p.z();
+  return out.str();
+}
+
+SE3 pose(double x, double y, double z, double angle) {
+  return {SO3::exp({0.1 * angle, 0.2, angle}), Eigen::Vector3d(x, y, z)};
+}
+
+const std::string kSix = " 25 0 0 0 0 0 25 0 0 0 0 25 0 0 0 100 0 0 100 0 100\n";
+
+/// Three poses that are measured by a sensor beside them, which sees two points too: without noise.
+struct RigOfThree {
+  SE3 T_node_sensor = pose(0.3, -0.1, 0.2, 0.7);
+  std::vector<SE3> nodes = {pose(0, 0, 0, 0), pose(1, 0.2, 0.1, 0.4), pose(2, 0.9, 0.2, 0.9)};
+  std::vector<Eigen::Vector3d> points = {{3, 1, 0.5}, {2, 3, -0.5}};
+
+  std::string text(bool priors, bool points_have_lines) const {
+    std::ostringstream out;
+    out << "PARAMS_SE3OFFSET 5 " << numbers_of(T_node_sensor) << "\n";
+    for (std::size_t i = 0; i < nodes.size(); ++i)  // from a wrong start
+      out << "VERTEX_SE3:QUAT " << i << " "
+          << numbers_of(i == 0 && !priors ? nodes[0] : nodes[i] * pose(0.1, -0.1, 0.05, 0.1))
+          << "\n";
+    for (std::size_t i = 0; points_have_lines && i < points.size(); ++i)
+      out << "VERTEX_TRACKXYZ " << 10 + i << " "
+          << numbers_of(Eigen::Vector3d(points[i] + Eigen::Vector3d(0.2, 0.1, 0))) << "\n";
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+      out << "EDGE_SE3:QUAT " << i << " " << i + 1 << " "
+          << numbers_of(nodes[i].inverse() * nodes[i + 1]) << kSix;
+    for (std::size_t i = 0; priors && i < nodes.size(); ++i)
+      out << "EDGE_SE3_PRIOR " << i << " 5 " << numbers_of(nodes[i] * T_node_sensor) << kSix;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t k = 0; k < points.size(); ++k)
+        out << "EDGE_SE3_TRACKXYZ " << i << " " << 10 + k << " 5 "
+            << numbers_of(Eigen::Vector3d((nodes[i] * T_node_sensor).inverse() * points[k]))
+            << " 100 0 0 50 0 25\n";
+    return out.str();
+  }
+};
+
+TEST_F(LandmarkGraphs, HaveTheCostsThatOthersFind) {
+  PLACEGRAPH_CASE_OR_SKIP("graph_landmarks_in_the_plane");
+  json report = optimize(test::cases_dir() + "/graph_landmarks_in_the_plane/landmarks.g2o");
+  EXPECT_NEAR(report["chi2_log"].get<double>(), 23.308610, 1e-5);
+  EXPECT_NEAR(written("VERTEX_SE2", 19)[0], -0.1441, 1e-4);
+  EXPECT_NEAR(written("VERTEX_XY", 100)[1], 1.9824, 1e-4);
+  PLACEGRAPH_CASE_OR_SKIP("graph_pose_priors_in_space");
+  report = optimize(test::cases_dir() + "/graph_pose_priors_in_space/priors.g2o");
+  EXPECT_NEAR(report["chi2_log"].get<double>(), 8.751641, 1e-5);
+  EXPECT_NEAR(written("VERTEX_SE3:QUAT", 19)[0], 0.46108, 1e-5);
+}
+
+TEST_F(LandmarkGraphs, FollowSensorsThatSitBesideTheNodes) {
+  const RigOfThree rig;
+  for (const bool priors : {false, true})
+    for (const bool points_have_lines : {false, true}) {
+      dir.write("rig.g2o", rig.text(priors, points_have_lines));
+      const json report = optimize("rig.g2o");
+      EXPECT_EQ(report["priors"], priors ? 3 : 0);
+      EXPECT_EQ(report["landmarks"], 2);
+      EXPECT_EQ(report["sights"], 6);
+      EXPECT_LT(report["chi2_log"].get<double>(), 1e-9);
+      for (int axis = 0; axis < 3; ++axis) {
+        EXPECT_NEAR(written("VERTEX_SE3:QUAT", 2)[axis], rig.nodes[2].translation()[axis], 1e-5);
+        EXPECT_NEAR(written("VERTEX_TRACKXYZ", 11)[axis], rig.points[1][axis], 1e-5);
+      }
+      // What is written says the same.
+      ASSERT_EQ(run("convert out.g2o again.g2o --force").code, 0);
+      EXPECT_LT(optimize("again.g2o")["chi2_log_initial"].get<double>(), 1e-9);
+    }
+}
+
+TEST_F(LandmarkGraphs, TakeMeasuredPosesAndPositionsInThePlane) {
+  const std::string edges =
+      "EDGE_SE2 0 1 1 0 0 100 0 0 100 0 100\nEDGE_SE2 1 2 1 0 0 100 0 0 100 0 100\n";
+  // Positions along the diagonal: a gain for native optimization, no vertex is held.
+  dir.write("positions.g2o", edges +
+                                 "EDGE_PRIOR_SE2_XY 0 5 5 4 0 4\n"
+                                 "EDGE_PRIOR_SE2_XY 2 6.4142135624 6.4142135624 4 0 4\n");
+  json report = optimize("positions.g2o");
+  EXPECT_LT(report["chi2_log"].get<double>(), 1e-9);
+  EXPECT_EQ(report["free_directions"], 0);
+  EXPECT_NEAR(written("VERTEX_SE2", 1)[0], 5.7071067812, 1e-6);
+  EXPECT_NEAR(written("VERTEX_SE2", 1)[2], 0.7853981634, 1e-6);
+  EXPECT_EQ(written("EDGE_PRIOR_SE2_XY", 0).size(), 5u);
+  // One position leaves the heading free.
+  dir.write("one.g2o", edges + "EDGE_PRIOR_SE2_XY 0 5 5 4 0 4\n");
+  EXPECT_EQ(optimize("one.g2o")["free_directions"], 1);
+  dir.write("pose.g2o", edges + "EDGE_PRIOR_SE2 1 3 4 1.5707963268 4 0 0 4 0 4\n");
+  report = optimize("pose.g2o");
+  EXPECT_LT(report["chi2_log"].get<double>(), 1e-9);
+  EXPECT_NEAR(written("VERTEX_SE2", 2)[1], 5, 1e-6);
+}
+
+TEST_F(LandmarkGraphs, SayWhatIsWrongAndWhere) {
+  const std::string two =
+      "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n";
+  const auto refuses = [&](const std::string& line, const std::string& message) {
+    dir.write("bad.g2o", two + line + "\n");
+    expect_usage_error("optimize bad.g2o -o no.g2o", message);
+  };
+  refuses("EDGE_PRIOR_SE2 7 0 0 0 1 0 0 1 0 1", "bad.g2o:4: there is no vertex 7");
+  refuses("EDGE_PRIOR_SE2_XY 7 0 0 1 0 1", "bad.g2o:4: there is no vertex 7");
+  refuses("EDGE_PRIOR_SE2_XY 1 0 0 1 2 1", "bad.g2o:4: the information is indefinite");
+  refuses("VERTEX_XY 1 3 4", "bad.g2o:4: vertex 1 is there twice");
+  refuses("EDGE_SE2_XY 0 1 3 4 1 0 1", "bad.g2o:4: vertex 1 is a pose, not a point");
+  refuses("EDGE_SE2_XY 0 9 nan 4 1 0 1", "bad.g2o:4: ");
+  refuses("EDGE_SE2_XY 0 9 4 1 0 1", "bad.g2o:4: EDGE_SE2_XY: expected 7 numbers, found 6");
+  refuses("VERTEX_TRACKXYZ 9 3 4 5", "bad.g2o:4: is of space, and the poses are not in SE3");
+  refuses("EDGE_BEARING_SE2_XY 0 9 1 1", "bad.g2o:4: 'EDGE_BEARING_SE2_XY': unknown tag");
+  const RigOfThree rig;
+  dir.write("rig.g2o", rig.text(true, true) + "EDGE_SE3_TRACKXYZ 0 10 6 1 1 1 1 0 0 1 0 1\n");
+  expect_usage_error("optimize rig.g2o -o no.g2o", "there is no line PARAMS_SE3OFFSET 6");
+}
+
+TEST_F(LandmarkGraphs, AreRefusedWhereOnlyPosesAreTaken) {
+  dir.write("rig.g2o", RigOfThree().text(true, true));
+  for (const char* option : {"--robust auto", "--incremental", "--start chordal", "--certify"})
+    expect_usage_error(std::string("optimize rig.g2o -o no.g2o ") + option,
+                       "rig.g2o: has priors or point landmarks");
+  expect_usage_error("synth-graph rig.g2o -o no.g2o --shuffle", "priors or point landmarks");
+  const CommandResult poses = run("convert rig.g2o poses.kitti");
+  EXPECT_EQ(poses.code, 0) << poses.err;
+  EXPECT_THAT(poses.out, HasSubstr("2 landmarks left out"));
+}
+
+}  // namespace
+}  // namespace placegraph
