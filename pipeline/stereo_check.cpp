@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace placegraph {
 namespace {
@@ -19,14 +18,13 @@ struct Pair {
 };
 
 std::vector<Pair> some_pairs(const Dataset& dataset) {
-  constexpr std::size_t kPairs = 4;
+  constexpr std::size_t kMostPairs = 4, kFramesAPair = 20;  // a small share of a run over them
   DetectorOptions detector;
   detector.max_features = 600;
-  std::set<std::size_t> frames;
-  for (std::size_t k = 0; k < kPairs; ++k)
-    frames.insert((2 * k + 1) * dataset.size() / (2 * kPairs));
+  const std::size_t count = std::clamp<std::size_t>(dataset.size() / kFramesAPair, 1, kMostPairs);
   std::vector<Pair> pairs;
-  for (const std::size_t index : frames) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t index = (2 * k + 1) * dataset.size() / (2 * count);
     try {
       const Frame frame = dataset.frame(index, Sensor::kStereo);
       pairs.push_back(

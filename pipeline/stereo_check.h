@@ -4,8 +4,9 @@
 
 namespace placegraph {
 
-/// How well the rows of two eyes correspond, by features of up to four pairs spread over a sequence
-/// that can be run as stereo. Unreadable images are passed over: whoever runs it says so.
+/// How well the rows of two eyes correspond, by features of one pair in twenty, four at most,
+/// spread over a sequence that can be run as stereo. Unreadable images are passed over: whoever
+/// runs it says so.
 RowOffsets look_at_rows(const Dataset& dataset);
 
 /// What is odd about it, with what to try; nothing for a rectified pair, and where there are too
