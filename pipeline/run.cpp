@@ -8,8 +8,11 @@
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <functional>
 #include <future>
+#include <map>
 
 namespace placegraph {
 namespace {
@@ -177,6 +180,26 @@ void visit(OptionVisitor& field, MotionOptions& o) {
 
 namespace {
 
+std::string without_numbers(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
+  return text;
+}
+
+std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map& map,
+                                          const std::map<std::int64_t, std::string>& reasons) {
+  std::map<std::string, UnposedFrames> kinds;
+  for (std::size_t i = 0; i < map.frames.size() && i < optimized.size(); ++i) {
+    const auto reason = reasons.find(map.frames[i].frame);
+    if (optimized.poses[i].T_world_body || reason == reasons.end()) continue;
+    UnposedFrames& kind = kinds[without_numbers(reason->second)];
+    if (kind.count++ == 0) kind.reason = reason->second;
+  }
+  std::vector<UnposedFrames> result;
+  for (auto& [text, kind] : kinds) result.push_back(std::move(kind));
+  std::ranges::stable_sort(result, std::ranges::greater(), &UnposedFrames::count);
+  return result;
+}
+
 /// A run over a sequence, and what it has written of itself.
 class SequenceRun {
  public:
@@ -248,6 +271,7 @@ class SequenceRun {
     if (!options_.motion.file.empty())
       slam.set_motion(read_motion(dataset_, options_.motion, log_));
     if (surfaces_) slam.set_scene(surfaces_);
+    reasons_.clear();
     const std::size_t first = go_on(stored, slam);
     FrameReader reader(dataset_, lens_, result_.sensor, end_, options_.threads > 1);
     for (std::size_t i = first; i < end_; ++i) {
@@ -261,6 +285,7 @@ class SequenceRun {
         break;
       }
       const FrameResult done = slam.add_frame(frame);
+      if (!done.reason.empty()) reasons_.emplace(frame.id, done.reason);
       if (observer_) observer_(frame, done, slam.view());
       if (progress_) progress_(i + 1 - begin_, end_ - begin_, done);
       if (learn_lens(slam.lens(), pass_, options_.lens, lens_, log_)) return false;
@@ -268,6 +293,7 @@ class SequenceRun {
     }
     result_.lens_k1 = lens_.k1();
     result_.map = slam.finish();
+    result_.unposed = unposed_frames(result_.map.trajectory_optimized(), result_.map, reasons_);
     if (map_file_) commit(slam, !result_.broken_off);
     result_.environments = slam.environments();
     result_.stages = times_.stages();
@@ -309,6 +335,7 @@ class SequenceRun {
   int pass_ = 0;
   std::optional<MapDatabase> database_;
   StageTimes times_;
+  std::map<std::int64_t, std::string> reasons_;  ///< why frames had no pose when they were done
   RunResult result_;
 };
 

@@ -49,6 +49,12 @@ struct RunOptions {
 /// The SLAM options stand beside the others, not in a group of their own.
 void visit(OptionVisitor& field, RunOptions& options);
 
+/// Frames of a run that have no pose in the end, by the reason that was given when they were done.
+struct UnposedFrames {
+  std::string reason;  ///< of the first of them
+  int count = 0;
+};
+
 struct RunResult {
   Sensor sensor = Sensor::kMono;
   Calibration calibration;
@@ -62,6 +68,9 @@ struct RunResult {
   /// Reading and the stages of Slam. With more than one thread the next frame is read while the
   /// last is worked on, and counts for the stage that is open then.
   std::vector<StageTimes::Stage> stages;
+  /// Why frames have no pose, the most frequent reason first; reasons that differ in numbers alone
+  /// are one. Frames before a resumed run are not told.
+  std::vector<UnposedFrames> unposed;
   /// What keyframes say of their surroundings, where `context` is enabled.
   std::vector<EnvironmentSight> environments;
 };

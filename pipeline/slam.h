@@ -62,6 +62,7 @@ struct FrameResult {
   int inliers = 0;
   int component = 0;
   int loops_accepted = 0;  ///< with this frame
+  std::string reason;      ///< why it has no pose (yet); empty if it has one
 };
 
 /// The whole system: frames in, place graph and trajectory out.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
@@ -21,8 +22,8 @@ namespace placegraph::apps {
 namespace {
 
 struct ConvertArguments {
-  std::string in, out, to, times;
-  bool force = false;
+  std::string in, out, to, times, posed_in;
+  bool force = false, rigid = false, posed_only = false;
 };
 
 /// What a file holds; g2o, or one of the trajectory forms.
@@ -80,7 +81,10 @@ Trajectory poses_of(PoseGraph graph) {
 
 void convert_graph(const ConvertArguments& arguments, Form to) {
   if (!arguments.times.empty()) throw ArgumentError("--times: a pose graph has none");
-  const LandmarkGraph graph = read_landmark_graph(arguments.in, {.connected = false});
+  require(!arguments.posed_only && arguments.posed_in.empty(),
+          "--posed-only, --posed-in: a pose graph has no lost frames");
+  LandmarkGraph graph = read_landmark_graph(arguments.in, {.connected = false});
+  if (arguments.rigid) graph.poses = rigid_graph(graph.poses);
   if (to == TrajectoryFormat::kKitti) {
     write_trajectory(arguments.out, poses_of(graph.poses), *to);
     fmt::print(
@@ -100,15 +104,38 @@ void convert_graph(const ConvertArguments& arguments, Form to) {
              arguments.out);
 }
 
+/// Without the frames that have no pose, in it or in the trajectory `posed_in` (if given) of as
+/// many frames: what is left of both has a line for each line of the other.
+Trajectory posed_frames(const Trajectory& trajectory, const std::string& path,
+                        const std::string& posed_in) {
+  Trajectory other = trajectory;
+  if (!posed_in.empty()) other = read_trajectory(posed_in, "");
+  require(other.size() == trajectory.size(),
+          fmt::format("--posed-in: {} has {} frames, {} has {}", posed_in, other.size(), path,
+                      trajectory.size()));
+  Trajectory posed = trajectory;
+  posed.poses.clear();
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    if (trajectory.poses[i].T_world_body && other.poses[i].T_world_body)
+      posed.poses.push_back(trajectory.poses[i]);
+  return posed;
+}
+
 void convert_trajectory(const ConvertArguments& arguments, TrajectoryFormat to) {
-  const Trajectory trajectory = read_trajectory(arguments.in, arguments.times);
+  require(!arguments.rigid, "--rigid: " + arguments.in + " is a trajectory, not a pose graph");
+  const Trajectory read = read_trajectory(arguments.in, arguments.times);
+  const Trajectory trajectory = arguments.posed_only || !arguments.posed_in.empty()
+                                    ? posed_frames(read, arguments.in, arguments.posed_in)
+                                    : read;
   if (to != TrajectoryFormat::kKitti && !trajectory.has_times) {
     throw ArgumentError(arguments.in + ": has no times, which " + arguments.out +
                         " needs; give them with --times");
   }
   write_trajectory(arguments.out, trajectory, to);
-  fmt::print("{}: {} poses of {} frames, written to {}\n", arguments.in, trajectory.posed(),
-             trajectory.size(), arguments.out);
+  const std::size_t left_out = read.size() - trajectory.size();
+  fmt::print("{}: {} poses of {} frames{}, written to {}\n", arguments.in, trajectory.posed(),
+             trajectory.size(), left_out > 0 ? fmt::format(" ({} frames left out)", left_out) : "",
+             arguments.out);
 }
 
 void run(const ConvertArguments& arguments) {
@@ -144,6 +171,15 @@ void add_convert_command(CLI::App& app) {
   command->add_option("--to", a.to, "form of OUT, whatever its extension")
       ->check(CLI::IsMember({"kitti", "tum", "euroc", "g2o"}));
   command->add_option("--times", a.times, "times of a KITTI trajectory, one [s] a line")
+      ->check(CLI::ExistingFile);
+  command->add_flag("--rigid", a.rigid,
+                    "similarities become poses in space, for programs that know no scale");
+  command->add_flag("--posed-only", a.posed_only,
+                    "leave out frames without a pose, for programs that end at `nan`");
+  command
+      ->add_option("--posed-in", a.posed_in,
+                   "leave out the frames that this trajectory of as many frames has no pose for, "
+                   "too: so that a ground truth keeps its lines beside an estimate's")
       ->check(CLI::ExistingFile);
   command->add_flag("--force", a.force, "overwrite OUT");
   command->callback([arguments] { run(*arguments); });

@@ -4,6 +4,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/map_revisits.h>
 #include <placegraph/graph/place_transitions.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/place_graph_export.h>
 #include <placegraph/io/measurements/loop_file.h>
@@ -48,6 +49,10 @@ std::vector<ExportForm> export_forms() {
   return {{"--g2o", "the place graph", true,
            [](const std::string& path, const StoredMap& stored) {
              write_g2o(path, stored.map.place_graph.pose_graph());
+           }},
+          {"--g2o-se3", "the same without the scales of places, for programs that know none", true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_g2o(path, rigid_graph(stored.map.place_graph.pose_graph()));
            }},
           {"--places", "places, members, edges and loops as JSON", false,
            [](const std::string& path, const StoredMap& stored) {

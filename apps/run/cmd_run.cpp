@@ -2,6 +2,7 @@
 
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -118,7 +119,10 @@ void write_results(const std::string& folder, const RunResult& run, const Trajec
     write_trajectory(path((std::string(name) + ".kitti").c_str()), *trajectory,
                      TrajectoryFormat::kKitti);
   }
-  write_g2o(path("graph.g2o"), run.map.place_graph.pose_graph());
+  const PoseGraph graph = run.map.place_graph.pose_graph();
+  write_g2o(path("graph.g2o"), graph);
+  fs::remove(path("graph_se3.g2o"));
+  if (graph.kind() == PoseKind::kSim3) write_g2o(path("graph_se3.g2o"), rigid_graph(graph));
   write_file(path("places.json"), places_json(run.map));
   const auto transitions = place_transitions(run.map);
   write_file(path("places.graphml"), to_graphml(run.map.place_graph, transitions));
@@ -135,6 +139,9 @@ void print_summary(const json& summary, const std::string& folder) {
               summary["frames"].get<int>(), summary["posed_online"].get<int>(),
               summary["keyframes"].get<int>(), summary["places"].get<int>(),
               summary["loops_accepted"].get<int>());
+  for (const json& frames : summary["unposed"])
+    std::printf("%-12s no pose: %s (%d frames)\n", "", frames["reason"].get<std::string>().c_str(),
+                frames["frames"].get<int>());
   if (summary.contains("motion") && summary["motion"]["median_deviation"].is_number())
     std::printf("%-12s motion by other sensors: %d constraints, %.2f times as far off as claimed\n",
                 "", summary["motion"]["constraints"].get<int>(),
@@ -177,6 +184,20 @@ void add_notes(const std::vector<DataNote>& notes, json& summary) {
     summary["notes"].push_back(note.text);
     if (note.doubts_scale) summary["metric"] = false;
   }
+}
+
+json describe_unposed(const RunResult& run) {
+  json unposed = json::array();
+  for (const UnposedFrames& frames : run.unposed)
+    unposed.push_back({{"reason", frames.reason}, {"frames", frames.count}});
+  return unposed;
+}
+
+/// ": 8 points, 12 needed (39 of 40 frames)"; of the most frequent reason.
+std::string why_unposed(const RunResult& run) {
+  if (run.unposed.empty()) return "";
+  return ": " + run.unposed.front().reason + " (" + std::to_string(run.unposed.front().count) +
+         " of " + std::to_string(run.map.frames.size()) + " frames)";
 }
 
 json describe_stages(const RunResult& run) {
@@ -338,6 +359,7 @@ void run(RunArguments arguments) {
   }
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
   add_notes(notes, summary);
+  summary["unposed"] = describe_unposed(run);
   summary["sequence"] = dataset->name();
   summary["format"] = dataset->format();
   summary["seed"] = options.slam.seed;
@@ -357,7 +379,8 @@ void run(RunArguments arguments) {
   if (run.broken_off)
     throw Error(*run.broken_off + " (results of the " + std::to_string(optimized.size()) +
                 " frames before it are in " + arguments.out + ")");
-  if (optimized.posed() == 0) throw NoAnswer(arguments.sequence + ": no frame could be posed");
+  if (optimized.posed() == 0)
+    throw NoAnswer(arguments.sequence + ": no frame could be posed" + why_unposed(run));
 }
 
 }  // namespace

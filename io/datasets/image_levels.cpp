@@ -9,7 +9,7 @@
 namespace placegraph {
 namespace {
 
-constexpr std::size_t kSampled = 8;
+constexpr std::size_t kSampled = 8, kImagesASample = 20;
 /// 99 % of the pixels are below it: corners are lost in the noise and the rounding.
 constexpr int kDark = 32;
 /// Of 98 % of the pixels.
@@ -42,31 +42,40 @@ void add_pixels(const Image& stored, int bits, std::vector<std::size_t>& histogr
     for (int x = 0; x < grey.cols; ++x) ++histogram[grey.at<unsigned char>(y, x)];
 }
 
-}  // namespace
-
-ImageLevels sample_levels(const std::vector<std::string>& paths) {
+/// `count` images, evenly spaced, as they are stored; those that are none of 8 or 16 bits are
+/// passed over.
+std::vector<Image> some_images(const std::vector<std::string>& paths, std::size_t count) {
   std::vector<Image> images;
-  double greatest_of_16 = 0;
-  bool has_16 = false;
-  const std::size_t count = std::min(paths.size(), kSampled);
   for (std::size_t k = 0; k < count; ++k) {
     try {
       Image image = read_image_as_stored(paths[k * paths.size() / count]);
       if (image.channels() == 4) cv::extractChannel(image, image, 1);
-      if (image.depth() != CV_8U && image.depth() != CV_16U) continue;
-      if (image.depth() == CV_16U) {
-        double greatest = 0;
-        cv::minMaxLoc(image.reshape(1), nullptr, &greatest);
-        greatest_of_16 = std::max(greatest_of_16, greatest);
-        has_16 = true;
-      }
-      images.push_back(image);
+      if (image.depth() == CV_8U || image.depth() == CV_16U) images.push_back(image);
     } catch (const Error&) {
     }
   }
+  return images;
+}
+
+}  // namespace
+
+ImageLevels sample_levels(const std::vector<std::string>& paths) {
+  const std::size_t most = std::min(paths.size(), kSampled);
+  std::vector<Image> images = some_images(paths, std::min<std::size_t>(most, 1));
+  const bool first_of_16 = !images.empty() && images.front().depth() == CV_16U;
+  const std::size_t count = first_of_16 ? most : std::min(most, paths.size() / kImagesASample);
+  if (count > 1) images = some_images(paths, count);
   ImageLevels levels;
   if (images.empty()) return levels;
-  if (has_16) levels.bits = bits_of(greatest_of_16);
+  double greatest_of_16 = 0;
+  for (const Image& image : images) {
+    if (image.depth() != CV_16U) continue;
+    double greatest = 0;
+    cv::minMaxLoc(image.reshape(1), nullptr, &greatest);
+    greatest_of_16 = std::max(greatest_of_16, greatest);
+    levels.of_16 = true;
+  }
+  if (levels.of_16) levels.bits = bits_of(greatest_of_16);
   if (levels.bits < 16)
     levels.notes.push_back(
         {fmt::format("the images of 16 bits use {} of them (up to {:.0f}): they are "

@@ -24,7 +24,8 @@ class RecordedDataset : public Dataset {
     s_.calibration.check();
     for (DataNote& note : odd_calibration(s_.calibration)) s_.notes.push_back(std::move(note));
     ImageLevels levels = sample_levels(s_.left);
-    bits_ = s_.right.empty() ? levels.bits : std::max(levels.bits, sample_levels(s_.right).bits);
+    bits_ = levels.bits;
+    if (levels.of_16 && !s_.right.empty()) bits_ = std::max(bits_, sample_levels(s_.right).bits);
     for (DataNote& note : levels.notes) s_.notes.push_back(std::move(note));
     const std::string odd = odd_spacing(s_.stamps_ns, "frame");
     if (!odd.empty()) s_.notes.push_back({odd});

@@ -129,6 +129,7 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   if (!posed) {
     log(log_, LogLevel::kInfo, "frame {} lost: {}", frame.id, posed.reason);
     update.state = TrackingState::kLost;
+    update.reason = posed.reason;
     update.turn = turn_since(px_at_keyframe_, random);
     return update;
   }

@@ -75,6 +75,7 @@ struct OdometryUpdate {
   SE3 T_odom_cam;              ///< if tracking, or the first of the two views
   std::int64_t keyframe = -1;  ///< reference keyframe, if tracking
   int inliers = 0;
+  std::string reason;      ///< why it is not tracking
   bool reference = false;  ///< while waiting: this frame is the first of the two views
 
   struct NewKeyframe {
@@ -211,6 +212,7 @@ class Odometry {
 
   SlidingWindow empty_window() const;
   bool metric_from_start() const;
+  std::string too_few_landmarks() const;
   OdometryUpdate begin(const Frame& frame);
   std::optional<OdometryUpdate::Turn> turn_since(
       const std::map<std::int64_t, Eigen::Vector2d>& px_before, Random& random) const;

@@ -28,7 +28,8 @@ OdometryUpdate Odometry::begin_on_surfaces(const Frame& frame) {
   Random random(seed_, frame.id);
   surfaces_->see(frame);
   if (!surfaces_->become_reference(SE3(), RectificationError(), {}, random)) {
-    log(log_, LogLevel::kDebug, "no surface to begin with in frame {}", frame.id);
+    update.reason = "no surface to begin with";
+    log(log_, LogLevel::kDebug, "frame {}: {}", frame.id, update.reason);
     surfaces_->reset();
     return update;
   }
@@ -120,6 +121,7 @@ OdometryUpdate Odometry::track_surfaces(const Frame& frame) {
   }
   if (!motion.outcome) {
     log(log_, LogLevel::kInfo, "frame {} lost: {}", frame.id, motion.outcome.reason);
+    update.reason = motion.outcome.reason;
     update.state = TrackingState::kLost;
     return update;
   }

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/odometry/odometry.h>
 
@@ -35,6 +36,8 @@ OdometryUpdate Odometry::begin_with_lines(const Frame& frame) {
   lines_->wait(frame, T_odom_start_);
   LineView seen = lines_->seen();
   if (static_cast<int>(seen.size()) < options_.lines.start.min_lines) {
+    update.reason = fmt::format("{} lines to follow, {} needed to begin", seen.size(),
+                                options_.lines.start.min_lines);
     started_ = false;  // a dark or empty frame is nothing to begin with
     lines_->reset();
     return update;
@@ -98,6 +101,7 @@ OdometryUpdate Odometry::try_lines(const Frame& frame, const std::optional<SE3>&
   }
   // While the camera stands still, a view more tells nothing more.
   if (line_views_.size() > kMostViews) line_views_.erase(line_views_.begin() + 1);
+  update.reason = "waits for more views of the lines";
   if (line_views_.size() < kLeastViews) return update;
   std::vector<LineView> views;
   for (const LinesWaiting& view : line_views_) views.push_back(view.lines);
@@ -107,6 +111,7 @@ OdometryUpdate Odometry::try_lines(const Frame& frame, const std::optional<SE3>&
   const std::vector<double> depths = depths_of(calibration_.camera, start, views.front());
   if (!start.outcome || depths.empty()) {
     log(log_, LogLevel::kDebug, "initialization waits: {}", start.outcome.reason);
+    if (!start.outcome) update.reason = start.outcome.reason;
     return update;
   }
   // The unit is arbitrary until the floor shows it.
@@ -114,7 +119,8 @@ OdometryUpdate Odometry::try_lines(const Frame& frame, const std::optional<SE3>&
   if (in_known_map_ && T_known) {
     scale = (T_known->translation() - T_odom_start_.translation()).norm();
   } else if (in_known_map_ && !floor_ && !ground_) {
-    log(log_, LogLevel::kDebug, "initialization waits: nothing gives the map's unit");
+    update.reason = "nothing gives the map's unit";
+    log(log_, LogLevel::kDebug, "initialization waits: {}", update.reason);
     return update;
   }
   const std::vector<std::size_t> chosen = spread(views.size(), kKeyframes);

@@ -1,7 +1,17 @@
+#include <fmt/format.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/odometry/odometry.h>
 
 namespace placegraph {
+
+/// What a first keyframe by two eyes or by depth lacks.
+std::string Odometry::too_few_landmarks() const {
+  return fmt::format(
+      "{} of {} tracked points {}, {} needed to begin", landmarks_in_window(),
+      tracker_.tracks().size(),
+      calibration_.baseline_m > 0 ? "found in the right eye's image" : "with a measured depth",
+      options_.pose.ransac.min_inliers);
+}
 
 OdometryUpdate Odometry::begin(const Frame& frame) {
   if (cues_.surfaces_alone()) return begin_on_surfaces(frame);
@@ -11,6 +21,7 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
   if (scale_known_) {  // stereo and RGB-D have their landmarks at once
     add_keyframe(frame, T_odom_start_, update);
     if (landmarks_in_window() < options_.pose.ransac.min_inliers) {
+      update.reason = too_few_landmarks();
       update.new_keyframes.clear();
       next_keyframe_ = last_keyframe_;
       // Nothing came of it: neither the keyframe nor its few landmarks belong to the map.
@@ -28,6 +39,8 @@ OdometryUpdate Odometry::begin(const Frame& frame) {
   const Frame seen = looked_at(frame);
   detect_points(seen, frame.mask);
   if (static_cast<int>(tracker_.tracks().size()) < 2 * options_.initializer.min_points) {
+    update.reason = fmt::format("{} points to track, {} needed to begin", tracker_.tracks().size(),
+                                2 * options_.initializer.min_points);
     started_ = false;  // a dark or empty frame is nothing to begin with
     tracker_.reset();
     return update;
@@ -97,7 +110,9 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
     start.outcome = Outcome::failure(Outcome::Code::kDegenerate, "a rotation explains the views");
   if (!start.outcome) {
     log(log_, LogLevel::kDebug, "initialization waits: {}", start.outcome.reason);
-    return wait_turning(frame, random);
+    update = wait_turning(frame, random);
+    update.reason = start.outcome.reason;
+    return update;
   }
   // The unit is arbitrary until the ground shows it.
   std::vector<double> depths;
@@ -107,7 +122,8 @@ OdometryUpdate Odometry::try_initialize(const Frame& frame, const std::optional<
   if (in_known_map_ && T_known) {
     scale = (T_known->translation() - T_odom_start_.translation()).norm();
   } else if (in_known_map_ && !ground_) {
-    log(log_, LogLevel::kDebug, "initialization waits: nothing gives the map's unit");
+    update.reason = "nothing gives the map's unit";
+    log(log_, LogLevel::kDebug, "initialization waits: {}", update.reason);
     return update;
   }
   if (!(scale > 0)) return update;

@@ -46,6 +46,7 @@ OdometryUpdate Odometry::replace_reference(const Frame& frame, const std::option
   if (in_known_map_ && !T_known && !turn) {
     OdometryUpdate lost;
     lost.state = TrackingState::kLost;
+    lost.reason = "too little of the first view is left before a second one told the motion";
     return lost;
   }
   if (turn)

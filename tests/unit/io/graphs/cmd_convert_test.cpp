@@ -1,5 +1,6 @@
 #include "apps/graph/cmd_convert.h"
 
+#include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <CLI/CLI.hpp>
@@ -96,6 +97,29 @@ TEST(ConvertCommand, TakesThePosesOfAGraphInTheOrderOfTheirIds) {
   convert({scaled, folder / "scaled.kitti"});
   EXPECT_EQ(read_trajectory(folder / "scaled.kitti").poses[0].T_world_body->matrix(),
             Eigen::Matrix4d::Identity());
+}
+
+TEST(ConvertCommand, LeavesLostFramesOutOnRequest) {
+  const TemporaryFolder folder;
+  const std::string lost = "nan nan nan nan nan nan nan nan nan nan nan nan\n";
+  const std::string first = kKitti.substr(0, kKitti.find('\n') + 1),
+                    second = kKitti.substr(first.size());
+  const std::string estimate = folder.write("estimate.txt", first + lost + second);
+  const std::string truth = folder.write("truth.txt", first + second + second);
+  convert({estimate, folder / "kept.kitti"});
+  EXPECT_EQ(read_trajectory(folder / "kept.kitti").size(), 3u);
+  convert({estimate, folder / "posed.kitti", "--posed-only"});
+  convert({truth, folder / "truth.kitti", "--posed-in", estimate});
+  for (const char* name : {"posed.kitti", "truth.kitti"}) {
+    const Trajectory posed = read_trajectory(folder / name);
+    ASSERT_EQ(posed.size(), 2u) << name;
+    EXPECT_EQ(posed.posed(), 2u);
+    EXPECT_EQ(posed.poses[1].T_world_body->translation().z(), 3);
+  }
+  EXPECT_THAT(message_of<ArgumentError>([&] {
+                convert({folder.write("a.tum", "1 0 0 0 0 0 0 1\n"), folder / "b.tum", "--rigid"});
+              }),
+              HasSubstr("not a pose graph"));
 }
 
 TEST(ConvertCommand, NeverOverwritesWithoutForce) {
