@@ -1,0 +1,133 @@
+"""exports_check.py PROGRAM FOLDER: what the program writes, read by evo, gtsam and networkx.
+
+Renders and runs small sequences in FOLDER. Prints one line a check; exits 1 where one fails.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+os.environ.setdefault("HOME", sys.argv[2])  # evo writes its settings there
+
+import gtsam
+import networkx
+import numpy
+from evo.core import metrics
+from evo.tools import file_interface
+
+FRAMES = 40
+failures = 0
+
+
+def check(name, right, found=""):
+    global failures
+    failures += not right
+    print(f"  {'right' if right else 'WRONG'}: {name}" + (f" ({found})" if found != "" and not right else ""))
+
+
+def close(a, b, tolerance):
+    return abs(a - b) <= tolerance * max(1.0, abs(b))
+
+
+class Program:
+    def __init__(self, path, folder):
+        self.path, self.folder = path, pathlib.Path(folder)
+
+    def __call__(self, *arguments):
+        """Standard output of a command that ends well."""
+        done = subprocess.run([self.path, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"exports_check: {' '.join(map(str, arguments))}: exit code {done.returncode}: {done.stderr.strip()}")
+        return done.stdout
+
+    def at(self, name):
+        return str(self.folder / name)
+
+
+def write_runs(placegraph):
+    """A drive by two eyes, and by one eye that knows no scale."""
+    placegraph("synth", "town-loop", "--frames", FRAMES, "--stereo", "--size", "448x280", "--difficulty", "clean", "--out", "drive")
+    placegraph("run", "drive", "--out", "stereo")
+    os.remove(placegraph.at("drive/world.yaml"))  # it tells the camera's height
+    placegraph("run", "drive", "--sensor", "mono", "--out", "mono")
+
+
+def check_trajectories(placegraph):
+    kitti = file_interface.read_kitti_poses_file(placegraph.at("stereo/trajectory_optimized.kitti"))
+    tum = file_interface.read_tum_trajectory_file(placegraph.at("stereo/trajectory_optimized.tum"))
+    check("evo reads every pose of KITTI's form", kitti.num_poses == FRAMES, kitti.num_poses)
+    check("evo reads every pose of TUM's form", tum.num_poses == FRAMES, tum.num_poses)
+    check("the two are the same positions", numpy.allclose(kitti.positions_xyz, tum.positions_xyz, atol=1e-6))
+    check("rotations are rotations to evo", kitti.check()[0], kitti.check()[1])
+    placegraph("convert", "stereo/trajectory_optimized.tum", "euroc.csv")
+    euroc = file_interface.read_euroc_csv_trajectory(placegraph.at("euroc.csv"))
+    check("evo reads EuRoC's form", numpy.allclose(euroc.positions_xyz, tum.positions_xyz, atol=1e-6) and numpy.allclose(euroc.timestamps, tum.timestamps, atol=1e-6))
+    truth = file_interface.read_kitti_poses_file(placegraph.at("drive/poses.txt"))
+    ape = metrics.APE(metrics.PoseRelation.translation_part)
+    ape.process_data((truth, kitti))
+    told = json.loads(placegraph("eval", "drive/poses.txt", "stereo/trajectory_optimized.kitti", "--align", "none", "--json"))
+    check("evo's error is that of eval", close(ape.get_statistic(metrics.StatisticsType.rmse), told["ate_rmse_m"], 1e-6))
+
+
+def check_lost_frames(placegraph):
+    lines = pathlib.Path(placegraph.at("stereo/trajectory_optimized.kitti")).read_text().splitlines(True)
+    for lost in (3, 4, 20):
+        lines[lost] = " ".join(["nan"] * 12) + "\n"
+    pathlib.Path(placegraph.at("lost.kitti")).write_text("".join(lines))
+    placegraph("convert", "lost.kitti", "posed.kitti", "--posed-only")
+    placegraph("convert", "drive/poses.txt", "truth.kitti", "--posed-in", "lost.kitti")
+    posed = file_interface.read_kitti_poses_file(placegraph.at("posed.kitti"))
+    truth = file_interface.read_kitti_poses_file(placegraph.at("truth.kitti"))
+    check("evo reads what has no lost frames", posed.num_poses == truth.num_poses == FRAMES - 3 and posed.check()[0])
+
+
+def read_by_gtsam(path, in_space):
+    """The graph, its start, and twice the error there: the sum of e^T Omega e."""
+    graph, start = gtsam.readG2o(path, in_space)
+    return graph, start, 2 * graph.error(start)
+
+
+def count(path, tag):
+    return sum(line.startswith(tag) for line in open(path))
+
+
+def check_graphs(placegraph):
+    for name in ("stereo/graph.g2o", "mono/graph_se3.g2o"):
+        path = placegraph.at(name)
+        graph, start, _ = read_by_gtsam(path, True)
+        check(f"gtsam reads {name}", graph.size() == count(path, "EDGE_") > 0 and start.size() == count(path, "VERTEX_"), f"{graph.size()} factors, {start.size()} poses")
+    check("the scales of one eye are in graph.g2o", count(placegraph.at("mono/graph.g2o"), "VERTEX_SIM3") > 0)
+    for world, in_space in (("grid-world", True), ("manhattan-walk", False)):
+        placegraph("synth-graph", world, "--poses", 200, "-o", world + ".g2o")
+        told = json.loads(placegraph("optimize", world + ".g2o", "-o", world + "_optimized.g2o", "--json", "--quiet"))
+        _, _, before = read_by_gtsam(placegraph.at(world + ".g2o"), in_space)
+        _, _, after = read_by_gtsam(placegraph.at(world + "_optimized.g2o"), in_space)
+        for when, error, of_ours in (("before", before, told["chi2_log_initial"]), ("after", after, told["chi2_log"])):
+            check(f"gtsam's error of {world} {when} optimization is chi2_log", close(error, of_ours, 1e-6), f"{error} and {of_ours}")
+
+
+def check_places(placegraph):
+    places = json.load(open(placegraph.at("stereo/places.json")))
+    count_of_places = len(places["places"])
+    graphml = networkx.read_graphml(placegraph.at("stereo/places.graphml"))
+    check("networkx reads the places of GraphML", graphml.number_of_nodes() == count_of_places, graphml.number_of_nodes())
+    check("they hang together", networkx.is_connected(graphml.to_undirected()))
+    dot = networkx.nx_pydot.read_dot(placegraph.at("stereo/places.dot"))
+    nodes = [n for n in dot.nodes if n not in ("\\n", "node", "edge", "graph")]
+    check("and those of Graphviz", len(nodes) == count_of_places, len(nodes))
+
+
+def main():
+    placegraph = Program(sys.argv[1], sys.argv[2])
+    write_runs(placegraph)
+    check_trajectories(placegraph)
+    check_lost_frames(placegraph)
+    check_graphs(placegraph)
+    check_places(placegraph)
+    print(f"exports_check: {'FAILED: ' + str(failures) + ' checks' if failures else 'passed'}")
+    return 1 if failures else 0
+
+
+sys.exit(main())
