@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/measurements/stamp_plausibility.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/datasets/odometry_file.h>
+#include <placegraph/io/sensors/odometry_file.h>
 #include <placegraph/pipeline/lens_correction.h>
 #include <placegraph/pipeline/run.h>
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/kitti_raw.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
+#include <placegraph/io/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <filesystem>

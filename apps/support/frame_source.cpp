@@ -5,31 +5,15 @@
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
 
-#include <filesystem>
-
 namespace placegraph::apps {
-namespace {
-
-/// The images of a folder that is no data set; empty if it has none.
-std::vector<std::string> bare_images(const std::string& path) {
-  namespace fs = std::filesystem;
-  for (const char* mark : {"mav0", "rgb.txt", "calib.txt", "calibration.yaml"})
-    if (fs::exists(fs::path(path) / mark)) return {};
-  if (!fs::is_directory(path)) return {};
+FrameSource::FrameSource(const std::string& path) {
   try {
-    return list_images(path);
-  } catch (const FileError&) {
-    return {};
-  }
-}
-
-}  // namespace
-
-FrameSource::FrameSource(const std::string& path) : images_(bare_images(path)) {
-  if (images_.empty())
     dataset_ = open_dataset(path);
-  else
+  } catch (const UnknownLayout&) {
+    if (!holds_images(path)) throw;
+    images_ = list_images(path);
     first_ = read_image(images_.front()).grey;
+  }
 }
 
 std::optional<Camera> FrameSource::camera() const {

@@ -5,11 +5,11 @@
 #include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/config/yaml_document.h>
 #include <placegraph/io/datasets/euroc.h>
-#include <placegraph/io/datasets/euroc_sensor.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
 #include <placegraph/io/files/text_file.h>
+#include <placegraph/io/sensors/euroc_sensor.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/config/yaml_document.h>
+#include <placegraph/io/datasets/kitti_calibration.h>
 #include <placegraph/io/datasets/kitti_odometry.h>
 #include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/io/files/image_file.h>
@@ -9,77 +10,11 @@
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
-#include <array>
 #include <filesystem>
-#include <map>
 
 namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
-
-/// The numbers behind `KEY:` in a KITTI calibration file, with the line they stand on.
-struct CalibrationLine {
-  std::vector<double> numbers;
-  int line = 0;
-};
-using CalibrationLines = std::map<std::string, CalibrationLine, std::less<>>;
-
-/// Reads the lines whose key is wanted; other keys (Tr, ...) are none of ours.
-CalibrationLines read_calibration(const std::string& path,
-                                  const std::vector<std::pair<std::string, std::size_t>>& wanted) {
-  TextFile file(path);
-  CalibrationLines lines;
-  std::string_view line;
-  std::vector<std::string_view> fields;
-  while (file.next_data(line)) {
-    split_blank(line, fields);
-    std::string key(fields[0]);
-    if (key.ends_with(':')) key.pop_back();
-    for (const auto& [name, count] : wanted) {
-      if (key != name) continue;
-      if (fields.size() != count + 1) {
-        file.fail(fmt::format("{}: expected {} numbers, found {}", key, count, fields.size() - 1));
-      }
-      CalibrationLine& entry = lines[key];
-      if (entry.line > 0) file.fail(fmt::format("{}: is there twice", key));
-      entry.line = file.line();
-      for (std::size_t i = 1; i <= count; ++i) {
-        entry.numbers.push_back(file.number(fields[i], name.c_str()));
-      }
-    }
-  }
-  return lines;
-}
-
-/// The ideal pinhole in a 3x4 projection matrix; the size is left open.
-Camera camera_from(const std::string& path, const std::string& key, const CalibrationLine& P) {
-  const std::vector<double>& p = P.numbers;
-  const bool pinhole =
-      p[0] > 0 && p[5] > 0 && p[1] == 0 && p[4] == 0 && p[8] == 0 && p[9] == 0 && p[10] == 1;
-  if (!pinhole) {
-    throw FileError(path, P.line, key + ": is no projection matrix fx 0 cx . 0 fy cy . 0 0 1 .");
-  }
-  Camera camera;
-  camera.fx = p[0], camera.cx = p[2], camera.fy = p[5], camera.cy = p[6];
-  return camera;
-}
-
-/// Where the camera of P = K [I | t] stands in the frame of camera 0: -t.
-Eigen::Vector3d position_in_cam0(const CalibrationLine& P) {
-  const std::vector<double>& p = P.numbers;
-  const double z = p[11];
-  return -Eigen::Vector3d((p[3] - p[2] * z) / p[0], (p[7] - p[6] * z) / p[5], z);
-}
-
-void set_size(const std::string& first_image, const Image& image, Camera& camera) {
-  camera.width = image.cols;
-  camera.height = image.rows;
-  try {
-    camera.check();
-  } catch (const ArgumentError& error) {
-    throw FileError(first_image, error.what());
-  }
-}
 
 void require_count(const std::string& path, std::size_t found, std::size_t images) {
   if (found == images) return;
@@ -91,36 +26,20 @@ void require_count(const std::string& path, std::size_t found, std::size_t image
 /// Returns the left camera's position in the frame of camera 0, which ground truth refers to.
 Eigen::Vector3d read_eyes(const fs::path& folder, RecordedSequence& sequence) {
   const int left = fs::is_directory(folder / "image_0") ? 0 : 2;
-  const std::string path = (folder / "calib.txt").string();
-  const auto lines = read_calibration(path, {{"P0", 12}, {"P1", 12}, {"P2", 12}, {"P3", 12}});
-  const std::string left_key = fmt::format("P{}", left), right_key = fmt::format("P{}", left + 1);
-  const auto P_left = lines.find(left_key), P_right = lines.find(right_key);
-  if (P_left == lines.end()) throw FileError(path, "has no line " + left_key + ":");
-
-  Camera camera = camera_from(path, left_key, P_left->second);
-  sequence.left = list_numbered_images((folder / fmt::format("image_{}", left)).string());
-  set_size(sequence.left[0], read_image(sequence.left[0]).grey, camera);
-  require_plausible_camera(path, camera);
-  sequence.raw_camera = sequence.calibration.camera = camera;
-
   const fs::path right_folder = folder / fmt::format("image_{}", left + 1);
-  if (P_right != lines.end() && fs::is_directory(right_folder)) {
-    const Camera right = camera_from(path, right_key, P_right->second);
-    if (right.fx != camera.fx || right.fy != camera.fy || right.cx != camera.cx ||
-        right.cy != camera.cy) {
-      throw FileError(path, P_right->second.line,
-                      right_key + ": has other intrinsics than " + left_key + ": not rectified");
-    }
-    const double baseline_m = (P_left->second.numbers[3] - P_right->second.numbers[3]) / camera.fx;
-    if (!(baseline_m > 0)) {
-      throw FileError(path, P_right->second.line,
-                      fmt::format("{}: baseline is {} m, not positive", right_key, baseline_m));
-    }
+  const KittiEyes eyes =
+      read_kitti_eyes((folder / "calib.txt").string(), left, fs::is_directory(right_folder));
+  sequence.left = list_numbered_images((folder / fmt::format("image_{}", left)).string());
+  sequence.calibration.camera = eyes.camera;
+  set_size(sequence.left[0], read_image(sequence.left[0]).grey, sequence.calibration.camera);
+  require_plausible_camera((folder / "calib.txt").string(), sequence.calibration.camera);
+  sequence.raw_camera = sequence.calibration.camera;
+  if (eyes.baseline_m > 0) {
     sequence.right = list_numbered_images(right_folder.string());
     require_count(right_folder.string(), sequence.right.size(), sequence.left.size());
-    sequence.calibration.baseline_m = baseline_m;
+    sequence.calibration.baseline_m = eyes.baseline_m;
   }
-  return position_in_cam0(P_left->second);
+  return eyes.position_in_cam0;
 }
 
 /// depth_0, with its own camera in calib_depth.txt; without that file it is registered to the left
@@ -135,10 +54,10 @@ void read_depth_camera(const fs::path& folder, RecordedSequence& sequence) {
   const bool own = fs::exists(path);
   if (own) {
     const auto lines =
-        read_calibration(path.string(), {{"P0", 12}, {"T_cam_depth", 12}, {"unit_m", 1}});
+        read_kitti_lines(path.string(), {{"P0", 12}, {"T_cam_depth", 12}, {"unit_m", 1}});
     const auto P = lines.find("P0"), T = lines.find("T_cam_depth"), unit = lines.find("unit_m");
     if (P == lines.end()) throw FileError(path.string(), "has no line P0:");
-    depth.camera = camera_from(path.string(), "P0", P->second);
+    depth.camera = kitti_camera(path.string(), "P0", P->second);
     if (T != lines.end()) {
       Eigen::Matrix<double, 3, 4, Eigen::RowMajor> matrix(T->second.numbers.data());
       try {
@@ -198,19 +117,6 @@ void read_ground_truth(const fs::path& folder, const Eigen::Vector3d& position_i
 }
 
 }  // namespace
-
-KittiCalibration read_kitti_calibration(const std::string& path) {
-  const auto lines = read_calibration(path, {{"P0", 12}, {"P1", 12}});
-  const auto P0 = lines.find("P0"), P1 = lines.find("P1");
-  if (P0 == lines.end()) throw FileError(path, "has no line P0:");
-  KittiCalibration out;
-  out.camera = camera_from(path, "P0", P0->second);
-  if (P1 != lines.end()) {
-    camera_from(path, "P1", P1->second);
-    out.baseline_m = (P0->second.numbers[3] - P1->second.numbers[3]) / out.camera.fx;
-  }
-  return out;
-}
 
 bool is_kitti_odometry(const std::string& folder) {
   const fs::path path(folder);

@@ -13,12 +13,4 @@ bool is_kitti_odometry(const std::string& folder);
 /// T_world_cam0; those of the colour eye are converted to T_world_cam2. Throws FileError.
 std::unique_ptr<Dataset> open_kitti_odometry(const std::string& folder);
 
-/// What the lines P0 and P1 of a calib.txt say; the image size is not among it and left 0.
-struct KittiCalibration {
-  Camera camera;
-  double baseline_m = 0;  ///< 0 where there is no P1
-};
-/// Throws FileError with the line for a file without P0, or whose P0 or P1 is no ideal pinhole.
-KittiCalibration read_kitti_calibration(const std::string& path);
-
 }  // namespace placegraph

@@ -112,6 +112,42 @@ std::optional<Camera> benchmark_camera(const std::string& name) {
   return std::nullopt;
 }
 
+/// ICL-NUIM's (Handa et al. 2014). Its own calibration has a negative fy, because its axis y points
+/// up: the truth is turned over instead.
+constexpr Camera kIclNuim{640, 480, 481.20, 480.00, 319.5, 239.5, Distortion::kNone, {}};
+
+/// The truth of ICL-NUIM in TUM's form, "livingRoom0.gt.freiburg"; empty in other folders.
+fs::path icl_nuim_truth(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().filename().string().ends_with(".gt.freiburg")) return entry.path();
+  return {};
+}
+
+/// Times that are numbers of frames (0, 1, 2, ...), as ICL-NUIM's, count frames of 30 Hz.
+bool are_frame_numbers(const std::vector<std::int64_t>& stamps_ns) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i)
+    if (stamps_ns[i] != stamps_ns[i - 1] + kSecond_ns) return false;
+  return stamps_ns.size() > 1 && (stamps_ns[0] == 0 || stamps_ns[0] == kSecond_ns);
+}
+
+constexpr std::int64_t kIclNuimRate_Hz = 30;
+
+/// Times by numbers of frames, and y down.
+Trajectory read_icl_nuim_truth(const fs::path& path) {
+  Trajectory truth = read_timed_poses(path.string());
+  const Eigen::Vector3d flip(1, -1, 1);
+  for (StampedPose& pose : truth.poses) {
+    pose.stamp_ns /= kIclNuimRate_Hz;
+    if (pose.T_world_body)
+      pose.T_world_body->matrix().topLeftCorner<3, 4>() =
+          flip.asDiagonal() * pose.T_world_body->matrix().topLeftCorner<3, 4>() *
+          Eigen::Vector4d(1, -1, 1, 1).asDiagonal();
+  }
+  return truth;
+}
+
 /// That of calibration.yaml, else the benchmark's, as the folder's name says.
 CalibrationYaml read_calibration(const fs::path& folder, const std::string& name) {
   CalibrationYaml yaml;
@@ -123,7 +159,7 @@ CalibrationYaml read_calibration(const fs::path& folder, const std::string& name
       throw FileError(path.string(), "baseline_m: a TUM sequence has one eye");
     return yaml;
   }
-  const auto camera = benchmark_camera(name);
+  const auto camera = icl_nuim_truth(folder).empty() ? benchmark_camera(name) : kIclNuim;
   if (!camera) {
     throw FileError(folder.string(),
                     "the intrinsics are unknown: the folder's name has no freiburg1, freiburg2 or "
@@ -205,7 +241,12 @@ std::unique_ptr<Dataset> open_tum_rgbd(const std::string& folder) {
       sequence.depth_remap = undistorted.remap;
     }
   }
-  if (fs::exists(path / "groundtruth.txt")) {
+  if (const fs::path truth = icl_nuim_truth(path); !truth.empty()) {
+    if (are_frame_numbers(sequence.stamps_ns))
+      for (std::int64_t& stamp_ns : sequence.stamps_ns) stamp_ns /= kIclNuimRate_Hz;
+    sequence.ground_truth =
+        resample(read_icl_nuim_truth(truth), sequence.stamps_ns, kMaxTruthGap_s);
+  } else if (fs::exists(path / "groundtruth.txt")) {
     const std::string truth = (path / "groundtruth.txt").string();
     sequence.ground_truth = resample(read_timed_poses(truth), sequence.stamps_ns, kMaxTruthGap_s);
   }

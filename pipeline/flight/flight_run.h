@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/datasets/imu_file.h>
+#include <placegraph/io/sensors/imu_file.h>
 #include <placegraph/pipeline/flight/flight_estimator.h>
 
 #include <functional>

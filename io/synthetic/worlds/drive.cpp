@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/io/datasets/kitti_odometry.h>
+#include <placegraph/io/datasets/kitti_calibration.h>
 #include <placegraph/io/synthetic/worlds/tours.h>
 #include <placegraph/io/synthetic/worlds/town_builder.h>
 #include <placegraph/io/synthetic/worlds/traffic.h>

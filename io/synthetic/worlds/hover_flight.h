@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/measurements/body_state.h>
-#include <placegraph/io/datasets/imu_file.h>
+#include <placegraph/io/sensors/imu_file.h>
 
 #include <cstdint>
 #include <vector>

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/parallel.h>
-#include <placegraph/io/datasets/euroc_sensor.h>
 #include <placegraph/io/measurements/flow_file.h>
 #include <placegraph/io/measurements/marker_layout_file.h>
+#include <placegraph/io/sensors/euroc_sensor.h>
 #include <placegraph/io/synthetic/worlds/hover.h>
 #include <placegraph/io/synthetic/writers/flight_writer.h>
 #include <placegraph/io/synthetic/writers/sequence_folder.h>

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/euroc_sensor.h>
-#include <placegraph/io/datasets/imu_file.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
+#include <placegraph/io/sensors/euroc_sensor.h>
+#include <placegraph/io/sensors/imu_file.h>
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include <placegraph/io/datasets/imu_file.h>
+#include <placegraph/io/sensors/imu_file.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"

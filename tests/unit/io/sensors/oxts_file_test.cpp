@@ -1,4 +1,4 @@
-#include <placegraph/io/datasets/kitti_raw.h>
+#include <placegraph/io/sensors/oxts_file.h>
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/odometry_file.h>
 #include <placegraph/io/files/text_file.h>
+#include <placegraph/io/sensors/odometry_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <Eigen/Cholesky>

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/odometry_file.h>
+#include <placegraph/io/sensors/odometry_file.h>
 
 #include "tests/support/scenes/scene.h"
 #include "tests/support/temporary_folder.h"
