@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <opencv2/videoio.hpp>
 #include <string_view>
@@ -30,6 +31,18 @@ cv::VideoCapture open_capture(const std::string& path) {
     }
   }
   throw FileError(path, "is no readable video");
+}
+
+/// The reader tells no times of the last frames, those that the decoder still holds when the file
+/// ends (as many as frames are predicted from later ones): they go on at the distance of the last
+/// two.
+void continue_times(std::vector<std::int64_t>& stamps_ns) {
+  constexpr std::size_t kMostHeld = 16;
+  std::size_t told = 1;
+  while (told < stamps_ns.size() && stamps_ns[told] > stamps_ns[told - 1]) ++told;
+  if (told < 2 || stamps_ns.size() - told > kMostHeld) return;
+  const std::int64_t step_ns = stamps_ns[told - 1] - stamps_ns[told - 2];
+  for (; told < stamps_ns.size(); ++told) stamps_ns[told] = stamps_ns[told - 1] + step_ns;
 }
 
 class VideoDataset : public Dataset {
@@ -81,28 +94,26 @@ class VideoDataset : public Dataset {
   /// Those of the container where its rate varies, else counted at its rate or at the given one.
   void read_times(double given_hz) {
     cv::VideoCapture capture = open_capture(path_);
-    double rate_hz = given_hz > 0 ? given_hz : capture.get(cv::CAP_PROP_FPS);
-    const bool rate_told = rate_hz > 0.01 && rate_hz < 1e5;
-    if (!rate_told) rate_hz = kDefaultRateHz;
+    const double told_hz = capture.get(cv::CAP_PROP_FPS);
+    const bool rate_is_told = told_hz > 0.01 && told_hz < 1e5;
+    const double rate_hz = given_hz > 0 ? given_hz : rate_is_told ? told_hz : kDefaultRateHz;
     const double announced = capture.get(cv::CAP_PROP_FRAME_COUNT);
     std::vector<std::int64_t> container_ns;
     while (capture.grab())
       container_ns.push_back(std::llround(capture.get(cv::CAP_PROP_POS_MSEC) * 1e6));
     const std::size_t count = container_ns.size();
     if (count == 0) throw FileError(path_, "holds no frames");
+    continue_times(container_ns);
+    const bool increase = std::ranges::adjacent_find(container_ns, std::ranges::greater_equal()) ==
+                          container_ns.end();
     stamps_ns_ = synthetic_stamps_ns(count, rate_hz);
-    // An estimate in some containers: only a clear difference means something.
-    if (announced > 1.05 * static_cast<double>(count) + 2)
-      notes_.push_back({fmt::format(
-          "{} frames of {:.0f} that the video announces: is it cut short?", count, announced)});
+    if (rate_is_told)
+      note_if_cut_short(announced, told_hz, increase ? seconds(0, container_ns.back()) : 0);
     if (given_hz > 0 || count < 2) return;
-    bool increase = true;
     double furthest_s = 0;
-    for (std::size_t i = 1; i < count; ++i) {
-      increase &= container_ns[i] > container_ns[i - 1];
+    for (std::size_t i = 1; i < count; ++i)
       furthest_s = std::max(furthest_s, std::abs(seconds(stamps_ns_[i] - stamps_ns_[0],
                                                          container_ns[i] - container_ns[0])));
-    }
     if (furthest_s < 0.5 / rate_hz) return;
     if (increase) {
       stamps_ns_ = std::move(container_ns);
@@ -113,6 +124,18 @@ class VideoDataset : public Dataset {
                        "fps in its yaml sets the rate",
                        rate_hz)});
     }
+  }
+
+  /// What is announced is an estimate in some containers, by the length and a rate: only a clear
+  /// difference in both means something.
+  void note_if_cut_short(double announced, double rate_hz, double last_s) {
+    const auto count = static_cast<double>(stamps_ns_.size());
+    const bool fewer = announced > 1.05 * count + 2;
+    const bool shorter = announced / rate_hz > 1.05 * last_s + 2 / rate_hz;
+    if (fewer && shorter)
+      notes_.push_back(
+          {fmt::format("{} frames of {:.0f} that the video announces: is it cut short?",
+                       stamps_ns_.size(), announced)});
   }
 
   void check_index(std::size_t index) const {
