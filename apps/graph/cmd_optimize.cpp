@@ -101,25 +101,36 @@ void warn_of_misfit(const OptimizeArguments& arguments, const GraphSolution& sol
 }
 
 /// "3, 5, 7 and 12 more"
-std::string some_ids(const PoseGraph& graph, const std::vector<int>& nodes) {
+std::string some_ids(const Json& ids) {
   constexpr std::size_t kMost = 10;
   std::string text;
-  for (std::size_t i = 0; i < std::min(kMost, nodes.size()); ++i)
-    text += fmt::format("{}{}", i == 0 ? "" : ", ", graph.nodes[nodes[i]].id);
-  if (nodes.size() > kMost) text += fmt::format(" and {} more", nodes.size() - kMost);
+  for (std::size_t i = 0; i < std::min(kMost, ids.size()); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", ids[i].get<std::int64_t>());
+  if (ids.size() > kMost) text += fmt::format(" and {} more", ids.size() - kMost);
   return text;
 }
 
 /// One line where another start may end elsewhere at the same cost.
-void warn_of_free_directions(const OptimizeArguments& arguments, const GraphSolution& solution) {
-  const FreeDirections& free = solution.free;
-  if (free.count == 0) return;
+void warn_of_free_directions(const OptimizeArguments& arguments, const Json& report) {
+  const int count = report["free_directions"].get<int>();
+  const Json& vertices = report["free_vertices"];
+  if (count == 0) return;
   warn(
       fmt::format("{}: the minimum is not unique: the constraints leave {}{} directions free, at "
                   "{} vertices ({}); their information may have been written in another order, or "
                   "has zeros",
-                  arguments.in, free.count >= FreeDirections::kMost ? "at least " : "", free.count,
-                  free.nodes.size(), some_ids(solution.graph, free.nodes)));
+                  arguments.in, count >= FreeDirections::kMost ? "at least " : "", count,
+                  vertices.size(), some_ids(vertices)));
+}
+
+/// One line where parts of a graph with priors or landmarks stand for themselves.
+void warn_of_parts(const OptimizeArguments& arguments, const Json& report) {
+  const Json& held = report["held_vertices"];
+  if (report["components"].get<int>() < 2 || held.empty()) return;
+  warn(
+      fmt::format("{}: the graph falls into {} components, of which {} are tied to the world by "
+                  "no prior and no FIX: each keeps a vertex where it is ({})",
+                  arguments.in, report["components"].get<int>(), held.size(), some_ids(held)));
 }
 
 void describe_free_directions(const GraphSolution& solution, Json& report) {
@@ -284,6 +295,8 @@ void run_landmarks(const OptimizeArguments& arguments, LandmarkGraph graph) {
   }
   if (!std::isfinite(report["chi2_log"].get<double>() + report["chi2_g2o"].get<double>()))
     throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
+  warn_of_free_directions(arguments, report);
+  warn_of_parts(arguments, report);
   write_g2o(arguments.out, graph);
   if (arguments.json)
     std::puts(report.dump(2).c_str());
@@ -317,12 +330,12 @@ void run(OptimizeArguments arguments) {
     throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
   if (!arguments.plot.empty()) draw(arguments, drawn, solution, after);
   if (!arguments.quiet) warn_of_misfit(arguments, solution, after);
-  warn_of_free_directions(arguments, solution);
+  const Json report = describe(arguments, before, after, solution);
+  warn_of_free_directions(arguments, report);
   if (!solution.loops_judged)
     warn(arguments.in + ": too few loops agree to know the noise's scale: --robust " +
          arguments.robust + " judged none of them, and left none out");
   write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
-  const Json report = describe(arguments, before, after, solution);
   if (arguments.json)
     std::puts(report.dump(2).c_str());
   else

@@ -12,10 +12,22 @@ namespace placegraph::apps {
 
 using Json = nlohmann::ordered_json;
 
+namespace {
+
+std::int64_t id_of(const LandmarkGraph& graph, int variable) {
+  const auto i = static_cast<std::size_t>(variable), nodes = graph.poses.nodes.size();
+  return i < nodes ? graph.poses.nodes[i].id : graph.points[i - nodes].id;
+}
+
+}  // namespace
+
 Json solve_landmarks(LandmarkGraph& graph, const PoseGraphOptions& options) {
   const Stopwatch stopwatch;
   Json report;
   report["kind"] = graph.poses.kind() == PoseKind::kSE2 ? "SE2" : "SE3";
+  report["engine"] = options.engine == PoseGraphEngine::kCeres ? "ceres" : "native";
+  report["start"] = to_string(PoseGraphStart::kFile);
+  report["robust"] = "none";
   report["nodes"] = graph.poses.nodes.size();
   report["constraints"] = graph.poses.constraints.size();
   report["priors"] = graph.priors.size();
@@ -26,7 +38,7 @@ Json solve_landmarks(LandmarkGraph& graph, const PoseGraphOptions& options) {
   report["chi2_log_initial"] = chi2(graph, RotationError::kLog);
   LandmarkGraphReport solved = optimize_landmark_graph(
       std::move(graph),
-      {options.rotation_error, options.max_iterations, options.relative_decrease});
+      {options.rotation_error, options.engine, options.max_iterations, options.relative_decrease});
   if (!solved.outcome) throw NoAnswer(solved.outcome.reason);
   graph = std::move(solved.graph);
   report["chi2_g2o"] = chi2(graph, RotationError::kQuaternion);
@@ -35,6 +47,14 @@ Json solve_landmarks(LandmarkGraph& graph, const PoseGraphOptions& options) {
   report["cpu_ms"] = stopwatch.cpu_ms();
   report["wall_ms"] = stopwatch.wall_ms();
   report["peak_mb"] = peak_mb();
+  report["free_directions"] = solved.free.count;
+  report["free_vertices"] = Json::array();
+  for (const int node : solved.free.nodes) report["free_vertices"].push_back(id_of(graph, node));
+  report["rejected"] = 0;
+  report["rejected_edges"] = Json::array();
+  report["held_vertices"] = Json::array();
+  for (const int node : held_for_want_of_a_tie(graph))
+    report["held_vertices"].push_back(id_of(graph, node));
   return report;
 }
 

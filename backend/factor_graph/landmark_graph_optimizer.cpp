@@ -2,6 +2,7 @@
 #include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/solver/local_solver.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
@@ -98,12 +99,48 @@ double chi2(const LandmarkGraph& graph, RotationError rotation_error) {
 }
 
 int count_components(const LandmarkGraph& graph) {
+  // Nodes come first, and so do the numbers of their parts.
   const std::vector<int> numbers = connected(graph, VariableIndex(graph)).numbers();
-  return numbers.empty() ? 0 : 1 + *std::ranges::max_element(numbers);
+  const auto nodes = static_cast<std::ptrdiff_t>(graph.poses.nodes.size());
+  return nodes == 0 ? 0 : 1 + *std::max_element(numbers.begin(), numbers.begin() + nodes);
 }
 
-LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
-                                            const LandmarkGraphOptions& options) {
+std::vector<int> held_for_want_of_a_tie(const LandmarkGraph& graph) {
+  const std::vector<char> held = held_variables(graph, VariableIndex(graph));
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < graph.poses.nodes.size(); ++i)
+    if (held[i] && !graph.poses.nodes[i].fixed) nodes.push_back(static_cast<int>(i));
+  return nodes;
+}
+
+namespace {
+
+/// By the normal equations of the pose graph, points as poses that do not turn.
+template <class Group>
+LandmarkGraphReport solve_packed(LandmarkGraph graph, const LandmarkGraphOptions& options) {
+  constexpr int dim = Group::kDof == 3 ? 2 : 3;
+  PackedGraph<Group> packed = pack<Group>(graph);
+  LandmarkGraphReport report;
+  const LocalSolution solution =
+      LocalSolver<Group>({.engine = PoseGraphEngine::kNative,
+                          .rotation_error = options.rotation_error,
+                          .max_iterations = options.max_iterations,
+                          .relative_decrease = options.relative_decrease})
+          .solve(packed);
+  report.outcome = solution.outcome;
+  report.iterations = solution.iterations;
+  report.chi2_initial = solution.cost_initial;
+  report.chi2_final = solution.cost_final;
+  unpack(packed, graph.poses);
+  const std::size_t nodes = graph.poses.nodes.size();
+  for (std::size_t i = 0; i < graph.points.size(); ++i)
+    if (!packed.held[nodes + i])
+      graph.points[i].position_world.head<dim>() = packed.poses[nodes + i].translation();
+  report.graph = std::move(graph);
+  return report;
+}
+
+LandmarkGraphReport solve_factors(LandmarkGraph graph, const LandmarkGraphOptions& options) {
   LandmarkGraphReport report;
   const FactorGraph factors = to_factor_graph(graph, options.rotation_error);
   const FactorGraphReport solved =
@@ -124,6 +161,21 @@ LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
     graph.points[i].position_world =
         std::get<Eigen::Vector3d>(solved.graph.variables[nodes + i].value);
   report.graph = std::move(graph);
+  return report;
+}
+
+}  // namespace
+
+LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
+                                            const LandmarkGraphOptions& options) {
+  graph.check();
+  LandmarkGraphReport report;
+  if (options.engine == PoseGraphEngine::kCeres || graph.poses.kind() == PoseKind::kSim3)
+    report = solve_factors(std::move(graph), options);
+  else
+    report = graph.poses.kind() == PoseKind::kSE2 ? solve_packed<SE2>(std::move(graph), options)
+                                                  : solve_packed<SE3>(std::move(graph), options);
+  if (report.outcome) report.free = find_free_directions(report.graph, options.rotation_error);
   return report;
 }
 

@@ -1,11 +1,14 @@
 #pragma once
 #include <placegraph/backend/factor_graph/factor_graph.h>
+#include <placegraph/backend/solver/free_directions.h>
+#include <placegraph/backend/solver/local_solver_options.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 
 namespace placegraph {
 
 struct LandmarkGraphOptions {
   RotationError rotation_error = RotationError::kLog;
+  PoseGraphEngine engine = PoseGraphEngine::kNative;  ///< kCeres: as a factor graph
   int max_iterations = 200;
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
 };
@@ -15,6 +18,8 @@ struct LandmarkGraphReport {
   LandmarkGraph graph;                      ///< with the estimate
   double chi2_initial = 0, chi2_final = 0;  ///< sum of e^T Omega e
   int iterations = 0;
+  /// Directions that are open at the solution; its nodes count the points on behind the nodes.
+  FreeDirections free;
 };
 
 /// Minimizes the sum of e^T Omega e over edges, measured positions, priors and sights from where
@@ -30,7 +35,9 @@ double chi2(const LandmarkGraph& graph, RotationError rotation_error);
 /// sights. Held are the fixed ones, and nodes as above.
 FactorGraph to_factor_graph(const LandmarkGraph& graph, RotationError rotation_error);
 
-/// The parts that hang together by edges and sights, and what is measured of the world in them.
+/// The parts that hang together by edges and sights; points that nobody sees are none.
 int count_components(const LandmarkGraph& graph);
+/// The nodes that are held only because nothing ties their part to the world, by positions.
+std::vector<int> held_for_want_of_a_tie(const LandmarkGraph& graph);
 
 }  // namespace placegraph

@@ -108,6 +108,15 @@ FreeDirections find_free_directions(const PoseGraph& graph, RotationError rotati
   return find_free_directions(pack<Sim3>(graph), rotation_error);
 }
 
+FreeDirections find_free_directions(const LandmarkGraph& graph, RotationError rotation_error) {
+  graph.check();
+  if (graph.poses.kind() == PoseKind::kSim3)
+    return find_free_directions(graph.poses, rotation_error);
+  if (graph.poses.kind() == PoseKind::kSE2)
+    return find_free_directions(pack<SE2>(graph), rotation_error);
+  return find_free_directions(pack<SE3>(graph), rotation_error);
+}
+
 template FreeDirections find_free_directions(const PackedGraph<SE2>&, RotationError);
 template FreeDirections find_free_directions(const PackedGraph<SE3>&, RotationError);
 template FreeDirections find_free_directions(const PackedGraph<Sim3>&, RotationError);

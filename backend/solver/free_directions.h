@@ -19,5 +19,8 @@ template <class Group>
 FreeDirections find_free_directions(const PackedGraph<Group>& graph, RotationError rotation_error);
 /// The same of a pose graph. Throws as PoseGraph::check.
 FreeDirections find_free_directions(const PoseGraph& graph, RotationError rotation_error);
+/// The same of a landmark graph; `nodes` counts its points on behind its nodes. Throws as
+/// LandmarkGraph::check.
+FreeDirections find_free_directions(const LandmarkGraph& graph, RotationError rotation_error);
 
 }  // namespace placegraph

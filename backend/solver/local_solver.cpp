@@ -1,4 +1,5 @@
 #include <placegraph/backend/factors/position_error.h>
+#include <placegraph/backend/factors/sight_error.h>
 #include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/solver/ceres_solver.h>
 #include <placegraph/backend/solver/local_solver.h>
@@ -61,6 +62,12 @@ double robust_cost(const PackedGraph<Group>& graph, RotationError rotation_error
   const std::vector<double> positions = chi2_by_position(graph);
   for (std::size_t i = 0; i < positions.size(); ++i)
     cost += graph.positions[i].weight * graph.positions[i].kernel.evaluate(positions[i]).rho;
+  for (const auto& sight : graph.sights) {
+    const Eigen::Vector3d e =
+        SightLinearization<Group>(graph.poses[sight.node], graph.poses[sight.point], sight.p_node)
+            .e;
+    cost += e.dot(sight.information * e);
+  }
   return cost;
 }
 

@@ -1,4 +1,5 @@
 #include <placegraph/backend/factors/position_error.h>
+#include <placegraph/backend/factors/sight_error.h>
 #include <placegraph/backend/solver/normal_equations.h>
 
 namespace placegraph {
@@ -33,6 +34,10 @@ std::vector<std::pair<int, int>> NormalEquations<Group>::pairs(
     const int from = block_of(edge.from), to = block_of(edge.to);
     if (edge.weight != 0 && from >= 0 && to >= 0) pairs.emplace_back(from, to);
   }
+  for (const auto& sight : graph.sights) {
+    const int node = block_of(sight.node), point = block_of(sight.point);
+    if (node >= 0 && point >= 0) pairs.emplace_back(node, point);
+  }
   return pairs;
 }
 
@@ -51,11 +56,16 @@ NormalEquations<Group>::NormalEquations(const PackedGraph<Group>& graph)
     in_pattern_.push_back(edge.weight != 0);
     coupling_.push_back(edge.weight != 0 && from >= 0 && to >= 0 ? matrix_.slot(from, to) : Slot{});
   }
+  for (const auto& sight : graph.sights) {
+    const int node = block_of(sight.node), point = block_of(sight.point);
+    sight_coupling_.push_back(node >= 0 && point >= 0 ? matrix_.slot(node, point) : Slot{});
+  }
 }
 
 template <class Group>
 bool NormalEquations<Group>::fits(const PackedGraph<Group>& graph) const {
-  if (graph.poses.size() != block_of_node_.size() || graph.edges.size() != in_pattern_.size())
+  if (graph.poses.size() != block_of_node_.size() || graph.edges.size() != in_pattern_.size() ||
+      graph.sights.size() != sight_coupling_.size())
     return false;
   for (std::size_t node = 0; node < graph.held.size(); ++node)
     if ((graph.held[node] != 0) != (block_of_node_[node] < 0)) return false;
@@ -106,6 +116,14 @@ double NormalEquations<Group>::linearize(const PackedGraph<Group>& graph,
     else
       add(coupling_[i], H_to_from.transpose());
   }
+  add_positions(graph, cost);
+  add_sights(graph, cost);
+  return cost;
+}
+
+template <class Group>
+void NormalEquations<Group>::add_positions(const PackedGraph<Group>& graph, double& cost) {
+  using Matrix = typename Group::Jacobian;
   for (const auto& position : graph.positions) {
     if (position.weight == 0) continue;
     const PositionLinearization<Group> at(graph.poses[position.node], position.lever_arm,
@@ -119,7 +137,37 @@ double NormalEquations<Group>::linearize(const PackedGraph<Group>& graph,
     add(diagonal_[block], Matrix(weight * at.J.transpose() * position.information * at.J));
     gradient_.template segment<kDof>(block * kDof) += weight * at.J.transpose() * weighted_e;
   }
-  return cost;
+}
+
+template <class Group>
+void NormalEquations<Group>::add_sights(const PackedGraph<Group>& graph, double& cost) {
+  using Matrix = typename Group::Jacobian;
+  constexpr int turns = kDof == 3 ? 1 : kDof - 3;  // and the scale
+  for (std::size_t i = 0; i < graph.sights.size(); ++i) {
+    const auto& sight = graph.sights[i];
+    const SightLinearization<Group> at(graph.poses[sight.node], graph.poses[sight.point],
+                                       sight.p_node);
+    const Eigen::Vector3d weighted_e = sight.information * at.e;
+    cost += at.e.dot(weighted_e);
+    const int node = block_of(sight.node), point = block_of(sight.point);
+    const auto add_own = [&](int block, const auto& J) {
+      if (block < 0) return;
+      add(diagonal_[block], Matrix(J.transpose() * sight.information * J));
+      gradient_.template segment<kDof>(block * kDof) += J.transpose() * weighted_e;
+    };
+    add_own(node, at.J_node);
+    add_own(point, at.J_point);
+    if (point < 0) continue;
+    Matrix stays = Matrix::Zero();
+    stays.diagonal().template tail<turns>().setConstant(sight.information.trace());
+    add(diagonal_[point], stays);
+    if (node < 0) continue;
+    const Matrix H_point_node = at.J_point.transpose() * sight.information * at.J_node;
+    if (sight_coupling_[i].transposed)
+      add(sight_coupling_[i], H_point_node);
+    else
+      add(sight_coupling_[i], Matrix(H_point_node.transpose()));
+  }
 }
 
 template <class Group>

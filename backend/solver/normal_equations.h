@@ -9,7 +9,8 @@ namespace placegraph {
 
 /// The normal equations H dx = -g of a packed graph, one block for every node that is not held:
 /// f(x [+] dx) ~ f + 2 g^T dx + dx^T H dx with f = sum weight rho(e^T Omega e), H = sum w J^T Omega
-/// J, g = sum w J^T Omega e, w = weight rho' (iteratively reweighted Gauss-Newton).
+/// J, g = sum w J^T Omega e, w = weight rho' (iteratively reweighted Gauss-Newton). Points have
+/// blocks of the same size, their turn (and scale) uncoupled and held by something on the diagonal.
 template <class Group>
 class NormalEquations {
  public:
@@ -39,12 +40,16 @@ class NormalEquations {
   using Slot = BlockCholesky::Slot;
   static std::vector<int> number_blocks(const PackedGraph<Group>& graph);
   std::vector<std::pair<int, int>> pairs(const PackedGraph<Group>& graph) const;
+  /// Both add to H, g and the cost.
+  void add_positions(const PackedGraph<Group>& graph, double& cost);
+  void add_sights(const PackedGraph<Group>& graph, double& cost);
 
   std::vector<int> block_of_node_;
   std::vector<char> in_pattern_;  // of every edge
   BlockCholesky matrix_;
   std::vector<Slot> diagonal_;  // by blocks
   std::vector<Slot> coupling_;  // by edges; empty slot where there is none
+  std::vector<Slot> sight_coupling_;
   Eigen::VectorXd gradient_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/graph/pose_graph/landmark_graph.h>
 
 namespace placegraph {
 
@@ -25,17 +25,28 @@ struct PackedGraph {
     RobustKernel kernel;
     double weight = 1;
   };
-  std::vector<Group> poses;  ///< T_world_node
+  struct Sight {
+    int node, point;  ///< positions in `poses`
+    Eigen::Vector3d p_node;
+    Eigen::Matrix3d information;
+  };
+  /// T_world_node; of a LandmarkGraph then its points, as poses that do not turn, and last the
+  /// world, held: measured poses are edges from it.
+  std::vector<Group> poses;
   /// Nodes that do not move: the fixed ones, and the first of every component that neither a fixed
   /// node nor a measured position ties to the world.
   std::vector<char> held;
   std::vector<Edge> edges;
   std::vector<Position> positions;
+  std::vector<Sight> sights;
 };
 
 /// `graph` must have passed PoseGraph::check and be of the kind of `Group`.
 template <class Group>
 PackedGraph<Group> pack(const PoseGraph& graph);
+/// The same of SE2 and SE3 with what is beside the poses. Edges of priors belong to constraint -1.
+template <class Group>
+PackedGraph<Group> pack(const LandmarkGraph& graph);
 
 /// Writes the poses of the nodes that are not held into `graph`, from which `packed` was made.
 template <class Group>

@@ -198,26 +198,41 @@ void format_sight(Buffer out, const PointSight& sight, bool planar) {
   format_information(out, sight.information, planar ? 2 : 3);
 }
 
-void format_vertices(Buffer out, const LandmarkGraph& graph) {
-  const PoseKind kind = graph.poses.kind();
-  const bool planar = kind == PoseKind::kSE2;
-  if (!graph.has_poses_alone() && !planar)
-    fmt::format_to(out, "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n");
-  for (const PoseNode& node : graph.poses.nodes) {
-    fmt::format_to(out, "VERTEX_{} {}", suffix_of(kind), node.id);
+void format_poses(Buffer out, const PoseGraph& graph) {
+  for (const PoseNode& node : graph.nodes) {
+    fmt::format_to(out, "VERTEX_{} {}", suffix_of(graph.kind()), node.id);
     format_pose(out, node.T_world_node);
-    if (kind == PoseKind::kSim3) fmt::format_to(out, kNoCamera);
+    if (graph.kind() == PoseKind::kSim3) fmt::format_to(out, kNoCamera);
     fmt::format_to(out, "\n");
   }
+  for (const PoseNode& node : graph.nodes) {
+    if (node.fixed) fmt::format_to(out, "FIX {}\n", node.id);
+  }
+  for (const Constraint& constraint : graph.constraints) {
+    if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
+      format_edge(out, *edge);
+    else
+      format_position(out, std::get<PositionConstraint>(constraint), graph.kind());
+  }
+}
+
+void format_beside_poses(Buffer out, const LandmarkGraph& graph) {
+  const bool planar = graph.poses.kind() == PoseKind::kSE2;
   for (const GraphPoint& point : graph.points) {
     fmt::format_to(out, "{} {}", planar ? "VERTEX_XY" : "VERTEX_TRACKXYZ", point.id);
     format_point(out, point.position_world, planar);
     fmt::format_to(out, "\n");
   }
-  for (const PoseNode& node : graph.poses.nodes)
-    if (node.fixed) fmt::format_to(out, "FIX {}\n", node.id);
   for (const GraphPoint& point : graph.points)
     if (point.fixed) fmt::format_to(out, "FIX {}\n", point.id);
+  for (const PosePriorConstraint& prior : graph.priors) format_prior(out, prior);
+  for (const PointSight& sight : graph.sights) format_sight(out, sight, planar);
+}
+
+void write_text(const std::string& path, const fmt::memory_buffer& text) {
+  AtomicFile file(path);
+  file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+  file.commit();
 }
 
 }  // namespace
@@ -236,26 +251,21 @@ LandmarkGraph parse_g2o_landmarks(TextFile& file, const PoseGraphReading& readin
 }
 
 void write_g2o(const std::string& path, const PoseGraph& graph) {
-  write_g2o(path, LandmarkGraph{graph, {}, {}, {}});
+  graph.check();
+  fmt::memory_buffer text;
+  format_poses(std::back_inserter(text), graph);
+  write_text(path, text);
 }
 
 void write_g2o(const std::string& path, const LandmarkGraph& graph) {
   graph.check();
   fmt::memory_buffer text;
   const Buffer out = std::back_inserter(text);
-  format_vertices(out, graph);
-  for (const Constraint& constraint : graph.poses.constraints) {
-    if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
-      format_edge(out, *edge);
-    else
-      format_position(out, std::get<PositionConstraint>(constraint), graph.poses.kind());
-  }
-  for (const PosePriorConstraint& prior : graph.priors) format_prior(out, prior);
-  for (const PointSight& sight : graph.sights)
-    format_sight(out, sight, graph.poses.kind() == PoseKind::kSE2);
-  AtomicFile file(path);
-  file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
-  file.commit();
+  if (!graph.has_poses_alone() && graph.poses.kind() == PoseKind::kSE3)
+    fmt::format_to(out, "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n");
+  format_poses(out, graph.poses);
+  format_beside_poses(out, graph);
+  write_text(path, text);
 }
 
 }  // namespace placegraph

@@ -49,15 +49,10 @@ PoseGraphFormat pose_graph_format(TextFile& file) {
   return *format;
 }
 
-LandmarkGraph read_landmark_graph(const std::string& path, const PoseGraphReading& reading) {
-  TextFile file(path);
-  if (pose_graph_format(file) == PoseGraphFormat::kG2o) return parse_g2o_landmarks(file, reading);
-  return {read_pose_graph(path, reading), {}, {}, {}};
-}
+namespace {
 
-PoseGraph read_pose_graph(const std::string& path, const PoseGraphReading& reading) {
-  TextFile file(path);
-  switch (pose_graph_format(file)) {
+PoseGraph parse(TextFile& file, PoseGraphFormat format, const PoseGraphReading& reading) {
+  switch (format) {
     case PoseGraphFormat::kG2o:
       return parse_g2o(file, reading);
     case PoseGraphFormat::kToro:
@@ -66,6 +61,21 @@ PoseGraph read_pose_graph(const std::string& path, const PoseGraphReading& readi
       break;
   }
   return parse_isam(file, reading);
+}
+
+}  // namespace
+
+LandmarkGraph read_landmark_graph(const std::string& path, const PoseGraphReading& reading) {
+  TextFile file(path);
+  const PoseGraphFormat format = pose_graph_format(file);
+  if (format == PoseGraphFormat::kG2o) return parse_g2o_landmarks(file, reading);
+  return {parse(file, format, reading), {}, {}, {}};
+}
+
+PoseGraph read_pose_graph(const std::string& path, const PoseGraphReading& reading) {
+  TextFile file(path);
+  const PoseGraphFormat format = pose_graph_format(file);
+  return parse(file, format, reading);
 }
 
 }  // namespace placegraph

@@ -1,5 +1,5 @@
 // `placegraph optimize` and `convert` of graphs with priors and point landmarks.
-#include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/geometry/lie.h>
 
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -16,9 +16,11 @@ using testing::HasSubstr;
 
 class LandmarkGraphs : public test::CliTest {
  protected:
-  json optimize(const std::string& path) {
-    const CommandResult result = run("optimize " + path + " -o out.g2o --force --quiet --json");
+  json optimize(const std::string& path, const std::string& options = "") {
+    const CommandResult result =
+        run("optimize " + path + " -o out.g2o --force --quiet --json " + options);
     EXPECT_EQ(result.code, 0) << result.err;
+    said = result.err;
     return result.code == 0 ? json::parse(result.out) : json();
   }
   /// The numbers behind a tag and an id of the written graph.
@@ -36,6 +38,7 @@ class LandmarkGraphs : public test::CliTest {
     ADD_FAILURE() << "no " << tag << " " << id;
     return {};
   }
+  std::string said;
 };
 
 std::string numbers_of(const SE3& T) {
@@ -142,6 +145,80 @@ TEST_F(LandmarkGraphs, TakeMeasuredPosesAndPositionsInThePlane) {
   report = optimize("pose.g2o");
   EXPECT_LT(report["chi2_log"].get<double>(), 1e-9);
   EXPECT_NEAR(written("VERTEX_SE2", 2)[1], 5, 1e-6);
+}
+
+/// A square of four poses in the plane, whose corners see a point in the middle and one each beside
+/// it, a little wrong; `turn` and `shift` bring the poses of the file out of the frame of priors.
+std::string square_with_points(const std::string& more, double turn = 0, double shift = 0) {
+  std::ostringstream out;
+  out.precision(17);
+  const SE2 T(shift, -shift, turn);
+  const double corners[4][2] = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  const auto corner = [&](int i) { return SE2(corners[i][0], corners[i][1], 1.57 * i); };
+  for (int i = 0; i < 4; ++i) {
+    const SE2 at = T * corner(i);
+    out << "VERTEX_SE2 " << i << " " << at.translation().x() << " " << at.translation().y() << " "
+        << at.rotation().angle() << "\n";
+    out << "EDGE_SE2 " << i << " " << (i + 1) % 4 << " 4.05 0.02 1.5707963 100 0 0 100 0 400\n";
+    out << "EDGE_SE2_XY " << i << " 10 2.0" << i << " 1.98 25 0 25\n";
+    out << "EDGE_SE2_XY " << i << " " << 11 + i << " 3 -1 25 0 25\n";
+  }
+  return out.str() + more;
+}
+
+TEST_F(LandmarkGraphs, HaveOneMinimumForBothEnginesWhereverTheyStart) {
+  const std::string priors =
+      "EDGE_PRIOR_SE2 0 0.1 0 0 25 0 0 25 0 400\nEDGE_PRIOR_SE2 2 4 4.1 3.1 25 0 0 25 0 400\n";
+  dir.write("near.g2o", square_with_points(priors));
+  const json native = optimize("near.g2o"), ceres = optimize("near.g2o", "--engine ceres");
+  const double cost = native["chi2_log"].get<double>();
+  EXPECT_GT(cost, 0.1);
+  EXPECT_NEAR(ceres["chi2_log"].get<double>(), cost, 1e-6 * cost);
+  EXPECT_EQ(ceres["engine"], "ceres");
+  const std::vector<double> corner = written("VERTEX_SE2", 2);
+  dir.write("far.g2o", square_with_points(priors, 2.8, 1000));
+  EXPECT_NEAR(optimize("far.g2o")["chi2_log"].get<double>(), cost, 1e-6 * cost);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(written("VERTEX_SE2", 2)[i], corner[i], 1e-4);
+}
+
+TEST_F(LandmarkGraphs, TellDirectionsThatNothingHolds) {
+  // A bearing alone, as a matrix of rank one: along the ray the point is anywhere.
+  dir.write("ray.g2o", square_with_points("EDGE_SE2_XY 1 20 3 4 16 -12 9\n"));
+  json report = optimize("ray.g2o");
+  EXPECT_EQ(report["free_directions"], 1);
+  EXPECT_EQ(report["free_vertices"], json({20}));
+  EXPECT_THAT(said, HasSubstr("1 directions free, at 1 vertices (20)"));
+  // A second one from elsewhere places it.
+  dir.write("rays.g2o", square_with_points("EDGE_SE2_XY 1 20 3 4 16 -12 9\n"
+                                           "EDGE_SE2_XY 2 20 3 4 16 -12 9\n"));
+  EXPECT_EQ(optimize("rays.g2o")["free_directions"], 0);
+  EXPECT_EQ(said, "");
+  // One measured position leaves the heading of all.
+  dir.write("position.g2o", square_with_points("EDGE_PRIOR_SE2_XY 3 7 7 4 0 4\n"));
+  report = optimize("position.g2o", "--engine ceres");
+  EXPECT_EQ(report["free_directions"], 1);
+  EXPECT_EQ(report["free_vertices"].size(), 9u);
+  // A measured pose without a heading too, in space about three axes.
+  dir.write("rig.g2o", RigOfThree().text(false, true) +
+                           "EDGE_SE3_PRIOR 1 5 1 2 3 0 0 0 1 9 0 0 0 0 0 9 0 0 0 0 9 0 0 0 0 0 0 "
+                           "0 0 0\n");
+  EXPECT_EQ(optimize("rig.g2o")["free_directions"], 3);
+}
+
+TEST_F(LandmarkGraphs, SayWhichPartsNothingTiesToTheWorld) {
+  const std::string apart =
+      "VERTEX_SE2 30 9 9 0\nVERTEX_SE2 31 8 9 0\n"
+      "EDGE_SE2 30 31 1 0 0 1 0 0 1 0 1\n";
+  dir.write("parts.g2o", square_with_points(apart + "EDGE_PRIOR_SE2 0 0 0 0 1 0 0 1 0 1\n"));
+  const json report = optimize("parts.g2o");
+  EXPECT_EQ(report["components"], 2);
+  EXPECT_EQ(report["held_vertices"], json({30}));
+  EXPECT_THAT(said, HasSubstr("falls into 2 components"));
+  dir.write("parts.g2o", square_with_points(apart + "FIX 31\n"));
+  EXPECT_EQ(optimize("parts.g2o")["held_vertices"], json({0}));
+  dir.write("whole.g2o", square_with_points("VERTEX_XY 40 1 1\n"));  // that nobody sees
+  EXPECT_EQ(optimize("whole.g2o")["components"], 1);
+  EXPECT_EQ(said, "");
 }
 
 TEST_F(LandmarkGraphs, SayWhatIsWrongAndWhere) {

@@ -1,0 +1,41 @@
+#pragma once
+#include <placegraph/graph/geometry/lie.h>
+
+namespace placegraph {
+
+/// error = T_world_node^-1 p_world - p_node of a point [m], the point a pose that does not
+/// turn, T_world_point = (I, p_world), and its derivatives by T exp(xi) of both:
+///
+///   d e / d rho_node = -I,   d e / d phi_node = hat(e + p_node),   d e / d rho_point = R_node^T
+///
+/// In the plane the third component is left out (zero). Similarities see at their scale: 1 / s.
+template <class Group>
+struct SightLinearization {
+  Eigen::Vector3d e = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 3, Group::kDof> J_node = Eigen::Matrix<double, 3, Group::kDof>::Zero(),
+                                        J_point = Eigen::Matrix<double, 3, Group::kDof>::Zero();
+
+  SightLinearization(const Group& T_world_node, const Group& T_world_point,
+                     const Eigen::Vector3d& p_node) {
+    constexpr int dim = Group::kDof == 3 ? 2 : 3;
+    const Eigen::Matrix<double, dim, 1> seen =
+        T_world_node.inverse() * Eigen::Matrix<double, dim, 1>(T_world_point.translation());
+    e.template head<dim>() = seen - p_node.template head<dim>();
+    J_node.template topLeftCorner<dim, dim>().diagonal().setConstant(-1);
+    const Eigen::Matrix<double, dim, dim> R_node_world =
+        T_world_node.rotation().matrix().transpose();
+    J_point.template topLeftCorner<dim, dim>() = R_node_world;
+    if constexpr (dim == 2) {
+      J_node(0, 2) = seen[1];
+      J_node(1, 2) = -seen[0];
+    } else {
+      J_node.template middleCols<3>(3) = hat(Eigen::Vector3d(seen));
+    }
+    if constexpr (Group::kDof == 7) {
+      J_point.template leftCols<3>() /= T_world_node.scale();
+      J_node.col(6) = -seen;
+    }
+  }
+};
+
+}  // namespace placegraph
