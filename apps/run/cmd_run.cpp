@@ -12,6 +12,7 @@
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/elements.h>
+#include <placegraph/pipeline/motion_check.h>
 #include <placegraph/pipeline/stereo_check.h>
 #include <sys/resource.h>
 
@@ -177,6 +178,17 @@ std::vector<DataNote> notes_of(const Dataset& dataset, const RunOptions& options
   return notes;
 }
 
+/// What the motion that was found says against its scale.
+std::vector<DataNote> notes_of_motion(const RunResult& run, const Trajectory& optimized) {
+  std::vector<DataNote> notes;
+  if (!run.map.metric) return notes;
+  if (const auto note = odd_speed(optimized)) notes.push_back(*note);
+  if (run.sensor == Sensor::kMono && run.calibration.camera_height_m)
+    if (const auto note = odd_posture(run.calibration.camera, turns_of(optimized)))
+      notes.push_back(*note);
+  return notes;
+}
+
 /// Lengths that are in doubt are not called metric.
 void add_notes(const std::vector<DataNote>& notes, json& summary) {
   summary["notes"] = json::array();
@@ -307,7 +319,7 @@ void run(RunArguments arguments) {
             "--draw: must be another folder than --out");
   }
   const auto dataset = open_dataset(arguments.sequence);
-  const std::vector<DataNote> notes = notes_of(*dataset, options);
+  std::vector<DataNote> notes = notes_of(*dataset, options);
   for (const DataNote& note : notes) warn(dataset->name() + ": " + note.text);
   const auto surfaces = surfaces_of(options.slam);
   const OutputFolder folder(arguments.out);
@@ -358,6 +370,10 @@ void run(RunArguments arguments) {
                environment_csv(run.environments));
   }
   if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
+  for (const DataNote& note : notes_of_motion(run, optimized)) {
+    warn(dataset->name() + ": " + note.text);
+    notes.push_back(note);
+  }
   add_notes(notes, summary);
   summary["unposed"] = describe_unposed(run);
   summary["sequence"] = dataset->name();
