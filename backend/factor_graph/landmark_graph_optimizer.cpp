@@ -69,7 +69,7 @@ void add_priors_and_sights(const LandmarkGraph& graph, const VariableIndex& inde
                                        rotation_error),
                 {index.node(prior.node)});
   for (const PointSight& sight : graph.sights)
-    factors.add(PointInNodeFactor<Group>(sight.position_node.head<dim>(),
+    factors.add(PointInNodeFactor<Group>(sight.position_node,
                                          whitening<Eigen::Matrix<double, dim, dim>>(
                                              sight.information.topLeftCorner<dim, dim>())),
                 {index.node(sight.node), index.point(sight.point)});

@@ -3,54 +3,69 @@
 
 namespace placegraph {
 
-/// A point of the world as a node sees it: r = W (T_world_node^-1 * p_world - p_node), W^T W =
-/// information; with q = T_world_node^-1 * p_world and T exp(xi), xi = [translation, rotation],
-///   d q / d xi = [-I, hat(q)],  d q / d p_world = R_world_node^T
-/// In the plane the third component of the point is left out, and d q / d angle = [q_y, -q_x].
+/// error = T_world_node^-1 p_world - p_node of a point [m], the point a pose that does not
+/// turn, T_world_point = (I, p_world), and its derivatives by T exp(xi) of both:
+///
+///   d e / d rho_node = -I,   d e / d phi_node = hat(e + p_node),   d e / d rho_point = R_node^T
+///
+/// In the plane the third component is left out (zero). Similarities see at their scale: 1 / s.
 template <class Group>
-class PointInNodeFactor;
+struct SightLinearization {
+  Eigen::Vector3d e = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 3, Group::kDof> J_node = Eigen::Matrix<double, 3, Group::kDof>::Zero(),
+                                        J_point = Eigen::Matrix<double, 3, Group::kDof>::Zero();
 
-template <>
-class PointInNodeFactor<SE3> final : public SizedFactor<3, SE3, Eigen::Vector3d> {
+  SightLinearization(const Group& T_world_node, const Eigen::Vector3d& p_world,
+                     const Eigen::Vector3d& p_node) {
+    constexpr int dim = Group::kDof == 3 ? 2 : 3;
+    const Eigen::Matrix<double, dim, 1> seen =
+        T_world_node.inverse() * Eigen::Matrix<double, dim, 1>(p_world.head<dim>());
+    e.template head<dim>() = seen - p_node.template head<dim>();
+    J_node.template topLeftCorner<dim, dim>().diagonal().setConstant(-1);
+    const Eigen::Matrix<double, dim, dim> R_node_world =
+        T_world_node.rotation().matrix().transpose();
+    J_point.template topLeftCorner<dim, dim>() = R_node_world;
+    if constexpr (dim == 2) {
+      J_node(0, 2) = seen[1];
+      J_node(1, 2) = -seen[0];
+    } else {
+      J_node.template middleCols<3>(3) = hat(Eigen::Vector3d(seen));
+    }
+    if constexpr (Group::kDof == 7) {
+      J_point.template leftCols<3>() /= T_world_node.scale();
+      J_node.col(6) = -seen;
+    }
+  }
+};
+
+/// A point of the world as a node sees it: r = W e, W^T W = information; e and its derivatives are
+/// those of SightLinearization.
+template <class Group>
+class PointInNodeFactor final
+    : public SizedFactor<(Group::kDof == 3 ? 2 : 3), Group, Eigen::Vector3d> {
+  static constexpr int kDim = Group::kDof == 3 ? 2 : 3;
+  using Base = SizedFactor<kDim, Group, Eigen::Vector3d>;
+  using Whitening = Eigen::Matrix<double, kDim, kDim>;
+
  public:
-  PointInNodeFactor(const Eigen::Vector3d& p_node, const Eigen::Matrix3d& whitening)
+  PointInNodeFactor(const Eigen::Vector3d& p_node, const Whitening& whitening)
       : p_node_(p_node), W_(whitening) {}
 
-  bool compute(const SE3& T_world_node, const Eigen::Vector3d& p_world, Residual& r,
-               Jacobians* J) const override {
-    const Eigen::Vector3d q = T_world_node.inverse() * p_world;
-    r.noalias() = W_ * (q - p_node_);
+  bool compute(const Group& T_world_node, const Eigen::Vector3d& p_world,
+               typename Base::Residual& r, typename Base::Jacobians* J) const override {
+    const SightLinearization<Group> at(T_world_node, p_world, p_node_);
+    r.noalias() = W_ * at.e.template head<kDim>();
     if (!J) return true;
-    std::get<0>(*J) << -W_, W_ * hat(q);
-    std::get<1>(*J).noalias() = W_ * T_world_node.rotation().matrix().transpose();
+    std::get<0>(*J).noalias() = W_ * at.J_node.template topRows<kDim>();
+    std::get<1>(*J).setZero();
+    std::get<1>(*J).template leftCols<kDim>().noalias() =
+        W_ * at.J_point.template topLeftCorner<kDim, kDim>();
     return true;
   }
 
  private:
   Eigen::Vector3d p_node_;
-  Eigen::Matrix3d W_;
-};
-
-template <>
-class PointInNodeFactor<SE2> final : public SizedFactor<2, SE2, Eigen::Vector3d> {
- public:
-  PointInNodeFactor(const Eigen::Vector2d& p_node, const Eigen::Matrix2d& whitening)
-      : p_node_(p_node), W_(whitening) {}
-
-  bool compute(const SE2& T_world_node, const Eigen::Vector3d& p_world, Residual& r,
-               Jacobians* J) const override {
-    const Eigen::Matrix2d R = T_world_node.rotation().matrix();
-    const Eigen::Vector2d q = R.transpose() * (p_world.head<2>() - T_world_node.translation());
-    r.noalias() = W_ * (q - p_node_);
-    if (!J) return true;
-    std::get<0>(*J) << -W_, W_ * Eigen::Vector2d(q.y(), -q.x());
-    std::get<1>(*J) << W_ * R.transpose(), Eigen::Vector2d::Zero();
-    return true;
-  }
-
- private:
-  Eigen::Vector2d p_node_;
-  Eigen::Matrix2d W_;
+  Whitening W_;
 };
 
 }  // namespace placegraph

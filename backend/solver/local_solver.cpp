@@ -1,5 +1,5 @@
+#include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/position_error.h>
-#include <placegraph/backend/factors/sight_error.h>
 #include <placegraph/backend/linear/blas_threads.h>
 #include <placegraph/backend/solver/ceres_solver.h>
 #include <placegraph/backend/solver/local_solver.h>
@@ -64,7 +64,8 @@ double robust_cost(const PackedGraph<Group>& graph, RotationError rotation_error
     cost += graph.positions[i].weight * graph.positions[i].kernel.evaluate(positions[i]).rho;
   for (const auto& sight : graph.sights) {
     const Eigen::Vector3d e =
-        SightLinearization<Group>(graph.poses[sight.node], graph.poses[sight.point], sight.p_node)
+        SightLinearization<Group>(graph.poses[sight.node], point_of(graph.poses[sight.point]),
+                                  sight.p_node)
             .e;
     cost += e.dot(sight.information * e);
   }

@@ -1,5 +1,5 @@
+#include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/position_error.h>
-#include <placegraph/backend/factors/sight_error.h>
 #include <placegraph/backend/solver/normal_equations.h>
 
 namespace placegraph {
@@ -145,7 +145,7 @@ void NormalEquations<Group>::add_sights(const PackedGraph<Group>& graph, double&
   constexpr int turns = kDof == 3 ? 1 : kDof - 3;  // and the scale
   for (std::size_t i = 0; i < graph.sights.size(); ++i) {
     const auto& sight = graph.sights[i];
-    const SightLinearization<Group> at(graph.poses[sight.node], graph.poses[sight.point],
+    const SightLinearization<Group> at(graph.poses[sight.node], point_of(graph.poses[sight.point]),
                                        sight.p_node);
     const Eigen::Vector3d weighted_e = sight.information * at.e;
     cost += at.e.dot(weighted_e);

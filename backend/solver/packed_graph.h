@@ -48,6 +48,15 @@ PackedGraph<Group> pack(const PoseGraph& graph);
 template <class Group>
 PackedGraph<Group> pack(const LandmarkGraph& graph);
 
+/// The place of a point, which is kept as a pose that does not turn; z is 0 in the plane.
+inline Eigen::Vector3d point_of(const SE2& T) {
+  return {T.translation().x(), T.translation().y(), 0};
+}
+template <class Group>
+Eigen::Vector3d point_of(const Group& T) {
+  return T.translation();
+}
+
 /// Writes the poses of the nodes that are not held into `graph`, from which `packed` was made.
 template <class Group>
 void unpack(const PackedGraph<Group>& packed, PoseGraph& graph);

@@ -231,9 +231,9 @@ TEST(PointInNodeFactor, HasTheJacobiansOfFiniteDifferences) {
       CeresFactor<PointInNodeFactor<SE3>>(PointInNodeFactor<SE3>({1, 2, 3}, W)),
       {pose_block(random_element<SE3>(random, 2, 1), in_space), point});
   const VariableManifold<SE2> in_plane;
-  test::expect_jacobians_match(
-      CeresFactor<PointInNodeFactor<SE2>>(PointInNodeFactor<SE2>({1, 2}, W.topLeftCorner<2, 2>())),
-      {pose_block(random_element<SE2>(random, 2, 1), in_plane), point});
+  test::expect_jacobians_match(CeresFactor<PointInNodeFactor<SE2>>(
+                                   PointInNodeFactor<SE2>({1, 2, 0}, W.topLeftCorner<2, 2>())),
+                               {pose_block(random_element<SE2>(random, 2, 1), in_plane), point});
 }
 
 TEST(PoseError, InTheQuaternionConventionIsTranslationAndVectorPartWithPositiveScalar) {
