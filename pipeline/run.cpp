@@ -285,7 +285,9 @@ class SequenceRun {
         break;
       }
       const FrameResult done = slam.add_frame(frame);
-      if (!done.reason.empty()) reasons_.emplace(frame.id, done.reason);
+      reasons_.emplace(frame.id, done.reason.empty()
+                                     ? "nothing joins it to the first part of the map"
+                                     : done.reason);
       if (observer_) observer_(frame, done, slam.view());
       if (progress_) progress_(i + 1 - begin_, end_ - begin_, done);
       if (learn_lens(slam.lens(), pass_, options_.lens, lens_, log_)) return false;
@@ -335,7 +337,7 @@ class SequenceRun {
   int pass_ = 0;
   std::optional<MapDatabase> database_;
   StageTimes times_;
-  std::map<std::int64_t, std::string> reasons_;  ///< why frames had no pose when they were done
+  std::map<std::int64_t, std::string> reasons_;  ///< of every frame, if it has no pose in the end
   RunResult result_;
 };
 

@@ -167,7 +167,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
     result.T_map_cam.reset();
     result.state = TrackingState::kWaiting;
   }
-  if (!result.T_map_cam)
+  if (!result.T_map_cam || records.back().keyframe < 0)
     result.reason = update.reason.empty() ? "waits for a second view" : update.reason;
   StampedPose pose{frame.stamp_ns, std::nullopt};
   if (result.T_map_cam && result.component == 0) pose.T_world_body = result.T_map_cam->isometry();

@@ -62,7 +62,8 @@ struct FrameResult {
   int inliers = 0;
   int component = 0;
   int loops_accepted = 0;  ///< with this frame
-  std::string reason;      ///< why it has no pose (yet); empty if it has one
+  /// Why it has no pose (yet), or one that stands only if a second view confirms it; else empty.
+  std::string reason;
 };
 
 /// The whole system: frames in, place graph and trajectory out.

@@ -66,13 +66,15 @@ json json_of(std::int64_t image, const Localization& at) {
                 {"view", at.frame}, {"keyframe", at.keyframe}, {"probability", at.probability},
                 {"stage", at.stage}};
   if (at.T_map_cam) entry["T_map_cam"] = pose_json(*at.T_map_cam);
+  if (!at.without_pose.empty()) entry["without_pose"] = at.without_pose;
   return entry;
 }
 
 /// How many images were placed, and what became of the others.
 struct Counts {
   std::size_t images = 0, placed = 0, posed = 0;
-  std::map<std::string, std::size_t> refused;  ///< by the stage that decided
+  std::map<std::string, std::size_t> refused;       ///< by the stage that decided
+  std::map<std::string, std::size_t> without_pose;  ///< placed ones, by the reason
 };
 
 Counts count(const std::vector<Localization>& answers) {
@@ -82,15 +84,16 @@ Counts count(const std::vector<Localization>& answers) {
     counts.placed += answer.placed;
     counts.posed += answer.T_map_cam.has_value();
     if (!answer.placed) ++counts.refused[answer.stage];
+    if (!answer.without_pose.empty()) ++counts.without_pose[answer.without_pose];
   }
   return counts;
 }
 
-std::string text_of(const Counts& counts, const std::string& without_pose) {
+std::string text_of(const Counts& counts) {
   std::string text = fmt::format("{} images, {} placed ({} with a pose", counts.images,
                                  counts.placed, counts.posed);
-  if (counts.posed < counts.placed)
-    text += fmt::format("; {} without: {}", counts.placed - counts.posed, without_pose);
+  for (const auto& [reason, images] : counts.without_pose)
+    text += fmt::format("; {} without: {}", images, reason);
   text += fmt::format("), {} refused", counts.images - counts.placed);
   const char* separator = " (";
   for (const auto& [stage, images] : counts.refused) {
@@ -100,14 +103,14 @@ std::string text_of(const Counts& counts, const std::string& without_pose) {
   return text + (counts.refused.empty() ? "" : ")");
 }
 
-json json_of(const Counts& counts, const std::string& without_pose) {
-  json summary = {{"images", counts.images},
-                  {"placed", counts.placed},
-                  {"posed", counts.posed},
-                  {"refused", counts.images - counts.placed},
-                  {"refused_by", counts.refused}};
-  if (counts.posed < counts.placed) summary["without_pose"] = without_pose;
-  return summary;
+json json_of(const Counts& counts, const std::vector<std::string>& notes) {
+  return {{"images", counts.images},
+          {"placed", counts.placed},
+          {"posed", counts.posed},
+          {"without_pose", counts.without_pose},
+          {"refused", counts.images - counts.placed},
+          {"refused_by", counts.refused},
+          {"notes", notes}};
 }
 
 void run(const LocalizeArguments& arguments) {
@@ -119,11 +122,6 @@ void run(const LocalizeArguments& arguments) {
   for (const std::string& note : images.notes) warn(arguments.images + ": " + note);
   cv::setNumThreads(1);
   const MapLocalizer localizer(options, std::move(stored));
-  const std::string without_pose =
-      !localizer.has_geometry()      ? "the map has no camera or no features of known depth, or "
-                                       "geometry is off"
-      : !images.without_pose.empty() ? images.without_pose
-                                     : "their features agree with no view of the map";
   const Stopwatch watch;
   Progress progress("placing", static_cast<std::int64_t>(images.count), "images");
   const auto answers = localizer.localize(
@@ -144,12 +142,11 @@ void run(const LocalizeArguments& arguments) {
   const Counts counts = count(answers);
   const double ms = watch.cpu_ms() / static_cast<double>(answers.size());
   if (arguments.as_json) {
-    json summary = json_of(counts, without_pose);
+    json summary = json_of(counts, images.notes);
     summary["cpu_ms_an_image"] = ms;
     fmt::print("{}\n", summary.dump(1));
   } else {
-    fmt::print("{}, {:.1f} ms CPU an image, written to {}\n", text_of(counts, without_pose), ms,
-               arguments.out);
+    fmt::print("{}, {:.1f} ms CPU an image, written to {}\n", text_of(counts), ms, arguments.out);
   }
   if (counts.placed == 0) throw NoAnswer(arguments.images + ": none of the images could be placed");
 }

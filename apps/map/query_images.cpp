@@ -23,7 +23,6 @@ QueryImages bare_images(const std::string& path, const std::vector<int>& range) 
   return {images.paths.size(),
           images.first,
           [images](std::size_t i) { return read_frame(images, i); },
-          {},
           {}};
 }
 
@@ -32,14 +31,12 @@ QueryImages images_without_camera(const std::string& path, const std::vector<int
                                   const Camera& map_camera) {
   QueryImages images = bare_images(path, range);
   const Image first = images.frame(0).image;
-  if (first.cols == map_camera.width && first.rows == map_camera.height) {
-    images.notes.push_back("no camera is given; taken for the map's");
-    return images;
-  }
-  images.without_pose = fmt::format(
-      "images are of {} x {} px, the map's camera is of {} x {} px, and no calibration.yaml tells "
-      "theirs",
-      first.cols, first.rows, map_camera.width, map_camera.height);
+  images.notes.push_back(
+      first.cols == map_camera.width && first.rows == map_camera.height
+          ? "no camera is given; images of the map's size are taken for the map's, without "
+            "distortion"
+          : "no camera is given (calibration.yaml), and these images have not the size of the "
+            "map's: no poses");
   return images;
 }
 

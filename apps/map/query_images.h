@@ -13,8 +13,6 @@ struct QueryImages {
   std::size_t count = 0;
   std::int64_t first = 0;                   ///< number of the first in its folder
   std::function<Frame(std::size_t)> frame;  ///< of 0 ... count - 1
-  /// Why they get no poses by features; empty if they may get some.
-  std::string without_pose;
   /// What is odd about them, and how they were made to fit the map's camera.
   std::vector<std::string> notes;
 };

@@ -141,8 +141,8 @@ void print_summary(const json& summary, const std::string& folder) {
               summary["keyframes"].get<int>(), summary["places"].get<int>(),
               summary["loops_accepted"].get<int>());
   for (const json& frames : summary["unposed"])
-    std::printf("%-12s no pose: %s (%d frames)\n", "", frames["reason"].get<std::string>().c_str(),
-                frames["frames"].get<int>());
+    std::printf("%-12s no pose: %s (%d %s)\n", "", frames["reason"].get<std::string>().c_str(),
+                frames["frames"].get<int>(), frames["frames"] == 1 ? "frame" : "frames");
   if (summary.contains("motion") && summary["motion"]["median_deviation"].is_number())
     std::printf("%-12s motion by other sensors: %d constraints, %.2f times as far off as claimed\n",
                 "", summary["motion"]["constraints"].get<int>(),
@@ -209,7 +209,8 @@ json describe_unposed(const RunResult& run) {
 std::string why_unposed(const RunResult& run) {
   if (run.unposed.empty()) return "";
   return ": " + run.unposed.front().reason + " (" + std::to_string(run.unposed.front().count) +
-         " of " + std::to_string(run.map.frames.size()) + " frames)";
+         " of " + std::to_string(run.map.frames.size()) +
+         (run.map.frames.size() == 1 ? " frame)" : " frames)");
 }
 
 json describe_stages(const RunResult& run) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 
@@ -49,9 +50,13 @@ MapLocalizer::MapLocalizer(const LocalizerOptions& options, StoredMap stored)
     closer_.emplace(options_.loops, *stored_.origin.calibration, 0, stored_.map);
 }
 
-bool MapLocalizer::by_map_camera(const Image& grey) const {
-  return closer_ && grey.cols == stored_.origin.calibration->camera.width &&
-         grey.rows == stored_.origin.calibration->camera.height;
+/// Why the features of an image cannot be compared with the map's; empty if they can.
+std::string MapLocalizer::why_no_features(const Image& grey) const {
+  if (!closer_) return "the map has no camera or no features of known depth, or geometry is off";
+  const Camera& camera = stored_.origin.calibration->camera;
+  if (grey.cols == camera.width && grey.rows == camera.height) return "";
+  return fmt::format("of {} x {} px by an unknown camera, the map's is of {} x {} px", grey.cols,
+                     grey.rows, camera.width, camera.height);
 }
 
 const Keyframe& MapLocalizer::keyframe_of(int view) const {
@@ -160,13 +165,15 @@ std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames
                                                  bool sequence) const {
   std::vector<std::vector<PlaceLikeness>> lists;
   std::vector<std::optional<Loop>> verified;
+  std::vector<std::string> hindrances;
   for (std::size_t i = 0; i < count; ++i) {
     const Frame frame = frames(i);
     require(!in_colour_ || !frame.colour.empty(),
             "image " + std::to_string(i) + " is grey, and the map's views have colour");
     lists.push_back(likenesses(
         describe_place(in_colour_ ? frame.colour : frame.image, options_.recognizer.cues, true)));
-    verified.push_back(by_map_camera(frame.image) ? verify(frame, lists.back()) : std::nullopt);
+    hindrances.push_back(why_no_features(frame.image));
+    verified.push_back(hindrances.back().empty() ? verify(frame, lists.back()) : std::nullopt);
   }
   const NearViews near = [this](int a, int b) { return this->near(a, b); };
   std::vector<ViewAnswer> answers;
@@ -184,6 +191,9 @@ std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames
     result.push_back(described(answers[i], probabilities[i]));
     if (!calibration && answers[i].view >= 0) result.back().stage = "calibration";
     if (verified[i]) take_geometry(*verified[i], result.back());
+    if (result.back().placed && !result.back().T_map_cam)
+      result.back().without_pose =
+          hindrances[i].empty() ? "the features agree with no view of the map" : hindrances[i];
   }
   return result;
 }

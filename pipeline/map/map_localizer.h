@@ -31,6 +31,7 @@ struct Localization {
   /// "appearance" (not sure enough), "geometry" (the features contradict).
   std::string stage;
   std::optional<SE3> T_map_cam;  ///< if geometry verified it
+  std::string without_pose;      ///< why it is placed without a pose; empty if it is not
 };
 
 /// Places images in a saved map: by the likeness of whole views, with a probability that the map
@@ -40,8 +41,6 @@ class MapLocalizer {
   /// Throws ArgumentError for a map of fewer than ten views, or whose views cannot be compared.
   MapLocalizer(const LocalizerOptions& options, StoredMap stored);
 
-  /// Whether the map can give poses: it has a camera and features of known depth.
-  bool has_geometry() const { return closer_.has_value(); }
   /// Images one by one, or consecutive ones of one drive, each with the evidence of those around
   /// it. `frames`: grey image as by the map's camera (others are placed without a pose),
   /// and `colour` where the map's views have colour (ArgumentError). Called with each index once.
@@ -49,7 +48,7 @@ class MapLocalizer {
   std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
 
  private:
-  bool by_map_camera(const Image& grey) const;
+  std::string why_no_features(const Image& grey) const;
   std::vector<PlaceLikeness> likenesses(const PlaceView& view) const;
   void learn_near();
   int lag_of_likeness() const;

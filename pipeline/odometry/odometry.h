@@ -75,7 +75,7 @@ struct OdometryUpdate {
   SE3 T_odom_cam;              ///< if tracking, or the first of the two views
   std::int64_t keyframe = -1;  ///< reference keyframe, if tracking
   int inliers = 0;
-  std::string reason;      ///< why it is not tracking
+  std::string reason;      ///< why it is not tracking, or begins anew
   bool reference = false;  ///< while waiting: this frame is the first of the two views
 
   struct NewKeyframe {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <placegraph/pipeline/odometry/odometry.h>
 
 // A single eye that turns on the spot: nothing that comes into view can be placed, but the way it
@@ -41,12 +42,17 @@ OdometryUpdate Odometry::wait_turning(const Frame& frame, Random& random) {
 /// Too few points have survived since the reference: this frame takes its place.
 OdometryUpdate Odometry::replace_reference(const Frame& frame, const std::optional<SE3>& T_known,
                                            const std::optional<OdometryUpdate::Turn>& turn) {
+  const std::string reason =
+      cues_.points
+          ? fmt::format("{} points of the first view are left, {} needed to tell the motion",
+                        tracker_.tracks().size(), 2 * options_.initializer.min_points)
+          : "too few lines of the first view are left before others told the motion";
   started_ = false;
   tracker_.reset();
   if (in_known_map_ && !T_known && !turn) {
     OdometryUpdate lost;
     lost.state = TrackingState::kLost;
-    lost.reason = "too little of the first view is left before a second one told the motion";
+    lost.reason = reason;
     return lost;
   }
   if (turn)
@@ -64,6 +70,7 @@ OdometryUpdate Odometry::replace_reference(const Frame& frame, const std::option
   }
   OdometryUpdate update = begin(frame);
   update.turn = turn;
+  if (update.reason.empty()) update.reason = reason;
   if (!update.reference) {  // nothing to go on from: what comes next stands anywhere
     update.turn.reset();
     turned_.clear();

@@ -89,6 +89,24 @@ def read_by_gtsam(path, in_space):
     return graph, start, 2 * graph.error(start)
 
 
+def positions(graph_file):
+    """Of a graph in space, by vertex."""
+    _, poses, _ = read_by_gtsam(graph_file, True)
+    return numpy.array([poses.atPose3(key).translation() for key in sorted(poses.keys())])
+
+
+def check_map_exports(placegraph):
+    placegraph("map", "export", "mono", "--g2o-se3", "map_se3.g2o", "--tum", "map.tum", "--kitti", "map.kitti", "--graphml", "map.graphml")
+    placegraph("convert", "mono/graph.g2o", "rigid.g2o", "--rigid")
+    se3 = positions(placegraph.at("mono/graph_se3.g2o"))
+    check("map export --g2o-se3 is that graph, too", numpy.allclose(positions(placegraph.at("map_se3.g2o")), se3, atol=1e-9))
+    check("and convert --rigid", numpy.allclose(positions(placegraph.at("rigid.g2o")), se3, atol=1e-9))
+    kitti, tum = file_interface.read_kitti_poses_file(placegraph.at("map.kitti")), file_interface.read_tum_trajectory_file(placegraph.at("map.tum"))
+    check("evo reads the trajectories of map export", numpy.allclose(kitti.positions_xyz, tum.positions_xyz, atol=1e-6))
+    of_map, of_run = (networkx.read_graphml(placegraph.at(name)) for name in ("map.graphml", "mono/places.graphml"))
+    check("networkx reads the places of map export", sorted(of_map.edges) == sorted(of_run.edges) and of_map.number_of_nodes() > 0)
+
+
 def count(path, tag):
     return sum(line.startswith(tag) for line in open(path))
 
@@ -126,6 +144,7 @@ def main():
     check_lost_frames(placegraph)
     check_graphs(placegraph)
     check_places(placegraph)
+    check_map_exports(placegraph)
     print(f"exports_check: {'FAILED: ' + str(failures) + ' checks' if failures else 'passed'}")
     return 1 if failures else 0
 

@@ -285,8 +285,14 @@ TEST_F(MapCli, QueriesWithoutOrWithABrokenCalibrationAreToldSo) {
   const json counts = json::parse(result.out);
   EXPECT_EQ(counts["images"], 2);
   EXPECT_EQ(counts["posed"], 0);
-  EXPECT_THAT(counts["without_pose"].get<std::string>(),
-              HasSubstr("224 x 140 px, the map's camera is of 448 x 280 px"));
+  EXPECT_EQ(counts["without_pose"],
+            json({{"of 224 x 140 px by an unknown camera, the map's is of 448 x 280 px", 2}}));
+  EXPECT_EQ(counts["notes"].size(), 1);
+  // One of the map's size among them: each is told by its own.
+  fs::copy_file(drive() + "/image_0/000012.png", dir / "query/000003.png");
+  result = run("localize " + whole() + " query --out mixed.txt");
+  EXPECT_THAT(result.out, HasSubstr("3 images, 3 placed (1 with a pose; 2 without: of 224 x 140"));
+  EXPECT_THAT(result.err, HasSubstr("taken for the map's, without distortion"));
   dir.write("query/calibration.yaml", "width: 224\nheight: 140\nfx: abc\nfy: 1\ncx: 1\ncy: 1\n");
   expect_usage_error("localize " + whole() + " query --out no.txt", "calibration.yaml:3");
   EXPECT_FALSE(fs::exists(dir / "no.txt"));

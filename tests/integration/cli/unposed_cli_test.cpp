@@ -42,6 +42,36 @@ TEST_F(Unposed, OneEyeSaysWhatItLacks) {
   EXPECT_THAT(run("run s --cues lines --out out --force").err, HasSubstr("0 lines to follow, "));
 }
 
+TEST_F(Unposed, ViewsWithNothingInCommonAreSaidToBe) {
+  dir.write("s/calibration.yaml",
+            "width: 160\nheight: 120\nfx: 130\nfy: 130\ncx: 79.5\ncy: 59.5\n");
+  constexpr int kFrames = 6;
+  for (int i = 0; i < kFrames; ++i) {
+    cv::RNG random(static_cast<std::uint64_t>(i) + 1);
+    Image noise(120, 160, CV_8UC1);
+    random.fill(noise, cv::RNG::UNIFORM, 0, 255);
+    test::write_image(dir, "s/" + std::to_string(i) + ".png", noise);
+  }
+  const test::CommandResult result = run("run s --out out --json");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("no frame could be posed: "));
+  EXPECT_THAT(result.err, HasSubstr(" needed to "));
+  const json summary = json::parse(result.out);
+  int told = 0;
+  for (const json& frames : summary["unposed"]) told += frames["frames"].get<int>();
+  EXPECT_EQ(told, kFrames);
+}
+
+TEST_F(Unposed, OneFrameWaitsForASecond) {
+  test::write_image(dir, "s/0.png", test::tiny_grey(320, 240, 1));
+  dir.write("s/calibration.yaml",
+            "width: 320\nheight: 240\nfx: 260\nfy: 260\ncx: 159.5\ncy: 119.5\n");
+  const test::CommandResult result = run("run s --out out");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_THAT(result.err, HasSubstr("no frame could be posed: "));
+  EXPECT_THAT(result.err, HasSubstr(" (1 of 1 frame)"));
+}
+
 TEST_F(Unposed, TwoEyesSayWhatTheyLack) {
   write_blank("baseline_m: 0.1\n", true);
   expect_reason("0 of 0 tracked points found in the right eye's image");
