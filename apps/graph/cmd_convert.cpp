@@ -83,7 +83,10 @@ void convert_graph(const ConvertArguments& arguments, Form to) {
   if (!arguments.times.empty()) throw ArgumentError("--times: a pose graph has none");
   require(!arguments.posed_only && arguments.posed_in.empty(),
           "--posed-only, --posed-in: a pose graph has no lost frames");
-  LandmarkGraph graph = read_landmark_graph(arguments.in, {.connected = false});
+  std::vector<std::string> remarks;
+  LandmarkGraph graph =
+      read_landmark_graph(arguments.in, {.connected = false, .remarks = &remarks});
+  for (const std::string& remark : remarks) warn(arguments.in + ": " + remark);
   if (arguments.rigid) graph.poses = rigid_graph(graph.poses);
   if (to == TrajectoryFormat::kKitti) {
     write_trajectory(arguments.out, poses_of(graph.poses), *to);

@@ -9,6 +9,9 @@ struct PosePriorConstraint {
   std::int64_t node = 0;
   Pose T_world_node;  ///< measured
   Information information;
+  /// It was measured by a sensor that stands beside the node, and rewritten for the node: exact in
+  /// the logarithm, not in g2o's own error.
+  bool beside_node = false;
 };
 
 /// A point of the world that nodes see; in the plane z is 0 and stays so.

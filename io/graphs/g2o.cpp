@@ -60,11 +60,14 @@ bool parse_landmark_line(const TextFile& file, const Fields& fields, PoseGraphBu
     lines.add_offset(fields[1], parse_se3(file, fields, 2));
   } else if (tag == "EDGE_SE3_PRIOR") {
     builder.require_count(fields, 30);
-    lines.add_prior(fields[1], parse_se3(file, fields, 3), builder.symmetric(fields, 10, 6),
-                    fields[2]);
+    const SE3 T = parse_se3(file, fields, 3);
+    builder.require_near(T.translation());
+    lines.add_prior(fields[1], T, builder.plausible(builder.symmetric(fields, 10, 6)), fields[2]);
   } else if (tag == "EDGE_PRIOR_SE2") {
     builder.require_count(fields, 10);
-    lines.add_prior(fields[1], builder.se2(fields, 2), builder.symmetric(fields, 5, 3));
+    const SE2 T = builder.se2(fields, 2);
+    builder.require_near({T.translation().x(), T.translation().y(), 0});
+    lines.add_prior(fields[1], T, builder.plausible(builder.symmetric(fields, 5, 3)));
   } else if (tag == "EDGE_PRIOR_SE2_XY") {
     builder.require_count(fields, 6);
     builder.add_position(fields[1], parse_point(file, fields, 2, 2).head<2>(),
@@ -72,16 +75,22 @@ bool parse_landmark_line(const TextFile& file, const Fields& fields, PoseGraphBu
   } else if (tag == "VERTEX_XY" || tag == "VERTEX_TRACKXYZ") {
     const int dim = tag == "VERTEX_XY" ? 2 : 3;
     builder.require_count(fields, 1 + static_cast<std::size_t>(dim));
-    lines.add_point(fields[1], parse_point(file, fields, 2, dim), dim == 2);
+    const Eigen::Vector3d position = parse_point(file, fields, 2, dim);
+    builder.require_near(position);
+    lines.add_point(fields[1], position, dim == 2);
   } else if (tag == "EDGE_SE2_XY") {
     builder.require_count(fields, 7);
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    const Eigen::Vector3d position = parse_point(file, fields, 3, 2);
+    builder.require_near(position);
+    Information information = Information::Zero(3, 3);
     information.topLeftCorner<2, 2>() = builder.symmetric(fields, 5, 2);
-    lines.add_sight(fields[1], fields[2], parse_point(file, fields, 3, 2), information, true);
+    lines.add_sight(fields[1], fields[2], position, builder.plausible(information), true);
   } else if (tag == "EDGE_SE3_TRACKXYZ") {
     builder.require_count(fields, 12);
-    lines.add_sight(fields[1], fields[2], parse_point(file, fields, 4, 3),
-                    builder.symmetric(fields, 7, 3), false, fields[3]);
+    const Eigen::Vector3d position = parse_point(file, fields, 4, 3);
+    builder.require_near(position);
+    lines.add_sight(fields[1], fields[2], position,
+                    builder.plausible(builder.symmetric(fields, 7, 3)), false, fields[3]);
   } else {
     return false;
   }
@@ -91,13 +100,13 @@ bool parse_landmark_line(const TextFile& file, const Fields& fields, PoseGraphBu
 void parse_g2o_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
   const std::string_view tag = fields[0];
   if (tag == "VERTEX_SE2") {
-    builder.require_count(fields, 4);
+    builder.require_count_before_stamp(fields, 4);
     builder.add_node(fields[1], builder.se2(fields, 2));
   } else if (tag == "EDGE_SE2") {
     builder.require_count(fields, 11);
     builder.add_edge(fields[1], fields[2], builder.se2(fields, 3), builder.symmetric(fields, 6, 3));
   } else if (tag == "VERTEX_SE3:QUAT") {
-    builder.require_count(fields, 8);
+    builder.require_count_before_stamp(fields, 8);
     builder.add_node(fields[1], parse_se3(file, fields, 2));
   } else if (tag == "EDGE_SE3:QUAT") {
     builder.require_count(fields, 30);

@@ -15,6 +15,7 @@ PosePriorConstraint of_node(PosePriorConstraint prior, const SE3& T_node_sensor)
     prior.T_world_node = *T_world_sensor * T_node_sensor.inverse();
     const Matrix6d information = J.transpose() * prior.information * J;
     prior.information = 0.5 * (information + information.transpose());
+    prior.beside_node = !T_node_sensor.translation().isZero(0);
   }
   return prior;
 }
@@ -47,14 +48,6 @@ int LandmarkLines::first_line() const {
   return *std::ranges::min_element(lines);
 }
 
-void LandmarkLines::require_plausible(const Information& information) const {
-  if (const char* fault = fault_of(information)) file_->fail(std::string("the ") + fault);
-}
-
-void LandmarkLines::require_plausible(const Eigen::Matrix3d& information) const {
-  if (const char* fault = fault_of(information)) file_->fail(std::string("the ") + fault);
-}
-
 void LandmarkLines::add_offset(std::string_view number, const SE3& T_node_sensor) {
   if (!offsets_.emplace(number, T_node_sensor).second)
     file_->fail(fmt::format("parameters {} are there twice", number));
@@ -62,7 +55,6 @@ void LandmarkLines::add_offset(std::string_view number, const SE3& T_node_sensor
 
 void LandmarkLines::add_prior(std::string_view node, const Pose& T_world_sensor,
                               const Information& information, std::string_view offset) {
-  require_plausible(information);
   priors_.push_back({{file_->integer(node, "id"), T_world_sensor, information},
                      file_->line(),
                      std::string(offset)});
@@ -76,7 +68,6 @@ void LandmarkLines::add_point(std::string_view id, const Eigen::Vector3d& positi
 void LandmarkLines::add_sight(std::string_view node, std::string_view point,
                               const Eigen::Vector3d& position, const Eigen::Matrix3d& information,
                               bool planar, std::string_view offset) {
-  require_plausible(information);
   sights_.push_back(
       {{file_->integer(node, "id"), file_->integer(point, "id"), position, information},
        file_->line(),

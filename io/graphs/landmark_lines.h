@@ -55,8 +55,6 @@ class LandmarkLines {
     std::string offset;
   };
   SE3 T_node_sensor(const std::string& offset, int line) const;
-  void require_plausible(const Information& information) const;
-  void require_plausible(const Eigen::Matrix3d& information) const;
 
   const TextFile* file_;
   std::map<std::string, SE3> offsets_;

@@ -5,6 +5,7 @@
 #include <placegraph/io/graphs/printed_rounding.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace placegraph {
@@ -31,6 +32,34 @@ void PoseGraphBuilder::require_count(const Fields& fields, std::size_t count) co
   if (fields.size() == count + 1) return;
   file_->fail(
       fmt::format("{}: expected {} numbers, found {}", fields[0], count, fields.size() - 1));
+}
+
+void PoseGraphBuilder::require_count_before_stamp(const Fields& fields, std::size_t count) {
+  if (fields.size() != count + 2 || unstamped_ > 0) {
+    if (stamped_ > 0) require_count(fields, count + 1);
+    require_count(fields, count);
+    ++unstamped_;
+    return;
+  }
+  const std::optional<double> stamp = parse_double(fields.back());
+  if (!stamp || !std::isfinite(*stamp) || (stamped_ > 0 && *stamp <= last_stamp_))
+    file_->fail(fmt::format(
+        "{}: expected {} numbers, found {}, the last of which does not rise from line to line as a "
+        "time stamp would",
+        fields[0], count, count + 1));
+  if (stamped_++ == 0) first_stamp_line_ = file_->line();
+  last_stamp_ = *stamp;
+}
+
+void PoseGraphBuilder::tell_stamps(const PoseGraphReading& reading) const {
+  constexpr int kFewest = 3;  // for numbers to rise
+  if (stamped_ == 0) return;
+  if (stamped_ < kFewest || !reading.remarks)
+    throw FileError(file_->path(), first_stamp_line_, "a number too many for a vertex");
+  reading.remarks->push_back(
+      fmt::format("behind the pose {} vertices have one number more, which rises from line to line "
+                  "as a time stamp does: it was passed over",
+                  stamped_));
 }
 
 SE2 PoseGraphBuilder::se2(const Fields& fields, std::size_t at) const {
@@ -64,13 +93,15 @@ void PoseGraphBuilder::require_kind(PoseKind kind) {
                           names[std::max(a, b)]));
 }
 
-void PoseGraphBuilder::require_near(const Pose& pose) const {
-  if (!(position_of(pose).cwiseAbs().maxCoeff() <= kMaxDistance_m))
+void PoseGraphBuilder::require_near(const Eigen::Vector3d& position) const {
+  if (!(position.cwiseAbs().maxCoeff() <= kMaxDistance_m))
     file_->fail(fmt::format("a position beyond {:g} m", kMaxDistance_m));
 }
 
 Information PoseGraphBuilder::plausible(const Information& information) const {
   const auto fields = std::exchange(information_fields_, {});
+  if (information.cwiseAbs().maxCoeff() > kMaxInformation)
+    file_->fail(fmt::format("the information is above {:g}", kMaxInformation));
   const char* fault = fault_of(information);
   if (!fault) return information;
   double rounding = 0;
@@ -83,7 +114,7 @@ Information PoseGraphBuilder::plausible(const Information& information) const {
 
 void PoseGraphBuilder::add_node(std::string_view id, const Pose& T_world_node) {
   require_kind(kind_of(T_world_node));
-  require_near(T_world_node);
+  require_near(position_of(T_world_node));
   graph_.nodes.push_back({file_->integer(id, "id"), T_world_node, false});
   node_lines_.push_back(file_->line());
 }
@@ -91,10 +122,8 @@ void PoseGraphBuilder::add_node(std::string_view id, const Pose& T_world_node) {
 void PoseGraphBuilder::add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
                                 const Information& given, std::optional<ConstraintSource> source) {
   require_kind(kind_of(T_from_to));
-  require_near(T_from_to);
+  require_near(position_of(T_from_to));
   const Information information = plausible(given);
-  if (information.cwiseAbs().maxCoeff() > kMaxInformation)
-    file_->fail(fmt::format("the information is above {:g}", kMaxInformation));
   RelativePoseConstraint& edge =
       graph_.constraints.emplace_back().emplace<RelativePoseConstraint>();
   edge.from = file_->integer(from, "id");
@@ -115,9 +144,10 @@ void PoseGraphBuilder::add_position(std::string_view node, const Eigen::Vector2d
   PositionConstraint position;
   position.node = file_->integer(node, "id");
   position.position_world.head<2>() = position_world;
-  position.information.setZero();
-  position.information.topLeftCorner<2, 2>() = information;
-  if (const char* fault = fault_of(position.information)) file_->fail(std::string("the ") + fault);
+  Information padded = Information::Zero(3, 3);
+  padded.topLeftCorner<2, 2>() = information;
+  position.information = plausible(padded);
+  require_near(position.position_world);
   positions_.emplace_back(position, file_->line());
 }
 
@@ -184,6 +214,7 @@ PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
     throw FileError(
         file_->path(), landmarks_.first_line(),
         "the graph has priors or point landmarks, which only optimize and convert take");
+  tell_stamps(reading);
   PoseGraph graph = finish_poses();
   if (reading.connected) require_connected(graph);
   return graph;
@@ -191,6 +222,7 @@ PoseGraph PoseGraphBuilder::finish(const PoseGraphReading& reading) {
 
 LandmarkGraph PoseGraphBuilder::finish_landmarks(const PoseGraphReading& reading) {
   if (landmarks_.empty()) return {finish(reading), {}, {}, {}};
+  tell_stamps(reading);
   LandmarkGraph graph;
   graph.poses = finish_poses();
   landmarks_.add_to(graph);

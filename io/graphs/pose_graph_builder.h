@@ -12,6 +12,9 @@ struct PoseGraphReading {
   /// Refuse a graph that falls into components, unless each has a fixed vertex: then all stand in
   /// one frame.
   bool connected = false;
+  /// Takes what was passed over, a sentence each, for the caller to tell; without it that is
+  /// refused.
+  std::vector<std::string>* remarks = nullptr;
 };
 
 /// Puts a pose graph together from the lines of a text file, whatever the format; edges may precede
@@ -32,6 +35,14 @@ class PoseGraphBuilder {
   Information symmetric(const Fields& fields, std::size_t at, int n) const;
   /// Refuses the line unless `count` fields follow its tag.
   void require_count(const Fields& fields, std::size_t count) const;
+  /// The same of a vertex, whose line may have a time stamp behind its numbers, where all vertices
+  /// have one: a number that rises from line to line. Anything else may be a part of the pose.
+  void require_count_before_stamp(const Fields& fields, std::size_t count);
+  /// The matrix, or the semi-definite one that its printed digits stand for. Refuses what is
+  /// indefinite by more than that, all zero or above 1e100.
+  Information plausible(const Information& information) const;
+  /// Refuses positions beyond 1e50 m.
+  void require_near(const Eigen::Vector3d& position) const;
 
   /// Refuses SE2, SE3 and Sim3 mixed, and positions beyond 1e50 m.
   void add_node(std::string_view id, const Pose& T_world_node);
@@ -61,8 +72,7 @@ class PoseGraphBuilder {
  private:
   PoseGraph finish_poses();
   void require_kind(PoseKind kind);
-  void require_near(const Pose& pose) const;
-  Information plausible(const Information& information) const;
+  void tell_stamps(const PoseGraphReading& reading) const;
   int find(const NodeIndex& index, std::int64_t id, int line) const;
   void require_connected(const PoseGraph& graph) const;
   void add_nodes_of_edges();
@@ -76,6 +86,9 @@ class PoseGraphBuilder {
   std::vector<int> node_lines_, edge_lines_;
   std::vector<std::pair<PositionConstraint, int>> positions_;  ///< and their lines
   LandmarkLines landmarks_;
+  /// Of the vertices: how many had a time stamp and not, the last one, the line of the first.
+  int stamped_ = 0, unstamped_ = 0, first_stamp_line_ = 0;
+  double last_stamp_ = 0;
   std::vector<char> source_is_told_;                 ///< of the edges, by their tags
   std::vector<std::pair<std::int64_t, int>> fixed_;  ///< id and line
 };

@@ -162,5 +162,44 @@ TEST_F(FieldGraphs, InformationIsSemiDefiniteWithinItsPrintedDigits) {
   expect_usage_error("optimize tail.g2o -o no.g2o", "tail.g2o:10: the information is indefinite");
 }
 
+/// Three poses of the plane with something behind the numbers of their lines.
+std::string three_poses(const std::array<const char*, 3>& behind) {
+  std::string text;
+  for (int i = 0; i < 3; ++i)
+    text += "VERTEX_SE2 " + std::to_string(i) + " " + std::to_string(i) + " 0 0" + behind[i] + "\n";
+  return text + "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\nEDGE_SE2 1 2 1.1 0 0 1 0 0 1 0 1\n";
+}
+
+TEST_F(FieldGraphs, WordsBehindTheNumbersAreNoPartOfThem) {
+  PLACEGRAPH_CASE_OR_SKIP("graph_words_behind_the_numbers");
+  const std::string folder = "graph_words_behind_the_numbers/";
+  EXPECT_NEAR(optimize(file(folder + "comment.g2o"))["chi2_log"].get<double>(), 4.446071, 1e-5);
+  EXPECT_NEAR(optimize(file(folder + "stamps.g2o"))["chi2_log"].get<double>(), 4.446071, 1e-5);
+  EXPECT_THAT(said, HasSubstr("behind the pose 20 vertices have one number more"));
+}
+
+TEST_F(FieldGraphs, TimeStampsBehindVerticesArePassedOverAndThatIsSaid) {
+  test::write_file(dir / "stamps.g2o", three_poses({" 1403.5", " 1403.6", " 1403.7"}));
+  optimize("stamps.g2o");
+  EXPECT_THAT(said, HasSubstr("3 vertices have one number more"));
+  EXPECT_THAT(run("convert stamps.g2o plain.g2o").err, HasSubstr("was passed over"));
+  optimize("plain.g2o");
+  EXPECT_THAT(said, IsEmpty());
+  // Where it may be a part of the pose it is refused, and where nobody would say so.
+  const auto refuses = [&](const std::string& text, const char* message) {
+    test::write_file(dir / "odd.g2o", text);
+    expect_usage_error("optimize odd.g2o -o no.g2o", message);
+  };
+  refuses(three_poses({" 0", " 0", " 0"}), "odd.g2o:2: VERTEX_SE2: expected 4 numbers, found 5");
+  refuses(three_poses({"", "", " 7"}), "odd.g2o:3: VERTEX_SE2: expected 4 numbers, found 5");
+  refuses(three_poses({" 1", " 2", ""}), "odd.g2o:3: VERTEX_SE2: expected 5 numbers, found 4");
+  refuses(three_poses({" 1", " 2", " x"}), "odd.g2o:3: VERTEX_SE2: expected 4 numbers, found 5");
+  refuses(three_poses({" 1 1", " 2 2", " 3 3"}), "odd.g2o:1: VERTEX_SE2: expected 4 numbers");
+  refuses(three_poses({"", "", ""}) + "EDGE_SE2 0 2 2 0 0 1 0 0 1 0 1 5\n",
+          "odd.g2o:6: EDGE_SE2: expected 11 numbers, found 12");
+  expect_usage_error("synth-graph stamps.g2o -o no.g2o --shuffle",
+                     "stamps.g2o:1: a number too many for a vertex");
+}
+
 }  // namespace
 }  // namespace placegraph

@@ -205,6 +205,24 @@ TEST_F(LandmarkGraphs, TellDirectionsThatNothingHolds) {
   EXPECT_EQ(optimize("rig.g2o")["free_directions"], 3);
 }
 
+TEST_F(LandmarkGraphs, TakeInformationThatIsSemiDefiniteWithinItsPrintedDigits) {
+  // Rank one, printed with six digits: the smaller eigenvalue is below zero.
+  dir.write("ray.g2o", square_with_points("EDGE_SE2_XY 1 20 3 4 100.003 57.7368 33.3340\n"));
+  EXPECT_EQ(optimize("ray.g2o")["free_directions"], 1);
+  dir.write("prior.g2o",
+            square_with_points("EDGE_PRIOR_SE2 1 3 4 0 100.003 57.7368 0 33.3340 0 4\n"));
+  EXPECT_EQ(optimize("prior.g2o")["free_directions"], 1);
+}
+
+TEST_F(LandmarkGraphs, OfSensorsBesideTheirVerticesHaveTheCostOfTheLogarithm) {
+  dir.write("rig.g2o", RigOfThree().text(true, false));
+  expect_usage_error("optimize rig.g2o -o no.g2o --cost g2o",
+                     "priors of a sensor that stands beside its vertex");
+  EXPECT_TRUE(optimize("rig.g2o")["chi2_g2o"].is_null());
+  dir.write("plain.g2o", RigOfThree().text(false, true));
+  EXPECT_LT(optimize("plain.g2o", "--cost g2o")["chi2_g2o"].get<double>(), 1e-9);
+}
+
 TEST_F(LandmarkGraphs, SayWhichPartsNothingTiesToTheWorld) {
   const std::string apart =
       "VERTEX_SE2 30 9 9 0\nVERTEX_SE2 31 8 9 0\n"
@@ -231,6 +249,11 @@ TEST_F(LandmarkGraphs, SayWhatIsWrongAndWhere) {
   refuses("EDGE_PRIOR_SE2 7 0 0 0 1 0 0 1 0 1", "bad.g2o:4: there is no vertex 7");
   refuses("EDGE_PRIOR_SE2_XY 7 0 0 1 0 1", "bad.g2o:4: there is no vertex 7");
   refuses("EDGE_PRIOR_SE2_XY 1 0 0 1 2 1", "bad.g2o:4: the information is indefinite");
+  refuses("EDGE_PRIOR_SE2 1 0 0 nan 1 0 0 1 0 1", "bad.g2o:4: theta: 'nan' is not finite");
+  refuses("EDGE_PRIOR_SE2 1 0 0 0 1 2 0 1 0 1", "bad.g2o:4: the information is indefinite");
+  refuses("EDGE_PRIOR_SE2 1 0 0 0 0 0 0 0 0 0", "bad.g2o:4: the information is all zero");
+  refuses("EDGE_PRIOR_SE2 1 1e60 0 0 1 0 0 1 0 1", "bad.g2o:4: a position beyond");
+  refuses("EDGE_SE2_XY 0 9 1 1 1e200 0 1", "bad.g2o:4: the information is above");
   refuses("VERTEX_XY 1 3 4", "bad.g2o:4: vertex 1 is there twice");
   refuses("EDGE_SE2_XY 0 1 3 4 1 0 1", "bad.g2o:4: vertex 1 is a pose, not a point");
   refuses("EDGE_SE2_XY 0 9 nan 4 1 0 1", "bad.g2o:4: ");
