@@ -166,6 +166,14 @@ std::string to_table(const std::vector<Judgement>& judgements, const Protocol& p
                         cell(b.curve.recall_at_full_precision), cell(b.curve.f1_max));
   }
   for (const Judgement& judgement : judgements) {
+    const LoopBenchmark& b = judgement.benchmark;
+    if (b.dropped > 0 || b.unjudged > 0)
+      text += fmt::format(
+          "{}: left out: {} predictions for images that the truth does not speak of, {} whose "
+          "candidate is too young or out of range\n",
+          judgement.name, b.unjudged, b.dropped);
+  }
+  for (const Judgement& judgement : judgements) {
     if (!judgement.reliability) continue;
     text += fmt::format("{}: probabilities of {} candidates are off by {:.3f}; right of those in\n",
                         judgement.name, judgement.benchmark.candidates.size(),

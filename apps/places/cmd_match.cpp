@@ -204,6 +204,9 @@ void run(MatchArguments arguments) {
                                            ? ": no image has a word in common with an older one"
                                            : ": no image has an older one to compare with"));
   write_loop_predictions(arguments.out, found);
+  if (found.size() < queries.size())
+    warn(fmt::format("{}: {} of {} queries have no answer, and no line", arguments.folder,
+                     queries.size() - found.size(), queries.size()));
   fmt::print("{} images, {} queries, {:.1f} ms CPU an image, written to {}\n", images.size(),
              found.size(), watch.cpu_ms() / static_cast<double>(images.size()), arguments.out);
 }
