@@ -26,16 +26,19 @@ CLI::Option* add_calib_option(CLI::App& command, std::string& path, const std::s
 
 Camera read_calib(const std::string& path) {
   const std::string kind = std::filesystem::path(path).extension().string();
-  Camera camera;
+  RawCamera raw;
   if (kind == ".yaml" || kind == ".yml" || kind == ".xml" || kind == ".json") {
     CalibrationYaml yaml;
     read_calibration_yaml(path, yaml);
-    camera = yaml.camera();
+    raw = yaml.camera();
   } else if (const auto foreign = read_foreign_calibration(path)) {
-    camera = foreign->camera;
+    raw = foreign->raw;
   } else {
     return read_camera_file(path);
   }
+  if (raw.is_rational())
+    throw FileError(path, "a rational lens (k4, k5, k6) is not taken here: undistort the images");
+  const Camera& camera = raw.camera;
   if (camera.width == 0 || camera.height == 0) throw FileError(path, "tells no size of the images");
   return camera;
 }

@@ -10,6 +10,10 @@
 namespace placegraph {
 namespace {
 
+constexpr const char* kUnrectified =
+    "baseline_m: a folder of stereo images must be rectified, without distortion; of others "
+    "Kalibr's camchain or OpenCV's K1 D1 K2 D2 R T tell both eyes";
+
 struct DistortionYaml {
   Distortion& model;
   std::vector<double>& coefficients;
@@ -19,7 +23,8 @@ void visit(OptionVisitor& field, DistortionYaml& yaml) {
   field.choice("model", yaml.model, {"none", "radial_tangential", "equidistant"},
                "distortion model");
   field("coefficients", yaml.coefficients,
-        "k1 k2 p1 p2 [k3] (radial_tangential) or k1 k2 k3 k4 (equidistant)", {-1e3, 1e3});
+        "k1 k2 p1 p2 [k3 [k4 k5 k6]] (radial_tangential) or k1 k2 k3 k4 (equidistant)",
+        {-1e3, 1e3});
 }
 
 void check(const std::string& path, const CalibrationYaml& yaml) {
@@ -37,8 +42,8 @@ void check(const std::string& path, const CalibrationYaml& yaml) {
       break;
     case Distortion::kRadialTangential:
       try {
-        Camera camera;
-        set_radial_tangential(yaml.coefficients, camera);
+        RawCamera raw;
+        set_radial_tangential(yaml.coefficients, raw);
       } catch (const ArgumentError& error) {
         need(false, (std::string("distortion.coefficients: ") + error.what()).c_str());
       }
@@ -47,8 +52,7 @@ void check(const std::string& path, const CalibrationYaml& yaml) {
       need(n == 4, "distortion.coefficients: equidistant has 4");
       break;
   }
-  need(yaml.baseline_m == 0 || yaml.distortion == Distortion::kNone,
-       "baseline_m: a folder of stereo images must be rectified, without distortion");
+  need(yaml.baseline_m == 0 || yaml.distortion == Distortion::kNone, kUnrectified);
   const DepthYaml& depth = yaml.depth;
   need(depth.T_cam_depth.empty() || depth.T_cam_depth.size() == 12,
        "depth.T_cam_depth: expected 12 numbers");
@@ -60,19 +64,20 @@ void check(const std::string& path, const CalibrationYaml& yaml) {
 
 }  // namespace
 
-Camera CalibrationYaml::camera() const {
-  Camera camera{width, height, fx, fy, cx, cy, distortion, {}};
-  std::ranges::copy(coefficients.begin(),
-                    coefficients.begin() +
-                        static_cast<std::ptrdiff_t>(std::min<std::size_t>(coefficients.size(), 5)),
-                    camera.coefficients.begin());
-  return camera;
+RawCamera CalibrationYaml::camera() const {
+  RawCamera raw(Camera{width, height, fx, fy, cx, cy, distortion, {}});
+  if (distortion == Distortion::kRadialTangential)
+    set_radial_tangential(coefficients, raw);
+  else
+    std::copy_n(coefficients.begin(), std::min<std::size_t>(coefficients.size(), 5),
+                raw.camera.coefficients.begin());
+  return raw;
 }
 
 DepthCamera CalibrationYaml::depth_camera() const {
   DepthCamera result;
   result.sigma_at_1m = depth.sigma_at_1m;
-  result.camera = camera();
+  result.camera = camera().camera;
   if (depth.fx > 0) {
     result.camera = {depth.width, depth.height, depth.fx,          depth.fy,
                      depth.cx,    depth.cy,     Distortion::kNone, {}};
@@ -115,14 +120,12 @@ namespace {
 
 /// The baseline is that of eyes in right/; files of this form give one to RGB-D cameras, too.
 void take(const ForeignCalibration& foreign, bool has_right, CalibrationYaml& yaml) {
-  const Camera& camera = foreign.camera;
+  const Camera& camera = foreign.raw.camera;
   yaml.width = camera.width, yaml.height = camera.height;
   yaml.fx = camera.fx, yaml.fy = camera.fy, yaml.cx = camera.cx, yaml.cy = camera.cy;
   yaml.distortion = camera.distortion;
-  if (camera.distortion != Distortion::kNone)
-    yaml.coefficients.assign(
-        camera.coefficients.begin(),
-        camera.coefficients.begin() + (camera.distortion == Distortion::kEquidistant ? 4 : 5));
+  if (camera.distortion != Distortion::kNone) yaml.coefficients = foreign.raw.coefficients();
+  yaml.right = foreign.right;
   if (has_right) yaml.baseline_m = foreign.baseline_m;
   if (foreign.fps > 0) yaml.fps = foreign.fps;
   if (foreign.depth_unit_m > 0) yaml.depth.unit_m = foreign.depth_unit_m;
@@ -131,9 +134,12 @@ void take(const ForeignCalibration& foreign, bool has_right, CalibrationYaml& ya
 }  // namespace
 
 void read_calibration_yaml(const std::string& path, CalibrationYaml& yaml) {
-  if (const auto foreign = read_foreign_calibration(path)) {
-    const auto folder = std::filesystem::path(path).parent_path();
-    take(*foreign, std::filesystem::is_directory(folder / "right"), yaml);
+  const auto folder = std::filesystem::path(path).parent_path();
+  const bool has_right = std::filesystem::is_directory(folder / "right");
+  if (const auto foreign = read_foreign_calibration(path, has_right)) {
+    take(*foreign, has_right, yaml);
+    if (yaml.baseline_m > 0 && yaml.distortion != Distortion::kNone)
+      throw FileError(path, kUnrectified);
     return;
   }
   read_options(path, yaml);

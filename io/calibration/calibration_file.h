@@ -1,7 +1,8 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/io/calibration/raw_camera.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,15 +28,19 @@ struct CalibrationYaml {
   double baseline_m = 0, camera_height_m = 0, fps = 0;
   DepthYaml depth;
 
-  Camera camera() const;
+  /// Of eyes that are not rectified, which other programs' forms tell.
+  std::optional<RightEye> right;
+
+  RawCamera camera() const;
   DepthCamera depth_camera() const;
 };
 void visit(OptionVisitor& field, CalibrationYaml& yaml);
 
 /// Reads that form, or one of another program (read_foreign_calibration), which may leave width and
-/// height 0; see fit_to_images. Strict: unknown keys, wrong types and values out of range are
-/// FileErrors with the line; so are missing width, height, fx, fy, cx, cy, and coefficients that do
-/// not fit the distortion model. What the file does not give keeps the value it has in `yaml`.
+/// height 0; see fit_to_image. Right eyes are those of images in right/ beside the file. Strict:
+/// unknown keys, wrong types and values out of range are FileErrors with the line; so are missing
+/// width, height, fx, fy, cx, cy, and coefficients that do not fit the distortion model. What the
+/// file does not give keeps the value it has in `yaml`.
 void read_calibration_yaml(const std::string& path, CalibrationYaml& yaml);
 
 }  // namespace placegraph

@@ -45,6 +45,27 @@ double share_with_ray(const Camera& camera) {
   return static_cast<double>(good) / ((kSteps + 1) * (kSteps + 1));
 }
 
+/// Distance of the farthest corner from the principal point, in focal lengths.
+double farthest_corner(const Camera& camera) {
+  return std::hypot(std::max(camera.cx, camera.width - 1 - camera.cx) / camera.fx,
+                    std::max(camera.cy, camera.height - 1 - camera.cy) / camera.fy);
+}
+
+/// Takes intrinsics to images of another size; (-0.5, -0.5) is the image's corner.
+void scale(double x, double y, double& fx, double& fy, double& cx, double& cy) {
+  fx *= x, cx = (cx + 0.5) * x - 0.5;
+  fy *= y, cy = (cy + 0.5) * y - 0.5;
+}
+
+/// The right eye, given for images of the size that the left one was, follows it.
+void fit_right(int given_width, int given_height, const Image& image, Camera& right) {
+  const bool follows = right.width == given_width && right.height == given_height;
+  if (follows && given_width > 0)
+    scale(static_cast<double>(image.cols) / given_width,
+          static_cast<double>(image.rows) / given_height, right.fx, right.fy, right.cx, right.cy);
+  if (follows || right.width == 0) right.width = image.cols, right.height = image.rows;
+}
+
 /// The share of the raw image that the remapped one shows.
 double share_shown(const Remap& remap, const Camera& raw) {
   if (remap.is_identity()) return 1;
@@ -78,26 +99,33 @@ void add_principal_point(const Camera& camera, std::vector<DataNote>& notes) {
 
 }  // namespace
 
-void require_plausible_camera(const std::string& path, const Camera& raw) {
+void require_plausible_camera(const std::string& path, const RawCamera& camera) {
+  const Camera& raw = camera.camera;
   if (raw.fx < kLeastFocalShare * raw.width || raw.fy < kLeastFocalShare * raw.height)
     throw FileError(path,
                     fmt::format("fx, fy: {:.4g}, {:.4g} are no focal lengths [px] of a {}x{} "
                                 "image: are they normalized? Multiply them by the image's size",
                                 raw.fx, raw.fy, raw.width, raw.height));
-  if (raw.distortion == Distortion::kNone || share_with_ray(raw) == 1) return;
   double reach = std::hypot(raw.width, raw.height);
-  for (const double x : {0.0, raw.width - 1.0})
-    for (const double y : {0.0, raw.height - 1.0}) reach = std::min(reach, reach_px(raw, {x, y}));
+  if (camera.is_rational()) {
+    const double share = camera.rational_reach();
+    if (share > farthest_corner(raw)) return;
+    reach = share * std::max(raw.fx, raw.fy);
+  } else {
+    if (raw.distortion == Distortion::kNone || share_with_ray(raw) == 1) return;
+    for (const double x : {0.0, raw.width - 1.0})
+      for (const double y : {0.0, raw.height - 1.0}) reach = std::min(reach, reach_px(raw, {x, y}));
+  }
   throw FileError(path,
                   fmt::format("distortion: the lens model turns back {:.0f} px from the principal "
                               "point, within the {}x{} image: the coefficients cannot be right",
                               reach, raw.width, raw.height));
 }
 
-UndistortedCamera undistort_plausibly(const std::string& path, const Camera& raw) {
+UndistortedCamera undistort_plausibly(const std::string& path, const RawCamera& raw) {
   require_plausible_camera(path, raw);
   UndistortedCamera result = undistort_camera(raw);
-  const double share = share_shown(result.remap, raw);
+  const double share = share_shown(result.remap, raw.camera);
   if (share < kLeastImageShare)
     throw FileError(path,
                     fmt::format("distortion: only {:.2g} % of the image are left without it: the "
@@ -108,6 +136,7 @@ UndistortedCamera undistort_plausibly(const std::string& path, const Camera& raw
 
 std::optional<DataNote> fit_to_image(const std::string& image_path, const Image& image,
                                      CalibrationYaml& yaml) {
+  if (yaml.right) fit_right(yaml.width, yaml.height, image, yaml.right->raw.camera);
   if (yaml.width == 0 || yaml.height == 0) {
     yaml.width = image.cols;
     yaml.height = image.rows;
@@ -122,9 +151,7 @@ std::optional<DataNote> fit_to_image(const std::string& image_path, const Image&
       fmt::format("the calibration is one of {}x{} images, these are {}x{}: intrinsics are "
                   "scaled by {:.4g}",
                   yaml.width, yaml.height, image.cols, image.rows, scale_x)};
-  // (-0.5, -0.5) is the image's corner.
-  yaml.fx *= scale_x, yaml.cx = (yaml.cx + 0.5) * scale_x - 0.5;
-  yaml.fy *= scale_y, yaml.cy = (yaml.cy + 0.5) * scale_y - 0.5;
+  scale(scale_x, scale_y, yaml.fx, yaml.fy, yaml.cx, yaml.cy);
   yaml.width = image.cols, yaml.height = image.rows;
   return note;
 }

@@ -13,10 +13,10 @@ namespace placegraph {
 /// undistort_camera for the calibration that was read from `path`. Throws FileError where the lens
 /// model turns back within the image, so that it gives no ray for some pixels, and where less than
 /// a third of the image is left without distortion.
-UndistortedCamera undistort_plausibly(const std::string& path, const Camera& raw);
+UndistortedCamera undistort_plausibly(const std::string& path, const RawCamera& raw);
 
 /// Throws FileError for a raw camera as above, and for normalized intrinsics.
-void require_plausible_camera(const std::string& path, const Camera& raw);
+void require_plausible_camera(const std::string& path, const RawCamera& raw);
 
 /// Makes intrinsics fit images of another size than they were given for: takes the size where there
 /// is none, scales the intrinsics where the aspect agrees to 1 %, and says so. Throws FileError

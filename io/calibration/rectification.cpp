@@ -11,23 +11,19 @@ cv::Mat camera_matrix(const Camera& camera) {
   return (cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
 }
 
-cv::Mat coefficients(const Camera& camera) {
-  const int count = camera.distortion == Distortion::kEquidistant ? 4 : 5;
-  cv::Mat d(1, count, CV_64F);
-  for (int i = 0; i < count; ++i) {
-    d.at<double>(i) = camera.coefficients[static_cast<std::size_t>(i)];
-  }
-  return d;
+cv::Mat coefficients(const RawCamera& raw) {
+  return cv::Mat(raw.coefficients(), true).reshape(1, 1);
 }
 
-Remap make_remap(const Camera& raw, const cv::Mat& R_new_raw, const cv::Mat& K_new) {
+Remap make_remap(const RawCamera& raw, const cv::Mat& R_new_raw, const cv::Mat& K_new) {
   Remap remap;
-  const cv::Size size(raw.width, raw.height);
-  if (raw.distortion == Distortion::kEquidistant) {
-    cv::fisheye::initUndistortRectifyMap(camera_matrix(raw), coefficients(raw), R_new_raw, K_new,
+  const Camera& camera = raw.camera;
+  const cv::Size size(camera.width, camera.height);
+  if (camera.distortion == Distortion::kEquidistant) {
+    cv::fisheye::initUndistortRectifyMap(camera_matrix(camera), coefficients(raw), R_new_raw, K_new,
                                          size, CV_32FC1, remap.map_x, remap.map_y);
   } else {
-    cv::initUndistortRectifyMap(camera_matrix(raw), coefficients(raw), R_new_raw, K_new, size,
+    cv::initUndistortRectifyMap(camera_matrix(camera), coefficients(raw), R_new_raw, K_new, size,
                                 CV_32FC1, remap.map_x, remap.map_y);
   }
   return remap;
@@ -68,25 +64,28 @@ Image Remap::nearest(const Image& raw) const {
   return out;
 }
 
-UndistortedCamera undistort_camera(const Camera& raw) {
+UndistortedCamera undistort_camera(const RawCamera& raw) {
   raw.check();
-  if (raw.distortion == Distortion::kNone) return {raw, {}};
-  const cv::Size size(raw.width, raw.height);
+  const Camera& camera = raw.camera;
+  if (camera.distortion == Distortion::kNone) return {camera, {}};
+  const cv::Size size(camera.width, camera.height);
   cv::Mat K;
-  if (raw.distortion == Distortion::kEquidistant) {
+  if (camera.distortion == Distortion::kEquidistant) {
     cv::fisheye::estimateNewCameraMatrixForUndistortRectify(
-        camera_matrix(raw), coefficients(raw), size, cv::Mat::eye(3, 3, CV_64F), K, 0.0);
+        camera_matrix(camera), coefficients(raw), size, cv::Mat::eye(3, 3, CV_64F), K, 0.0);
   } else {
-    K = cv::getOptimalNewCameraMatrix(camera_matrix(raw), coefficients(raw), size, 0.0);
+    K = cv::getOptimalNewCameraMatrix(camera_matrix(camera), coefficients(raw), size, 0.0);
   }
-  UndistortedCamera result{pinhole(raw, K), make_remap(raw, cv::Mat::eye(3, 3, CV_64F), K)};
+  UndistortedCamera result{pinhole(camera, K), make_remap(raw, cv::Mat::eye(3, 3, CV_64F), K)};
   result.camera.check();
   return result;
 }
 
-RectifiedStereo rectify_stereo(const Camera& left, const Camera& right, const SE3& T_left_right) {
-  left.check();
-  right.check();
+RectifiedStereo rectify_stereo(const RawCamera& raw_left, const RawCamera& raw_right,
+                               const SE3& T_left_right) {
+  raw_left.check();
+  raw_right.check();
+  const Camera &left = raw_left.camera, &right = raw_right.camera;
   const bool fisheye = left.distortion == Distortion::kEquidistant;
   if (fisheye != (right.distortion == Distortion::kEquidistant)) {
     throw ArgumentError("stereo: the two eyes have different distortion models");
@@ -105,13 +104,13 @@ RectifiedStereo rectify_stereo(const Camera& left, const Camera& right, const SE
   }
   const cv::Size size(left.width, left.height);
   if (fisheye) {
-    cv::fisheye::stereoRectify(camera_matrix(left), coefficients(left), camera_matrix(right),
-                               coefficients(right), size, R, t, R1, R2, P1, P2, Q,
+    cv::fisheye::stereoRectify(camera_matrix(left), coefficients(raw_left), camera_matrix(right),
+                               coefficients(raw_right), size, R, t, R1, R2, P1, P2, Q,
                                cv::CALIB_ZERO_DISPARITY, size, 0.0, 1.0);
   } else {
-    cv::stereoRectify(camera_matrix(left), coefficients(left), camera_matrix(right),
-                      coefficients(right), size, R, t, R1, R2, P1, P2, Q, cv::CALIB_ZERO_DISPARITY,
-                      0.0, size);
+    cv::stereoRectify(camera_matrix(left), coefficients(raw_left), camera_matrix(right),
+                      coefficients(raw_right), size, R, t, R1, R2, P1, P2, Q,
+                      cv::CALIB_ZERO_DISPARITY, 0.0, size);
   }
   RectifiedStereo result;
   result.camera = pinhole(left, P1);
@@ -120,8 +119,8 @@ RectifiedStereo rectify_stereo(const Camera& left, const Camera& right, const SE
     throw ArgumentError("stereo: the right eye is not to the right of the left one");
   }
   result.camera.check();
-  result.left = make_remap(left, R1, P1);
-  result.right = make_remap(right, R2, P2);
+  result.left = make_remap(raw_left, R1, P1);
+  result.right = make_remap(raw_right, R2, P2);
   result.T_left_rectified = SE3(rotation_from(R1).inverse(), Eigen::Vector3d::Zero());
   return result;
 }

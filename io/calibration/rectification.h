@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/image.h>
-#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/io/calibration/raw_camera.h>
 
 namespace placegraph {
 
@@ -26,7 +26,7 @@ struct UndistortedCamera {
 };
 
 /// Identity for a camera without distortion. Throws ArgumentError for an invalid camera.
-UndistortedCamera undistort_camera(const Camera& raw);
+UndistortedCamera undistort_camera(const RawCamera& raw);
 
 /// Two raw eyes made parallel: rows correspond, same intrinsics.
 struct RectifiedStereo {
@@ -39,6 +39,7 @@ struct RectifiedStereo {
 /// Bouguet's rectification (cv::stereoRectify, cv::fisheye::stereoRectify) from the raw cameras and
 /// `T_left_right`. Throws ArgumentError if the distortion models differ, or the right eye is not to
 /// the right of the left one.
-RectifiedStereo rectify_stereo(const Camera& left, const Camera& right, const SE3& T_left_right);
+RectifiedStereo rectify_stereo(const RawCamera& left, const RawCamera& right,
+                               const SE3& T_left_right);
 
 }  // namespace placegraph

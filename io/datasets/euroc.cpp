@@ -107,7 +107,7 @@ BodyCamera read_sensor(const fs::path& camera_folder) {
   const std::vector<double> d = yaml.numbers(root, "distortion_coefficients", 0);
   if (model == "radial-tangential" || model == "radtan" || model == "plumb_bob") {
     camera.distortion = Distortion::kRadialTangential;
-  } else if (model == "equidistant") {
+  } else if (model == "equidistant" || model == "equi") {
     camera.distortion = Distortion::kEquidistant;
   } else if (model != "none") {
     yaml.fail(root["distortion_model"],

@@ -30,7 +30,8 @@ std::string folder_of_images(const fs::path& folder) {
   return folder.string();
 }
 
-void read_ground_truth(const fs::path& path, RecordedSequence& sequence) {
+void read_ground_truth(const fs::path& path, const SE3& T_left_rectified,
+                       RecordedSequence& sequence) {
   if (!fs::exists(path)) return;
   Trajectory truth = read_frame_poses(path.string());
   if (truth.size() != sequence.left.size()) {
@@ -38,8 +39,59 @@ void read_ground_truth(const fs::path& path, RecordedSequence& sequence) {
                                                truth.size(), sequence.left.size()));
   }
   truth.has_times = true;
-  for (std::size_t i = 0; i < truth.size(); ++i) truth.poses[i].stamp_ns = sequence.stamps_ns[i];
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    StampedPose& pose = truth.poses[i];
+    pose.stamp_ns = sequence.stamps_ns[i];
+    if (pose.T_world_body) *pose.T_world_body = *pose.T_world_body * T_left_rectified.isometry();
+  }
   sequence.ground_truth = std::move(truth);
+}
+
+/// One eye, or a rectified pair whose distance `yaml` tells.
+void take_eyes(const std::string& yaml_path, const CalibrationYaml& yaml, const fs::path& folder,
+               RecordedSequence& sequence) {
+  const UndistortedCamera undistorted = undistort_plausibly(yaml_path, yaml.camera());
+  sequence.calibration.camera = undistorted.camera;
+  sequence.left_remap = undistorted.remap;
+  if (yaml.baseline_m == 0) return;
+  sequence.right = list_as_many(folder / "right", sequence.left.size());
+  sequence.calibration.baseline_m = yaml.baseline_m;
+}
+
+/// A pair that is rectified here; returns T_left_rectified.
+SE3 take_raw_eyes(const std::string& yaml_path, const CalibrationYaml& yaml, const fs::path& folder,
+                  RecordedSequence& sequence) {
+  require_plausible_camera(yaml_path, yaml.camera());
+  require_plausible_camera(yaml_path, yaml.right->raw);
+  if (fs::is_directory(folder / "depth"))
+    throw FileError(yaml_path,
+                    "tells two eyes that are not rectified, which is not possible together with "
+                    "depth/");
+  sequence.right = list_as_many(folder / "right", sequence.left.size());
+  const Camera& right = yaml.right->raw.camera;
+  require_size(sequence.right[0], read_image(sequence.right[0]).grey, right.width, right.height);
+  try {
+    RectifiedStereo stereo =
+        rectify_stereo(yaml.camera(), yaml.right->raw, yaml.right->T_left_right);
+    sequence.calibration.camera = stereo.camera;
+    sequence.calibration.baseline_m = stereo.baseline_m;
+    sequence.left_remap = stereo.left;
+    sequence.right_remap = stereo.right;
+    return stereo.T_left_rectified;
+  } catch (const ArgumentError& error) {
+    throw FileError(yaml_path, error.what());
+  }
+}
+
+void take_depth(const CalibrationYaml& yaml, const fs::path& folder, RecordedSequence& sequence) {
+  if (!fs::is_directory(folder / "depth")) return;
+  sequence.depth = list_as_many(folder / "depth", sequence.left.size());
+  sequence.depth_unit_m = yaml.depth.unit_m;
+  sequence.calibration.depth = yaml.depth_camera();
+  if (yaml.depth.fx > 0) return;
+  // Registered: it shares the lens distortion of the image.
+  sequence.calibration.depth->camera = sequence.calibration.camera;
+  sequence.depth_remap = sequence.left_remap;
 }
 
 }  // namespace
@@ -50,33 +102,23 @@ bool is_image_folder(const std::string& folder) {
 
 std::unique_ptr<Dataset> open_image_folder(const std::string& folder) {
   const fs::path path(folder);
+  const std::string yaml_path = (path / "calibration.yaml").string();
   CalibrationYaml yaml;
-  read_calibration_yaml((path / "calibration.yaml").string(), yaml);
+  read_calibration_yaml(yaml_path, yaml);
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
   sequence.format = "images";
   sequence.left = list_images(folder_of_images(path));
   if (auto note = fit_to_image(sequence.left[0], read_image(sequence.left[0]).grey, yaml))
     sequence.notes.push_back(*note);
-  sequence.raw_camera = yaml.camera();
-  const UndistortedCamera undistorted =
-      undistort_plausibly((path / "calibration.yaml").string(), sequence.raw_camera);
-  sequence.calibration.camera = undistorted.camera;
-  sequence.left_remap = undistorted.remap;
+  sequence.raw_camera = yaml.camera().camera;
+  SE3 T_left_rectified;
+  if (yaml.right)
+    T_left_rectified = take_raw_eyes(yaml_path, yaml, path, sequence);
+  else
+    take_eyes(yaml_path, yaml, path, sequence);
   if (yaml.camera_height_m > 0) sequence.calibration.camera_height_m = yaml.camera_height_m;
-  if (yaml.baseline_m > 0) {
-    sequence.right = list_as_many(path / "right", sequence.left.size());
-    sequence.calibration.baseline_m = yaml.baseline_m;
-  }
-  if (fs::is_directory(path / "depth")) {
-    sequence.depth = list_as_many(path / "depth", sequence.left.size());
-    sequence.depth_unit_m = yaml.depth.unit_m;
-    sequence.calibration.depth = yaml.depth_camera();
-    if (yaml.depth.fx == 0) {  // registered: it shares the lens distortion of the image
-      sequence.calibration.depth->camera = undistorted.camera;
-      sequence.depth_remap = undistorted.remap;
-    }
-  }
+  take_depth(yaml, path, sequence);
   if (fs::exists(path / "times.txt")) {
     sequence.stamps_ns = read_times((path / "times.txt").string());
     if (sequence.stamps_ns.size() != sequence.left.size()) {
@@ -88,7 +130,7 @@ std::unique_ptr<Dataset> open_image_folder(const std::string& folder) {
     sequence.stamps_ns =
         synthetic_stamps_ns(sequence.left.size(), yaml.fps > 0 ? yaml.fps : kDefaultRateHz);
   }
-  read_ground_truth(path / "poses.txt", sequence);
+  read_ground_truth(path / "poses.txt", T_left_rectified, sequence);
   return make_dataset(std::move(sequence));
 }
 

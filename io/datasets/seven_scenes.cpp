@@ -120,7 +120,7 @@ std::unique_ptr<Dataset> open_seven_scenes(const std::string& folder) {
   CalibrationYaml yaml = read_calibration(folder, first, sequence);
   if (auto note = fit_to_image(sequence.left[0], first, yaml)) sequence.notes.push_back(*note);
   const UndistortedCamera undistorted = undistort_plausibly(folder, yaml.camera());
-  sequence.raw_camera = yaml.camera();
+  sequence.raw_camera = yaml.camera().camera;
   sequence.calibration.camera = undistorted.camera;
   sequence.left_remap = undistorted.remap;
   sequence.depth_unit_m = yaml.depth.unit_m;

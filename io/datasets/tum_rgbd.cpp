@@ -229,7 +229,7 @@ std::unique_ptr<Dataset> open_tum_rgbd(const std::string& folder) {
 
   const UndistortedCamera undistorted =
       undistort_plausibly((path / "calibration.yaml").string(), yaml.camera());
-  sequence.raw_camera = yaml.camera();
+  sequence.raw_camera = yaml.camera().camera;
   sequence.calibration.camera = undistorted.camera;
   if (yaml.camera_height_m > 0) sequence.calibration.camera_height_m = yaml.camera_height_m;
   sequence.left_remap = undistorted.remap;

@@ -50,8 +50,8 @@ class VideoDataset : public Dataset {
   VideoDataset(const std::string& path, const std::string& yaml_path, CalibrationYaml yaml)
       : path_(path) {
     if (auto note = fit_to_image(path, decode(0), yaml)) notes_.push_back(*note);
-    raw_ = yaml.camera();
-    undistorted_ = undistort_plausibly(yaml_path, raw_);
+    raw_ = yaml.camera().camera;
+    undistorted_ = undistort_plausibly(yaml_path, yaml.camera());
     name_ = fs::path(path).stem().string();
     calibration_.camera = undistorted_.camera;
     if (yaml.camera_height_m > 0) calibration_.camera_height_m = yaml.camera_height_m;

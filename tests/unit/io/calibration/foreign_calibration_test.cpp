@@ -1,4 +1,5 @@
 #include <placegraph/io/calibration/foreign_calibration.h>
+#include <placegraph/io/calibration/rectification.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
@@ -26,7 +27,7 @@ TEST_P(ForeignCalibrations, AreRead) {
   const auto read = read_foreign_calibration(folder.write(GetParam().file, GetParam().text));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->program, GetParam().program);
-  const Camera& camera = read->camera;
+  const Camera& camera = read->raw.camera;
   EXPECT_EQ(camera.width, 320);
   EXPECT_EQ(camera.height, 240);
   EXPECT_EQ(camera.fx, 262);
@@ -66,6 +67,54 @@ INSTANTIATE_TEST_SUITE_P(
         Foreign{"COLMAP", "cameras.txt",
                 "# Camera list\n1 OPENCV 320 240 262 263 159.5 119.5 -0.1 0 0 0\n"}));
 
+TEST(ForeignCalibration, OfEightCoefficientsIsRational) {
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.write("c.yaml",
+                   "image_width: 320\nimage_height: 240\n"
+                   "camera_matrix: [262, 0, 159, 0, 263, 119, 0, 0, 1]\n"
+                   "distortion_coefficients: [0.4, 0.1, 0.001, 0.002, 0.01, 0.7, 0.2, 0.03]\n");
+  const auto read = read_foreign_calibration(path);
+  ASSERT_TRUE(read);
+  EXPECT_TRUE(read->raw.is_rational());
+  EXPECT_EQ(read->raw.denominator[1], 0.2);
+  // Pixels of the undistorted image come from where OpenCV's model says.
+  const UndistortedCamera undistorted = undistort_camera(read->raw);
+  for (const auto& [u, v] : {std::pair(20, 30), std::pair(160, 200), std::pair(300, 10)}) {
+    const Camera& ideal = undistorted.camera;
+    const double x = (u - ideal.cx) / ideal.fx, y = (v - ideal.cy) / ideal.fy, r2 = x * x + y * y;
+    const double radial =
+        (1 + r2 * (0.4 + r2 * (0.1 + r2 * 0.01))) / (1 + r2 * (0.7 + r2 * (0.2 + r2 * 0.03)));
+    const double xd = x * radial + 2 * 0.001 * x * y + 0.002 * (r2 + 2 * x * x);
+    const double yd = y * radial + 0.001 * (r2 + 2 * y * y) + 2 * 0.002 * x * y;
+    EXPECT_NEAR(undistorted.remap.map_x.at<float>(v, u), 262 * xd + 159, 1e-3);
+    EXPECT_NEAR(undistorted.remap.map_y.at<float>(v, u), 263 * yd + 119, 1e-3);
+  }
+}
+
+TEST(ForeignCalibration, OfTwoCamerasHasARightEyeIfAskedFor) {
+  const TemporaryFolder folder;
+  const std::string camera =
+      "  camera_model: pinhole\n  distortion_coeffs: [-0.1, 0.0, 0.0, 0.0]\n"
+      "  distortion_model: radtan\n  intrinsics: [262, 263, 159, 119]\n  resolution: [320, 240]\n";
+  const std::string kalibr =
+      folder.write("camchain.yaml", "cam0:\n" + camera + "cam1:\n" + camera +
+                                        "  T_cn_cnm1:\n  - [1, 0, 0, -0.12]\n  - [0, 1, 0, 0]\n"
+                                        "  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n");
+  EXPECT_FALSE(read_foreign_calibration(kalibr)->right);
+  const std::string opencv =
+      folder.write("stereo.yaml",
+                   "K1: [262, 0, 159, 0, 263, 119, 0, 0, 1]\nD1: [-0.1, 0, 0, 0, 0]\n"
+                   "K2: [262, 0, 159, 0, 263, 119, 0, 0, 1]\nD2: [-0.1, 0, 0, 0, 0]\n"
+                   "R: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nT: [-0.12, 0, 0]\n");
+  for (const std::string& path : {kalibr, opencv}) {
+    const auto read = read_foreign_calibration(path, true);
+    ASSERT_TRUE(read && read->right) << path;
+    EXPECT_NEAR(read->right->T_left_right.translation().x(), 0.12, 1e-12);
+    EXPECT_EQ(read->right->raw.camera.coefficients[0], -0.1);
+  }
+}
+
 TEST(ForeignCalibration, IsNoneOfTheProgramsOwnForm) {
   const TemporaryFolder folder;
   EXPECT_FALSE(read_foreign_calibration(folder.write("c.yaml", "width: 8\nheight: 6\nfx: 10\n")));
@@ -81,8 +130,12 @@ TEST(ForeignCalibration, NamesTheLineOfWhatIsNotKnown) {
   EXPECT_THAT(refusal("c.yaml", "cam0:\n  camera_model: omni\n"),
               HasSubstr("c.yaml:2: Kalibr's calibration: camera_model: 'omni' is not known"));
   EXPECT_THAT(refusal("c.yaml", "K: [1, 2]\n"), HasSubstr("c.yaml:1: OpenCV's calibration: "));
-  EXPECT_THAT(refusal("c.yaml", "K: [9, 0, 4, 0, 9, 3, 0, 0, 1]\nD: [.1, 0, 0, 0, 0, .2, 0, 0]\n"),
-              HasSubstr("c.yaml:2: OpenCV's calibration: a radial-tangential lens has 4 or 5"));
+  EXPECT_THAT(refusal("c.yaml", "K: [9, 0, 4, 0, 9, 3, 0, 0, 1]\nD: [.1, 0, 0, 0, 0, .2]\n"),
+              HasSubstr("c.yaml:2: OpenCV's calibration: a radial-tangential lens has 4, 5 or 8"));
+  EXPECT_THAT(refusal("c.yaml",
+                      "K: [9, 0, 4, 0, 9, 3, 0, 0, 1]\n"
+                      "D: [.1, 0, 0, 0, 0, 0, 0, 0, .01, 0, 0, 0]\n"),
+              HasSubstr("not 12 (thin prism"));
   EXPECT_THAT(refusal("cameras.txt", "1 FOV 320 240 1 2 3 4 5\n"),
               HasSubstr("cameras.txt:1: COLMAP's calibration: the model 'FOV' is not known"));
 }

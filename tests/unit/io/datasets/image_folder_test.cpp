@@ -134,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{kCalibration + "distortion: {model: equidistant, coefficients: [0.1]}\n",
                   "distortion.coefficients: equidistant has 4"},
         std::pair{kCalibration + "distortion: {model: radial_tangential, coefficients: [0.1]}\n",
-                  "distortion.coefficients: a radial-tangential lens has 4 or 5"},
+                  "distortion.coefficients: a radial-tangential lens has 4, 5 or 8"},
         std::pair{kCalibration + "baseline_m: 0.1\ndistortion: {model: radial_tangential, "
                                  "coefficients: [0.1, 0, 0, 0]}\n",
                   "baseline_m: a folder of stereo images must be rectified"},
@@ -162,6 +162,35 @@ bool write_video(const std::string& path) {
   if (!writer.isOpened()) return false;
   for (int i = 0; i < 5; ++i) writer.write(Image(48, 64, CV_8UC3, cv::Scalar::all(40 * i + 20)));
   return true;
+}
+
+TEST(ImageFolder, RectifiesAPairThatKalibrCalibrated) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 3; ++i) {
+    const std::string name = std::to_string(i) + ".png";
+    write_image(folder, "s/left/" + name, tiny_grey(64, 48, i));
+    write_image(folder, "s/right/" + name, tiny_grey(64, 48, i));
+  }
+  const std::string camera =
+      "  camera_model: pinhole\n  distortion_coeffs: [-0.1, 0.01, 0.0, 0.0]\n"
+      "  distortion_model: radtan\n  intrinsics: [60, 60, 31.5, 23.5]\n  resolution: [64, 48]\n";
+  folder.write("s/calibration.yaml", "cam0:\n" + camera + "cam1:\n" + camera +
+                                         "  T_cn_cnm1:\n  - [1, 0, 0, -0.2]\n  - [0, 1, 0, 0]\n"
+                                         "  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n");
+  const auto dataset = open_dataset(folder / "s");
+  EXPECT_THAT(dataset->sensors(), ElementsAre(Sensor::kStereo, Sensor::kMono));
+  EXPECT_NEAR(dataset->calibration(Sensor::kStereo).baseline_m, 0.2, 1e-9);
+  EXPECT_EQ(dataset->frame(1, Sensor::kStereo).right.cols, 64);
+  // Without the right eye's images the same file is one camera.
+  std::filesystem::remove_all(folder / "s/right");
+  EXPECT_THAT(open_dataset(folder / "s")->sensors(), ElementsAre(Sensor::kMono));
+  // An eye that is not to the right is told.
+  for (int i = 0; i < 3; ++i)
+    write_image(folder, "s/right/" + std::to_string(i) + ".png", tiny_grey(64, 48, i));
+  folder.write("s/calibration.yaml", "cam0:\n" + camera + "cam1:\n" + camera +
+                                         "  T_cn_cnm1:\n  - [1, 0, 0, 0.2]\n  - [0, 1, 0, 0]\n"
+                                         "  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n");
+  EXPECT_THAT(message_of([&] { open_dataset(folder / "s"); }), HasSubstr("calibration.yaml"));
 }
 
 TEST(VideoFile, HandsOutItsFramesInAnyOrder) {
