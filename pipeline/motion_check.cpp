@@ -6,7 +6,9 @@
 #include <placegraph/pipeline/motion_check.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 
 namespace placegraph {
 
@@ -52,6 +54,72 @@ std::optional<DataNote> odd_posture(const Camera& camera, const Turns& turns) {
             advice,
         true};
   return std::nullopt;
+}
+
+namespace {
+
+/// Keyframes that move along their optical axis, by their ids.
+std::set<std::int64_t> keyframes_that_go_ahead(const Map& map) {
+  constexpr double kAhead = 0.9;  // cosine
+  std::set<std::int64_t> ahead;
+  for (std::size_t i = 1; i < map.keyframes.size(); ++i) {
+    const Sim3 S_map_cam = map.S_map_keyframe(map.keyframes[i].id);
+    const Eigen::Vector3d way =
+        S_map_cam.translation() - map.S_map_keyframe(map.keyframes[i - 1].id).translation();
+    const Eigen::Vector3d axis = S_map_cam.rotation() * Eigen::Vector3d(0, 0, 1);
+    if (way.norm() > 0 && way.dot(axis) > kAhead * way.norm()) ahead.insert(map.keyframes[i].id);
+  }
+  return ahead;
+}
+
+/// The lowest fifth; -1 of fewer than thirty.
+double lowest_fifth(std::vector<double> values) {
+  constexpr std::size_t kFewest = 30;
+  if (values.size() < kFewest) return -1;
+  const auto fifth = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 5);
+  std::nth_element(values.begin(), fifth, values.end());
+  return *fifth;
+}
+
+}  // namespace
+
+NearestSides nearest_sides(const Map& map, double camera_height_m) {
+  constexpr int kViews = 4;
+  enum { kBelow, kAbove, kLeft, kRight };
+  std::array<std::vector<double>, 4> distances;
+  const std::set<std::int64_t> ahead = keyframes_that_go_ahead(map);
+  for (const PointLandmark& landmark : map.landmarks) {
+    const Eigen::Vector3d& p = landmark.point_cam;
+    if (landmark.observations < kViews || p.z() <= 0 || !ahead.contains(landmark.keyframe))
+      continue;
+    const double metres = map.S_map_keyframe(landmark.keyframe).scale() / camera_height_m;
+    const bool upright = std::abs(p.y()) > std::abs(p.x());
+    const int side = upright ? (p.y() > 0 ? kBelow : kAbove) : (p.x() > 0 ? kRight : kLeft);
+    distances[static_cast<std::size_t>(side)].push_back(metres *
+                                                        std::max(std::abs(p.x()), std::abs(p.y())));
+  }
+  NearestSides sides;
+  sides.below = lowest_fifth(distances[kBelow]);
+  for (const int side : {kAbove, kLeft, kRight}) {
+    const double nearest = lowest_fifth(distances[static_cast<std::size_t>(side)]);
+    if (nearest >= 0 && (sides.nearest_other < 0 || nearest < sides.nearest_other))
+      sides.nearest_other = nearest;
+  }
+  return sides;
+}
+
+std::optional<DataNote> odd_sides(const NearestSides& sides) {
+  constexpr double kOtherTooNear = 0.6, kBelowTooNear = 0.8;
+  if (sides.below < 0 || sides.nearest_other < 0 || sides.below > kBelowTooNear ||
+      sides.nearest_other > kOtherTooNear)
+    return std::nullopt;
+  return DataNote{fmt::format("what is below the camera comes as near as {:.2f} of its height, and "
+                              "another side as near as "
+                              "{:.2f}: the ground is elsewhere than below, as if the camera lay on "
+                              "its side or upside down; "
+                              "lengths are in doubt",
+                              sides.below, sides.nearest_other),
+                  true};
 }
 
 std::optional<DataNote> odd_speed(const Trajectory& trajectory) {

@@ -183,9 +183,13 @@ std::vector<DataNote> notes_of_motion(const RunResult& run, const Trajectory& op
   std::vector<DataNote> notes;
   if (!run.map.metric) return notes;
   if (const auto note = odd_speed(optimized)) notes.push_back(*note);
-  if (run.sensor == Sensor::kMono && run.calibration.camera_height_m)
-    if (const auto note = odd_posture(run.calibration.camera, turns_of(optimized)))
-      notes.push_back(*note);
+  if (run.sensor == Sensor::kMono && run.calibration.camera_height_m) {
+    const NearestSides sides = nearest_sides(run.map, *run.calibration.camera_height_m);
+    auto note = odd_sides(sides);
+    if (!note && !sides.are_upright())
+      note = odd_posture(run.calibration.camera, turns_of(optimized));
+    if (note) notes.push_back(*note);
+  }
   return notes;
 }
 

@@ -53,6 +53,43 @@ TEST(OddPosture, OfHighImagesIsToldUnlessTheyTurnUpright) {
   EXPECT_FALSE(odd_posture(camera(480, 640), turns_of(drive(10, kY, 60))));
 }
 
+/// A drive of ten keyframes ahead, with forty points on each of three sides at these distances [m].
+Map map_with(double below, double left, double right) {
+  Map map;
+  map.place_graph.places.emplace_back();
+  for (int k = 0; k < 10; ++k) {
+    Keyframe keyframe;
+    keyframe.id = keyframe.frame = k;
+    keyframe.T_place_keyframe = SE3(SO3(), Eigen::Vector3d(0, 0, k));
+    map.keyframes.push_back(keyframe);
+    for (const Eigen::Vector3d& at : {Eigen::Vector3d(0, below, 6), Eigen::Vector3d(-left, 0, 6),
+                                      Eigen::Vector3d(right, 0.1, 6)})
+      for (int i = 0; i < 4; ++i) {
+        PointLandmark landmark;
+        landmark.keyframe = k;
+        landmark.point_cam = at + Eigen::Vector3d(0, 0, i);
+        landmark.observations = 5;
+        map.landmarks.push_back(landmark);
+      }
+  }
+  return map;
+}
+
+TEST(NearestSides, AreThoseOfAStreetOrOfACameraOnItsSide) {
+  const NearestSides street = nearest_sides(map_with(1.65, 5, 6), 1.65);
+  EXPECT_NEAR(street.below, 1, 1e-9);
+  EXPECT_NEAR(street.nearest_other, 5 / 1.65, 1e-9);
+  EXPECT_TRUE(street.are_upright());
+  EXPECT_FALSE(odd_sides(street));
+  const NearestSides turned = nearest_sides(map_with(1.2, 0.4, 6), 1.65);
+  EXPECT_FALSE(turned.are_upright());
+  ASSERT_TRUE(odd_sides(turned));
+  EXPECT_TRUE(odd_sides(turned)->doubts_scale);
+  // A corridor: walls nearer than the floor, which is where it is to be.
+  EXPECT_FALSE(odd_sides(nearest_sides(map_with(1.65, 0.8, 0.9), 1.65)));
+  EXPECT_FALSE(odd_sides(nearest_sides(Map(), 1.65)));
+}
+
 TEST(OddSpeed, IsFasterThanAnyVehicle) {
   EXPECT_FALSE(odd_speed(drive(40, kY, 0)));
   const auto note = odd_speed(drive(1000, kY, 0));
