@@ -87,6 +87,16 @@ TEST(PlausibleCamera, MayHaveAStrongLens) {
     EXPECT_NO_THROW((void)undistort_plausibly("c.yaml", sound));
 }
 
+TEST(PlausibleCamera, MayHaveARationalLensThatDoesNotTurnBackWithinTheImage) {
+  RawCamera raw(lens({0, 0, 0, 0, 0}));
+  // r / (1 + k4 r^2) comes to 1 / (2 sqrt(k4)) and turns back.
+  set_radial_tangential({0, 0, 0, 0, 0, 0.1, 0, 0}, raw);
+  EXPECT_NO_THROW((void)undistort_plausibly("c.yaml", raw));
+  set_radial_tangential({0, 0, 0, 0, 0, 2, 0, 0}, raw);
+  EXPECT_THAT(message_of([&] { (void)undistort_plausibly("c.yaml", raw); }),
+              HasSubstr("c.yaml: distortion: the lens model turns back "));
+}
+
 TEST(PlausibleCamera, HasNoNormalizedIntrinsics) {
   EXPECT_THAT(
       message_of([] { require_plausible_camera("c.yaml", camera_of(640, 480, 0.8, 0.5, 0.5)); }),

@@ -140,5 +140,42 @@ TEST(ForeignCalibration, NamesTheLineOfWhatIsNotKnown) {
               HasSubstr("cameras.txt:1: COLMAP's calibration: the model 'FOV' is not known"));
 }
 
+const std::string kCam0 = "cam0:\n  camera_model: pinhole\n  intrinsics: [262, 263, 159, 119]\n";
+const std::string kCam1 = "cam1:\n  camera_model: pinhole\n  intrinsics: [260, 261, 158, 118]\n";
+
+TEST(ForeignCalibration, TakesTheRotationOfOpenCVAsMatrixOrVector) {
+  const TemporaryFolder folder;
+  const std::string eyes =
+      "K1: [262, 0, 159, 0, 263, 119, 0, 0, 1]\nD1: [-0.1, 0, 0, 0, 0]\n"
+      "K2: [260, 0, 158, 0, 261, 118, 0, 0, 1]\nD2: [-0.2, 0, 0, 0, 0]\n";
+  for (const char* R : {"R: [0, -1, 0, 1, 0, 0, 0, 0, 1]\n", "R: [0, 0, 1.5707963267948966]\n"}) {
+    const auto read =
+        read_foreign_calibration(folder.write("c.yaml", eyes + R + "T: [-0.1, 0, 0]\n"), true);
+    ASSERT_TRUE(read && read->right);
+    EXPECT_EQ(read->raw.camera.coefficients[0], -0.1);
+    EXPECT_EQ(read->right->raw.camera.coefficients[0], -0.2);
+    // p_right = R p_left + T by hand: the right eye's origin is at -R^T T.
+    EXPECT_LT((read->right->T_left_right.translation() - Eigen::Vector3d(0, -0.1, 0)).norm(),
+              1e-12);
+  }
+}
+
+TEST(ForeignCalibration, NamesWhatTheRightEyeLacks) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& text) {
+    const std::string path = folder.write("c.yaml", text);
+    return message_of([&] { (void)read_foreign_calibration(path, true); });
+  };
+  EXPECT_THAT(refusal(kCam0 + kCam1), HasSubstr("Kalibr's calibration: T_cn_cnm1: is missing"));
+  EXPECT_THAT(refusal(kCam0 + kCam1 + "  T_cn_cnm1: [1, 0, 0]\n"),
+              HasSubstr("T_cn_cnm1: expected 16 numbers, found 3"));
+  const std::string K1 = "K1: [262, 0, 159, 0, 263, 119, 0, 0, 1]\n";
+  EXPECT_THAT(refusal(K1), HasSubstr("OpenCV's calibration: K2: is missing"));
+  const std::string K2 = "K2: [262, 0, 159, 0, 263, 119, 0, 0, 1]\n";
+  EXPECT_THAT(refusal(K1 + K2), HasSubstr("R, T: are missing"));
+  EXPECT_THAT(refusal(K1 + K2 + "R: [2, 0, 0, 0, 2, 0, 0, 0, 2]\nT: [-0.1, 0, 0]\n"),
+              HasSubstr("c.yaml:3: OpenCV's calibration: rotation: the matrix is"));
+}
+
 }  // namespace
 }  // namespace placegraph

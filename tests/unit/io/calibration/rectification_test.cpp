@@ -72,6 +72,34 @@ TEST(UndistortCamera, LeavesNoPixelMoreThanABorderOutsideTheRawImage) {
   }
 }
 
+TEST(UndistortCamera, DividesByTheDenominatorOfARationalLens) {
+  RawCamera raw(radial_tangential());
+  set_radial_tangential({0.4, 0.05, 1e-3, -2e-3, 0.02, 0.6, 0.1, 0.01}, raw);
+  const UndistortedCamera undistorted = undistort_camera(raw);
+  const Camera& camera = raw.camera;
+  for (const Eigen::Vector2d& px : {Eigen::Vector2d(100, 80), Eigen::Vector2d(600, 400)}) {
+    const Eigen::Vector3d n = *undistorted.camera.unproject(px);
+    const double x = n.x(), y = n.y(), r2 = x * x + y * y, r4 = r2 * r2, r6 = r4 * r2;
+    const double radial =
+        (1 + 0.4 * r2 + 0.05 * r4 + 0.02 * r6) / (1 + 0.6 * r2 + 0.1 * r4 + 0.01 * r6);
+    const Eigen::Vector2d distorted(x * radial + 2e-3 * x * y - 2e-3 * (r2 + 2 * x * x),
+                                    y * radial + 1e-3 * (r2 + 2 * y * y) - 4e-3 * x * y);
+    const Eigen::Vector2d expected(camera.fx * distorted.x() + camera.cx,
+                                   camera.fy * distorted.y() + camera.cy);
+    EXPECT_LT((raw_pixel(undistorted.remap, px) - expected).norm(), kMapTolerance_px);
+  }
+}
+
+TEST(RawCamera, HasNoRaysWhereARationalLensTurnsBack) {
+  RawCamera raw(radial_tangential());
+  // r / (1 + r^2) grows up to r = 1, where it is one half.
+  set_radial_tangential({0, 0, 0, 0, 0, 1, 0, 0}, raw);
+  EXPECT_NEAR(raw.rational_reach(), 0.5, 1e-5);
+  // The denominator vanishes at r = 1: everything lies nearer.
+  set_radial_tangential({0, 0, 0, 0, 0, -1, 0, 0}, raw);
+  EXPECT_GT(raw.rational_reach(), 100);
+}
+
 TEST(UndistortCamera, IsTheIdentityWithoutDistortion) {
   const Camera camera{64, 48, 50, 50, 32, 24, Distortion::kNone, {}};
   const UndistortedCamera undistorted = undistort_camera(camera);

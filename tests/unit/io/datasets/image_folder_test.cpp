@@ -193,6 +193,33 @@ TEST(ImageFolder, RectifiesAPairThatKalibrCalibrated) {
   EXPECT_THAT(message_of([&] { open_dataset(folder / "s"); }), HasSubstr("calibration.yaml"));
 }
 
+TEST(ImageFolder, TurnsTheTruthWithTheRectifiedEye) {
+  const TemporaryFolder folder;
+  // Eyes that are rolled against each other by 0.05 rad: truth turns with the left one.
+  for (const char* eye : {"s/left/0.png", "s/right/0.png"})
+    write_image(folder, eye, tiny_grey(64, 48, 1));
+  const std::string cam =
+      "  camera_model: pinhole\n  intrinsics: [50, 50, 31.5, 23.5]\n  resolution: [64, 48]\n";
+  const auto chain = [&](const std::string& x) {
+    return "cam0:\n" + cam + "cam1:\n" + cam + "  T_cn_cnm1:\n  - [0.99875026, -0.04997917, 0, " +
+           x + "]\n  - [0.04997917, 0.99875026, 0, 0]\n  - [0, 0, 1, 0]\n  - [0, 0, 0, 1]\n";
+  };
+  folder.write("s/poses.txt", "1 0 0 7 0 1 0 0 0 0 1 0\n");
+  folder.write("s/calibration.yaml", chain("-0.1"));
+  const auto dataset = open_dataset(folder / "s");
+  EXPECT_NEAR(dataset->calibration(Sensor::kStereo).baseline_m, 0.1, 1e-9);
+  EXPECT_FALSE(dataset->frame(0, Sensor::kStereo).right.empty());
+  const auto& truth = *dataset->ground_truth()->poses[0].T_world_body;
+  // The rectified rows follow the baseline, which lies at -R^T t: turned by -0.05 about z.
+  EXPECT_NEAR(truth.linear()(0, 0), std::cos(0.05), 1e-6);
+  EXPECT_NEAR(truth.linear()(1, 0), -std::sin(0.05), 1e-6);
+  EXPECT_EQ(truth.translation().x(), 7);
+
+  folder.write("s/calibration.yaml", chain("0.1"));
+  EXPECT_THAT(message_of([&] { open_dataset(folder / "s"); }),
+              HasSubstr("calibration.yaml: stereo: the right eye is not to the right"));
+}
+
 TEST(VideoFile, HandsOutItsFramesInAnyOrder) {
   const TemporaryFolder folder;
   if (!write_video(folder / "drive.avi")) GTEST_SKIP() << "this OpenCV writes no MJPG videos";
