@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/median.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/geometry/se3.h>
+#include <placegraph/io/datasets/recorded_sequence.h>
 #include <placegraph/pipeline/motion_check.h>
 
 #include <algorithm>
@@ -122,8 +123,20 @@ std::optional<DataNote> odd_sides(const NearestSides& sides) {
                   true};
 }
 
+namespace {
+
+/// Whether stamps are those that recordings without times get: 10 Hz, to the nanosecond.
+bool are_counted(const Trajectory& trajectory) {
+  const auto step_ns = static_cast<std::int64_t>(1e9 / kDefaultRateHz);
+  return std::ranges::all_of(trajectory.poses,
+                             [&](const StampedPose& pose) { return pose.stamp_ns % step_ns == 0; });
+}
+
+}  // namespace
+
 std::optional<DataNote> odd_speed(const Trajectory& trajectory) {
   constexpr double kFastest = 100;  // [m/s]
+  if (are_counted(trajectory)) return std::nullopt;
   std::vector<double> speeds;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     const StampedPose &a = trajectory.poses[i - 1], &b = trajectory.poses[i];

@@ -14,7 +14,7 @@ Trajectory drive(double speed, const Eigen::Vector3d& axis, double turn_deg) {
   SE3 T_world_cam;
   constexpr int kFrames = 200;
   for (int i = 0; i < kFrames; ++i) {
-    trajectory.poses.push_back({i * 100'000'000LL, T_world_cam.isometry()});
+    trajectory.poses.push_back({i * 100'000'000LL + 7, T_world_cam.isometry()});
     T_world_cam = T_world_cam * SE3(SO3::exp(deg_to_rad(turn_deg / kFrames) * axis),
                                     Eigen::Vector3d(0, 0, 0.1 * speed));
   }
@@ -100,6 +100,9 @@ TEST(OddSpeed, IsFasterThanAnyVehicle) {
   for (StampedPose& pose : lost.poses) pose.T_world_body.reset();
   EXPECT_FALSE(odd_speed(lost));
   EXPECT_FALSE(odd_speed({}));
+  Trajectory counted = drive(1000, kY, 0);
+  for (StampedPose& pose : counted.poses) pose.stamp_ns -= 7;
+  EXPECT_FALSE(odd_speed(counted));
 }
 
 }  // namespace
