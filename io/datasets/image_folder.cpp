@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/io/calibration/calibration_file.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/datasets/image_folder.h>
@@ -9,17 +10,52 @@
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
-std::vector<std::string> list_as_many(const fs::path& folder, std::size_t count) {
+/// The last number in the name of an image: of a frame, or its time.
+std::optional<double> number_of(const std::string& path) {
+  const std::string stem = fs::path(path).stem().string();
+  const std::size_t last = stem.find_last_of("0123456789");
+  if (last == stem.npos) return std::nullopt;
+  const std::size_t before = stem.find_last_not_of("0123456789.", last);
+  std::string_view number(stem);
+  number = number.substr(before == stem.npos ? 0 : before + 1, last - before);
+  while (number.starts_with('.')) number.remove_prefix(1);
+  return parse_double(number);
+}
+
+/// Refuses images whose numbers are not those of the left ones: they would be paired by their place
+/// in the folder. Times may differ by half of what lies between two images.
+void require_same_numbers(const std::vector<std::string>& left,
+                          const std::vector<std::string>& images) {
+  std::vector<double> of_left, of_images, steps;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const auto a = number_of(left[i]), b = number_of(images[i]);
+    if (!a || !b) return;
+    of_left.push_back(*a), of_images.push_back(*b);
+    if (i > 0) steps.push_back(std::abs(of_left[i] - of_left[i - 1]));
+  }
+  if (steps.empty()) return;
+  const double most = 0.5 * median_of(std::move(steps));
+  for (std::size_t i = 0; i < left.size(); ++i)
+    if (!(std::abs(of_left[i] - of_images[i]) <= most))
+      throw FileError(images[i], "would be paired with " + fs::path(left[i]).filename().string() +
+                                     ", image by image, but their numbers disagree");
+}
+
+std::vector<std::string> list_as_many(const fs::path& folder,
+                                      const std::vector<std::string>& left) {
   std::vector<std::string> images = list_images(folder.string());
-  if (images.size() == count) return images;
-  throw FileError(folder.string(),
-                  fmt::format("holds {} images, but there are {} left ones", images.size(), count));
+  if (images.size() != left.size())
+    throw FileError(folder.string(), fmt::format("holds {} images, but there are {} left ones",
+                                                 images.size(), left.size()));
+  require_same_numbers(left, images);
+  return images;
 }
 
 /// Where the images of the (left) eye are: in the folder itself, or in one of these inside it.
@@ -54,7 +90,7 @@ void take_eyes(const std::string& yaml_path, const CalibrationYaml& yaml, const 
   sequence.calibration.camera = undistorted.camera;
   sequence.left_remap = undistorted.remap;
   if (yaml.baseline_m == 0) return;
-  sequence.right = list_as_many(folder / "right", sequence.left.size());
+  sequence.right = list_as_many(folder / "right", sequence.left);
   sequence.calibration.baseline_m = yaml.baseline_m;
 }
 
@@ -67,7 +103,7 @@ SE3 take_raw_eyes(const std::string& yaml_path, const CalibrationYaml& yaml, con
     throw FileError(yaml_path,
                     "tells two eyes that are not rectified, which is not possible together with "
                     "depth/");
-  sequence.right = list_as_many(folder / "right", sequence.left.size());
+  sequence.right = list_as_many(folder / "right", sequence.left);
   const Camera& right = yaml.right->raw.camera;
   require_size(sequence.right[0], read_image(sequence.right[0]).grey, right.width, right.height);
   try {
@@ -85,7 +121,7 @@ SE3 take_raw_eyes(const std::string& yaml_path, const CalibrationYaml& yaml, con
 
 void take_depth(const CalibrationYaml& yaml, const fs::path& folder, RecordedSequence& sequence) {
   if (!fs::is_directory(folder / "depth")) return;
-  sequence.depth = list_as_many(folder / "depth", sequence.left.size());
+  sequence.depth = list_as_many(folder / "depth", sequence.left);
   sequence.depth_unit_m = yaml.depth.unit_m;
   sequence.calibration.depth = yaml.depth_camera();
   if (yaml.depth.fx > 0) return;

@@ -53,7 +53,7 @@ TEST(ImageFolder, TakesRightEyesDepthTimesAndTruth) {
   const TemporaryFolder folder;
   write_images(folder);
   write_images(folder, "s/right/");
-  for (int i = 0; i < 3; ++i) {
+  for (const int i : {1, 2, 10}) {
     write_image(folder, "s/depth/" + std::to_string(i) + ".png", tiny_depth(4, 3, 250));
   }
   folder.write("s/times.txt", "1\n2\n4\n");
@@ -162,6 +162,30 @@ bool write_video(const std::string& path) {
   if (!writer.isOpened()) return false;
   for (int i = 0; i < 5; ++i) writer.write(Image(48, 64, CV_8UC3, cv::Scalar::all(40 * i + 20)));
   return true;
+}
+
+TEST(ImageFolder, PairsImagesByTheirNumbersOrRefusesThem) {
+  const TemporaryFolder folder;
+  const auto write_pairs = [&](const std::vector<std::string>& left,
+                               const std::vector<std::string>& right) {
+    std::filesystem::remove_all(folder / "s");
+    for (const std::string& name : left)
+      write_image(folder, "s/left/" + name + ".png", tiny_grey(8, 6, 1));
+    for (const std::string& name : right)
+      write_image(folder, "s/right/" + name + ".png", tiny_grey(8, 6, 2));
+    folder.write("s/calibration.yaml", kCalibration + "baseline_m: 0.1\n");
+  };
+  write_pairs({"l0", "l1", "l2", "l3"}, {"r0", "r1", "r2", "r3"});
+  EXPECT_EQ(open_dataset(folder / "s")->size(), 4u);
+  // Stamps of two cameras that are triggered together.
+  write_pairs({"100.000", "100.100", "100.200"}, {"100.001", "100.099", "100.203"});
+  EXPECT_EQ(open_dataset(folder / "s")->size(), 3u);
+  // As many, but of other frames.
+  write_pairs({"l0", "l1", "l2", "l3"}, {"r0", "r2", "r3", "r4"});
+  EXPECT_THAT(message_of([&] { open_dataset(folder / "s"); }),
+              HasSubstr("r2.png: would be paired with l1.png"));
+  write_pairs({"a", "b"}, {"c", "d"});
+  EXPECT_EQ(open_dataset(folder / "s")->size(), 2u);
 }
 
 TEST(ImageFolder, RectifiesAPairThatKalibrCalibrated) {
