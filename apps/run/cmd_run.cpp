@@ -3,7 +3,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>
 #include <placegraph/graph/pose_graph/rigid_graph.h>
-#include <placegraph/io/calibration/calibration_plausibility.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/text_file.h>
@@ -12,8 +11,6 @@
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/elements.h>
-#include <placegraph/pipeline/motion_check.h>
-#include <placegraph/pipeline/stereo_check.h>
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
@@ -30,6 +27,7 @@
 #include "apps/results/run_judgement.h"
 #include "apps/results/semantic_map_files.h"
 #include "apps/run/draw_frame.h"
+#include "apps/run/run_notes.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/scene_models.h"
@@ -164,57 +162,6 @@ void print_summary(const json& summary, const std::string& folder) {
   std::printf(
       "%-12s %.1f s, %.1f ms CPU a frame, results in %s\n", "", summary["wall_s"].get<double>(),
       1000 * summary["cpu_s"].get<double>() / summary["frames"].get<double>(), folder.c_str());
-}
-
-/// What the reader says of the sequence, what its images show, and what is odd about the options.
-std::vector<DataNote> notes_of(const Dataset& dataset, const RunOptions& options) {
-  std::vector<DataNote> notes = dataset.notes();
-  if (choose_sensor(dataset, options.sensor) == Sensor::kStereo)
-    if (const auto note =
-            odd_rows(look_at_rows(dataset), dataset.calibration(Sensor::kStereo).camera))
-      notes.push_back(*note);
-  if (options.camera_height_m > 0)
-    if (const auto note = odd_camera_height(options.camera_height_m)) notes.push_back(*note);
-  return notes;
-}
-
-/// What the motion that was found says against its scale.
-std::vector<DataNote> notes_of_motion(const RunResult& run, const Trajectory& optimized) {
-  std::vector<DataNote> notes;
-  if (!run.map.metric) return notes;
-  if (const auto note = odd_speed(optimized)) notes.push_back(*note);
-  if (run.sensor == Sensor::kMono && run.calibration.camera_height_m) {
-    const NearestSides sides = nearest_sides(run.map, *run.calibration.camera_height_m);
-    auto note = odd_sides(sides);
-    if (!note && !sides.are_upright())
-      note = odd_posture(run.calibration.camera, turns_of(optimized));
-    if (note) notes.push_back(*note);
-  }
-  return notes;
-}
-
-/// Lengths that are in doubt are not called metric.
-void add_notes(const std::vector<DataNote>& notes, json& summary) {
-  summary["notes"] = json::array();
-  for (const DataNote& note : notes) {
-    summary["notes"].push_back(note.text);
-    if (note.doubts_scale) summary["metric"] = false;
-  }
-}
-
-json describe_unposed(const RunResult& run) {
-  json unposed = json::array();
-  for (const UnposedFrames& frames : run.unposed)
-    unposed.push_back({{"reason", frames.reason}, {"frames", frames.count}});
-  return unposed;
-}
-
-/// ": 8 points, 12 needed (39 of 40 frames)"; of the most frequent reason.
-std::string why_unposed(const RunResult& run) {
-  if (run.unposed.empty()) return "";
-  return ": " + run.unposed.front().reason + " (" + std::to_string(run.unposed.front().count) +
-         " of " + std::to_string(run.map.frames.size()) +
-         (run.map.frames.size() == 1 ? " frame)" : " frames)");
 }
 
 json describe_stages(const RunResult& run) {
