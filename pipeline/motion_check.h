@@ -38,8 +38,8 @@ NearestSides nearest_sides(const Map& map, double camera_height_m);
 std::optional<DataNote> odd_sides(const NearestSides& sides);
 
 /// A camera that is faster than any vehicle or hand (a median of 100 m/s): its baseline, depth unit
-/// or height, or the unit of its times, cannot be right. Nothing where times were only counted
-/// (kDefaultRateHz).
+/// or height, or the unit of its times, cannot be right. Nothing where all times
+/// are whole tenths of a second, as those that recordings without times get (kDefaultRateHz).
 std::optional<DataNote> odd_speed(const Trajectory& trajectory);
 
 }  // namespace placegraph

@@ -272,8 +272,7 @@ void check(OptimizeArguments& arguments) {
   if (!arguments.plot.empty()) require_free(arguments.plot, arguments.force);
 }
 
-/// Graphs with priors and point landmarks are solved as factor graphs: what belongs to pose graphs
-/// alone is refused.
+/// Graphs with priors and point landmarks: what belongs to pose graphs alone is refused.
 void run_landmarks(const OptimizeArguments& arguments, LandmarkGraph graph) {
   const PoseGraphOptions& options = arguments.task.options;
   require(options.robust.method == RobustMethod::kNone && !arguments.task.incremental &&

@@ -8,13 +8,13 @@
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/image_list.h>
 #include <placegraph/pipeline/run.h>
-#include <placegraph/pipeline/stereo_check.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "apps/run/run_notes.h"
 #include "apps/support/image_folder_of.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
@@ -215,9 +215,7 @@ void inspect(const InspectArguments& arguments) {
     return inspect_images(arguments, reason.what());
   }
   DatasetSummary summary = summarize(*dataset);
-  if (summary.sensors.front() == Sensor::kStereo)
-    if (auto note = odd_rows(look_at_rows(*dataset), summary.calibration.camera))
-      summary.notes.push_back(*std::move(note));
+  summary.notes = notes_of(*dataset, RunOptions());
   UnreadableFrames unreadable;
   if (arguments.read_all) unreadable = read_all(*dataset, summary.sensors.front());
   if (arguments.as_json) {

@@ -71,6 +71,24 @@ std::string noisy_square(double factor, const std::vector<std::pair<int, int>>& 
   return out.str();
 }
 
+/// Costs that scipy, numpy and gtsam find; see the texts beside the files.
+TEST_F(FieldGraphs, EdgesAloneAndFixedPartsHaveTheCostsThatOthersFind) {
+  PLACEGRAPH_CASE_OR_SKIP("graph_g2o_edges_alone");
+  PLACEGRAPH_CASE_OR_SKIP("graph_toro_edges_alone");
+  PLACEGRAPH_CASE_OR_SKIP("graph_parts_that_are_fixed");
+  for (const auto& [name, cost] :
+       {std::pair("graph_g2o_edges_alone/edges.g2o", 4.446071),
+        std::pair("graph_g2o_edges_alone/edges_space.g2o", 5.470200),
+        std::pair("graph_toro_edges_alone/edges.graph", 3.844451),
+        std::pair("graph_toro_edges_alone/with_vertices.graph", 3.844451),
+        std::pair("graph_parts_that_are_fixed/two_fixed_parts.g2o", 0.0)})
+    EXPECT_NEAR(optimize(file(name))["chi2_log"].get<double>(), cost, 2e-6) << name;
+  // One part is fixed, the other is not: the refusal names the way out.
+  const std::string alone = file("graph_parts_that_are_fixed/fixed_alone.g2o");
+  expect_usage_error("optimize " + alone + " -o no.g2o", "--components optimizes each by itself");
+  EXPECT_NEAR(optimize(alone, "--components")["chi2_log"].get<double>(), 4.446071, 2e-6);
+}
+
 TEST_F(FieldGraphs, ACommonFactorOfFewLoopsChangesNothing) {
   PLACEGRAPH_CASE_OR_SKIP("graph_few_loops_common_factor");
   const std::vector<std::pair<int, int>> false_loops = {{2, 14}, {5, 16}, {8, 18}};
