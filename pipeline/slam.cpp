@@ -137,8 +137,8 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   if (update.state == TrackingState::kTracking) {
     lost_in_a_row = 0;
     posed_once = true;
-    record_pose(update.keyframe,
-                odometry.keyframe_pose(update.keyframe).inverse() * update.T_odom_cam, result);
+    record_pose(update.keyframe, odometry.map().pose(update.keyframe).inverse() * update.T_odom_cam,
+                result);
     records.back().inliers = result.inliers = update.inliers;
   } else if (bridge && (located || lost_in_a_row > 0) && update.state == TrackingState::kWaiting) {
     const Loop at = located ? *located : *bridge;
@@ -149,7 +149,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   } else if (!posed_once && update.reference) {
     // The first view is the origin while the second is waited for; if another takes its place, and
     // not by a turn alone, it has no pose after all.
-    if (!update.turn) {
+    if (!update.rotation) {
       for (const std::size_t origin : origins) {
         online.poses[origin].T_world_body.reset();
         untold.record = std::min(untold.record, origin);
@@ -162,7 +162,7 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   result.state = result.T_map_cam ? TrackingState::kTracking
                  : posed_once     ? TrackingState::kLost
                                   : TrackingState::kWaiting;
-  if (result.T_map_cam && odometry.awaits_unit()) {
+  if (result.T_map_cam && odometry.awaits_scale()) {
     // The map will tell it once it has its unit: a pose in another is worse than none.
     result.T_map_cam.reset();
     result.state = TrackingState::kWaiting;
@@ -184,8 +184,8 @@ void Slam::Impl::record_pose(std::int64_t keyframe, const SE3& T_keyframe_cam,
   result.component = mapper.component_of(keyframe);
 }
 
-void Slam::Impl::apply(const OdometryUpdate::Rescale& rescale) {
-  const std::int64_t first = odometry.first_keyframe();
+void Slam::Impl::apply(const Rescale& rescale) {
+  const std::int64_t first = odometry.map().first();
   mapper.rescale(first, rescale.factor);
   closer.rescale(rescale.factor, first);
   untold.record = untold.view = untold.landmark = 0;
@@ -202,10 +202,10 @@ void Slam::Impl::add_keyframes(const OdometryUpdate& update, FrameResult& result
   result.keyframe = true;
   // Frames from before the initialization hang on its first keyframe, others where they did.
   const std::int64_t first = update.new_keyframes.front().id;
-  for (const auto& [frame, T_odom_cam] : update.filled)
+  for (const auto& [frame, T_odom_cam] : update.posed_again)
     if (FrameRecord* record = record_of(frame)) {
-      if (record->keyframe < odometry.first_keyframe()) record->keyframe = first;
-      record->T_keyframe_frame = odometry.keyframe_pose(record->keyframe).inverse() * T_odom_cam;
+      if (record->keyframe < odometry.map().first()) record->keyframe = first;
+      record->T_keyframe_frame = odometry.map().pose(record->keyframe).inverse() * T_odom_cam;
     }
 }
 
@@ -220,20 +220,21 @@ FrameRecord* Slam::Impl::record_of(std::int64_t frame) {
   return &*record;
 }
 
-void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, FrameResult& result) {
-  const SE3 T_odom_keyframe = odometry.keyframe_pose(keyframe.id);
-  const bool begins_run = keyframe.id == odometry.first_keyframe();
+void Slam::Impl::add_keyframe(const NewKeyframe& keyframe, FrameResult& result) {
+  const SE3 T_odom_keyframe = odometry.map().pose(keyframe.id);
+  const bool begins_run = keyframe.id == odometry.map().first();
   std::optional<PlaceMapper::Link> link;
   std::optional<SE3> T_previous_this;
   if (!begins_run) {
-    T_previous_this = odometry.keyframe_pose(last_keyframe).inverse() * T_odom_keyframe;
+    T_previous_this = odometry.map().pose(last_keyframe).inverse() * T_odom_keyframe;
     link = PlaceMapper::Link{last_keyframe, *T_previous_this};
   } else if (bridge) {
     // The new run is in the map's unit, the match perhaps in another.
-    const double sigma_log_scale = odometry.scale_known()    ? 0
-                                   : odometry.guesses_unit() ? kSigmaLogScaleOfTurn
-                                                             : kSigmaLogScaleOfBridge;
-    const bool same_run = taken_up && odometry.scale_known();
+    const double sigma_log_scale = odometry.map().metric() ? 0
+                                   : odometry.map().scale() == Scale::kGuessed
+                                       ? kSigmaLogScaleOfTurn
+                                       : kSigmaLogScaleOfBridge;
+    const bool same_run = taken_up && odometry.map().metric();
     link = PlaceMapper::Link{bridge->match,
                              bridge->T_match_query,
                              bridge->information.topLeftCorner<6, 6>(),
@@ -243,8 +244,8 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
     bridge.reset();
   }
   const auto span = times.measure("place graph");
-  mapper.add_keyframe(keyframe.id, link, T_odom_keyframe, odometry.median_depth_m(),
-                      odometry.scale_known());
+  mapper.add_keyframe(keyframe.id, link, T_odom_keyframe, odometry.map().median_depth(),
+                      odometry.map().metric());
   last_keyframe = keyframe.id;
   {
     const auto inner = times.measure("constraints");
@@ -260,7 +261,7 @@ void Slam::Impl::add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, Frame
   if (options.context.enabled) look_around(keyframe);
   if (mapper.is_anchor(keyframe.id)) {
     result.new_place = true;
-    report(mapper.optimize(odometry.window_begin()));
+    report(mapper.optimize(odometry.map().window_begin().value_or(-1)));
   }
   {
     const auto inner = times.measure("described features");
@@ -288,19 +289,18 @@ void Slam::Impl::add_motion(std::int64_t keyframe) {
 /// The window goes on refining its last keyframes: their links follow. Information of the motion
 /// from an anchor to the next one comes from the window as a whole while it holds both.
 void Slam::Impl::refresh_links() {
-  const std::int64_t from = std::max(odometry.first_keyframe(),
-                                     last_keyframe - options.odometry.window.max_keyframes - 2);
+  const std::int64_t from =
+      std::max(odometry.map().first(), last_keyframe - options.odometry.window.max_keyframes - 2);
   for (std::int64_t id = from; id < last_keyframe; ++id) {
-    mapper.update_link(id + 1,
-                       odometry.keyframe_pose(id).inverse() * odometry.keyframe_pose(id + 1));
-    const Odometry::Link link = odometry.link(id);
+    mapper.update_link(id + 1, odometry.map().pose(id).inverse() * odometry.map().pose(id + 1));
+    const LocalMap::Link link = odometry.map().link(id);
     mapper.inform_link(id + 1, link.information, link.sigma_log_scale);
   }
-  const std::int64_t begin = odometry.window_begin();
+  const std::int64_t begin = odometry.map().window_begin().value_or(-1);
   for (std::int64_t id = begin + 1; begin >= 0 && id <= last_keyframe; ++id) {
     const auto previous = mapper.previous_anchor(id);
     if (previous && *previous >= begin)
-      mapper.inform_anchor(id, odometry.motion_information(*previous, id));
+      mapper.inform_anchor(id, odometry.map().motion_information(*previous, id));
   }
 }
 
@@ -311,13 +311,13 @@ void Slam::Impl::close_loops(FrameResult& result) {
       [&](std::int64_t a, std::int64_t b) { return mapper.units_differ(a, b); }};
   const auto loops = [&] {
     const auto span = times.measure("loop closure");
-    return closer.find_loops(known, odometry.median_depth_m());
+    return closer.find_loops(known, odometry.map().median_depth());
   }();
   if (loops.empty()) return;
   for (const Loop& loop : loops) mapper.add_loop(loop);
   result.loops_accepted += static_cast<int>(loops.size());
   // Keyframes from the window's first on are still being refined.
-  report(mapper.optimize(odometry.window_begin()));
+  report(mapper.optimize(odometry.map().window_begin().value_or(-1)));
 }
 
 void Slam::Impl::report(const IncrementalStep& step) const {

@@ -30,7 +30,7 @@ std::vector<PointLandmark> Slam::Impl::landmarks(std::size_t first) const {
   const std::size_t earlier = std::min(first, earlier_landmarks.size());
   std::vector<PointLandmark> result(
       earlier_landmarks.begin() + static_cast<std::ptrdiff_t>(earlier), earlier_landmarks.end());
-  for (PointLandmark landmark : odometry.landmarks(first - earlier)) {
+  for (PointLandmark landmark : odometry.map().landmarks(first - earlier)) {
     landmark.id += first_landmark_id;
     result.push_back(landmark);
   }
@@ -83,13 +83,13 @@ MapChanges Slam::Impl::take_changes() {
   changes.landmarks = landmarks(changes.first_landmark);
   changes.loops = closer.records();
   changes.history = mapper.history();
-  changes.history.median_depth_m = odometry.median_depth_m();
+  changes.history.median_depth_m = odometry.map().median_depth();
   changes.metric = mapper.metric();
 
   untold.training = closer.trained_views();
   untold.view = all.empty() ? 0 : all.size() - 1;  // its successor gives depth to its features
   untold.record = records.size();
-  untold.landmark = earlier_landmarks.size() + odometry.settled_landmarks();
+  untold.landmark = earlier_landmarks.size() + odometry.map().settled_landmarks();
   return changes;
 }
 

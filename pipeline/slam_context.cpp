@@ -7,13 +7,13 @@
 
 namespace placegraph {
 
-void Slam::Impl::look_around(const OdometryUpdate::NewKeyframe& keyframe) {
+void Slam::Impl::look_around(const NewKeyframe& keyframe) {
   const auto span = times.measure("environment");
   EnvironmentSight sight{keyframe.id, keyframe.frame.id, {}, {}, {}};
-  if (keyframe.sight) sight.evidence.see(keyframe.sight->shares);
+  if (keyframe.labels) sight.evidence.see(keyframe.labels->shares);
   const auto [edges, camera] = edges_of(keyframe.frame.image, calibration.camera);
   sight.evidence.see(edges, camera);
-  sight.evidence.see(odometry.points_cam(), odometry.scale_known());
+  sight.evidence.see(odometry.points_cam(), odometry.map().metric());
   sight.probabilities = built_in_environments().probabilities(sight.evidence);
   const auto before = surroundings.kind();
   sight.kind = surroundings.add(sight.probabilities);

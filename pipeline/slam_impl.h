@@ -24,13 +24,13 @@ struct Slam::Impl {
   void record_pose(std::int64_t keyframe, const SE3& T_keyframe_cam, FrameResult& result);
   SE3 T_map_located(const Loop& located) const;
   void add_keyframes(const OdometryUpdate& update, FrameResult& result);
-  void add_keyframe(const OdometryUpdate::NewKeyframe& keyframe, FrameResult& result);
+  void add_keyframe(const NewKeyframe& keyframe, FrameResult& result);
   void refresh_links();
-  void look_around(const OdometryUpdate::NewKeyframe& keyframe);
+  void look_around(const NewKeyframe& keyframe);
   void label_environments(std::vector<Place>& places) const;
   void close_loops(FrameResult& result);
   void report(const IncrementalStep& step) const;
-  void apply(const OdometryUpdate::Rescale& rescale);
+  void apply(const Rescale& rescale);
   FrameRecord* record_of(std::int64_t frame);
   void keep_view(std::int64_t keyframe, const Frame& frame);
   void go_on_from(const Map& map, const PlaceHistory& history, const Frame& last);

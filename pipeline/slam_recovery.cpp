@@ -21,23 +21,23 @@ std::optional<Loop> Slam::Impl::carried(const Frame& frame) const {
 
 /// Where a single eye that has only turned is since the last keyframe, or since it was last placed.
 std::optional<Loop> Slam::Impl::turned(const OdometryUpdate& update) const {
-  if (!update.turn || last_keyframe < 0) return std::nullopt;
+  if (!update.rotation || last_keyframe < 0) return std::nullopt;
   Loop loop;
   loop.query = -1;
   loop.match = last_keyframe;
   if (bridge) loop = *bridge;
   Matrix6d covariance = Matrix6d::Zero();
   if (bridge) {
-    const Matrix6d back = SE3(update.turn->R_before_cam.inverse(), {0, 0, 0}).adjoint();
+    const Matrix6d back = SE3(update.rotation->R_before_cam.inverse(), {0, 0, 0}).adjoint();
     const Matrix6d before = bridge->information.topLeftCorner<6, 6>();
     covariance = back * before.ldlt().solve(Matrix6d::Identity()) * back.transpose();
   }
   // Way that moves points by no more than what passes for a rotation.
   const double sigma_m =
-      options.odometry.turn.threshold_px / calibration.camera.fx * odometry.median_depth_m();
+      options.odometry.turn.threshold_px / calibration.camera.fx * odometry.map().median_depth();
   covariance.topLeftCorner<3, 3>().diagonal().array() += sigma_m * sigma_m;
-  covariance.bottomRightCorner<3, 3>() += update.turn->covariance;
-  loop.T_match_query = loop.T_match_query * SE3(update.turn->R_before_cam, {0, 0, 0});
+  covariance.bottomRightCorner<3, 3>() += update.rotation->covariance;
+  loop.T_match_query = loop.T_match_query * SE3(update.rotation->R_before_cam, {0, 0, 0});
   loop.information.setZero();
   loop.information.topLeftCorner<6, 6>() = covariance.ldlt().solve(Matrix6d::Identity());
   return loop;
@@ -59,7 +59,7 @@ void Slam::Impl::recover(const Frame& frame, std::optional<Loop> located, Odomet
   if (!bridge && update.state == TrackingState::kLost && (bridge = turned(update))) {
     log(log_sink, LogLevel::kInfo, "frame {}: a turn on the spot", frame.id);
     const double unit = mapper.S_map_keyframe(bridge->match).scale();
-    odometry.restart(T_map_located(*bridge), false, unit * odometry.median_depth_m());
+    odometry.restart(T_map_located(*bridge), false, unit * odometry.map().median_depth());
     update = odometry.add_frame(frame);
     return;
   }

@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -179,6 +180,22 @@ GroundSight ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px)
   const Eigen::Vector3d vertical = sight_->R_cam_manhattan.matrix().col(map.vertical_axis);
   return {floor, vertical.y() < 0 ? Eigen::Vector3d(-vertical) : vertical,
           std::sqrt(tilts.maxCoeff())};
+}
+
+SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
+                 const std::optional<ManhattanCue::Heading>& heading, const SlidingWindow& window) {
+  const auto R_odom_world = heading ? window.world(heading->world) : std::nullopt;
+  if (!R_odom_world) return T_odom_cam;
+  const SO3 R_odom_cam = *R_odom_world * heading->R_cam_world.inverse();
+  // The heading's covariance is of R_cam_world's right tangent; that of R_odom_cam is rotated.
+  const Eigen::Matrix3d R = heading->R_cam_world.matrix();
+  const Eigen::Matrix3d weight = R * heading->information * R.transpose();
+  Matrix6d H = information;
+  H.bottomRightCorner<3, 3>() += weight;
+  Vector6d g = Vector6d::Zero();
+  g.tail<3>() = weight * (T_odom_cam.rotation().inverse() * R_odom_cam).log();
+  const Vector6d step = H.ldlt().solve(g);
+  return step.allFinite() ? T_odom_cam.plus(step) : T_odom_cam;
 }
 
 }  // namespace placegraph

@@ -76,4 +76,10 @@ class ManhattanCue {
   std::vector<FrameView::DirectedLine> view_;
 };
 
+/// A pose, known by `information` (right tangent), where a heading agrees with it best: the
+/// position follows the rotation as far as the information lets it. The pose as it is without a
+/// heading, or if the window does not hold its Manhattan frame.
+SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
+                 const std::optional<ManhattanCue::Heading>& heading, const SlidingWindow& window);
+
 }  // namespace placegraph

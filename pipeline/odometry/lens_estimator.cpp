@@ -19,6 +19,13 @@ void visit(OptionVisitor& field, LensOptions& o) {
         {0, 1e6});
 }
 
+void LensEstimator::observe(const SlidingWindow& window) {
+  const auto keyframes = window.keyframes();
+  if (keyframes.empty() || keyframes.front() <= newest_) return;
+  newest_ = keyframes.back();
+  add(window.lens_evidence());
+}
+
 void LensEstimator::add(const LensEvidence& evidence) {
   if (evidence.information > 0) windows_.push_back(evidence);
 }

@@ -1,7 +1,10 @@
 #pragma once
 #include <placegraph/backend/window/distortion_evidence.h>
+#include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/options.h>
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace placegraph {
@@ -21,6 +24,8 @@ void visit(OptionVisitor& field, LensOptions& options);
 /// points explains (a rolling shutter, points that move): the deviation comes from their scatter.
 class LensEstimator {
  public:
+  /// Takes the evidence of a window, if its keyframes are all newer than those of the last one.
+  void observe(const SlidingWindow& window);
   void add(const LensEvidence& evidence);
   /// The weighted mean of the windows; 0 before there are any.
   double k1() const;
@@ -33,6 +38,7 @@ class LensEstimator {
 
  private:
   std::vector<LensEvidence> windows_;
+  std::optional<std::int64_t> newest_;  // keyframe of the last window
 };
 
 }  // namespace placegraph

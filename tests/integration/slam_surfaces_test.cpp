@@ -19,7 +19,7 @@ RunOptions run_by(const char* cues, SensorChoice sensor) {
   RunOptions options;
   options.sensor = sensor;
   options.slam.odometry.cues = cues;
-  options.slam.odometry.tracker.max_tracks = 250;
+  options.slam.odometry.points.tracker.max_tracks = 250;
   options.slam.loops.detector.max_features = 400;
   return options;
 }

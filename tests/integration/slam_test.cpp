@@ -24,7 +24,7 @@ const StreetDataset& drive() {
 /// Features and tracks enough for pictures of this size.
 SlamOptions small_options() {
   SlamOptions options;
-  options.odometry.tracker.max_tracks = 250;
+  options.odometry.points.tracker.max_tracks = 250;
   options.loops.detector.max_features = 400;
   return options;
 }
@@ -143,7 +143,7 @@ TEST(SlamOnAStreet, RunsBesideAnotherAsIfAlone) {
   };
   SlamOptions other_options = small_options();
   other_options.seed = 7;
-  other_options.odometry.tracker.max_tracks = 150;
+  other_options.odometry.points.tracker.max_tracks = 150;
   const auto alone = [&](const SlamOptions& options, int first) {
     Slam slam(options, calibration);
     for (int i = first; i < kCount; ++i) slam.add_frame(frame(i));

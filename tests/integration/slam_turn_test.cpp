@@ -27,7 +27,7 @@ StreetDataset way(int before, int turning, int after, int dark_begin = 0, int da
 RunResult run_mono(const StreetDataset& dataset) {
   RunOptions options;
   options.sensor = SensorChoice::kMono;
-  options.slam.odometry.tracker.max_tracks = 250;
+  options.slam.odometry.points.tracker.max_tracks = 250;
   options.slam.loops.detector.max_features = 400;
   return run_sequence(dataset, options);
 }

@@ -74,7 +74,7 @@ TEST(WayBackThroughARenderedTown, IsTheShortestAndEveryPlaceOnItIsRecognized) {
 
   RunOptions options;
   options.max_frames = kMapFrames;
-  options.slam.odometry.tracker.max_tracks = 300;
+  options.slam.odometry.points.tracker.max_tracks = 300;
   options.slam.loops.detector.max_features = 600;
   const RunResult run = run_sequence(dataset, options);
   const auto frames = test::frames_of_places(run.map);

@@ -53,7 +53,7 @@ TEST(RunOptions, NameTheFieldThatIsWrong) {
   EXPECT_NE(refusal(options).find("loops.verifier.pose.threshold_px"), std::string::npos);
   // Relations between fields of nested groups too.
   options = {};
-  options.slam.odometry.tracker.window_px = 20;
+  options.slam.odometry.points.tracker.window_px = 20;
   EXPECT_NE(refusal(options).find("window_px"), std::string::npos);
   options = {};
   options.slam.odometry.ground.plane.near_heights = 50;

@@ -1,0 +1,43 @@
+#pragma once
+#include <placegraph/pipeline/odometry/local_mapping.h>
+
+namespace placegraph {
+
+/// What a frame did for the beginning of a map.
+struct Initialization {
+  /// kTracking: the map has begun. kWaiting: another frame is needed. kLost: what was waited for
+  /// has been lost, and the frame is nothing to begin with either.
+  TrackingState state = TrackingState::kWaiting;
+  std::string reason;             ///< why not, or why with another first view
+  std::optional<SE3> T_last_cur;  ///< velocity to go on with; nothing if the frame is the first
+  int inliers = 0;
+  std::vector<NewKeyframe> keyframes;
+  std::vector<PosedFrame> posed;  ///< frames between them
+  bool is_reference = false;      ///< while it waits: the frame is the first of the views ...
+  SE3 T_odom_reference;           ///< ... and stands here
+  /// While it waits: rotation since the first view, or, if the frame has taken its place, since the
+  /// one before it.
+  std::optional<PureRotation> rotation;
+
+  static Initialization waiting(std::string reason) {
+    Initialization result;
+    result.reason = std::move(reason);
+    return result;
+  }
+};
+
+/// Begins a map: adds its first keyframes and landmarks, or nothing.
+class Initializer {
+ public:
+  virtual ~Initializer() = default;
+  /// The next frame is the first, and stands at T_odom_cam.
+  virtual void restart(const SE3& T_odom_cam) = 0;
+  /// Whether a first view has been taken since.
+  virtual bool started() const = 0;
+  /// `T_odom_cam_known`: where the frame stands, if it was recognized in the map.
+  [[nodiscard]] virtual Initialization add(const Frame& frame,
+                                           const std::optional<SE3>& T_odom_cam_known,
+                                           LocalMap& map, LocalMapping& mapping) = 0;
+};
+
+}  // namespace placegraph

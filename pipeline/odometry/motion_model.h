@@ -1,0 +1,56 @@
+#pragma once
+#include <placegraph/graph/geometry/lie.h>
+
+#include <optional>
+
+namespace placegraph {
+
+/// Motion of the camera from frame to frame at constant velocity.
+class MotionModel {
+ public:
+  explicit MotionModel(const SE3& T_odom_cam = SE3()) : T_odom_cam_(T_odom_cam) {}
+  MotionModel(const SE3& T_odom_cam, const SE3& T_last_cur)
+      : T_odom_cam_(T_odom_cam), T_last_cur_(T_last_cur) {}
+
+  /// Pose of the last frame that has one.
+  const SE3& T_odom_cam() const { return T_odom_cam_; }
+  bool velocity_known() const { return T_last_cur_.has_value(); }
+  /// Motion over one frame; identity while it is not known.
+  SE3 T_last_cur() const { return T_last_cur_.value_or(SE3()); }
+  /// Where the next frame is expected.
+  SE3 predicted() const { return T_odom_cam_ * T_last_cur(); }
+
+  /// The next frame has been posed.
+  void update(const SE3& T_odom_cam) {
+    T_last_cur_ = T_odom_cam_.inverse() * T_odom_cam;
+    T_odom_cam_ = T_odom_cam;
+  }
+  /// The pose of the last frame is known better; the velocity stays.
+  void correct(const SE3& T_odom_cam) { T_odom_cam_ = T_odom_cam; }
+  void forget_velocity() { T_last_cur_.reset(); }
+  /// The map's unit of length has changed: its lengths grow by `factor`.
+  void rescale_velocity(double factor) {
+    if (T_last_cur_) T_last_cur_ = T_last_cur_->scaled(factor);
+  }
+
+  /// How far the next frame may lie from where it is expected.
+  struct Uncertainty {
+    double depth_share;  ///< standard deviation of the position, as a share of the median depth ...
+    double step_share;   ///< ... plus this share of the motion over one frame
+    double sigma_rad;
+  };
+  /// Information of the predicted pose in its right tangent [translation, rotation].
+  Matrix6d information(const Uncertainty& u, double median_depth) const {
+    const double sigma =
+        u.depth_share * median_depth + u.step_share * T_last_cur().translation().norm();
+    Vector6d sigmas;
+    sigmas << Eigen::Vector3d::Constant(sigma), Eigen::Vector3d::Constant(u.sigma_rad);
+    return sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
+  }
+
+ private:
+  SE3 T_odom_cam_;
+  std::optional<SE3> T_last_cur_;
+};
+
+}  // namespace placegraph
