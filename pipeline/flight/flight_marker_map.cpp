@@ -1,3 +1,4 @@
+#include <placegraph/backend/inertial/state_layout.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/flight/flight_marker_map.h>
 
@@ -8,8 +9,6 @@ namespace placegraph {
 namespace {
 
 using Eigen::Matrix3d;
-
-constexpr int kPosition = 0, kVelocity = 3, kAttitude = 6, kGyroBias = 9;  // in the state
 
 Matrix3d block(const BodyState& state, int part) {
   return state.covariance.block<3, 3>(part, part);
@@ -52,7 +51,7 @@ MarkerMap map_hover_markers(const Dataset& images, const HoverRun& run, const SE
                             const MarkerLayout& layout, const HoverOptions& options) {
   options.check();
   require(run.frames.size() == images.size(), "map_hover_markers: one frame an image is needed");
-  const MarkerDetector detector(options.detector, layout.dictionary);
+  const MarkerDetector detector(options.marker_sensor.detector, layout.dictionary);
   const Matrix6d J_cam_body = T_body_cam.inverse().adjoint();
   std::vector<MarkerFrame> frames;
   Matrix6d since = Matrix6d::Zero();  // of the motion since the last of them, body

@@ -10,7 +10,7 @@ HoverRun run_hover(const Dataset& images, const ImuRecording& imu, const SE3& T_
                    const std::function<void(std::size_t done)>& progress) {
   HoverRun run;
   StageTimes reading;
-  Hover hover(options.hover, images.calibration(Sensor::kMono).camera, T_body_cam, layout);
+  FlightEstimator estimator(options.hover, images.calibration(Sensor::kMono).camera, T_body_cam, layout);
   const auto ahead_ns = static_cast<std::int64_t>(std::llround(1e9 * options.predict_ahead_s));
   std::optional<BodyState> start = options.start;
   auto sample = imu.samples.begin();
@@ -21,18 +21,18 @@ HoverRun run_hover(const Dataset& images, const ImuRecording& imu, const SE3& T_
       frame = images.frame(i, Sensor::kMono);
     }
     for (; sample != imu.samples.end() && sample->stamp_ns <= frame.stamp_ns; ++sample)
-      (void)hover.add(*sample);
+      (void)estimator.add(*sample);
     if (start && start->stamp_ns <= frame.stamp_ns) {
-      hover.start(*start);
+      estimator.start(*start);
       start.reset();
     }
     const double t = 1e-9 * static_cast<double>(frame.stamp_ns - images.stamp_ns(0));
     const bool blind =
         std::any_of(options.blind.begin(), options.blind.end(),
                     [t](const TimeSpan& span) { return t >= span.from_s && t < span.to_s; });
-    HoverFrame result = hover.add(frame, !blind);
+    HoverFrame result = estimator.add(frame, !blind);
     if (ahead_ns > 0) {
-      const PositionFilter::Answer later = hover.at(frame.stamp_ns + ahead_ns);
+      const PositionFilter::Answer later = estimator.at(frame.stamp_ns + ahead_ns);
       result.outcome = later.outcome;
       result.state = later.state;
     }
@@ -40,7 +40,7 @@ HoverRun run_hover(const Dataset& images, const ImuRecording& imu, const SE3& T_
     if (progress) progress(i + 1);
   }
   run.stages = reading.stages();
-  for (const StageTimes::Stage& stage : hover.times().stages()) run.stages.push_back(stage);
+  for (const StageTimes::Stage& stage : estimator.times().stages()) run.stages.push_back(stage);
   return run;
 }
 

@@ -28,8 +28,8 @@ struct HoverRun {
   std::vector<StageTimes::Stage> stages;  ///< reading first
 };
 
-/// Hands the images of a single eye and the inertial samples to a Hover in the order of their
-/// stamps. Throws as Hover and the data set do.
+/// Hands the images of one camera and the inertial samples to a FlightEstimator in the order of
+/// their stamps. Throws as FlightEstimator and the data set do.
 HoverRun run_hover(const Dataset& images, const ImuRecording& imu, const SE3& T_body_cam,
                    const MarkerLayout& layout, const HoverRunOptions& options,
                    const std::function<void(std::size_t done)>& progress = {});

@@ -105,16 +105,16 @@ std::vector<HoverFrame> fly_without_images(const synthetic::Tour& tour, HoverOpt
   options.filter.accel_noise = noise.accel;
   options.filter.gyro_bias_walk = noise.gyro_bias_walk;
   options.filter.accel_bias_walk = noise.accel_bias_walk;
-  Hover hover(options, tour.camera, setting.T_body_cam, setting.layout);
+  FlightEstimator estimator(options, tour.camera, setting.T_body_cam, setting.layout);
   HoverSightsSource source(tour, sights, seed);
   std::vector<HoverFrame> frames;
   std::size_t sample = 0;
   for (std::size_t i = 0; i < setting.flight.images.size(); ++i) {
     for (; sample <= setting.flight.images[i]; ++sample)
-      (void)hover.add(setting.flight.imu.samples[sample]);
+      (void)estimator.add(setting.flight.imu.samples[sample]);
     if (dropped && dropped(i)) continue;
     const double t = tour.time_s[i] - tour.time_s[0];
-    frames.push_back(hover.add(source.look(i, visible(t))));
+    frames.push_back(estimator.add(source.look(i, visible(t))));
   }
   return frames;
 }

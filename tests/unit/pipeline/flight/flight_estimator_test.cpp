@@ -58,9 +58,9 @@ struct Scene {
     return result;
   }
   /// The samples from the image before on.
-  static void feel(Hover& hover, int image) {
+  static void feel(FlightEstimator& estimator, int image) {
     for (int k = image == 0 ? 10 : 1; k <= 10; ++k)
-      ASSERT_NE(hover
+      ASSERT_NE(estimator
                     .add({kBegin_ns + (image - 1) * kImage_ns + k * kSample_ns, Vector3d::Zero(),
                           Vector3d(0, 0, 9.80665)})
                     .code,
@@ -68,32 +68,32 @@ struct Scene {
   }
 };
 
-TEST(Hover, SaysNothingBeforeItsFirstMarker) {
+TEST(FlightEstimator, SaysNothingBeforeItsFirstMarker) {
   const Scene scene;
-  Hover hover({}, kCamera, kBodyCam, scene.layout);
-  Scene::feel(hover, 0);
-  EXPECT_EQ(hover.add(scene.sights(0, false)).outcome.code, Code::kNotAttempted);
-  Scene::feel(hover, 1);
-  const HoverFrame begun = hover.add(scene.sights(1));
+  FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
+  Scene::feel(estimator, 0);
+  EXPECT_EQ(estimator.add(scene.sights(0, false)).outcome.code, Code::kNotAttempted);
+  Scene::feel(estimator, 1);
+  const HoverFrame begun = estimator.add(scene.sights(1));
   ASSERT_TRUE(begun.outcome) << begun.outcome.reason;
   EXPECT_LT((begun.state.T_world_body.translation() - Vector3d(0, 0, 1.5)).norm(), 1e-3);
 }
 
-TEST(Hover, DoesNotBeginWithoutItsInertialSensor) {
+TEST(FlightEstimator, DoesNotBeginWithoutItsInertialSensor) {
   const Scene scene;
-  Hover hover({}, kCamera, kBodyCam, scene.layout);
-  const HoverFrame frame = hover.add(scene.sights(0));
+  FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
+  const HoverFrame frame = estimator.add(scene.sights(0));
   EXPECT_EQ(frame.outcome.code, Code::kNotAttempted);
   EXPECT_EQ(frame.markers.code, Code::kTooFewData);
 }
 
-TEST(Hover, GoesOnByFlowWhereNoMarkerIsSeen) {
+TEST(FlightEstimator, GoesOnByFlowWhereNoMarkerIsSeen) {
   const Scene scene{.speed_mps = 0.5};
-  Hover hover({}, kCamera, kBodyCam, scene.layout);
+  FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
   HoverFrame last;
   for (int image = 0; image < 20; ++image) {
-    Scene::feel(hover, image);
-    last = hover.add(scene.sights(image, image < 5));
+    Scene::feel(estimator, image);
+    last = estimator.add(scene.sights(image, image < 5));
   }
   ASSERT_TRUE(last.outcome);
   EXPECT_TRUE(last.flow);
@@ -103,13 +103,13 @@ TEST(Hover, GoesOnByFlowWhereNoMarkerIsSeen) {
   EXPECT_NEAR(last.state.T_world_body.translation().x(), 0.5 * 0.05 * 19, 5e-3);
 }
 
-TEST(Hover, FallsSilentWhenTheInertialSensorStops) {
+TEST(FlightEstimator, FallsSilentWhenTheInertialSensorStops) {
   const Scene scene;
-  Hover hover({}, kCamera, kBodyCam, scene.layout);
+  FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
   HoverFrame last;
   for (int image = 0; image < 20; ++image) {
-    if (image < 5) Scene::feel(hover, image);
-    last = hover.add(scene.sights(image));
+    if (image < 5) Scene::feel(estimator, image);
+    last = estimator.add(scene.sights(image));
     if (image < 5) {
       ASSERT_TRUE(last.outcome);
     }
@@ -117,42 +117,42 @@ TEST(Hover, FallsSilentWhenTheInertialSensorStops) {
   EXPECT_FALSE(last.outcome);
 }
 
-TEST(Hover, BeginsAnewWhereMarkersContradictItPersistently) {
+TEST(FlightEstimator, BeginsAnewWhereMarkersContradictItPersistently) {
   const Scene scene;
   HoverOptions options;
-  options.restart_after = 3;
-  options.use_flow = false;
-  Hover hover(options, kCamera, kBodyCam, scene.layout);
+  options.marker_sensor.restart_after = 3;
+  options.flow.enabled = false;
+  FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
   BodyState wrong;
   wrong.stamp_ns = kBegin_ns;
   wrong.T_world_body = SE3(SO3(), Vector3d(1, 0, 1.5));
   wrong.covariance.diagonal().setConstant(1e-8);
-  Scene::feel(hover, 0);
-  hover.start(wrong);
+  Scene::feel(estimator, 0);
+  estimator.start(wrong);
   for (int image = 1; image <= 5; ++image) {
-    Scene::feel(hover, image);
-    const HoverFrame frame = hover.add(scene.sights(image));
+    Scene::feel(estimator, image);
+    const HoverFrame frame = estimator.add(scene.sights(image));
     ASSERT_TRUE(frame.outcome);
     EXPECT_EQ(static_cast<bool>(frame.markers), image > 3) << image;
     EXPECT_NEAR(frame.state.T_world_body.translation().x(), image > 3 ? 0 : 1, 1e-2) << image;
   }
 }
 
-TEST(Hover, TakesMarkersThatComeLate) {
+TEST(FlightEstimator, TakesMarkersThatComeLate) {
   const Scene scene;
   HoverOptions options;
   options.marker_delay_s = 0.1;
-  Hover hover(options, kCamera, kBodyCam, scene.layout);
+  FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
   HoverFrame last;
   for (int image = 0; image < 10; ++image) {
-    Scene::feel(hover, image);
-    last = hover.add(scene.sights(image));
+    Scene::feel(estimator, image);
+    last = estimator.add(scene.sights(image));
   }
   EXPECT_TRUE(last.markers) << last.markers.reason;
   EXPECT_LT((last.state.T_world_body.translation() - Vector3d(0, 0, 1.5)).norm(), 1e-3);
   // Later than the filter's history reaches, they are refused.
   options.marker_delay_s = 0.7;
-  Hover slow(options, kCamera, kBodyCam, scene.layout);
+  FlightEstimator slow(options, kCamera, kBodyCam, scene.layout);
   for (int image = 0; image < 20; ++image) {
     Scene::feel(slow, image);
     last = slow.add(scene.sights(image));
@@ -160,18 +160,18 @@ TEST(Hover, TakesMarkersThatComeLate) {
   EXPECT_EQ(last.markers.code, Code::kTooFewData);
 }
 
-TEST(Hover, RefusesImagesOfAnotherSizeOrOrderAndSamplesOutOfOrder) {
+TEST(FlightEstimator, RefusesImagesOfAnotherSizeOrOrderAndSamplesOutOfOrder) {
   const Scene scene;
-  Hover hover({}, kCamera, kBodyCam, scene.layout);
+  FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
   Frame frame;
   frame.stamp_ns = kBegin_ns;
   frame.image = Image(100, 100, CV_8UC1, cv::Scalar(0));
-  EXPECT_THROW((void)hover.add(frame), ArgumentError);
-  (void)hover.add(scene.sights(1, false));
-  EXPECT_THROW((void)hover.add(scene.sights(1, false)), ArgumentError);
-  Scene::feel(hover, 2);
-  EXPECT_EQ(hover.add(ImuSample{kBegin_ns, {}, {}}).code, Code::kInconsistent);
-  EXPECT_EQ(hover.add(ImuSample{9 * kBegin_ns, Vector3d(NAN, 0, 0), {}}).code, Code::kInconsistent);
+  EXPECT_THROW((void)estimator.add(frame), ArgumentError);
+  (void)estimator.add(scene.sights(1, false));
+  EXPECT_THROW((void)estimator.add(scene.sights(1, false)), ArgumentError);
+  Scene::feel(estimator, 2);
+  EXPECT_EQ(estimator.add(ImuSample{kBegin_ns, {}, {}}).code, Code::kInconsistent);
+  EXPECT_EQ(estimator.add(ImuSample{9 * kBegin_ns, Vector3d(NAN, 0, 0), {}}).code, Code::kInconsistent);
 }
 
 }  // namespace
