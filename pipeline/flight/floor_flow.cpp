@@ -63,9 +63,9 @@ std::vector<FlowVector> FloorFlow::flow_of_tracks(const Image& image) const {
     vector.kind = FlowVector::Kind::kFull;
     vector.px = track.px_previous.cast<double>();
     vector.flow = (track.px - track.px_previous).cast<double>();
-    vector.covariance = track_covariance(image, track.px.cast<double>(),
-                                         options_.tracker.window_px, noise_grey) +
-                        least * Eigen::Matrix2d::Identity();
+    vector.covariance =
+        track_covariance(image, track.px.cast<double>(), options_.tracker.window_px, noise_grey) +
+        least * Eigen::Matrix2d::Identity();
     vectors.push_back(vector);
   }
   return vectors;
@@ -123,11 +123,11 @@ FloorFlowMeasurement FloorFlow::measure(const std::vector<FlowVector>& flow,
                                       std::to_string(motion.inliers) + " points of the floor");
   if (!result.outcome || !options_.enabled) return result;
   const double common = options_.common_px / camera_.fx;
-  result.sighting = FlowSighting{
-      previous->stamp_ns,   to_ns,
-      motion.over_distance, motion.covariance + common * common * Matrix3d::Identity(),
-      motion.J_rotation,    rotation.R_1_2,
-      previous->gyro_bias};
+  result.sighting =
+      FlowSighting{previous->stamp_ns,   to_ns,
+                   motion.over_distance, motion.covariance + common * common * Matrix3d::Identity(),
+                   motion.J_rotation,    rotation.R_1_2,
+                   previous->gyro_bias};
   return result;
 }
 

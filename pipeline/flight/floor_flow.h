@@ -44,8 +44,8 @@ struct FloorFlowMeasurement {
   std::optional<FlowSighting> sighting;
 };
 
-/// Optical flow over a level floor: tracks corners from image to image, and turns their flow without
-/// the camera's rotation into the camera's translation over its height.
+/// Optical flow over a level floor: tracks corners from image to image, and turns their flow
+/// without the camera's rotation into the camera's translation over its height.
 class FloorFlow {
  public:
   /// World: z up, the floor at z = `floor_z_m`. The camera has no distortion. Throws ArgumentError

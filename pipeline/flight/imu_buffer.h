@@ -19,7 +19,8 @@ class ImuBuffer {
   /// `gyro_noise` [rad / s / sqrt(Hz)] is the density of the gyro's white noise.
   ImuBuffer(const SO3& R_body_cam, double gyro_noise);
 
-  /// Outcomes: inconsistent (not finite, or not after the last sample); the sample is not kept then.
+  /// Outcomes: inconsistent (not finite, or not after the last sample); the sample is not kept
+  /// then.
   Outcome add(const ImuSample& sample);
   /// The camera's rotation between two images (R_1_2). Angular rates are linear between samples;
   /// time without samples on both sides counts as without rotation. `state` is the body at the

@@ -26,6 +26,16 @@ struct Chosen {
   MarkerPose pose;
 };
 
+/// A marker that frames show.
+struct SeenMarker {
+  double side_m = 0;
+  const PlacedMarker* placed = nullptr;  ///< in the layout that is known; nothing: to be mapped
+  std::vector<View> views;
+  SE3 T_odom_marker;           ///< after `located`
+  std::vector<Chosen> chosen;  ///< after `located`: of each view that agrees the pose that does
+};
+using SeenMarkers = std::map<int, SeenMarker>;  // by id
+
 /// Squared deviation of one view's pose from where the marker is taken to be, odometry believed.
 double deviation2(const MarkerFrame& frame, const MarkerPose& pose, const SE3& T_odom_marker) {
   const Vector6d d =
@@ -99,6 +109,83 @@ const PlacedMarker* find(const MarkerLayout& known, int id) {
   return nullptr;
 }
 
+/// The markers of `known` and of `sides_m` in all frames, each with its possible poses.
+SeenMarkers collect_views(const std::vector<MarkerFrame>& frames, const MarkerLayout& known,
+                          const std::map<int, double>& sides_m, const Camera& camera,
+                          double extra_sigma_px) {
+  SeenMarkers markers;
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    for (MarkerSighting sighting : frames[i].markers) {
+      const PlacedMarker* placed = find(known, sighting.id);
+      const auto side = sides_m.find(sighting.id);
+      if (!placed && side == sides_m.end()) continue;
+      SeenMarker& marker = markers[sighting.id];
+      marker.placed = placed;
+      marker.side_m = placed ? placed->side_m : side->second;
+      sighting.covariance.diagonal().array() += extra_sigma_px * extra_sigma_px;
+      MarkerPoses found = estimate_marker_poses(sighting, marker.side_m, camera);
+      if (found.outcome) marker.views.push_back({static_cast<int>(i), std::move(found.poses)});
+    }
+  return markers;
+}
+
+/// The markers that enough views agree on, placed in the odometry's world.
+SeenMarkers located(const std::vector<MarkerFrame>& frames, const MarkerMapOptions& options,
+                    const SeenMarkers& seen) {
+  const double gate = chi_squared_quantile(options.gate, 6);
+  SeenMarkers result;
+  for (const auto& [id, marker] : seen) {
+    const auto T_odom_marker = consensus(frames, marker.views, gate);
+    if (!T_odom_marker) continue;
+    std::vector<Chosen> chosen = choose(frames, marker.views, *T_odom_marker);
+    if (static_cast<int>(chosen.size()) < options.min_views) continue;
+    SeenMarker& kept = result[id] = marker;
+    kept.T_odom_marker = *T_odom_marker;
+    kept.chosen = std::move(chosen);
+  }
+  return result;
+}
+
+/// By the first marker whose place is known; identity if there is none.
+SE3 world_of_odometry(const SeenMarkers& markers) {
+  for (const auto& [id, marker] : markers)
+    if (marker.placed) return marker.placed->T_world_marker * marker.T_odom_marker.inverse();
+  return {};
+}
+
+void add_markers(const SeenMarkers& markers, const SE3& T_world_odom, PoseGraph& graph) {
+  for (const auto& [id, marker] : markers) {
+    const SE3 T_world_marker =
+        marker.placed ? marker.placed->T_world_marker : T_world_odom * marker.T_odom_marker;
+    graph.nodes.push_back({marker_node(id), Pose(T_world_marker), marker.placed != nullptr});
+    for (const Chosen& view : marker.chosen) {
+      RelativePoseConstraint seen;
+      seen.from = view.frame;
+      seen.to = marker_node(id);
+      seen.T_from_to = Pose(view.pose.T_cam_marker);
+      seen.information = inverse(view.pose.covariance);
+      seen.source = ConstraintSource::kOther;
+      graph.constraints.emplace_back(seen);
+    }
+  }
+}
+
+/// The markers of an optimized graph, with their covariances.
+std::vector<MappedMarker> read_markers(const PoseGraph& graph, const PoseMarginals& marginals,
+                                       const SeenMarkers& markers) {
+  std::vector<MappedMarker> mapped;
+  const NodeIndex index = graph.index_by_id();
+  for (const auto& [id, marker] : markers) {
+    const PoseNode& node = graph.nodes[static_cast<std::size_t>(index.at(marker_node(id)))];
+    MappedMarker result;
+    result.marker = {id, marker.side_m, std::get<SE3>(node.T_world_node)};
+    result.views = static_cast<int>(marker.chosen.size());
+    if (!node.fixed) result.covariance = marginals.covariance(node.id);
+    mapped.push_back(result);
+  }
+  return mapped;
+}
+
 }  // namespace
 
 void MarkerMapOptions::check() const { check_ranges(*this); }
@@ -125,60 +212,18 @@ MarkerMap map_markers(const std::vector<MarkerFrame>& frames, const MarkerLayout
                       const std::map<int, double>& sides_m, const Camera& camera,
                       const MarkerMapOptions& options) {
   options.check();
+  const SeenMarkers markers = located(
+      frames, options, collect_views(frames, known, sides_m, camera, options.extra_sigma_px));
   MarkerMap map;
-  std::map<int, std::vector<View>> views;
-  std::map<int, double> sides;
-  for (std::size_t i = 0; i < frames.size(); ++i)
-    for (MarkerSighting sighting : frames[i].markers) {
-      const PlacedMarker* placed = find(known, sighting.id);
-      const auto side = sides_m.find(sighting.id);
-      if (!placed && side == sides_m.end()) continue;
-      sides[sighting.id] = placed ? placed->side_m : side->second;
-      sighting.covariance.diagonal().array() += options.extra_sigma_px * options.extra_sigma_px;
-      MarkerPoses poses = estimate_marker_poses(sighting, sides[sighting.id], camera);
-      if (poses.outcome)
-        views[sighting.id].push_back({static_cast<int>(i), std::move(poses.poses)});
-    }
-
-  const double gate = chi_squared_quantile(options.gate, 6);
-  std::map<int, SE3> T_odom_marker;
-  std::map<int, std::vector<Chosen>> chosen;
-  for (const auto& [id, seen] : views) {
-    const auto at = consensus(frames, seen, gate);
-    if (!at) continue;
-    std::vector<Chosen> kept = choose(frames, seen, *at);
-    if (static_cast<int>(kept.size()) < options.min_views) continue;
-    T_odom_marker[id] = *at;
-    chosen[id] = std::move(kept);
-  }
-  if (chosen.empty()) {
+  if (markers.empty()) {
     map.outcome = Outcome::failure(
         Code::kTooFewData, "no marker is seen in " + std::to_string(options.min_views) + " frames");
     return map;
   }
-  SE3 T_world_odom;
-  for (const auto& [id, at] : T_odom_marker)
-    if (const PlacedMarker* placed = find(known, id)) {
-      T_world_odom = placed->T_world_marker * at.inverse();
-      break;
-    }
+  const SE3 T_world_odom = world_of_odometry(markers);
   add_frames(frames, T_world_odom, map.graph);
-  for (const auto& [id, kept] : chosen) {
-    const PlacedMarker* placed = find(known, id);
-    map.graph.nodes.push_back(
-        {marker_node(id), Pose(placed ? placed->T_world_marker : T_world_odom * T_odom_marker[id]),
-         placed != nullptr});
-    for (const Chosen& view : kept) {
-      RelativePoseConstraint seen;
-      seen.from = view.frame;
-      seen.to = marker_node(id);
-      seen.T_from_to = Pose(view.pose.T_cam_marker);
-      seen.information = inverse(view.pose.covariance);
-      seen.source = ConstraintSource::kOther;
-      map.graph.constraints.emplace_back(seen);
-    }
-  }
-  // The start is good, and a held marker far down the list must not be outweighed by another one.
+  add_markers(markers, T_world_odom, map.graph);
+  // The start is good, and a fixed marker far down the list must not be outweighed by another one.
   PoseGraphOptions solver;
   solver.start = PoseGraphStart::kFile;
   const PoseGraphReport solved = optimize_pose_graph(std::move(map.graph), solver);
@@ -186,19 +231,8 @@ MarkerMap map_markers(const std::vector<MarkerFrame>& frames, const MarkerLayout
   map.outcome = solved.outcome;
   if (!map.outcome) return map;
   const PoseMarginals marginals(map.graph);
-  if (!marginals.outcome()) {
-    map.outcome = marginals.outcome();
-    return map;
-  }
-  const NodeIndex index = map.graph.index_by_id();
-  for (const auto& [id, kept] : chosen) {
-    MappedMarker mapped;
-    const PoseNode& node = map.graph.nodes[static_cast<std::size_t>(index.at(marker_node(id)))];
-    mapped.marker = {id, sides[id], std::get<SE3>(node.T_world_node)};
-    mapped.views = static_cast<int>(kept.size());
-    if (!node.fixed) mapped.covariance = marginals.covariance(node.id);
-    map.markers.push_back(mapped);
-  }
+  map.outcome = marginals.outcome();
+  if (map.outcome) map.markers = read_markers(map.graph, marginals, markers);
   return map;
 }
 

@@ -32,8 +32,8 @@ struct MarkerDetections {
 };
 
 /// Poses of the body by markers and beacons of a layout, and where in the image they are searched
-/// for: near where an estimator expects them, and in the whole image where nothing is expected or no
-/// marker has been accepted for a while.
+/// for: near where an estimator expects them, and in the whole image where nothing is expected or
+/// no marker has been accepted for a while.
 class MarkerSensor {
  public:
   /// The camera has no distortion. Throws ArgumentError if an option is out of range, or if the

@@ -171,7 +171,8 @@ TEST(FlightEstimator, RefusesImagesOfAnotherSizeOrOrderAndSamplesOutOfOrder) {
   EXPECT_THROW((void)estimator.add(scene.sights(1, false)), ArgumentError);
   Scene::feel(estimator, 2);
   EXPECT_EQ(estimator.add(ImuSample{kBegin_ns, {}, {}}).code, Code::kInconsistent);
-  EXPECT_EQ(estimator.add(ImuSample{9 * kBegin_ns, Vector3d(NAN, 0, 0), {}}).code, Code::kInconsistent);
+  EXPECT_EQ(estimator.add(ImuSample{9 * kBegin_ns, Vector3d(NAN, 0, 0), {}}).code,
+            Code::kInconsistent);
 }
 
 }  // namespace
