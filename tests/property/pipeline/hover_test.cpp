@@ -110,5 +110,42 @@ TEST(HoverConsistency, ErrsAsItsCovarianceSaysWhereImagesAreDropped) {
   EXPECT_LT(anees, 2);
 }
 
+/// The same measurements where the layout's world is rotated about the vertical and shifted: the
+/// states are, too, and what the filter accepts stays the same.
+TEST(HoverLaw, RotatingTheWorldAboutTheVerticalRotatesTheStates) {
+  const synthetic::Tour tour = tour_of(61, 6);
+  const synthetic::HoverSetting& setting = *tour.hover;
+  const SE3 T_other_world(SO3::exp({0, 0, 2.1}), Eigen::Vector3d(3, -2, 0));
+  MarkerLayout other = setting.layout;
+  for (PlacedMarker& marker : other.markers)
+    marker.T_world_marker = T_other_world * marker.T_world_marker;
+  for (Eigen::Vector3d& beacon : other.beacons_world) beacon = T_other_world * beacon;
+  FlightEstimator here({}, tour.camera, setting.T_body_cam, setting.layout),
+      there({}, tour.camera, setting.T_body_cam, other);
+  test::HoverSightsSource source(tour, {}, 3);
+  std::size_t sample = 0;
+  int answered = 0;
+  for (std::size_t i = 0; i < setting.flight.images.size(); ++i) {
+    for (; sample <= setting.flight.images[i]; ++sample) {
+      (void)here.add(setting.flight.imu.samples[sample]);
+      (void)there.add(setting.flight.imu.samples[sample]);
+    }
+    const HoverSights sights = source.look(i, i % 60 < 30);
+    const HoverFrame a = here.add(sights), b = there.add(sights);
+    ASSERT_EQ(a.outcome.code, b.outcome.code) << i;
+    ASSERT_EQ(a.flow.code, b.flow.code) << i;
+    ASSERT_EQ(a.markers.code, b.markers.code) << i;
+    if (!a.outcome) continue;
+    ++answered;
+    const SE3 T_expected = T_other_world * a.state.T_world_body;
+    // Rounding, through the descents that pose the markers.
+    EXPECT_LT((T_expected.inverse() * b.state.T_world_body).log().norm(), 1e-5) << i;
+    EXPECT_LT((T_other_world.rotation() * a.state.velocity_world - b.state.velocity_world).norm(),
+              1e-5)
+        << i;
+  }
+  EXPECT_GT(answered, 100);
+}
+
 }  // namespace
 }  // namespace placegraph

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/scenes/marker_scene.h"
+#include "tests/support/seed.h"
+
 namespace placegraph {
 namespace {
 
@@ -173,6 +176,138 @@ TEST(FlightEstimator, RefusesImagesOfAnotherSizeOrOrderAndSamplesOutOfOrder) {
   EXPECT_EQ(estimator.add(ImuSample{kBegin_ns, {}, {}}).code, Code::kInconsistent);
   EXPECT_EQ(estimator.add(ImuSample{9 * kBegin_ns, Vector3d(NAN, 0, 0), {}}).code,
             Code::kInconsistent);
+}
+
+TEST(FlightEstimator, KeepsTheBiasesItKnowsWhereItBeginsAnew) {
+  const Scene scene;
+  HoverOptions options;
+  options.marker_sensor.restart_after = 1;
+  FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
+  BodyState wrong;
+  wrong.stamp_ns = kBegin_ns;
+  wrong.T_world_body = SE3(SO3(), Vector3d(1, 0, 1.5));
+  wrong.gyro_bias = {0, 0, 0.01};
+  wrong.covariance.diagonal().setConstant(1e-8);
+  Scene::feel(estimator, 0);
+  estimator.start(wrong);
+  HoverFrame frame;
+  for (int image = 1; image <= 2; ++image) {
+    Scene::feel(estimator, image);
+    frame = estimator.add(scene.sights(image));
+  }
+  ASSERT_TRUE(frame.markers) << frame.markers.reason;
+  EXPECT_NEAR(frame.state.T_world_body.translation().x(), 0, 1e-2);
+  EXPECT_NEAR(frame.state.gyro_bias.z(), 0.01, 1e-3);
+}
+
+TEST(FlightEstimator, ForgetsThePosesOnTheWayWhereItStartsAnew) {
+  const Scene scene;
+  HoverOptions options;
+  options.marker_delay_s = 0.1;
+  FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
+  for (int image = 0; image < 5; ++image) {
+    Scene::feel(estimator, image);
+    ASSERT_TRUE(estimator.add(scene.sights(image)).outcome);
+  }
+  BodyState state = estimator.at(kBegin_ns + 4 * kImage_ns).state;
+  estimator.start(state);
+  // A pose of before the start would be refused now, and this image's with it.
+  for (int image = 5; image < 10; ++image) {
+    Scene::feel(estimator, image);
+    EXPECT_TRUE(estimator.add(scene.sights(image)).markers) << image;
+  }
+}
+
+TEST(FlightEstimator, SaysWhereTheFilterRefusesALatePose) {
+  const Scene scene;
+  HoverOptions options;
+  options.marker_delay_s = 0.1;
+  FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
+  const auto add = [&](int image, HoverSights sights) {
+    Scene::feel(estimator, image);
+    return estimator.add(sights);
+  };
+  for (int image = 0; image < 4; ++image) ASSERT_TRUE(add(image, scene.sights(image)).markers);
+  // An image shows the markers as if the body were 30 cm beside: its pose comes with the second
+  // image after it.
+  HoverSights wrong = scene.sights(4);
+  for (MarkerSighting& marker : wrong.markers)
+    for (Vector2d& px : marker.corners_px) px.x() += 80;
+  EXPECT_TRUE(add(4, wrong).markers);
+  EXPECT_TRUE(add(5, scene.sights(5)).markers);
+  EXPECT_EQ(add(6, scene.sights(6)).markers.code, Code::kInconsistent);
+  EXPECT_TRUE(add(7, scene.sights(7)).markers);
+}
+
+TEST(FlightEstimator, TakesAFirstImageAtTimeZero) {
+  FlightEstimator estimator({}, kCamera, kBodyCam, {});
+  EXPECT_EQ(estimator.add(HoverSights{}).markers.code, Code::kNotAttempted);
+  EXPECT_THROW((void)estimator.add(HoverSights{}), ArgumentError);
+}
+
+/// Turns about the vertical and slides, without markers from the fifth image on: the flow that the
+/// rotation makes is taken out by the gyro.
+TEST(FlightEstimator, TakesTheRotationOutOfTheFlow) {
+  constexpr double kYaw_rad_s = 0.6, kSpeed_mps = 0.4;
+  const Scene scene;
+  FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
+  const auto T_world_body = [&](std::int64_t stamp_ns) {
+    const double t = 1e-9 * static_cast<double>(stamp_ns - kBegin_ns);
+    return SE3(SO3::exp({0, 0, kYaw_rad_s * t}), Vector3d(kSpeed_mps * t, 0, 1.5));
+  };
+  const auto seen = [&](const Vector3d& p_world, std::int64_t stamp_ns) {
+    return *kCamera.project((T_world_body(stamp_ns) * kBodyCam).inverse() * p_world);
+  };
+  HoverFrame last;
+  for (int image = 0; image < 20; ++image) {
+    for (int k = image == 0 ? 10 : 1; k <= 10; ++k)
+      (void)estimator.add({kBegin_ns + (image - 1) * kImage_ns + k * kSample_ns,
+                           Vector3d(0, 0, kYaw_rad_s), Vector3d(0, 0, 9.80665)});
+    HoverSights sights = scene.sights(image, false);
+    for (FlowVector& vector : sights.flow) {
+      const Vector3d ray = *kCamera.unproject(vector.px);
+      const Vector3d point_cam = ray * 1.5;  // the camera looks straight down
+      const Vector3d point = T_world_body(sights.stamp_ns - kImage_ns) * (kBodyCam * point_cam);
+      vector.flow = seen(point, sights.stamp_ns) - vector.px;
+    }
+    if (image < 5)
+      for (const PlacedMarker& marker : scene.layout.markers) {
+        MarkerSighting sighting;
+        sighting.id = marker.id;
+        sighting.covariance *= 0.01;
+        for (std::size_t i = 0; i < 4; ++i)
+          sighting.corners_px[i] =
+              seen(marker.T_world_marker * marker.corners_marker()[i], sights.stamp_ns);
+        sights.markers.push_back(sighting);
+      }
+    last = estimator.add(sights);
+  }
+  ASSERT_TRUE(last.outcome) << last.outcome.reason;
+  EXPECT_TRUE(last.flow) << last.flow.reason;
+  EXPECT_LT((last.state.velocity_world - Vector3d(kSpeed_mps, 0, 0)).norm(), 2e-2);
+  const SE3 truth = T_world_body(kBegin_ns + 19 * kImage_ns);
+  EXPECT_LT((last.state.T_world_body.inverse() * truth).log().norm(), 2e-2);
+}
+
+TEST(FlightEstimator, StartsWithTheMarkersOfAnImageWhereItMayLookForThem) {
+  const Camera camera = test::MarkerScene::usual_camera();
+  const Scene scene;
+  Random random = test::seeded_random(1);
+  const SE3 T_world_body(SO3::exp({0.02, -0.03, 0.4}), Vector3d(0.1, 0.05, 1.4));
+  Frame frame;
+  frame.image = test::MarkerScene{.layout = scene.layout, .camera = camera, .samples = 3}.render(
+      T_world_body * kBodyCam, random);
+  FlightEstimator estimator({}, camera, kBodyCam, scene.layout);
+  Scene::feel(estimator, 0);
+  frame.stamp_ns = kBegin_ns;
+  EXPECT_EQ(estimator.add(frame, false).outcome.code, Code::kNotAttempted);
+  Scene::feel(estimator, 1);
+  frame.stamp_ns += kImage_ns;
+  const HoverFrame begun = estimator.add(frame);
+  ASSERT_TRUE(begun.outcome) << begun.outcome.reason;
+  EXPECT_EQ(begun.markers_seen, 3);
+  // Corners are fitted to a tenth of a pixel, a third of a millimetre on the floor.
+  EXPECT_LT((begun.state.T_world_body.translation() - T_world_body.translation()).norm(), 5e-3);
 }
 
 }  // namespace
