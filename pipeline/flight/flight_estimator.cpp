@@ -107,7 +107,7 @@ void FlightEstimator::use_markers(const HoverSights& sights, const KnownRotation
   if (last_ && imu_.samples().size() > 1)
     view.turn_body = R_body_cam_ * rotation.R_1_2 * R_body_cam_.inverse();
   const BodyExpectation expectation = filter_.expectation(sights.stamp_ns);
-  const bool restarts = !expectation.state || markers_->is_refuted();
+  const bool restarts = !markers_->relies_on(expectation);
   const MarkerAnswer answer = markers_->estimate(view, expectation);
   result.markers = answer.outcome;
   if (!answer.outcome) return;

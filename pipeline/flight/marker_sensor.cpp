@@ -96,7 +96,7 @@ MarkerDetections MarkerSensor::detect(const Image& image, const std::optional<Bo
 }
 
 MarkerAnswer MarkerSensor::estimate(const MarkerView& view, const BodyExpectation& expectation) {
-  return filter_.observe(view, expectation.state && !is_refuted() ? &expectation : nullptr);
+  return filter_.observe(view, relies_on(expectation) ? &expectation : nullptr);
 }
 
 void MarkerSensor::report(const Outcome& accepted, bool markers_in_view) {

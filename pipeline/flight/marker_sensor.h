@@ -45,8 +45,8 @@ class MarkerSensor {
   /// Beacons are searched for where one may be in view and fewer than three markers are found.
   MarkerDetections detect(const Image& image, const std::optional<BodyState>& expected,
                           StageTimes& times);
-  /// The pose by what one image shows. `expectation` is ignored where it has no state and where it
-  /// `is_refuted`. Outcomes: those of MarkerFilter::observe.
+  /// The pose by what one image shows, with the help of the expectation if it `relies_on` that.
+  /// Outcomes: those of MarkerFilter::observe.
   MarkerAnswer estimate(const MarkerView& view, const BodyExpectation& expectation);
   /// What became of the pose of one image: accepted by the estimator that expects states, or not,
   /// and whether the image shows markers.
@@ -54,6 +54,10 @@ class MarkerSensor {
   /// Whether markers have contradicted the expected states in `restart_after` images in a row, so
   /// that the markers are right. Until a pose is accepted.
   bool is_refuted() const { return contradictions_ >= options_.restart_after; }
+  /// Whether there is an expected state, and markers have not refuted such states.
+  bool relies_on(const BodyExpectation& expectation) const {
+    return expectation.state.has_value() && !is_refuted();
+  }
 
  private:
   std::vector<ExpectedSquare> expected_squares(const BodyState& expected) const;
