@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFloor_m = 0.4;
+constexpr double kFloor_m = 3;
 const Camera kCamera{.width = 320, .height = 240, .fx = 220, .fy = 220, .cx = 159.5, .cy = 119.5};
 /// Looks down, mounted beside the middle of the body and tilted a little.
 const SE3 kBodyCam(SO3::exp({3.0, 0.1, 0}), Vector3d(0.1, -0.05, 0.02));
@@ -52,7 +52,7 @@ int right_vectors(const std::vector<FlowVector>& flow, const BodyState& a, const
   return right;
 }
 
-const SE3 kFirst(SO3::exp({0.03, -0.02, 0.2}), Vector3d(0.3, 0.2, 1.9));
+const SE3 kFirst(SO3::exp({0.03, -0.02, 0.2}), Vector3d(0.3, 0.2, 4.5));
 
 TEST(FloorFlow, TracksTheFloorFromOneImageToTheNext) {
   const BodyState a = body(kFirst);
@@ -160,9 +160,9 @@ std::vector<FlowVector> exact_flow(const BodyState& a, const BodyState& b) {
 
 /// A body that flies tilted, and the rotation of its camera as a gyro tells it.
 struct Step {
-  BodyState a = body(SE3(SO3::exp({0.2, -0.15, 0.7}), Vector3d(0.3, 0.2, 1.9)), 1000);
+  BodyState a = body(SE3(SO3::exp({0.2, -0.15, 0.7}), Vector3d(0.3, 0.2, 4.5)), 1000);
   BodyState b = body(
-      SE3(a.T_world_body.rotation() * SO3::exp({0.02, 0.03, -0.04}), Vector3d(0.38, 0.15, 1.95)),
+      SE3(a.T_world_body.rotation() * SO3::exp({0.02, 0.03, -0.04}), Vector3d(0.38, 0.15, 4.55)),
       51'000'000);
   KnownRotation rotation;
   std::vector<FlowVector> flow = exact_flow(a, b);
