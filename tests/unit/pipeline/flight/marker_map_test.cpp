@@ -103,6 +103,33 @@ TEST(MarkerMap, StandsInTheOdometrysWorldWhereNothingIsKnown) {
   EXPECT_LT(angle_rad(between, truth), 0.02);
 }
 
+/// Two frames show the known marker, two others the unknown one. The step between them is known to
+/// 10 cm along each axis, the other steps to a millimetre and the poses of the markers to about a
+/// centimetre, which is a hundredth in variance each.
+TEST(MarkerMap, IsAsUncertainAsTheOdometryBetweenMarkersThatNoFrameShowsTogether) {
+  Random random = seeded_random(4);
+  const Walk walk(random);
+  MarkerLayout known = walk.layout;
+  known.markers.resize(1);
+  std::vector<MarkerFrame> frames;
+  for (const std::size_t i : {5, 6, 20, 21}) {
+    MarkerFrame frame = walk.frames[i];
+    std::erase_if(frame.markers,
+                  [&](const MarkerSighting& sighting) { return sighting.id != (i < 10 ? 4 : 9); });
+    ASSERT_EQ(frame.markers.size(), 1u) << i;
+    frame.T_odom_cam = walk.T_world_cam[i];
+    const double sigma_m = i == 20 ? 0.1 : 1e-3;
+    frame.step_covariance = 1e-6 * Matrix6d::Identity();
+    frame.step_covariance.topLeftCorner<3, 3>() = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
+    frames.push_back(frame);
+  }
+  const MarkerMap map = map_markers(frames, known, {{9, 0.2}}, walk.camera);
+  ASSERT_TRUE(map.outcome) << map.outcome.reason;
+  ASSERT_EQ(map.markers.size(), 2u);
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_NEAR(map.markers[1].covariance(axis, axis), 0.01, 0.002) << axis;
+}
+
 TEST(MarkerMap, SaysWhereNothingWasSeenOftenEnough) {
   Random random = seeded_random(3);
   const Walk walk(random, 1);
