@@ -1,71 +1,16 @@
 #include "apps/eval/cmd_eval_edges.h"
 
-#include <fmt/format.h>
-#include <placegraph/eval/trajectory/edge_consistency.h>
-#include <placegraph/graph/core/error.h>
-#include <placegraph/graph/pose_graph/constraint_source.h>
-#include <placegraph/io/trajectories/trajectory_file.h>
 #include <CLI/CLI.hpp>
-
-#include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 
-#include "apps/results/run_map.h"
+#include "apps/eval/eval_edges.h"
+#include "apps/support/output.h"
 
 namespace placegraph::apps {
-namespace {
-
-namespace fs = std::filesystem;
-using nlohmann::json;
-
-struct EvalEdgesArguments {
-  std::string truth, run;
-  bool json = false;
-};
-
-/// True poses of the places: where the true camera was at the frames of their anchors.
-std::map<std::int64_t, SE3> true_places(const Trajectory& truth, const RunMap& map) {
-  std::map<std::int64_t, SE3> result;
-  for (const Place& place : map.graph.places) {
-    const std::int64_t frame = map.anchor_frame(place);
-    require(frame >= 0 && frame < static_cast<std::int64_t>(truth.size()),
-            "place " + std::to_string(place.id) + " was seen in frame " + std::to_string(frame) +
-                ", and the truth has " + std::to_string(truth.size()));
-    if (const auto& pose = truth.poses[static_cast<std::size_t>(frame)].T_world_body)
-      result.emplace(place.id, SE3(*pose));
-  }
-  return result;
-}
-
-void run(const EvalEdgesArguments& arguments) {
-  fs::path truth = arguments.truth;
-  if (fs::is_directory(truth)) truth /= "poses.txt";
-  const RunMap map = read_run_map(arguments.run);
-  const auto nodes = true_places(read_trajectory(truth.string()), map);
-  std::map<ConstraintSource, std::vector<RelativePoseConstraint>> by_source;
-  for (const RelativePoseConstraint& edge : map.graph.constraints)
-    by_source[edge.source].push_back(edge);
-  json report = json::object();
-  std::string text = "source      edges  unknown  mean NEES  median  beyond 99 %\n";
-  for (const auto& [source, edges] : by_source) {
-    const EdgeConsistency c = edge_consistency(edges, nodes);
-    text += fmt::format("{:<10} {:>6} {:>8} {:>10.3f} {:>7.3f} {:>10.1f} %\n", to_string(source),
-                        c.edges, c.unknown, c.mean_nees, c.median_nees, 100 * c.share_beyond_99);
-    report[to_string(source)] = {{"edges", c.edges},
-                                 {"unknown", c.unknown},
-                                 {"mean_nees", c.mean_nees},
-                                 {"median_nees", c.median_nees},
-                                 {"share_beyond_99", c.share_beyond_99}};
-  }
-  std::fputs(arguments.json ? (report.dump(1) + "\n").c_str() : text.c_str(), stdout);
-}
-
-}  // namespace
 
 void add_eval_edges_command(CLI::App& app) {
   auto arguments = std::make_shared<EvalEdgesArguments>();
+  auto json = std::make_shared<bool>(false);
   EvalEdgesArguments& a = *arguments;
   CLI::App* command = app.add_subcommand(
       "eval-edges", "Judge whether the edges of a run's place graph know what they claim");
@@ -78,8 +23,11 @@ void add_eval_edges_command(CLI::App& app) {
   command->add_option("RUN", a.run, "folder that placegraph run has written")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_flag("--json", a.json, "print JSON");
-  command->callback([arguments] { run(*arguments); });
+  command->add_flag("--json", *json, "print JSON");
+  command->callback([arguments, json] {
+    const EvalEdgesResult result = eval_edges(*arguments);
+    print(*json ? to_json(result) : to_text(result));
+  });
 }
 
 }  // namespace placegraph::apps

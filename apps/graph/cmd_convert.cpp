@@ -1,163 +1,12 @@
 #include "apps/graph/cmd_convert.h"
 
-#include <fmt/format.h>
-#include <placegraph/graph/core/error.h>
-#include <placegraph/graph/pose_graph/position_of.h>
-#include <placegraph/graph/pose_graph/rigid_graph.h>
-#include <placegraph/io/files/text_file.h>
-#include <placegraph/io/graphs/g2o.h>
-#include <placegraph/io/graphs/pose_graph_file.h>
-#include <placegraph/io/trajectories/trajectory_file.h>
-
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
 
+#include "apps/graph/convert.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
-namespace {
-
-struct ConvertArguments {
-  std::string in, out, to, times, posed_in;
-  bool force = false, rigid = false, posed_only = false;
-};
-
-/// What a file holds; g2o, or one of the trajectory forms.
-using Form = std::optional<TrajectoryFormat>;
-constexpr Form kG2o = std::nullopt;
-
-/// By the first tag, of g2o's, TORO's or iSAM's form.
-bool is_pose_graph(const std::string& path) {
-  TextFile file(path);
-  std::string_view line;
-  if (!file.next_data(line)) return false;
-  return line.starts_with("VERTEX") || line.starts_with("EDGE") || line.starts_with("ODOMETRY") ||
-         line.starts_with("FIX") || line.starts_with("PARAMS_");
-}
-
-/// By --to, else by the extension of OUT.
-Form wanted_form(const ConvertArguments& arguments) {
-  static const std::map<std::string, Form> by_name = {{"kitti", TrajectoryFormat::kKitti},
-                                                      {"tum", TrajectoryFormat::kTum},
-                                                      {"euroc", TrajectoryFormat::kEuroc},
-                                                      {"g2o", kG2o}};
-  static const std::map<std::string, Form> by_extension = {{".kitti", TrajectoryFormat::kKitti},
-                                                           {".txt", TrajectoryFormat::kKitti},
-                                                           {".tum", TrajectoryFormat::kTum},
-                                                           {".csv", TrajectoryFormat::kEuroc},
-                                                           {".g2o", kG2o}};
-  if (!arguments.to.empty()) return by_name.at(arguments.to);
-  const std::string extension = std::filesystem::path(arguments.out).extension().string();
-  const auto found = by_extension.find(extension);
-  if (found != by_extension.end()) return found->second;
-  throw ArgumentError(arguments.out +
-                      ": the extension says no form (.kitti .txt .tum .csv .g2o); " +
-                      "name it with --to");
-}
-
-/// T_world_node without the scale it may have; in the plane z = 0.
-Eigen::Isometry3d rigid(const Pose& pose) {
-  if (const SE2* planar = std::get_if<SE2>(&pose))
-    return SE3(SO3::exp({0, 0, planar->rotation().angle()}), position_of(pose)).isometry();
-  if (const SE3* T = std::get_if<SE3>(&pose)) return T->isometry();
-  return SE3(std::get<Sim3>(pose).rotation(), position_of(pose)).isometry();
-}
-
-/// The poses in the order of their ids.
-Trajectory poses_of(PoseGraph graph) {
-  std::sort(graph.nodes.begin(), graph.nodes.end(),
-            [](const PoseNode& a, const PoseNode& b) { return a.id < b.id; });
-  Trajectory trajectory;
-  trajectory.has_times = false;
-  for (const PoseNode& node : graph.nodes)
-    trajectory.poses.push_back(
-        {static_cast<std::int64_t>(trajectory.size()), rigid(node.T_world_node)});
-  return trajectory;
-}
-
-void convert_graph(const ConvertArguments& arguments, Form to) {
-  if (!arguments.times.empty()) throw ArgumentError("--times: a pose graph has none");
-  require(!arguments.posed_only && arguments.posed_in.empty(),
-          "--posed-only, --posed-in: a pose graph has no lost frames");
-  std::vector<std::string> remarks;
-  LandmarkGraph graph =
-      read_landmark_graph(arguments.in, {.connected = false, .remarks = &remarks});
-  for (const std::string& remark : remarks) warn(arguments.in + ": " + remark);
-  if (arguments.rigid) graph.poses = rigid_graph(graph.poses);
-  if (to == TrajectoryFormat::kKitti) {
-    write_trajectory(arguments.out, poses_of(graph.poses), *to);
-    fmt::print(
-        "{}: {} poses in the order of their ids{}, written to {}\n", arguments.in,
-        graph.poses.nodes.size(),
-        graph.points.empty() ? "" : fmt::format(" ({} landmarks left out)", graph.points.size()),
-        arguments.out);
-    return;
-  }
-  write_g2o(arguments.out, graph);
-  fmt::print("{}: {} nodes, {} constraints{}, written to {}\n", arguments.in,
-             graph.poses.nodes.size(), graph.poses.constraints.size(),
-             graph.has_poses_alone()
-                 ? ""
-                 : fmt::format(", {} priors, {} landmarks seen {} times", graph.priors.size(),
-                               graph.points.size(), graph.sights.size()),
-             arguments.out);
-}
-
-/// Without the frames that have no pose, in it or in the trajectory `posed_in` (if given) of as
-/// many frames: what is left of both has a line for each line of the other.
-Trajectory posed_frames(const Trajectory& trajectory, const std::string& path,
-                        const std::string& posed_in) {
-  Trajectory other = trajectory;
-  if (!posed_in.empty()) other = read_trajectory(posed_in, "");
-  require(other.size() == trajectory.size(),
-          fmt::format("--posed-in: {} has {} frames, {} has {}", posed_in, other.size(), path,
-                      trajectory.size()));
-  Trajectory posed = trajectory;
-  posed.poses.clear();
-  for (std::size_t i = 0; i < trajectory.size(); ++i)
-    if (trajectory.poses[i].T_world_body && other.poses[i].T_world_body)
-      posed.poses.push_back(trajectory.poses[i]);
-  return posed;
-}
-
-void convert_trajectory(const ConvertArguments& arguments, TrajectoryFormat to) {
-  require(!arguments.rigid, "--rigid: " + arguments.in + " is a trajectory, not a pose graph");
-  const Trajectory read = read_trajectory(arguments.in, arguments.times);
-  const Trajectory trajectory = arguments.posed_only || !arguments.posed_in.empty()
-                                    ? posed_frames(read, arguments.in, arguments.posed_in)
-                                    : read;
-  if (to != TrajectoryFormat::kKitti && !trajectory.has_times) {
-    throw ArgumentError(arguments.in + ": has no times, which " + arguments.out +
-                        " needs; give them with --times");
-  }
-  write_trajectory(arguments.out, trajectory, to);
-  const std::size_t left_out = read.size() - trajectory.size();
-  fmt::print("{}: {} poses of {} frames{}, written to {}\n", arguments.in, trajectory.posed(),
-             trajectory.size(), left_out > 0 ? fmt::format(" ({} frames left out)", left_out) : "",
-             arguments.out);
-}
-
-void run(const ConvertArguments& arguments) {
-  const Form to = wanted_form(arguments);
-  require_free(arguments.out, arguments.force);
-  const bool graph = is_pose_graph(arguments.in);
-  if (!graph && to == kG2o)
-    throw ArgumentError(arguments.in + ": is a trajectory, which does not become a pose graph");
-  if (graph && to != kG2o && to != TrajectoryFormat::kKitti)
-    throw ArgumentError(arguments.in + ": is a pose graph; its poses have no times, which " +
-                        arguments.out + " needs");
-  if (graph) {
-    convert_graph(arguments, to);
-  } else {
-    convert_trajectory(arguments, *to);
-  }
-}
-
-}  // namespace
 
 void add_convert_command(CLI::App& app) {
   auto arguments = std::make_shared<ConvertArguments>();
@@ -185,7 +34,7 @@ void add_convert_command(CLI::App& app) {
                    "too: so that a ground truth keeps its lines beside an estimate's")
       ->check(CLI::ExistingFile);
   command->add_flag("--force", a.force, "overwrite OUT");
-  command->callback([arguments] { run(*arguments); });
+  command->callback([arguments] { print(to_text(convert(*arguments))); });
 }
 
 }  // namespace placegraph::apps

@@ -2,16 +2,38 @@
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace placegraph::apps {
 
-/// Optimizes a graph with priors and point landmarks; what the report says of it. Throws NoAnswer
-/// where it has no solution.
-nlohmann::ordered_json solve_landmarks(LandmarkGraph& graph, const PoseGraphOptions& options);
+/// What `optimize` found for a graph with priors and point landmarks, and what it cost.
+struct LandmarkSolution {
+  LandmarkGraph graph;
+  std::string engine;  ///< "native" or "ceres"
+  int components = 1;
+  /// chi2 in g2o's convention: nothing where priors of a sensor beside its vertex have none.
+  std::optional<double> chi2_g2o_initial, chi2_g2o;
+  double chi2_log_initial = 0, chi2_log = 0;
+  int iterations = 0;
+  double cpu_ms = 0, wall_ms = 0, peak_mb = 0;
+  int free_directions = 0;
+  std::vector<std::int64_t> free_vertices;  ///< ids of poses and points
+  std::vector<std::int64_t>
+      held_vertices;  ///< one of each component that nothing ties to the world
+};
 
-/// The report in words.
-void print_landmarks(const nlohmann::ordered_json& report);
+/// Throws NoAnswer where the graph has no solution.
+LandmarkSolution solve_landmarks(LandmarkGraph graph, const PoseGraphOptions& options);
+
+/// What the report of `optimize` says of it.
+nlohmann::ordered_json describe(const LandmarkSolution& solution);
+
+/// The same in words; `in` and `out` are the files, `cost` the convention that was minimized.
+std::string to_text(const LandmarkSolution& solution, const std::string& in,
+                    const std::string& cost, const std::string& out);
 
 }  // namespace placegraph::apps

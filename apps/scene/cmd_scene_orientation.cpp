@@ -20,6 +20,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/read_calib.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
 

@@ -18,6 +18,7 @@
 
 #include "apps/scene/scene_pictures.h"
 #include "apps/support/calib_option.h"
+#include "apps/support/read_calib.h"
 #include "apps/support/output.h"
 #include "apps/support/scene_models.h"
 

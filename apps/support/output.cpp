@@ -45,6 +45,8 @@ void write_file(const std::string& path, const std::string& content) {
   file.commit();
 }
 
+void print(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
 void warn(const std::string& message) {
   std::fprintf(stderr, "warning: %s\n", one_line(message).c_str());
 }

@@ -35,6 +35,9 @@ class OutputFolder {
 /// Writes a whole file, atomically; bytes as they are. Throws FileError.
 void write_file(const std::string& path, const std::string& content);
 
+/// The text on stdout, as it is: what a command says of its result.
+void print(const std::string& text);
+
 /// "warning: ..." as one line on stderr.
 void warn(const std::string& message);
 

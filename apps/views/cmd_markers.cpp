@@ -17,6 +17,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/read_calib.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
 #include "apps/views/draw_markers.h"

@@ -21,6 +21,7 @@
 #include <set>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/read_calib.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/read_calib.h"
 #include "apps/support/json_file.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"

@@ -18,6 +18,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/read_calib.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
 #include "apps/views/planarity_file.h"

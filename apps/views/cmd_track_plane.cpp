@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/read_calib.h"
 #include "apps/support/frame_source.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"

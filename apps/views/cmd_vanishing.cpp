@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/read_calib.h"
 #include "apps/support/output.h"
 #include "apps/support/usage.h"
 

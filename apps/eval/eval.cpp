@@ -1,0 +1,179 @@
+#include "apps/eval/eval.h"
+
+#include <placegraph/eval/trajectory/report.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/support/choice.h"
+#include "apps/support/output.h"
+#include "apps/support/plot_file.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// One comparison to make: two files and what the result is called.
+struct Job {
+  std::string truth, estimate, name;
+};
+
+std::vector<fs::path> files_in(const std::string& folder) {
+  std::vector<fs::path> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().filename().string().front() != '.')
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// The file of `folder` of the same name, or else the only one with the same stem.
+fs::path partner(const fs::path& truth, const std::vector<fs::path>& candidates) {
+  std::vector<fs::path> same_stem;
+  for (const fs::path& candidate : candidates) {
+    if (candidate.filename() == truth.filename()) return candidate;
+    if (candidate.stem() == truth.stem()) same_stem.push_back(candidate);
+  }
+  if (same_stem.empty()) return {};
+  require(same_stem.size() == 1,
+          truth.filename().string() + ": both " + same_stem[0].filename().string() + " and " +
+              same_stem.back().filename().string() + " could be its estimate");
+  return same_stem.front();
+}
+
+std::vector<Job> folder_jobs(const std::string& truth, const std::string& estimate) {
+  std::vector<Job> jobs;
+  const std::vector<fs::path> candidates = files_in(estimate);
+  for (const fs::path& file : files_in(truth)) {
+    const fs::path match = partner(file, candidates);
+    if (match.empty())
+      warn(file.string() + ": no file of that name in " + estimate);
+    else
+      jobs.push_back({file.string(), match.string(), file.stem().string()});
+  }
+  require(!jobs.empty(), estimate + ": no file has the name of one in " + truth);
+  return jobs;
+}
+
+// The file's name, else its folder's, else its path: the first that no other estimate has too.
+std::string short_name(const std::string& estimate, const std::vector<std::string>& all) {
+  const auto folder = [](const fs::path& path) { return path.parent_path().filename(); };
+  const auto is_unique = [&](auto&& part) {
+    return 1 == std::count_if(all.begin(), all.end(), [&](const std::string& other) {
+             return part(fs::path(other)) == part(fs::path(estimate));
+           });
+  };
+  const fs::path path(estimate);
+  if (is_unique([](const fs::path& p) { return p.filename(); })) return path.filename().string();
+  if (!folder(path).empty() && is_unique(folder)) return folder(path).string();
+  return estimate;
+}
+
+std::vector<Job> jobs_of(const EvalArguments& arguments) {
+  std::string truth = arguments.truth;
+  const bool one_folder =
+      arguments.estimates.size() == 1 && fs::is_directory(arguments.estimates.front());
+  if (fs::is_directory(truth)) {
+    if (one_folder) return folder_jobs(truth, arguments.estimates.front());
+    const std::string poses = (fs::path(truth) / "poses.txt").string();
+    require(fs::exists(poses), truth +
+                                   ": is a folder without poses.txt, and the estimate is a "
+                                   "file");
+    truth = poses;
+  }
+  std::vector<Job> jobs;
+  for (const std::string& estimate : arguments.estimates) {
+    require(!fs::is_directory(estimate),
+            estimate + ": is a folder, and the ground truth is a file");
+    jobs.push_back({truth, estimate, short_name(estimate, arguments.estimates)});
+  }
+  return jobs;
+}
+
+/// `times` are those of a file without times of its own; others keep theirs.
+Trajectory read(const std::string& path, const std::string& times) {
+  Trajectory trajectory = read_trajectory(path, {}, Orientation::kOptional);
+  if (!trajectory.has_times && !times.empty()) give_times(trajectory, path, times);
+  return trajectory;
+}
+
+/// The trajectories are gone when it returns: long ones take most of the memory.
+PairingResult pair(const Job& job, const EvalArguments& arguments,
+                   const EvaluationOptions& options) {
+  const std::string truth_times = arguments.times.empty() ? "" : arguments.times.front();
+  const std::string estimate_times = arguments.times.empty() ? "" : arguments.times.back();
+  const Trajectory estimate = read(job.estimate, estimate_times);
+  Trajectory truth = read(job.truth, truth_times);
+  // A KITTI sequence keeps its times beside its poses; they are wanted where the estimate has some.
+  const fs::path beside = fs::path(job.truth).parent_path() / "times.txt";
+  if (!truth.has_times && estimate.has_times && fs::path(job.truth).filename() == "poses.txt" &&
+      options.association != Association::kIndex && fs::exists(beside))
+    give_times(truth, job.truth, beside.string());
+  return pair_trajectories(truth, estimate, options.association, options.time);
+}
+
+void check_outputs(const EvalArguments& arguments) {
+  for (const std::string& path : {arguments.csv, arguments.latex, arguments.plot})
+    if (!path.empty()) require_free(path, arguments.force);
+  require_plot_name(arguments.plot);
+  require(arguments.times.size() <= 2, "--times: one file for all, or two: ground truth, estimate");
+}
+
+void write_outputs(const EvalArguments& arguments, const std::vector<EvaluationResult>& results) {
+  if (!arguments.csv.empty()) write_file(arguments.csv, to_csv(results));
+  if (!arguments.latex.empty()) write_file(arguments.latex, to_latex(results));
+  if (arguments.plot.empty()) return;
+  write_plot(arguments.plot, plot_of(results));
+}
+
+}  // namespace
+
+const std::vector<std::string>& eval_alignments() {
+  static const std::vector<std::string> names = {"none", "origin", "se3", "sim3", "scale"};
+  return names;
+}
+
+const std::vector<std::string>& eval_associations() {
+  static const std::vector<std::string> names = {"auto", "index", "time"};
+  return names;
+}
+
+const EvaluationResult* EvalResult::refused() const {
+  const auto found = std::find_if(results.begin(), results.end(),
+                                  [](const EvaluationResult& r) { return !r.outcome; });
+  return found == results.end() ? nullptr : &*found;
+}
+
+EvalResult eval(const EvalArguments& arguments) {
+  EvaluationOptions options = arguments.options;
+  options.alignment = choice<Alignment>("--align", eval_alignments(), arguments.align);
+  options.association =
+      choice<Association>("--associate", eval_associations(), arguments.associate);
+  options.check();
+  require(!arguments.estimates.empty(), "EST: no estimate is given");
+  check_outputs(arguments);
+  EvalResult result;
+  result.folders = fs::is_directory(arguments.estimates.front());
+  for (const Job& job : jobs_of(arguments)) {
+    result.results.push_back(evaluate(pair(job, arguments, options), options, job.name));
+    for (const std::string& warning : result.results.back().warnings)
+      warn(job.name + ": " + warning);
+  }
+  if (!result.refused()) write_outputs(arguments, result.results);
+  return result;
+}
+
+std::string to_text(const EvalResult& result) {
+  return result.single() ? to_text(result.results.front())
+                         : to_table(result.results, result.folders);
+}
+
+std::string to_json(const EvalResult& result) {
+  return result.single() ? to_json(result.results.front())
+                         : to_json(result.results, result.folders);
+}
+
+}  // namespace placegraph::apps

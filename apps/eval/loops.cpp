@@ -1,0 +1,225 @@
+#include "apps/eval/loops.h"
+
+#include <fmt/format.h>
+#include <placegraph/eval/plots/precision_recall_plot.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/output.h"
+#include "apps/support/plot_file.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+struct Protocol {
+  LoopTruth truth;
+  std::string text;
+};
+
+Protocol protocol_of(const LoopsArguments& arguments) {
+  Protocol protocol;
+  if (!arguments.poses.empty()) {
+    RevisitOptions revisit = arguments.revisit;
+    revisit.min_age = arguments.min_age.value_or(revisit.min_age);
+    protocol.truth = loop_truth_from_poses(read_trajectory(arguments.poses), revisit);
+    protocol.text = fmt::format("poses within {:g} m and {:g} deg", revisit.same.radius_m,
+                                revisit.same.heading_deg);
+  } else {
+    LoopTruthFile file = read_loop_truth(arguments.gt);
+    const bool ranges = file.format == LoopTruthFormat::kRanges;
+    protocol.text = ranges ? "matches and candidates listed per query" : "matches listed per query";
+    if (file.format == LoopTruthFormat::kMatrix) protocol.text = "matrix of matches";
+    protocol.truth = std::move(file.truth);
+    protocol.truth.min_age = arguments.min_age.value_or(ranges ? 0 : arguments.revisit.min_age);
+  }
+  if (protocol.truth.min_age > 0)
+    protocol.text += fmt::format(", candidates at least {} images older", protocol.truth.min_age);
+  if (arguments.tolerance > 0)
+    protocol.text += fmt::format(", matches good to {} images", arguments.tolerance);
+  return protocol;
+}
+
+// Poses say how many images there are; a prediction beyond them belongs to another set.
+void require_known(const std::string& path, const std::vector<LoopPrediction>& predictions,
+                   std::int64_t images) {
+  for (const LoopPrediction& p : predictions)
+    if (p.query >= images || p.candidate >= images)
+      throw FileError(
+          path, p.line,
+          fmt::format("image {}, and the poses are of {}", std::max(p.query, p.candidate), images));
+}
+
+std::vector<LoopJudgement> judge(const LoopsArguments& arguments, const Protocol& protocol) {
+  std::vector<LoopJudgement> judgements;
+  for (std::size_t i = 0; i < arguments.predictions.size(); ++i) {
+    const std::string& path = arguments.predictions[i];
+    const LoopFileFormat format = arguments.formats[arguments.formats.size() == 1 ? 0 : i];
+    const auto predictions = read_loop_predictions(path, format);
+    if (!arguments.poses.empty() && !protocol.truth.queries.empty())
+      require_known(path, predictions, protocol.truth.queries.rbegin()->first + 1);
+    const std::string name = arguments.names.empty()
+                                 ? std::filesystem::path(path).filename().string()
+                                 : arguments.names[i];
+    LoopJudgement& judgement = judgements.emplace_back();
+    judgement.name = name;
+    judgement.path = path;
+    judgement.benchmark = judge_loops(protocol.truth, predictions, arguments.tolerance);
+    if (format == LoopFileFormat::kRun)
+      judgement.reliability = reliability_of(judgement.benchmark.candidates);
+  }
+  return judgements;
+}
+
+json number_or_null(const std::optional<double>& value) { return value ? json(*value) : json(); }
+
+json json_of(const LoopJudgement& judgement) {
+  const LoopBenchmark& b = judgement.benchmark;
+  int hits = 0, misses = 0;
+  if (!b.curve.curve.empty()) {
+    hits = b.curve.curve.back().hits;
+    misses = b.curve.curve.back().misses;
+  }
+  json report = {{"name", judgement.name},
+                 {"predictions_file", judgement.path},
+                 {"positives", b.positives},
+                 {"answered", b.answered},
+                 {"hits", hits},
+                 {"misses", misses},
+                 {"dropped", b.dropped},
+                 {"unjudged", b.unjudged},
+                 {"r_at_1", number_or_null(b.recall_at[0])},
+                 {"r_at_5", number_or_null(b.recall_at[1])},
+                 {"r_at_10", number_or_null(b.recall_at[2])},
+                 {"ap", number_or_null(b.curve.average_precision)},
+                 {"recall_at_100p", number_or_null(b.curve.recall_at_full_precision)},
+                 {"f1_max", number_or_null(b.curve.f1_max)}};
+  if (!judgement.reliability) return report;
+  report["candidates"] = b.candidates.size();
+  report["calibration_error"] = judgement.reliability->calibration_error;
+  for (const ReliabilityBin& bin : judgement.reliability->bins)
+    report["reliability"].push_back({{"candidates", bin.answers},
+                                     {"mean_probability", bin.mean_probability},
+                                     {"share_right", bin.share_right}});
+  return report;
+}
+
+std::string cell(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4f}", *value) : "none";
+}
+
+/// What was left out, and how far probabilities are to be believed.
+std::string remarks_text(const std::vector<LoopJudgement>& judgements) {
+  std::string text;
+  for (const LoopJudgement& judgement : judgements) {
+    const LoopBenchmark& b = judgement.benchmark;
+    if (b.dropped > 0 || b.unjudged > 0)
+      text += fmt::format(
+          "{}: left out: {} predictions for images that the truth does not speak of, {} whose "
+          "candidate is too young or out of range\n",
+          judgement.name, b.unjudged, b.dropped);
+  }
+  for (const LoopJudgement& judgement : judgements) {
+    if (!judgement.reliability) continue;
+    text += fmt::format("{}: probabilities of {} candidates are off by {:.3f}; right of those in\n",
+                        judgement.name, judgement.benchmark.candidates.size(),
+                        judgement.reliability->calibration_error);
+    for (const ReliabilityBin& bin : judgement.reliability->bins)
+      if (bin.answers > 0)
+        text += fmt::format("  mean {:.3f}: {:.3f} ({} candidates)\n", bin.mean_probability,
+                            bin.share_right, bin.answers);
+  }
+  return text;
+}
+
+std::string to_log(const std::vector<LoopJudgement>& judgements) {
+  std::string text = "system,query,has_match,verdict,candidate,score,rank,stage\n";
+  for (const LoopJudgement& judgement : judgements)
+    for (const JudgedQuery& query : judgement.benchmark.queries) {
+      const bool answered =
+          query.verdict == LoopVerdict::kHit || query.verdict == LoopVerdict::kMiss;
+      const LoopPrediction& best = query.best;
+      text += fmt::format(
+          "{},{},{},{},{},{},{},{}\n", judgement.name, query.query, query.has_match ? 1 : 0,
+          to_string(query.verdict), answered ? fmt::format("{}", best.candidate) : "",
+          answered ? fmt::format("{:.9g}", best.score) : "", query.rank, best.stage);
+    }
+  return text;
+}
+
+void write_outputs(const LoopsArguments& arguments, const std::vector<LoopJudgement>& judgements,
+                   const std::string& protocol) {
+  if (!arguments.log.empty()) write_file(arguments.log, to_log(judgements));
+  if (arguments.plot.empty()) return;
+  PrecisionRecallPlot plot;
+  plot.title = protocol;
+  for (const LoopJudgement& judgement : judgements)
+    plot.curves.push_back({judgement.name, judgement.benchmark.curve});
+  write_file(arguments.plot, arguments.plot.ends_with(".svg") ? to_svg(plot) : to_png(plot));
+}
+
+void check(const LoopsArguments& arguments) {
+  for (const std::string& path : {arguments.log, arguments.plot})
+    if (!path.empty()) require_free(path, arguments.force);
+  require_plot_name(arguments.plot);
+  const std::size_t systems = arguments.predictions.size();
+  require(systems > 0, "--predictions: none are given");
+  require(arguments.gt.empty() != arguments.poses.empty(), "one of --gt and --poses is needed");
+  require(arguments.formats.size() == 1 || arguments.formats.size() == systems,
+          "--format: one for all, or one for each of --predictions");
+  require(arguments.names.empty() || arguments.names.size() == systems,
+          "--names: one for each of --predictions");
+  arguments.revisit.check();
+}
+
+}  // namespace
+
+LoopsResult loops(const LoopsArguments& arguments) {
+  check(arguments);
+  const Protocol protocol = protocol_of(arguments);
+  const LoopsResult result{protocol.text, judge(arguments, protocol)};
+  for (const LoopJudgement& judgement : result.systems) {
+    if (judgement.benchmark.positives == 0)
+      warn(judgement.name + ": no query has a true match; recall is not defined");
+    if (judgement.benchmark.unjudged > 0)
+      warn(fmt::format("{}: {} predictions for images without ground truth are not judged",
+                       judgement.name, judgement.benchmark.unjudged));
+  }
+  write_outputs(arguments, result.systems, result.protocol);
+  return result;
+}
+
+std::string to_json(const LoopsResult& result) {
+  json report = json_of(result.systems.front());
+  if (result.systems.size() > 1) {
+    report = json::object();
+    for (const LoopJudgement& judgement : result.systems)
+      report["systems"].push_back(json_of(judgement));
+  }
+  report["protocol"] = result.protocol;
+  return report.dump(1) + "\n";
+}
+
+std::string to_text(const LoopsResult& result) {
+  std::size_t width = 6;
+  for (const LoopJudgement& judgement : result.systems)
+    width = std::max(width, judgement.name.size());
+  std::string text = fmt::format("{}\n{:<{}} {:>9} {:>8} {:>7} {:>7} {:>7} {:>7} {:>14} {:>7}\n",
+                                 result.protocol, "system", width, "positives", "answered", "R@1",
+                                 "R@5", "R@10", "AP", "recall at 100p", "F1 max");
+  for (const LoopJudgement& judgement : result.systems) {
+    const LoopBenchmark& b = judgement.benchmark;
+    text += fmt::format("{:<{}} {:>9} {:>8} {:>7} {:>7} {:>7} {:>7} {:>14} {:>7}\n", judgement.name,
+                        width, b.positives, b.answered, cell(b.recall_at[0]), cell(b.recall_at[1]),
+                        cell(b.recall_at[2]), cell(b.curve.average_precision),
+                        cell(b.curve.recall_at_full_precision), cell(b.curve.f1_max));
+  }
+  return text + remarks_text(result.systems);
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,31 @@
+#pragma once
+#include <placegraph/backend/factor_graph/bundle_adjustment.h>
+
+#include <string>
+
+namespace placegraph::apps {
+
+struct BundleArguments {
+  std::string in;               ///< problem in the form of BAL
+  std::string out;              ///< where the adjusted one is written; empty: nowhere
+  std::string kernel = "none";  ///< one of robust_kernel_names()
+  BundleOptions options;        ///< but the kind of kernel, which `kernel` names
+  bool force = false;           ///< overwrite `out`
+};
+
+struct BundleResult {
+  std::string in, out;
+  std::size_t cameras = 0, points = 0, observations = 0;
+  BundleReport report;
+  double cpu_ms = 0, wall_ms = 0;
+};
+
+/// `placegraph bundle`: reads the problem, adjusts it and writes it. Throws ArgumentError,
+/// FileError, and NoAnswer where the problem has no solution.
+BundleResult bundle(const BundleArguments& arguments);
+
+/// Three lines of text.
+std::string to_text(const BundleResult& result);
+std::string to_json(const BundleResult& result);
+
+}  // namespace placegraph::apps

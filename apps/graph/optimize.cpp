@@ -1,0 +1,380 @@
+#include "apps/graph/optimize.h"
+
+#include <fmt/format.h>
+#include <placegraph/eval/plots/pose_graph_plot.h>
+#include <placegraph/graph/core/chi_squared.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/graphs/pose_graph_file.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+
+#include "apps/support/choice.h"
+#include "apps/support/output.h"
+#include "apps/support/plot_file.h"
+
+namespace placegraph::apps {
+namespace {
+
+PoseGraph without(PoseGraph graph, const std::vector<RejectedEdge>& rejected) {
+  std::vector<char> is_rejected(graph.constraints.size());
+  for (const RejectedEdge& edge : rejected) is_rejected[edge.constraint] = true;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < graph.constraints.size(); ++i)
+    if (!is_rejected[i]) std::swap(graph.constraints[kept++], graph.constraints[i]);
+  graph.constraints.resize(kept);
+  return graph;
+}
+
+GraphCosts costs_of(const PoseGraph& graph) {
+  return {chi2(graph, RotationError::kQuaternion), chi2(graph, RotationError::kLog)};
+}
+
+using Json = nlohmann::ordered_json;
+
+Json rejected_edges(const GraphSolution& solution) {
+  Json list = Json::array();
+  for (const RejectedEdge& rejected : solution.rejected) {
+    const auto& edge =
+        std::get<RelativePoseConstraint>(solution.graph.constraints[rejected.constraint]);
+    list.push_back({{"from", edge.from},
+                    {"to", edge.to},
+                    {"chi2", rejected.chi2},
+                    {"reason", rejected.reason}});
+  }
+  return list;
+}
+
+/// Edges that were kept though their chi2 at the solution is beyond the 99.9 % bound.
+int doubtful_edges(const GraphSolution& solution) {
+  if (solution.chi2_by_constraint.empty()) return 0;
+  const double bound = chi_squared_quantile(0.999, degrees_of_freedom(solution.graph.kind()));
+  const auto beyond =
+      std::count_if(solution.chi2_by_constraint.begin(), solution.chi2_by_constraint.end(),
+                    [&](double chi2) { return chi2 > bound; });
+  const auto rejected = std::count_if(
+      solution.rejected.begin(), solution.rejected.end(),
+      [&](const auto& edge) { return solution.chi2_by_constraint[edge.constraint] > bound; });
+  return static_cast<int>(beyond - rejected);
+}
+
+/// How many times what the information of the edges lets expect the cost is, where the least
+/// squares of a graph with loops look like those of a wrong graph.
+std::optional<double> misfit_of(const OptimizeResult& result) {
+  constexpr double kMuch = 10;  // times what is expected
+  const PoseGraph& graph = result.solution.graph;
+  const auto free = static_cast<double>(graph.constraints.size()) -
+                    static_cast<double>(graph.nodes.size()) + result.solution.components;
+  const double expected = degrees_of_freedom(graph.kind()) * std::max(1.0, free);
+  if (result.robust != "none" || result.after.log < kMuch * expected) return std::nullopt;
+  return result.after.log / expected;
+}
+
+/// "3, 5, 7 and 12 more"
+std::string some_ids(const std::vector<std::int64_t>& ids) {
+  constexpr std::size_t kMost = 10;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMost, ids.size()); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : ", ", ids[i]);
+  if (ids.size() > kMost) text += fmt::format(" and {} more", ids.size() - kMost);
+  return text;
+}
+
+/// One line where another start may end elsewhere at the same cost.
+void warn_of_free_directions(const std::string& in, int count,
+                             const std::vector<std::int64_t>& vertices) {
+  if (count == 0) return;
+  warn(
+      fmt::format("{}: the minimum is not unique: the constraints leave {}{} directions free, at "
+                  "{} vertices ({}); their information may have been written in another order, or "
+                  "has zeros",
+                  in, count >= FreeDirections::kMost ? "at least " : "", count, vertices.size(),
+                  some_ids(vertices)));
+}
+
+/// One line where parts of a graph with priors or landmarks stand for themselves.
+void warn_of_parts(const std::string& in, const LandmarkSolution& solution) {
+  const std::vector<std::int64_t>& held = solution.held_vertices;
+  if (solution.components < 2 || held.empty()) return;
+  warn(
+      fmt::format("{}: the graph falls into {} components, of which {} are tied to the world by "
+                  "no prior and no FIX: each keeps a vertex where it is ({})",
+                  in, solution.components, held.size(), some_ids(held)));
+}
+
+std::vector<std::int64_t> free_vertices(const GraphSolution& solution) {
+  std::vector<std::int64_t> ids;
+  for (const int node : solution.free.nodes) ids.push_back(solution.graph.nodes[node].id);
+  return ids;
+}
+
+/// How long the steps of a graph that grew took.
+struct StepTimes {
+  double mean_ms = 0, p95_ms = 0, max_ms = 0;
+};
+
+/// Precondition: there is a step.
+StepTimes times_of(std::vector<double> cpu_ms) {
+  std::sort(cpu_ms.begin(), cpu_ms.end());
+  const std::size_t count = cpu_ms.size();
+  const double sum = std::accumulate(cpu_ms.begin(), cpu_ms.end(), 0.0);
+  return {sum / static_cast<double>(count), cpu_ms[(count * 95 + 99) / 100 - 1], cpu_ms.back()};
+}
+
+void describe_steps(const std::vector<double>& cpu_ms, Json& report) {
+  if (cpu_ms.empty()) return;
+  const StepTimes times = times_of(cpu_ms);
+  report["steps"] = cpu_ms.size();
+  report["step_cpu_ms_mean"] = times.mean_ms;
+  report["step_cpu_ms_p95"] = times.p95_ms;
+  report["step_cpu_ms_max"] = times.max_ms;
+}
+
+void describe_certificate(const GraphSolution& solution, Json& report) {
+  report["refined_from_certified"] = solution.refined_from_certified;
+  report["certified"] = solution.certificate && solution.certificate->certified;
+  report["certified_problem"] = nullptr;
+  if (!solution.certificate) return;
+  const ChordalIsotropicCertificate& certificate = *solution.certificate;
+  report["certified_problem"] = ChordalIsotropicCertificate::kProblem;
+  report["certificate_gap"] = certificate.relative_gap;
+  report["certificate_cost"] = certificate.cost;
+  report["certificate_cost_of_estimate"] = certificate.cost_of_estimate;
+  report["certificate_lower_bound"] = certificate.lower_bound;
+  report["smallest_eigenvalue"] = certificate.smallest_eigenvalue;
+  report["eigenvalue_scale"] = certificate.eigenvalue_scale;
+  report["certificate_cpu_ms"] = solution.certificate_cpu_ms;
+}
+
+void draw(const std::string& path, const PoseGraph& before, const GraphSolution& solution,
+          const GraphCosts& costs) {
+  std::vector<int> rejected;
+  for (const RejectedEdge& edge : solution.rejected) rejected.push_back(edge.constraint);
+  Plot plot = plot_of(before, solution.graph, rejected);
+  plot.title = fmt::format("{} poses, {} constraints, chi2 {:.5g} (log), {:.5g} (g2o)",
+                           solution.graph.nodes.size(), solution.graph.constraints.size(),
+                           costs.log, costs.g2o);
+  write_plot(path, plot);
+}
+
+/// The options that the names among the arguments stand for; all arguments are checked.
+PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
+  PoseGraphOptions options = arguments.task.options;
+  options.rotation_error = choice<RotationError>("--cost", optimize_costs(), arguments.cost);
+  options.engine =
+      choice<PoseGraphEngine>("--engine", pose_graph_option("engine").choices, arguments.engine);
+  options.start =
+      choice<PoseGraphStart>("--start", pose_graph_option("start").choices, arguments.start);
+  options.robust.method = choice<RobustMethod>(
+      "--robust", pose_graph_option("robust.method").choices, arguments.robust);
+  options.check();
+  require(
+      !arguments.task.incremental ||
+          (arguments.robust == "none" && arguments.engine == "native" && arguments.start == "auto"),
+      "--incremental goes with --engine native, --robust none and --start auto");
+  require(!arguments.drop_rejected || arguments.robust != "none",
+          "--drop-rejected goes with --robust, which rejects");
+  require_plot_name(arguments.plot);
+  require(arguments.plot.empty() || arguments.plot != arguments.out,
+          "--plot: " + arguments.plot + " is where the graph is to be written");
+  require_free(arguments.out, arguments.force);
+  if (!arguments.plot.empty()) require_free(arguments.plot, arguments.force);
+  return options;
+}
+
+/// What belongs to pose graphs alone is refused of a graph with priors and point landmarks.
+void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& task,
+                           const LandmarkGraph& graph) {
+  const PoseGraphOptions& options = task.options;
+  require(options.robust.method == RobustMethod::kNone && !task.incremental && !task.split &&
+              !task.certify &&
+              (options.start == PoseGraphStart::kAuto || options.start == PoseGraphStart::kFile) &&
+              arguments.plot.empty(),
+          arguments.in +
+              ": has priors or point landmarks, which --robust, --incremental, "
+              "--components, --certify, --plot and --start odometry, chordal and "
+              "certified do not take");
+  require(
+      options.rotation_error == RotationError::kLog ||
+          std::ranges::none_of(graph.priors, &PosePriorConstraint::beside_node),
+      arguments.in +
+          ": has priors of a sensor that stands beside its vertex (PARAMS_SE3OFFSET), which are "
+          "exact for --cost log alone");
+}
+
+void optimize_landmarks(const OptimizeArguments& arguments, const GraphTask& task,
+                        LandmarkGraph graph, OptimizeResult& result) {
+  require_for_landmarks(arguments, task, graph);
+  try {
+    result.landmarks = solve_landmarks(std::move(graph), task.options);
+  } catch (const NoAnswer& reason) {
+    throw NoAnswer(arguments.in + ": " + reason.what());
+  }
+  const LandmarkSolution& solution = *result.landmarks;
+  if (!std::isfinite(solution.chi2_log))
+    throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
+  warn_of_free_directions(arguments.in, solution.free_directions, solution.free_vertices);
+  warn_of_parts(arguments.in, solution);
+  write_g2o(arguments.out, solution.graph);
+}
+
+void optimize_poses(const OptimizeArguments& arguments, const GraphTask& task, PoseGraph start,
+                    const LogSink& sink, OptimizeResult& result) {
+  result.before = costs_of(start);
+  if (!std::isfinite(result.before.g2o + result.before.log))
+    throw FileError(arguments.in, "the cost at the given poses is not finite: numbers too large");
+  const PoseGraph drawn = arguments.plot.empty() ? PoseGraph() : start;
+  GraphSolution& solution = result.solution;
+  try {
+    solution = solve(std::move(start), task, sink);
+  } catch (const NoAnswer& reason) {
+    throw NoAnswer(arguments.in + ": " + reason.what());
+  }
+  const PoseGraph kept = without(solution.graph, solution.rejected);
+  result.after = costs_of(kept);
+  if (!std::isfinite(result.after.g2o + result.after.log))
+    throw NoAnswer(arguments.in + ": the cost of the solution is not finite");
+  if (!arguments.plot.empty()) draw(arguments.plot, drawn, solution, result.after);
+  if (const auto misfit = misfit_of(result))
+    log(sink, LogLevel::kWarning,
+        "placegraph: {}: chi2 is {:.0f} times what the information of the edges lets expect: "
+        "false loops (try --robust auto), or information that promises too much",
+        arguments.in, *misfit);
+  warn_of_free_directions(arguments.in, solution.free.count, free_vertices(solution));
+  if (!solution.loops_judged)
+    warn(arguments.in + ": too few loops agree to know the noise's scale: --robust " +
+         arguments.robust + " judged none of them, and left none out");
+  write_g2o(arguments.out, arguments.drop_rejected ? kept : solution.graph);
+}
+
+Json describe(const OptimizeResult& result) {
+  const char* const kinds[] = {"SE2", "SE3", "Sim3"};
+  const GraphSolution& solution = result.solution;
+  Json report;
+  report["in"] = result.in;
+  report["out"] = result.out;
+  report["cost"] = result.cost;
+  report["engine"] = result.engine;
+  report["start"] = solution.start;
+  report["robust"] = result.robust;
+  report["kind"] = kinds[static_cast<int>(solution.graph.kind())];
+  report["nodes"] = solution.graph.nodes.size();
+  report["constraints"] = solution.graph.constraints.size();
+  report["components"] = solution.components;
+  report["chi2_g2o_initial"] = result.before.g2o;
+  report["chi2_log_initial"] = result.before.log;
+  report["chi2_g2o"] = result.after.g2o;
+  report["chi2_log"] = result.after.log;
+  report["iterations"] = solution.iterations;
+  report["cpu_ms"] = solution.cpu_ms;
+  report["wall_ms"] = solution.wall_ms;
+  report["peak_mb"] = solution.peak_mb;
+  report["free_directions"] = solution.free.count;
+  report["free_vertices"] = free_vertices(solution);
+  describe_certificate(solution, report);
+  describe_steps(solution.step_cpu_ms, report);
+  report["loops_judged"] = result.robust != "none" && solution.loops_judged;
+  report["rejected"] = solution.rejected.size();
+  report["rejected_edges"] = rejected_edges(solution);
+  report["doubtful"] = doubtful_edges(solution);
+  return report;
+}
+
+/// The line of the edges that were kept though they lie far off; empty if there are none.
+std::string doubtful_text(const OptimizeResult& result) {
+  const int doubtful = doubtful_edges(result.solution);
+  if (doubtful == 0 || result.robust == "none") return {};
+  const bool weighs = result.robust == "huber" || result.robust == "dcs";
+  return fmt::format(
+      "  {} constraints kept that lie beyond the 99.9 % bound of their chi2{}\n", doubtful,
+      weighs ? "; the method gives them less weight, chi2 above counts them in full" : "");
+}
+
+/// The lines of the certificate and of the steps; empty where there are none.
+std::string details_text(const GraphSolution& solution) {
+  std::string text;
+  if (const auto& certificate = solution.certificate)
+    text += fmt::format(
+        "  {}: the isotropic chordal problem's minimum here lies at most {:.2g} above its "
+        "global one (smallest eigenvalue {:.3g})\n",
+        certificate->certified ? "certified" : "not certified", certificate->relative_gap,
+        certificate->smallest_eigenvalue);
+  if (solution.step_cpu_ms.empty()) return text;
+  const StepTimes times = times_of(solution.step_cpu_ms);
+  return text +
+         fmt::format("  {} steps of {:.2f} ms CPU on average, 95 % below {:.2f}, at most {:.2f}\n",
+                     solution.step_cpu_ms.size(), times.mean_ms, times.p95_ms, times.max_ms);
+}
+
+}  // namespace
+
+OptionEntry pose_graph_option(const std::string& path) {
+  for (OptionEntry& entry : list_options(PoseGraphOptions()))
+    if (entry.path == path) return entry;
+  throw ArgumentError("no option of the backend: " + path);
+}
+
+const std::vector<std::string>& optimize_costs() {
+  static const std::vector<std::string> names = {"log", "g2o"};
+  return names;
+}
+
+OptimizeResult optimize(const OptimizeArguments& arguments, const LogSink& sink) {
+  GraphTask task = arguments.task;
+  task.options = checked_options(arguments);
+  std::vector<std::string> remarks;
+  LandmarkGraph read =
+      read_landmark_graph(arguments.in, {.connected = !task.split, .remarks = &remarks});
+  for (const std::string& remark : remarks) warn(arguments.in + ": " + remark);
+  OptimizeResult result;
+  result.in = arguments.in;
+  result.out = arguments.out;
+  result.cost = arguments.cost;
+  result.engine = arguments.engine;
+  result.robust = arguments.robust;
+  if (read.has_poses_alone())
+    optimize_poses(arguments, task, std::move(read.poses), sink, result);
+  else
+    optimize_landmarks(arguments, task, std::move(read), result);
+  return result;
+}
+
+std::string to_json(const OptimizeResult& result) {
+  Json report;
+  if (result.landmarks) {
+    report = {{"in", result.in}, {"out", result.out}, {"cost", result.cost}};
+    report.update(describe(*result.landmarks));
+  } else {
+    report = describe(result);
+  }
+  return report.dump(2) + "\n";
+}
+
+std::string to_text(const OptimizeResult& result) {
+  if (result.landmarks) return to_text(*result.landmarks, result.in, result.cost, result.out);
+  const GraphSolution& solution = result.solution;
+  const char* const kinds[] = {"SE2", "SE3", "Sim3"};
+  std::string text =
+      fmt::format("{}: {}, {} nodes, {} constraints, minimized in the {} convention\n", result.in,
+                  kinds[static_cast<int>(solution.graph.kind())], solution.graph.nodes.size(),
+                  solution.graph.constraints.size(), result.cost);
+  if (solution.components > 1)
+    text += fmt::format("  {} components, each for itself\n", solution.components);
+  text += fmt::format("  chi2 (g2o: half-angle quaternion) {:.6f} -> {:.6f}\n", result.before.g2o,
+                      result.after.g2o);
+  text += fmt::format("  chi2 (logarithm)                  {:.6f} -> {:.6f}\n", result.before.log,
+                      result.after.log);
+  if (!solution.rejected.empty())
+    text += fmt::format("  {} constraints rejected\n", solution.rejected.size());
+  text += doubtful_text(result) + details_text(solution);
+  return text +
+         fmt::format(
+             "  {} iterations, {:.1f} ms CPU, {:.1f} ms wall, {:.0f} MB at most; written to {}\n",
+             solution.iterations, solution.cpu_ms, solution.wall_ms, solution.peak_mb, result.out);
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,38 @@
+#include "apps/support/read_calib.h"
+
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/io/calibration/camera_file.h>
+#include <placegraph/io/calibration/foreign_calibration.h>
+
+#include <filesystem>
+
+namespace placegraph::apps {
+
+Camera read_calib(const std::string& path) {
+  const std::string kind = std::filesystem::path(path).extension().string();
+  RawCamera raw;
+  if (kind == ".yaml" || kind == ".yml" || kind == ".xml" || kind == ".json") {
+    CalibrationYaml yaml;
+    read_calibration_yaml(path, yaml);
+    raw = yaml.camera();
+  } else if (const auto foreign = read_foreign_calibration(path)) {
+    raw = foreign->raw;
+  } else {
+    return read_camera_file(path);
+  }
+  if (raw.is_rational())
+    throw FileError(path, "a rational lens (k4, k5, k6) is not taken here: undistort the images");
+  const Camera& camera = raw.camera;
+  if (camera.width == 0 || camera.height == 0) throw FileError(path, "tells no size of the images");
+  return camera;
+}
+
+Camera read_calib_without_distortion(const std::string& path, const std::string& what) {
+  const Camera camera = read_calib(path);
+  if (camera.distortion != Distortion::kNone)
+    throw FileError(path, what + " a camera without distortion");
+  return camera;
+}
+
+}  // namespace placegraph::apps

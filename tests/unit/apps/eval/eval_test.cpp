@@ -1,0 +1,146 @@
+#include "apps/eval/eval.h"
+
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/support/trajectories.h"
+
+namespace placegraph::apps {
+namespace {
+
+using test::message_of;
+using testing::HasSubstr;
+
+class EvalCommand : public testing::Test {
+ protected:
+  /// A drive of 60 frames that stands `off_m` to the side of where it was.
+  std::string write_drive(const std::string& name, double off_m = 0) {
+    Trajectory drive = test::winding_drive(60, 1, false);
+    for (StampedPose& pose : drive.poses) pose.T_world_body->translation().x() += off_m;
+    std::filesystem::create_directories(std::filesystem::path(folder / name).parent_path());
+    write_trajectory(folder / name, drive, TrajectoryFormat::kKitti);
+    return folder / name;
+  }
+  test::TemporaryFolder folder;
+  EvalArguments arguments;
+};
+
+TEST_F(EvalCommand, MeasuresHowFarAnEstimateIsOff) {
+  arguments.truth = write_drive("truth.txt");
+  arguments.estimates = {write_drive("estimate.txt", 0.3)};
+  arguments.align = "none";
+  const EvalResult result = eval(arguments);
+  ASSERT_TRUE(result.single());
+  EXPECT_EQ(result.refused(), nullptr);
+  EXPECT_NEAR(result.results[0].ape.error_m.rmse, 0.3, 1e-6);
+  EXPECT_EQ(result.results[0].posed, 60);
+  arguments.align = "se3";
+  EXPECT_LT(eval(arguments).results[0].ape.error_m.rmse, 1e-6);
+}
+
+TEST_F(EvalCommand, PairsTheFilesOfTwoFoldersByName) {
+  arguments.truth = folder / "truth";
+  arguments.estimates = {folder / "estimates"};
+  arguments.align = "none";
+  write_drive("truth/00.txt"), write_drive("truth/01.txt"), write_drive("truth/02.txt");
+  write_drive("estimates/01.txt", 0.2), write_drive("estimates/00.kitti", 0.1);
+  write_drive("estimates/99.txt");
+  const EvalResult result = eval(arguments);
+  ASSERT_EQ(result.results.size(), 2u);  // nobody has estimated 02
+  EXPECT_TRUE(result.folders);
+  EXPECT_EQ(result.results[0].name, "00");
+  EXPECT_NEAR(result.results[0].ape.error_m.rmse, 0.1, 1e-6);
+  EXPECT_EQ(result.results[1].name, "01");
+  EXPECT_NEAR(result.results[1].ape.error_m.rmse, 0.2, 1e-6);
+  EXPECT_TRUE(nlohmann::json::parse(to_json(result)).contains("average"));
+  write_drive("estimates/00.tum");
+  EXPECT_THAT(message_of<ArgumentError>([&] { eval(arguments); }),
+              HasSubstr("00.txt: both 00.kitti and 00.tum could be its estimate"));
+}
+
+TEST_F(EvalCommand, CallsEstimatesByWhatTellsThemApart) {
+  arguments.truth = write_drive("truth.txt");
+  arguments.estimates = {write_drive("a/poses.txt"), write_drive("b/poses.txt")};
+  const EvalResult result = eval(arguments);
+  ASSERT_EQ(result.results.size(), 2u);
+  EXPECT_EQ(result.results[0].name, "a");
+  EXPECT_EQ(result.results[1].name, "b");
+  EXPECT_FALSE(result.single());
+}
+
+TEST_F(EvalCommand, TakesTheTimesBesideASequence) {
+  std::string times;
+  for (int i = 0; i < 60; ++i) times += std::to_string(0.1 * i) + "\n";
+  folder.write("sequence/times.txt", times);
+  write_drive("sequence/poses.txt");
+  Trajectory estimate = test::winding_drive(60);
+  estimate.poses.erase(estimate.poses.begin(), estimate.poses.begin() + 20);
+  write_trajectory(folder / "estimate.tum", estimate, TrajectoryFormat::kTum);
+  arguments.truth = folder / "sequence";
+  arguments.estimates = {folder / "estimate.tum"};
+  arguments.align = "none";
+  const EvalResult result = eval(arguments);
+  EXPECT_EQ(result.results[0].posed, 40);
+  EXPECT_LT(result.results[0].ape.error_m.rmse, 1e-5);
+}
+
+TEST_F(EvalCommand, WritesTheFilesThatAreNamed) {
+  arguments.truth = write_drive("truth.txt");
+  arguments.estimates = {write_drive("estimate.txt")};
+  arguments.csv = folder / "figures.csv";
+  arguments.latex = folder / "table.tex";
+  arguments.plot = folder / "plot.svg";
+  eval(arguments);
+  EXPECT_THAT(test::read_file(arguments.csv), HasSubstr("estimate.txt,metric,"));
+  EXPECT_THAT(test::read_file(arguments.latex), HasSubstr("\\toprule"));
+  EXPECT_THAT(test::read_file(arguments.plot), HasSubstr("<svg"));
+}
+
+TEST_F(EvalCommand, WritesNothingWhereTheDataAllowNoAnswer) {
+  arguments.truth = write_drive("truth.txt");
+  Trajectory lost = test::winding_drive(60, 1, false);
+  for (StampedPose& pose : lost.poses) pose.T_world_body.reset();
+  write_trajectory(folder / "lost.txt", lost, TrajectoryFormat::kKitti);
+  arguments.estimates = {folder / "lost.txt"};
+  arguments.csv = folder / "figures.csv";
+  const EvalResult result = eval(arguments);
+  ASSERT_NE(result.refused(), nullptr);
+  EXPECT_EQ(result.refused()->name, "lost.txt");
+  EXPECT_FALSE(std::filesystem::exists(arguments.csv));
+}
+
+TEST_F(EvalCommand, RefusesArgumentsThatMeanNothing) {
+  const auto expect_refused = [&](const std::string& message) {
+    EXPECT_THAT(message_of<ArgumentError>([&] { eval(arguments); }), HasSubstr(message));
+  };
+  expect_refused("EST: no estimate is given");
+  arguments.truth = write_drive("truth.txt");
+  arguments.estimates = {write_drive("estimate.txt")};
+  const EvalArguments asked = arguments;
+  arguments.align = "best";
+  expect_refused("--align: 'best' is none of none, origin, se3, sim3, scale");
+  arguments = asked;
+  arguments.associate = "name";
+  expect_refused("--associate: 'name' is none of auto, index, time");
+  arguments = asked;
+  arguments.times = {"a", "b", "c"};
+  expect_refused("--times: one file for all, or two");
+  arguments = asked;
+  arguments.estimates = {folder.path()};
+  expect_refused(folder.path() + ": is a folder, and the ground truth is a file");
+  arguments = asked;
+  arguments.truth = folder.path();
+  expect_refused(folder.path() + ": is a folder without poses.txt");
+  arguments = asked;
+  arguments.csv = folder.write("mine.csv", "mine");
+  expect_refused("mine.csv: exists already; --force overwrites it");
+}
+
+}  // namespace
+}  // namespace placegraph::apps
