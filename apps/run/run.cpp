@@ -1,0 +1,251 @@
+#include "apps/run/run.h"
+
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/place_transitions.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
+#include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/graphs/place_graph_export.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <opencv2/core/utility.hpp>
+
+#include "apps/results/environment_files.h"
+#include "apps/results/floor_plan_files.h"
+#include "apps/results/run_files.h"
+#include "apps/results/run_judgement.h"
+#include "apps/results/semantic_map_files.h"
+#include "apps/run/draw_frame.h"
+#include "apps/run/run_notes.h"
+#include "apps/support/output.h"
+#include "apps/support/progress.h"
+#include "apps/support/scene_models.h"
+#include "apps/support/usage.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+double cpu_seconds(const rusage& usage) {
+  return usage.ru_utime.tv_sec + usage.ru_stime.tv_sec +
+         1e-6 * (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
+}
+
+/// Ground truth of the sequence, if there is one pose for every frame.
+const Trajectory* truth_of(const Dataset& dataset) {
+  const auto& truth = dataset.ground_truth();
+  return truth && truth->size() == dataset.size() ? &*truth : nullptr;
+}
+
+std::int64_t frames_to_run(const Dataset& dataset, const RunOptions& options) {
+  const auto offered = static_cast<std::int64_t>(dataset.size()) - options.first_frame;
+  return options.max_frames > 0 ? std::min<std::int64_t>(options.max_frames, offered) : offered;
+}
+
+void write_results(const std::string& folder, const RunResult& run, const Trajectory& optimized,
+                   const Trajectory* truth, const std::string& title, const json& summary) {
+  const auto path = [&](const char* name) { return (fs::path(folder) / name).string(); };
+  fs::remove(path("result.json"));  // written last: it vouches for the others
+  for (const auto& [trajectory, name] : {std::pair(&run.map.trajectory_online, "trajectory_online"),
+                                         std::pair(&optimized, "trajectory_optimized")}) {
+    write_trajectory(path((std::string(name) + ".tum").c_str()), *trajectory,
+                     TrajectoryFormat::kTum);
+    write_trajectory(path((std::string(name) + ".kitti").c_str()), *trajectory,
+                     TrajectoryFormat::kKitti);
+  }
+  const PoseGraph graph = run.map.place_graph.pose_graph();
+  write_g2o(path("graph.g2o"), graph);
+  fs::remove(path("graph_se3.g2o"));
+  if (graph.kind() == PoseKind::kSim3) write_g2o(path("graph_se3.g2o"), rigid_graph(graph));
+  write_file(path("places.json"), places_json(run.map));
+  const auto transitions = place_transitions(run.map);
+  write_file(path("places.graphml"), to_graphml(run.map.place_graph, transitions));
+  write_file(path("places.dot"), to_dot(run.map.place_graph, transitions));
+  write_file(path("loops.csv"), loops_csv(run.map));
+  write_file(path("plot.png"), run_plot(run, optimized, truth, title));
+  write_file(path("result.json"), summary.dump(1) + "\n");
+}
+
+json describe_stages(const RunResult& run) {
+  json stages = json::array();
+  for (const StageTimes::Stage& stage : run.stages)
+    stages.push_back({{"name", stage.name}, {"cpu_s", stage.cpu_s}, {"calls", stage.calls}});
+  return stages;
+}
+
+/// The model of surfaces that labels are made with, where the run needs them.
+std::shared_ptr<const SceneModel> surfaces_of(const SlamOptions& options) {
+  if (!options.semantics.enabled && !options.context.enabled) return nullptr;
+  return std::make_shared<const SceneModel>(load_scene_model(SceneModel::Kind::kSurfaces, ""));
+}
+
+/// Draws the floor plan and labels the places by its rooms; what result.json says of it. Where
+/// there is no plan the run is good all the same.
+json map_scene(const RunArguments& arguments, const RunOptions& options, const Dataset& dataset,
+               RunResult& run) {
+  const IndoorMap plan =
+      plan_of_map(run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.indoor);
+  if (plan.outcome) {
+    label_places(plan, run.map.place_graph);
+    save_labels(run_map_path(arguments.out), run.map.place_graph);
+    write_floor_plan(arguments.out, plan, run.map, dataset.name());
+  } else {
+    warn("no floor plan: " + plan.outcome.reason);
+  }
+  return describe_floor_plan(plan, run.map, dataset, arguments.sequence);
+}
+
+/// Writes the map of the street; what result.json says of it. Where there is none the run is good
+/// all the same.
+json map_street(const RunArguments& arguments, const RunOptions& options, const Dataset& dataset,
+                const RunResult& run) {
+  const UrbanMapper mapper = urban_mapper_of(
+      run.map, run.calibration, dataset, run.sensor, run.lens_k1, options.scene.urban,
+      {options.scene.urban_model, options.scene.surfaces_model});
+  const SemanticMap semantic = mapper.fuse(run.map);
+  if (semantic.outcome)
+    write_semantic_map(arguments.out, semantic, mapper, run.map, poses_of(run.map), dataset.name());
+  else
+    warn("no semantic map: " + semantic.outcome.reason);
+  return describe_semantic_map(semantic, mapper, run.map, dataset, arguments.sequence);
+}
+
+/// What comes before the work: the sequence with its notes, the models, and the folders.
+struct PreparedRun {
+  RunArguments arguments;
+  RunOptions options;
+  std::unique_ptr<Dataset> dataset;
+  std::vector<DataNote> notes;
+  std::shared_ptr<const SceneModel> surfaces;
+};
+
+PreparedRun prepare(RunArguments arguments) {
+  PreparedRun prepared;
+  const RunOptions options = prepare_run(arguments);
+  if (options.scene.semantics)
+    check_urban_models(options.scene.urban,
+                       {options.scene.urban_model, options.scene.surfaces_model});
+  if (!arguments.draw.empty()) {
+    require_free_folder(arguments.draw, arguments.force);
+    require(fs::weakly_canonical(arguments.draw) != fs::weakly_canonical(arguments.out),
+            "--draw: must be another folder than --out");
+  }
+  prepared.dataset = open_dataset(arguments.sequence);
+  prepared.notes = notes_of(*prepared.dataset, options);
+  for (const DataNote& note : prepared.notes) warn(prepared.dataset->name() + ": " + note.text);
+  prepared.surfaces = surfaces_of(options.slam);
+  prepared.arguments = std::move(arguments);
+  prepared.options = options;
+  return prepared;
+}
+
+/// The run itself, with its progress on stderr.
+RunResult run_prepared(const PreparedRun& prepared, const LogSink& log) {
+  const RunArguments& arguments = prepared.arguments;
+  const Dataset& dataset = *prepared.dataset;
+  FrameObserver observer;
+  if (!arguments.draw.empty())
+    observer = [&](const Frame& frame, const FrameResult& result, const FrameView& view) {
+      write_frame_drawing(arguments.draw, frame, result, view);
+    };
+  Progress progress("running " + dataset.name(), frames_to_run(dataset, prepared.options));
+  return run_sequence(
+      dataset, prepared.options,
+      [&](std::size_t done, std::size_t, const FrameResult&) {
+        progress.update(static_cast<std::int64_t>(done));
+      },
+      log, observer,
+      MapFile{run_map_path(arguments.out), fs::absolute(arguments.sequence).string(),
+              !arguments.resume.empty()},
+      prepared.surfaces);
+}
+
+/// What result.json says of the work; of its scene, its cost and its truth others say it.
+json summarize(PreparedRun& prepared, const RunResult& run, const Trajectory& optimized) {
+  const RunOptions& options = prepared.options;
+  const Dataset& dataset = *prepared.dataset;
+  json summary = describe_run(run, optimized);
+  if (!options.motion.file.empty()) summary["motion"] = describe_motion(run.map.place_graph);
+  if (!run.environments.empty())
+    summary["environments"] = describe_environments(run.map.place_graph);
+  if (run.resumed_at) summary["resumed_at"] = *run.resumed_at;
+  for (const DataNote& note : notes_of_motion(run, optimized)) {
+    warn(dataset.name() + ": " + note.text);
+    prepared.notes.push_back(note);
+  }
+  add_notes(prepared.notes, summary);
+  summary["unposed"] = describe_unposed(run);
+  summary["sequence"] = dataset.name();
+  summary["format"] = dataset.format();
+  summary["seed"] = options.slam.seed;
+  summary["threads"] = options.threads;
+  summary["stages"] = describe_stages(run);
+  return summary;
+}
+
+/// Time of the wall and of the processor since it was made.
+class RunClock {
+ public:
+  RunClock() { getrusage(RUSAGE_SELF, &begin_usage_); }
+  void stop() {
+    getrusage(RUSAGE_SELF, &end_usage_);
+    wall_ = std::chrono::steady_clock::now() - begin_;
+  }
+  void describe(json& summary) const {
+    summary["wall_s"] = wall_.count();
+    summary["cpu_s"] = cpu_seconds(end_usage_) - cpu_seconds(begin_usage_);
+    summary["peak_mb"] = peak_mb();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  rusage begin_usage_{}, end_usage_{};
+  std::chrono::duration<double> wall_{};
+};
+
+}  // namespace
+
+RunReport run(const RunArguments& asked, const LogSink& log) {
+  PreparedRun prepared = prepare(asked);
+  const RunArguments& arguments = prepared.arguments;
+  const RunOptions& options = prepared.options;
+  const Dataset& dataset = *prepared.dataset;
+  const OutputFolder folder(arguments.out);
+  std::optional<OutputFolder> drawings;
+  if (!arguments.draw.empty()) drawings.emplace(arguments.draw);
+  cv::setNumThreads(options.threads);
+
+  RunClock clock;
+  RunResult run = run_prepared(prepared, log);
+  json floor_plan, semantic_map;
+  if (options.scene.geometry) floor_plan = map_scene(arguments, options, dataset, run);
+  if (options.scene.semantics) semantic_map = map_street(arguments, options, dataset, run);
+  clock.stop();
+
+  const Trajectory optimized = run.map.trajectory_optimized();
+  RunReport report{arguments.out, summarize(prepared, run, optimized), {}, {}};
+  json& summary = report.summary;
+  clock.describe(summary);
+  if (!floor_plan.is_null()) summary["floor_plan"] = floor_plan;
+  if (!semantic_map.is_null()) summary["semantic_map"] = semantic_map;
+  if (!run.environments.empty())
+    write_file((fs::path(arguments.out) / "environment.csv").string(),
+               environment_csv(run.environments));
+  const Trajectory* truth = truth_of(dataset);
+  if (truth) summary.update(judge_run(*truth, run, optimized));
+  write_results(arguments.out, run, optimized, truth, dataset.name(), summary);
+  if (run.broken_off)
+    report.broken_off = *run.broken_off + " (results of the " + std::to_string(optimized.size()) +
+                        " frames before it are in " + arguments.out + ")";
+  else if (optimized.posed() == 0)
+    report.no_answer = arguments.sequence + ": no frame could be posed" + why_unposed(run);
+  return report;
+}
+
+}  // namespace placegraph::apps
