@@ -1,0 +1,67 @@
+#include "apps/run/config.h"
+
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/config/yaml_config.h>
+#include <placegraph/pipeline/run.h>
+
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace placegraph::apps {
+namespace {
+
+using test::message_of;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+
+TEST(ConfigCommand, WritesYamlThatReadsBackAsTheOptionsItStandsFor) {
+  const test::TemporaryFolder folder;
+  ConfigArguments arguments;
+  arguments.form = ConfigForm::kYaml;
+  arguments.settings = {"seed=11", "max_frames=13"};
+  arguments.out = folder / "my.yaml";
+  const std::string text = config(arguments);
+  EXPECT_EQ(test::read_file(arguments.out), text);
+  RunOptions options;
+  read_options(arguments.out, options);
+  EXPECT_EQ(options.slam.seed, 11u);
+  EXPECT_EQ(options.max_frames, 13);
+
+  ConfigArguments again;
+  again.form = ConfigForm::kYaml;
+  again.config = arguments.out;
+  EXPECT_EQ(config(again), text);
+}
+
+TEST(ConfigCommand, ListsEveryOptionOnALine) {
+  ConfigArguments arguments;
+  arguments.settings = {"seed=11"};
+  const std::string text = config(arguments);
+  EXPECT_THAT("\n" + text, testing::ContainsRegex("\nseed +11 "));
+  std::size_t options = 0;
+  for (const OptionEntry& entry : list_options(RunOptions())) options += entry.type != "group";
+  EXPECT_EQ(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), options);
+}
+
+TEST(ConfigCommand, KnowsTheOptionsOfHover) {
+  ConfigArguments arguments;
+  arguments.of = "hover";
+  arguments.form = ConfigForm::kMarkdown;
+  EXPECT_THAT(config(arguments), testing::StartsWith("# Options of `placegraph hover`\n"));
+  arguments.of = "walk";
+  EXPECT_THAT(message_of<ArgumentError>([&] { config(arguments); }),
+              HasSubstr("--of: 'walk' is none of run, hover"));
+}
+
+TEST(ConfigCommand, KeepsAFileThatIsThereUnlessItIsForced) {
+  const test::TemporaryFolder folder;
+  ConfigArguments arguments;
+  arguments.out = folder.write("my.yaml", "mine");
+  EXPECT_THAT(message_of<ArgumentError>([&] { config(arguments); }),
+              HasSubstr("my.yaml: exists already"));
+  EXPECT_EQ(test::read_file(arguments.out), "mine");
+}
+
+}  // namespace
+}  // namespace placegraph::apps

@@ -1,0 +1,87 @@
+#include "apps/run/run.h"
+
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include "tests/support/message_of.h"
+#include "tests/support/scenes/street_files.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+using test::message_of;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class RunCommandFunction : public testing::Test {
+ protected:
+  RunCommandFunction() {
+    arguments.sequence = folder / "s";
+    arguments.out = folder / "out";
+    arguments.threads = 1;
+  }
+  test::TemporaryFolder folder;
+  RunArguments arguments;
+};
+
+TEST_F(RunCommandFunction, WritesTheResultsItReports) {
+  test::StreetFiles(folder, 4).write_kitti(true);
+  const RunReport report = run(arguments);
+  EXPECT_FALSE(report.broken_off);
+  EXPECT_FALSE(report.no_answer);
+  EXPECT_EQ(report.summary["sequence"], "s");
+  EXPECT_EQ(report.summary["frames"], 4);
+  EXPECT_EQ(report.summary["posed"], 4);
+  EXPECT_EQ(json::parse(test::read_file(folder / "out/result.json")), report.summary);
+  EXPECT_EQ(read_trajectory(folder / "out/trajectory_optimized.kitti").posed(), 4u);
+  for (const char* name : {"graph.g2o", "places.json", "places.dot", "places.graphml", "loops.csv",
+                           "plot.png", "map.db", "trajectory_online.tum"})
+    EXPECT_TRUE(fs::exists(folder / ("out/" + std::string(name)))) << name;
+}
+
+TEST_F(RunCommandFunction, DrawsEveryFrameIfAsked) {
+  test::StreetFiles(folder, 3).write_kitti(true);
+  arguments.draw = folder / "drawn";
+  run(arguments);
+  EXPECT_TRUE(fs::exists(folder / "drawn/000002.png"));
+  arguments.out = arguments.draw;
+  arguments.force = true;
+  EXPECT_THAT(message_of<ArgumentError>([&] { run(arguments); }),
+              HasSubstr("--draw: must be another folder than --out"));
+}
+
+TEST_F(RunCommandFunction, KeepsTheResultsBeforeAFrameThatCannotBeRead) {
+  test::StreetFiles(folder, 4).write_kitti(true);
+  folder.write("s/image_0/000003.png", "no image");
+  const RunReport report = run(arguments);
+  ASSERT_TRUE(report.broken_off);
+  EXPECT_THAT(*report.broken_off, HasSubstr("000003.png"));
+  EXPECT_THAT(*report.broken_off, HasSubstr("(results of the 3 frames before it are in "));
+  EXPECT_EQ(report.summary["frames"], 3);
+
+  EXPECT_THAT(message_of<ArgumentError>([&] { run(arguments); }),
+              HasSubstr("holds a run that was broken off; --resume goes on with it"));
+}
+
+TEST_F(RunCommandFunction, SaysWhyNoFrameCouldBePosed) {
+  test::StreetFiles(folder, 3).write_kitti(false);
+  for (int i = 0; i < 3; ++i)  // nothing to see
+    test::write_image(
+        folder, "s/image_0/" + test::StreetFiles::name(i),
+        Image(test::street_camera().height, test::street_camera().width, CV_8UC1, cv::Scalar(90)));
+  const RunReport report = run(arguments);
+  ASSERT_TRUE(report.no_answer);
+  EXPECT_THAT(*report.no_answer, HasSubstr("s: no frame could be posed: "));
+  EXPECT_EQ(report.summary["posed"], 0);
+}
+
+TEST_F(RunCommandFunction, LeavesNoFolderBehindWhereThereIsNothingToRun) {
+  fs::create_directories(arguments.sequence);
+  EXPECT_THROW(run(arguments), Error);
+  EXPECT_FALSE(fs::exists(arguments.out));
+}
+
+}  // namespace
+}  // namespace placegraph::apps
