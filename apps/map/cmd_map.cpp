@@ -20,10 +20,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "apps/map/map_label.h"
-#include "apps/map/map_learn.h"
-#include "apps/map/map_plan.h"
-#include "apps/map/map_semantic.h"
+#include "apps/map/cmd_map_label.h"
+#include "apps/map/cmd_map_learn.h"
+#include "apps/map/cmd_map_plan.h"
+#include "apps/map/cmd_map_semantic.h"
 #include "apps/results/map_file.h"
 #include "apps/results/run_files.h"
 #include "apps/support/output.h"

@@ -5,14 +5,12 @@
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/measurements/label_file.h>
-#include <placegraph/pipeline/map/place_labeller.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/map/image_range.h"
@@ -24,13 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-struct MapLabelArguments {
-  std::string map, house, names;
-  std::vector<int> range;
-  PlaceLabelOptions options;
-  bool as_json = false;
-};
 
 const Image& picture(const Frame& frame, bool colour) {
   return colour ? frame.colour : frame.image;
@@ -114,7 +105,22 @@ PlaceClassifier learn(const MapLabelArguments& arguments, bool colour, int& plac
   return PlaceClassifier::train(std::move(views), labels, PlaceClassifierOptions());
 }
 
-void label(const MapLabelArguments& arguments) {
+/// A place with its new label as JSON; writes it into the place.
+json relabelled(const PlaceLabel& of, const std::vector<std::string>& names, Place& place) {
+  std::vector<std::string>& written = place.labels;
+  written.clear();
+  if (of.label >= 0)
+    written.push_back(names.empty() ? std::to_string(of.label)
+                                    : names[static_cast<std::size_t>(of.label)]);
+  return {{"place", of.place},
+          {"label", written.empty() ? json(nullptr) : json(written.front())},
+          {"probability", of.probability},
+          {"views", of.views}};
+}
+
+}  // namespace
+
+MapLabelResult map_label(const MapLabelArguments& arguments) {
   arguments.options.check();
   StoredMap stored = read_map(map_path_of(arguments.map));
   Map& map = stored.map;
@@ -134,54 +140,26 @@ void label(const MapLabelArguments& arguments) {
       map, classifier,
       [&](const Keyframe& keyframe) { return sized(picture(frame_of(keyframe), colour), size); },
       arguments.options);
-  json list = json::array();
-  int labelled = 0;
+  MapLabelResult result;
+  result.map = map_path_of(arguments.map);
+  result.places = labels.size();
+  result.views = map.keyframes.size();
+  result.accuracy = classifier.cross_validated_accuracy();
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const PlaceLabel& of = labels[i];
-    std::vector<std::string>& written = map.place_graph.places[i].labels;
-    written.clear();
-    if (of.label >= 0) {
-      const auto number = static_cast<std::size_t>(of.label);
-      written.push_back(names.empty() ? std::to_string(of.label) : names[number]);
-      ++labelled;
-    }
-    list.push_back({{"place", of.place},
-                    {"label", written.empty() ? json(nullptr) : json(written.front())},
-                    {"probability", of.probability},
-                    {"views", of.views}});
+    result.list.push_back(relabelled(labels[i], names, map.place_graph.places[i]));
+    result.labelled += labels[i].label >= 0;
   }
-  write_map(map_path_of(arguments.map), stored);
-  if (arguments.as_json)
-    fmt::print("{}\n", json{{"places", list}}.dump(1));
-  else
-    fmt::print("{}: {} of {} places labelled ({} views; accuracy on left out parts {:.3f})\n",
-               map_path_of(arguments.map), labelled, labels.size(), map.keyframes.size(),
-               classifier.cross_validated_accuracy());
+  write_map(result.map, stored);
+  return result;
 }
 
-}  // namespace
+std::string to_text(const MapLabelResult& result) {
+  return fmt::format("{}: {} of {} places labelled ({} views; accuracy on left out parts {:.3f})\n",
+                     result.map, result.labelled, result.places, result.views, result.accuracy);
+}
 
-void add_map_label_command(CLI::App& map) {
-  auto arguments = std::make_shared<MapLabelArguments>();
-  MapLabelArguments& a = *arguments;
-  CLI::App* command = map.add_subcommand(
-      "label", "Labels the places of a saved map by a classifier learned from labelled images.");
-  command->footer("placegraph map label out/office rooms --names rooms/names.txt");
-  command->add_option("MAP", a.map, "map.db, or the folder of placegraph run with it")->required();
-  command
-      ->add_option("ROOMS", a.house, "a folder with images and labels.txt (`image label` a line)")
-      ->required()
-      ->check(CLI::ExistingDirectory);
-  command->add_option("--range", a.range, "first and last image to learn from")->expected(2);
-  command->add_option("--names", a.names, "one name a line, the first of label 0")
-      ->check(CLI::ExistingFile);
-  command
-      ->add_option("--min-probability", a.options.min_probability,
-                   "a place's views must say so on average")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_flag("--json", a.as_json, "for machines");
-  command->callback([arguments] { label(*arguments); });
+std::string to_json(const MapLabelResult& result) {
+  return json{{"places", result.list}}.dump(1) + "\n";
 }
 
 }  // namespace placegraph::apps

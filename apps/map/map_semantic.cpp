@@ -5,26 +5,15 @@
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <memory>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "apps/results/map_file.h"
-#include "apps/results/semantic_map_files.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
-namespace {
 
-struct MapSemanticArguments {
-  std::string map, out, georeference;
-  std::vector<std::string> settings;
-  UrbanModelPaths models;
-  bool as_json = false, force = false;
-};
-
-void write_map_of_street(const MapSemanticArguments& a) {
+MapSemanticResult map_semantic(const MapSemanticArguments& a) {
   UrbanMapperOptions options;
   for (const std::string& setting : a.settings) set_option(options, setting);
   options.check();
@@ -46,39 +35,23 @@ void write_map_of_street(const MapSemanticArguments& a) {
   const OutputFolder folder(a.out);
   write_semantic_map(a.out, semantic, mapper, stored.map, poses, dataset->name(),
                      earth ? std::optional(earth->origin) : std::nullopt);
-  nlohmann::json summary = {
+  MapSemanticResult result{a.map, a.out, {}};
+  result.summary = {
       {"keyframes", mapper.sights().size()},
       {"cells", std::count_if(semantic.cells.begin(), semantic.cells.end(),
                               [](const SemanticCell& cell) { return cell.label >= 0; })}};
   if (!earth)  // true scenes are not on the earth
-    summary = describe_semantic_map(semantic, mapper, stored.map, *dataset, stored.origin.sequence);
-  if (a.as_json)
-    fmt::print("{}\n", summary.dump(1));
-  else
-    fmt::print("{}: {} cells of {} keyframes; results in {}\n", a.map,
-               summary["cells"].get<std::int64_t>(), summary["keyframes"].get<std::int64_t>(),
-               a.out);
+    result.summary =
+        describe_semantic_map(semantic, mapper, stored.map, *dataset, stored.origin.sequence);
+  return result;
 }
 
-}  // namespace
-
-void add_map_semantic_command(CLI::App& map) {
-  auto arguments = std::make_shared<MapSemanticArguments>();
-  MapSemanticArguments& a = *arguments;
-  CLI::App* command = map.add_subcommand("semantic", "What is where in the streets of a map.");
-  command->footer("placegraph map semantic out/town --out out/town-semantic");
-  command->add_option("MAP", a.map, "map.db, or the folder of placegraph run with it")->required();
-  command->add_option("--out", a.out, "folder for semantic_map.ply, .json and .png")->required();
-  command->add_option("--georeference", a.georeference,
-                      "folder of placegraph georeference: the map is laid out east and north, and "
-                      "semantic_map.geojson written");
-  command->add_option("--model", a.models.urban, "another model of a street's classes");
-  command->add_option("--surfaces-model", a.models.surfaces, "another model of surfaces");
-  command->add_option("--set", a.settings, "one option of the map, key=value; may be repeated")
-      ->allow_extra_args(false);
-  command->add_flag("--json", a.as_json, "for machines");
-  command->add_flag("--force", a.force, "write into a folder that is not empty");
-  command->callback([arguments] { write_map_of_street(*arguments); });
+std::string to_text(const MapSemanticResult& result) {
+  return fmt::format("{}: {} cells of {} keyframes; results in {}\n", result.map,
+                     result.summary["cells"].get<std::int64_t>(),
+                     result.summary["keyframes"].get<std::int64_t>(), result.out);
 }
+
+std::string to_json(const MapSemanticResult& result) { return result.summary.dump(1) + "\n"; }
 
 }  // namespace placegraph::apps

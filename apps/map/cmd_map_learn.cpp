@@ -1,0 +1,29 @@
+#include "apps/map/cmd_map_learn.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "apps/map/map_learn.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+
+void add_map_learn_command(CLI::App& map) {
+  auto arguments = std::make_shared<MapLearnArguments>();
+  MapLearnArguments& a = *arguments;
+  CLI::App* command =
+      map.add_subcommand("learn", "A map of how places look, from images without a camera.");
+  command->footer("placegraph map learn places/corridor --range 0 110 --out corridor.db");
+  command->add_option("IMAGES", a.images, "a folder of images in the order they were taken")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--out", a.out, "the map to write")->required();
+  command->add_option("--range", a.range, "first and last image")->expected(2);
+  command->add_option("--set", a.settings, "one option, key=value; may be repeated")
+      ->type_size(1)
+      ->allow_extra_args(false);
+  command->add_flag("--force", a.force, "overwrite files");
+  command->callback([arguments] { print(to_text(map_learn(*arguments))); });
+}
+
+}  // namespace placegraph::apps

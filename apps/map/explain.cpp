@@ -1,0 +1,244 @@
+#include "apps/map/explain.h"
+
+#include <fmt/format.h>
+#include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/scene/environment.h>
+#include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/pipeline/map/explanation.h>
+#include <placegraph/pipeline/run.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "apps/results/map_file.h"
+#include "apps/support/output.h"
+#include "apps/support/scene_models.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+json json_of(const LoopRecord& loop) {
+  return {{"query_frame", loop.query_frame},
+          {"match_frame", loop.match_frame},
+          {"stage", loop.stage},
+          {"probability", loop.probability},
+          {"likeness", loop.likeness},
+          {"model", to_string(loop.model)},
+          {"inliers", loop.inliers},
+          {"lines", loop.lines}};
+}
+
+json list_of(const std::vector<LoopRecord>& loops) {
+  json list = json::array();
+  for (const LoopRecord& loop : loops) list.push_back(json_of(loop));
+  return list;
+}
+
+/// Where it is: pose T_map_cam, and the standard deviations of what the graph knows of it.
+json where(const Explanation& told, const Map& map) {
+  if (!told.posed) return {{"posed", false}};
+  const Eigen::Vector3d& t = told.T_map_cam.translation();
+  const Eigen::Quaterniond q = told.T_map_cam.rotation().quaternion();
+  json at = {{"posed", true},
+             {"place", told.place},
+             {"labels", told.labels},
+             {"keyframe", told.keyframe},
+             {"way_to_keyframe", told.way_to_keyframe},
+             {"component", told.component},
+             {"unit", map.metric ? "m" : "arbitrary"},
+             {"position", {t.x(), t.y(), t.z()}},
+             {"quaternion_xyzw", {q.x(), q.y(), q.z(), q.w()}},
+             {"covariance", nullptr}};
+  if (!told.covariance) return at;
+  json rows = json::array();
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d row = told.covariance->row(i).transpose();
+    rows.push_back(std::vector<double>(row.data(), row.data() + 6));
+  }
+  at["covariance"] = rows;
+  const Vector6d sigma = told.covariance->diagonal().cwiseMax(0).cwiseSqrt();
+  at["sigma_position"] = sigma.head<3>().norm();
+  at["sigma_angle_deg"] = rad_to_deg(sigma.tail<3>().norm());
+  return at;
+}
+
+/// Shares of the picture by class, the largest first.
+json shares_of(const std::vector<float>& probabilities, const std::vector<std::string>& classes,
+               const SceneView& view) {
+  const SceneLabels labels = most_probable(probabilities, static_cast<int>(classes.size()), view);
+  std::vector<std::int64_t> counts(classes.size());
+  for (int v = 0; v < labels.labels.rows; ++v)
+    for (int u = 0; u < labels.labels.cols; ++u) {
+      const auto label = static_cast<std::size_t>(labels.labels.at<std::uint8_t>(v, u));
+      if (label < counts.size()) ++counts[label];
+    }
+  json shares = json::object();
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    if (counts[c] > 0)
+      shares[classes[c]] =
+          static_cast<double>(counts[c]) / static_cast<double>(labels.labels.total());
+  return shares;
+}
+
+/// What the picture shows, by the models that came with the program; why not, where it cannot be
+/// told.
+json seen_in(const StoredMap& stored, std::int64_t frame) {
+  const std::string& sequence = stored.origin.sequence;
+  if (sequence.empty() || !std::filesystem::exists(sequence))
+    return {{"unknown", "the pictures are not where they were: " + sequence}};
+  SceneModel urban, surfaces;
+  try {
+    urban = load_scene_model(SceneModel::Kind::kUrban, "");
+    surfaces = load_scene_model(SceneModel::Kind::kSurfaces, "");
+  } catch (const FileError& error) {
+    return {{"unknown", error.what()}};
+  }
+  const auto dataset = open_dataset(sequence);
+  if (frame >= static_cast<std::int64_t>(dataset->size()))
+    return {{"unknown", sequence + " has " + std::to_string(dataset->size()) + " frames now"}};
+  const Frame picture = dataset->frame(static_cast<std::size_t>(frame), stored.origin.sensor);
+  const SceneView view = view_scene(picture.colour.empty() ? picture.image : picture.colour);
+  const UrbanLabels labels = label_urban(urban, surfaces, view);
+  return {{"surfaces", shares_of(labels.surfaces, surfaces.classes, view)},
+          {"classes", shares_of(labels.classes, urban.classes, view)}};
+}
+
+/// What the run took for granted there.
+json assumed_by(const StoredMap& stored, const RunOptions& options, const Explanation& told) {
+  const auto& calibration = stored.origin.calibration;
+  const double height_m = calibration ? calibration->camera_height_m.value_or(0) : 0;
+  const bool one_eye = calibration && calibration->baseline_m == 0 && !calibration->depth;
+  json assumed = {{"sensor", one_eye ? "one eye" : "depths measured"},
+                  {"cues", options.slam.odometry.cues},
+                  {"metric", stored.map.metric}};
+  if (one_eye && height_m > 0) assumed["ground_below_camera_m"] = height_m;
+  const Place* place = told.posed ? stored.map.place_graph.find(told.place) : nullptr;
+  if (const auto kind = place ? environment_of(*place) : std::nullopt) {
+    const Assumptions there = assumptions_of(*kind);
+    assumed["environment"] = {{"kind", environment_name(*kind)},
+                              {"heeded", options.slam.context.enabled},
+                              {"ground_height", there.ground_height},
+                              {"manhattan_world", there.manhattan_world},
+                              {"street_surfaces", there.street_surfaces}};
+  }
+  return assumed;
+}
+
+std::string joined(const json& list) {
+  std::string text;
+  for (const json& value : list) text += fmt::format("{:.4g} ", value.get<double>());
+  return text;
+}
+
+/// Names with percentages or counts; "nothing" for an empty object.
+std::string named(const json& values) {
+  std::string text;
+  for (const auto& [name, value] : values.items())
+    text += value.is_number_float() ? fmt::format("{} {:.0f} %, ", name, 100 * value.get<double>())
+                                    : fmt::format("{} {}, ", name, value.dump());
+  return text.empty() ? "nothing" : text.substr(0, text.size() - 2);
+}
+
+std::string labels_of(const json& labels) {
+  std::string text;
+  for (const json& label : labels) text += " '" + label.get<std::string>() + "'";
+  return text;
+}
+
+std::string where_text(const json& at) {
+  if (!at["posed"].get<bool>()) {
+    return "where      not posed: tracking was lost or waited here\n";
+  }
+  const auto unit = at["unit"].get<std::string>();
+  std::string text = fmt::format(
+      "where      place {}{}, {:.3g} {} from its keyframe {}, component {}\n",
+      at["place"].get<std::int64_t>(), labels_of(at["labels"]), at["way_to_keyframe"].get<double>(),
+      unit, at["keyframe"].get<std::int64_t>(), at["component"].get<int>());
+  text += fmt::format("           position {}, orientation {}(x y z w)\n", joined(at["position"]),
+                      joined(at["quaternion_xyzw"]));
+  if (at.contains("sigma_position"))
+    text += fmt::format(
+        "           its place known to {:.3g} {}, {:.3g} deg, seen from the first one\n",
+        at["sigma_position"].get<double>(), unit, at["sigma_angle_deg"].get<double>());
+  return text;
+}
+
+std::string assumptions(const json& assumed) {
+  std::string text = fmt::format("{}, cues {}", assumed["sensor"].get<std::string>(),
+                                 assumed["cues"].get<std::string>());
+  if (assumed.contains("ground_below_camera_m"))
+    text += fmt::format(", ground {:g} m below the camera",
+                        assumed["ground_below_camera_m"].get<double>());
+  if (assumed.contains("environment")) {
+    const json& there = assumed["environment"];
+    text += ", a " + there["kind"].get<std::string>() + ":";
+    for (const char* what : {"ground_height", "manhattan_world", "street_surfaces"})
+      text += std::string(there[what].get<bool>() ? " " : " no ") + what;
+  }
+  return text + (assumed["metric"].get<bool>() ? ", unit the metre" : ", no unit of length");
+}
+
+std::string sees_text(const json& sees) {
+  if (sees.contains("unknown"))
+    return fmt::format("sees       unknown: {}\n", sees["unknown"].get<std::string>());
+  return fmt::format("sees       {}\n           {}\n", named(sees["surfaces"]),
+                     named(sees["classes"]));
+}
+
+}  // namespace
+
+ExplainResult explain(const ExplainArguments& arguments) {
+  const StoredMap stored = read_stored_map(arguments.map);
+  const auto told = explain_frame(stored.map, arguments.frame);
+  if (!told) throw NoAnswer(arguments.map + ": has no frame " + std::to_string(arguments.frame));
+  RunOptions options;
+  if (!stored.origin.options.empty())
+    read_options_text(map_path_of(arguments.map), stored.origin.options, options);
+  return {{{"frame", told->frame},
+           {"stamp_s", 1e-9 * static_cast<double>(told->stamp_ns)},
+           {"where", where(*told, stored.map)},
+           {"known_by",
+            {{"inliers", told->inliers},
+             {"features", told->features},
+             {"features_placed", told->features_placed},
+             {"constraints", told->constraints},
+             {"loops", list_of(told->loops)}}},
+           {"sees", seen_in(stored, told->frame)},
+           {"assumed", assumed_by(stored, options, *told)},
+           {"refused", list_of(told->refused)}}};
+}
+
+std::string to_text(const ExplainResult& result) {
+  const json& told = result.told;
+  std::string text = fmt::format("frame      {}, {:.3f} s\n", told["frame"].get<std::int64_t>(),
+                                 told["stamp_s"].get<double>());
+  text += where_text(told["where"]);
+  const json& by = told["known_by"];
+  text +=
+      fmt::format("known by   {} landmarks; keyframe with {} features, {} placed; constraints {}\n",
+                  by["inliers"].get<int>(), by["features"].get<int>(),
+                  by["features_placed"].get<int>(), by["constraints"].dump());
+  for (const json& loop : by["loops"])
+    text += fmt::format("           loop {} -> {}: {} points, {} lines ({}), probability {:.3f}\n",
+                        loop["query_frame"].get<std::int64_t>(),
+                        loop["match_frame"].get<std::int64_t>(), loop["inliers"].get<int>(),
+                        loop["lines"].get<int>(), loop["model"].get<std::string>(),
+                        loop["probability"].get<double>());
+  text += sees_text(told["sees"]);
+  text += fmt::format("assumed    {}\n", assumptions(told["assumed"]));
+  if (told["refused"].empty()) text += "refused    nothing\n";
+  for (const json& loop : told["refused"])
+    text += fmt::format("refused    frame {} by {}: probability {:.3f}, {} points\n",
+                        loop["match_frame"].get<std::int64_t>(), loop["stage"].get<std::string>(),
+                        loop["probability"].get<double>(), loop["inliers"].get<int>());
+  return text;
+}
+
+std::string to_json(const ExplainResult& result) { return result.told.dump(1) + "\n"; }
+
+}  // namespace placegraph::apps

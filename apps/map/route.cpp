@@ -1,0 +1,99 @@
+#include "apps/map/route.h"
+
+#include <fmt/format.h>
+#include <placegraph/eval/plots/plot.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/json_file.h"
+#include "apps/support/output.h"
+#include "apps/support/plot_file.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+/// Between where a place's view looks (its z axis) and where the way goes on from there [deg].
+double off_travel_deg(const RouteStep& next) {
+  const Eigen::Vector3d way = next.T_previous_place.translation();
+  return rad_to_deg(std::atan2(way.head<2>().norm(), way.z()));
+}
+
+json step_json(const Route& route, std::size_t i, const RunMap& map) {
+  const RouteStep& step = route.steps[i];
+  const Place& place = *map.graph.find(step.place);
+  json entry = {
+      {"place", step.place},
+      {"T_previous_place", pose_json(step.T_previous_place)},
+      {"leg_m", step.leg_m},
+      {"travelled_m", step.travelled_m},
+      {"T_map_place", pose_json(place.T_map_place)},
+      {"labels", place.labels},
+      {"view", {{"keyframe", place.anchor_keyframe}, {"frame", map.anchor_frame(place)}}}};
+  if (i + 1 < route.steps.size() && route.steps[i + 1].leg_m > 0)
+    entry["view_off_travel_deg"] = off_travel_deg(route.steps[i + 1]);
+  return entry;
+}
+
+Plot route_plot(const Route& route, const RunMap& map) {
+  Plot plot;
+  plot.title = fmt::format("from place {} to place {}: {:.1f} m", route.steps.front().place,
+                           route.steps.back().place, route.length_m());
+  PlotCurve places{"places", {}, true}, way{"way", {}, false};
+  for (const Place& place : map.graph.places)
+    places.positions_m.emplace_back(place.T_map_place.translation());
+  for (const RouteStep& step : route.steps)
+    way.positions_m.emplace_back(map.graph.find(step.place)->T_map_place.translation());
+  plot.curves = {places, way};
+  for (const RelativePoseConstraint& edge : map.graph.constraints)
+    if (edge.source == ConstraintSource::kLoop)
+      plot.links_m.emplace_back(map.graph.find(edge.from)->T_map_place.translation(),
+                                map.graph.find(edge.to)->T_map_place.translation());
+  return plot;
+}
+
+}  // namespace
+
+RouteResult route(const RouteArguments& arguments) {
+  for (const std::string& path : {arguments.out, arguments.plot})
+    if (!path.empty()) require_free(path, arguments.force);
+  require_plot_name(arguments.plot);
+  RouteResult result{{}, read_run_map(arguments.map)};
+  result.route = shortest_route(result.map.graph, arguments.from, arguments.to);
+  if (!result.route.outcome) throw NoAnswer(result.route.outcome.reason);
+  if (arguments.backtrack) result.route = backtracked(result.route);
+  if (!arguments.out.empty()) write_file(arguments.out, to_json(result));
+  if (!arguments.plot.empty()) write_plot(arguments.plot, route_plot(result.route, result.map));
+  return result;
+}
+
+std::string to_json(const RouteResult& result) {
+  const Route& route = result.route;
+  json steps = json::array();
+  for (std::size_t i = 0; i < route.steps.size(); ++i)
+    steps.push_back(step_json(route, i, result.map));
+  return json{{"from", route.steps.front().place},
+              {"to", route.steps.back().place},
+              {"length_m", route.length_m()},
+              {"steps", steps}}
+             .dump(1) +
+         "\n";
+}
+
+std::string to_text(const RouteResult& result) {
+  const Route& route = result.route;
+  std::string text = fmt::format("{} places, {:.2f} m\n place  frame    leg [m]  travelled [m]\n",
+                                 route.steps.size(), route.length_m());
+  for (const RouteStep& step : route.steps)
+    text += fmt::format("{:>6} {:>6} {:>10.3f} {:>14.3f}\n", step.place,
+                        result.map.anchor_frame(*result.map.graph.find(step.place)), step.leg_m,
+                        step.travelled_m);
+  return text;
+}
+
+}  // namespace placegraph::apps
