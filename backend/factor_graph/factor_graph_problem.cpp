@@ -2,6 +2,7 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <placegraph/backend/factor_graph/factor_graph.h>
+#include <placegraph/backend/factors/factor_cost.h>
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/variable_manifold.h>
 #include <placegraph/backend/linear/blas_threads.h>
@@ -14,61 +15,13 @@
 namespace placegraph {
 namespace {
 
-int block_size(const Variable& variable) {
-  return std::visit([](const auto& x) { return VariableBlock<std::decay_t<decltype(x)>>::kSize; },
-                    variable);
+/// The values of a term's variables.
+std::vector<Variable> values_of(const FactorGraph& graph, const FactorGraph::Term& term) {
+  std::vector<Variable> values;
+  for (const int i : term.variables)
+    values.push_back(graph.variables[static_cast<std::size_t>(i)].value);
+  return values;
 }
-
-void store(const Variable& variable, double* block) {
-  std::visit([&](const auto& x) { VariableBlock<std::decay_t<decltype(x)>>::store(x, block); },
-             variable);
-}
-
-/// Gives `variable` the value in `block`; its kind stays.
-void load(const double* block, Variable& variable) {
-  std::visit([&](auto& x) { x = VariableBlock<std::decay_t<decltype(x)>>::load(block); }, variable);
-}
-
-/// A term of the graph as Ceres wants it.
-class TermCost final : public ceres::CostFunction {
- public:
-  TermCost(const FactorGraph& graph, const FactorGraph::Term& term) : factor_(*term.factor) {
-    set_num_residuals(factor_.residual_size());
-    for (const int i : term.variables) {
-      values_.push_back(graph.variables[static_cast<std::size_t>(i)].value);
-      mutable_parameter_block_sizes()->push_back(block_size(values_.back()));
-      J_.emplace_back(num_residuals(), degrees_of_freedom(values_.back()));
-    }
-    pointers_.resize(values_.size());
-  }
-
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    for (std::size_t k = 0; k < values_.size(); ++k) {
-      load(parameters[k], values_[k]);
-      pointers_[k] = &values_[k];
-    }
-    Eigen::Map<Eigen::VectorXd> r(residuals, num_residuals());
-    const std::span<Eigen::MatrixXd> J(J_.data(), jacobians ? J_.size() : 0);
-    if (!factor_.evaluate(pointers_, r, J) || !r.allFinite()) return false;
-    for (std::size_t k = 0; k < J.size(); ++k) {
-      if (!jacobians[k]) continue;
-      if (!J[k].allFinite()) return false;
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> ambient(
-          jacobians[k], num_residuals(), parameter_block_sizes()[k]);
-      ambient.setZero();
-      ambient.leftCols(J[k].cols()) = J[k];
-    }
-    return true;
-  }
-
- private:
-  const Factor& factor_;
-  // Room for one evaluation, of the right kinds and sizes: problems are evaluated by one thread.
-  mutable std::vector<Variable> values_;
-  mutable std::vector<const Variable*> pointers_;
-  mutable std::vector<Eigen::MatrixXd> J_;
-};
 
 /// One manifold of every kind that needs one.
 class Manifolds {
@@ -104,13 +57,14 @@ class FactorGraphProblem {
     }
     blocks_.resize(size);
     for (std::size_t i = 0; i < graph.variables.size(); ++i)
-      store(graph.variables[i].value, &blocks_[offsets_[i]]);
+      store_block(graph.variables[i].value, &blocks_[offsets_[i]]);
     for (const FactorGraph::Term& term : graph.terms) {
       ceres::LossFunction* loss = nullptr;
       if (term.kernel.kind != RobustKernel::Kind::kNone) loss = &kernels_.emplace_back(term.kernel);
       std::vector<double*> between;
       for (const int i : term.variables) between.push_back(block(i));
-      problem_.AddResidualBlock(&costs_.emplace_back(graph, term), loss, between);
+      problem_.AddResidualBlock(&costs_.emplace_back(*term.factor, values_of(graph, term)), loss,
+                                between);
     }
     for (std::size_t i = 0; i < graph.variables.size(); ++i) {
       double* const x = &blocks_[offsets_[i]];
@@ -132,7 +86,7 @@ class FactorGraphProblem {
     for (std::size_t i = 0; i < graph.variables.size(); ++i) {
       const double* const x = &blocks_[offsets_[i]];
       if (!graph.variables[i].held && problem_.HasParameterBlock(x))
-        load(x, graph.variables[i].value);
+        load_block(x, graph.variables[i].value);
     }
   }
 
@@ -158,7 +112,7 @@ class FactorGraphProblem {
   const FactorGraph& graph_;
   std::vector<std::size_t> offsets_;  ///< of the variables' blocks in `blocks_`
   std::vector<double> blocks_;
-  std::deque<TermCost> costs_;
+  std::deque<FactorCost> costs_;
   std::deque<KernelLoss> kernels_;
   Manifolds manifolds_;
   int free_ = 0;

@@ -30,6 +30,9 @@ class AbsoluteRotationFactor final : public SizedFactor<3, SE3, SO3> {
     std::get<1>(*J).noalias() = -J_E * E.matrix().transpose();
     return true;
   }
+  std::shared_ptr<const Factor> transformed(const Sim3&) const override {
+    return std::make_shared<AbsoluteRotationFactor>(*this);
+  }
 
  private:
   SO3 R_cam_manhattan_;

@@ -26,6 +26,12 @@ class DistanceFactor final : public SizedFactor<1, SE3, SE3> {
     std::get<1>(*J) << inverse_ * u * T_map_b.rotation().matrix(), 0, 0, 0;
     return true;
   }
+  std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
+    const auto result = std::make_shared<DistanceFactor>(*this);
+    result->distance_ *= S_new_old.scale();
+    result->inverse_ /= S_new_old.scale();
+    return result;
+  }
 
  private:
   double distance_, inverse_;

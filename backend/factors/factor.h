@@ -2,6 +2,7 @@
 #include <placegraph/backend/factors/variable.h>
 
 #include <array>
+#include <memory>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -25,6 +26,14 @@ class Factor {
   /// False where the residual cannot be computed: the solver then tries a shorter step.
   virtual bool evaluate(std::span<const Variable* const> values, Eigen::Ref<Eigen::VectorXd> r,
                         std::span<Eigen::MatrixXd> jacobians) const = 0;
+  /// The same measurement where the frame of the poses, planes and rotations is another one and so
+  /// is the unit of length, p_new = S_new_old p_old: its residual at the variables in the new frame
+  /// is that of this factor at the same variables in the old one. Null (the default) where that is
+  /// not known: such a factor cannot be in a sliding window, which is moved and rescaled.
+  virtual std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const {
+    static_cast<void>(S_new_old);
+    return nullptr;
+  }
 };
 
 /// The derivative of `Rows` residuals by one variable.

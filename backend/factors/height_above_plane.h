@@ -27,6 +27,12 @@ class HeightAbovePlaneFactor final : public SizedFactor<1, SE3, Plane3> {
     std::get<1>(*J) = toward * J_plane;
     return true;
   }
+  std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
+    const auto result = std::make_shared<HeightAbovePlaneFactor>(*this);
+    result->height_ *= S_new_old.scale();
+    result->inverse_sigma_ /= S_new_old.scale();
+    return result;
+  }
 
  private:
   double height_, inverse_sigma_;

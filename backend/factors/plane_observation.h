@@ -1,6 +1,8 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
+#include <Eigen/LU>
+
 namespace placegraph {
 
 /// A plane measured in a sensor's frame (Kaess 2015):
@@ -28,8 +30,34 @@ class PlaneObservationFactor final : public SizedFactor<3, SE3, Plane3> {
     std::get<1>(*J) = J_e * std::get<1>(*J).eval();
     return true;
   }
+  /// Another unit of length bends the tangent of a plane: then the residual is the same to first
+  /// order of the error.
+  std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
+    const auto result = std::make_shared<PlaneObservationFactor>(*this);
+    if (S_new_old.scale() == 1.0) return result;
+    Eigen::Matrix3d J_new_old;
+    result->measured_ = scaled(measured_, S_new_old.scale(), &J_new_old);
+    result->W_ = W_ * J_new_old.inverse();
+    return result;
+  }
 
  private:
+  /// The plane in a unit of length in which its distance is `scale` times as large, and the
+  /// derivative of its tangent by that of `plane`.
+  static Plane3 scaled(const Plane3& plane, double scale, Eigen::Matrix3d* J_new_old) {
+    Eigen::Matrix3d J_normal_old, J_normal_new;
+    Eigen::RowVector3d J_distance_old, J_distance_new;
+    const Eigen::Vector3d n_old = plane.normal(&J_normal_old);
+    const Plane3 result(n_old, scale * plane.distance(&J_distance_old));
+    const double sign = result.normal(&J_normal_new).dot(n_old) < 0 ? -1 : 1;
+    result.distance(&J_distance_new);
+    Eigen::Matrix<double, 4, 3> J_old, J_new;  // of [normal, distance], by either tangent
+    J_old << sign * J_normal_old, sign * scale * J_distance_old;
+    J_new << J_normal_new, J_distance_new;
+    *J_new_old = (J_new.transpose() * J_new).inverse() * J_new.transpose() * J_old;
+    return result;
+  }
+
   Plane3 measured_;
   Eigen::Matrix3d W_;
 };

@@ -22,6 +22,20 @@ class PosePriorFactor final : public SizedFactor<Group::kDof, Group> {
     if (J) std::get<0>(*J).noalias() = W_ * J_e_xi;
     return true;
   }
+  /// Of poses in space; null for other groups.
+  std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
+    if constexpr (std::is_same_v<Group, SE3>) {
+      const SE3 T_old_node = T_node_world_.inverse();
+      const auto result = std::make_shared<PosePriorFactor>(*this);
+      result->T_node_world_ =
+          SE3(S_new_old.rotation() * T_old_node.rotation(), S_new_old * T_old_node.translation())
+              .inverse();
+      result->W_.template leftCols<3>() /= S_new_old.scale();
+      return result;
+    } else {
+      return nullptr;
+    }
+  }
 
  private:
   Group T_node_world_;

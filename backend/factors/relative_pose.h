@@ -27,6 +27,17 @@ class RelativePoseFactor final : public SizedFactor<Group::kDof, Group, Group> {
     std::get<1>(*J).noalias() = W_ * at.J_to;
     return true;
   }
+  /// Of poses in space; null for other groups.
+  std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
+    if constexpr (std::is_same_v<Group, SE3>) {
+      const auto result = std::make_shared<RelativePoseFactor>(*this);
+      result->T_to_from_ = T_to_from_.scaled(S_new_old.scale());
+      result->W_.template leftCols<3>() /= S_new_old.scale();
+      return result;
+    } else {
+      return nullptr;
+    }
+  }
 
  private:
   Group T_to_from_;

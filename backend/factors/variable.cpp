@@ -18,6 +18,31 @@ const char* kind_name(const Variable& variable) {
   return kNames[variable.index()];
 }
 
+int block_size(const Variable& variable) {
+  return std::visit([](const auto& x) { return VariableBlock<std::decay_t<decltype(x)>>::kSize; },
+                    variable);
+}
+
+void store_block(const Variable& variable, double* block) {
+  std::visit([&](const auto& x) { VariableBlock<std::decay_t<decltype(x)>>::store(x, block); },
+             variable);
+}
+
+void load_block(const double* block, Variable& variable) {
+  std::visit([&](auto& x) { x = VariableBlock<std::decay_t<decltype(x)>>::load(block); }, variable);
+}
+
+Eigen::VectorXd minus(const Variable& y, const Variable& x) {
+  require(y.index() == x.index(), std::string("a difference between variables of kinds ") +
+                                      kind_name(y) + " and " + kind_name(x));
+  return std::visit(
+      [&](const auto& value) -> Eigen::VectorXd {
+        using T = std::decay_t<decltype(value)>;
+        return VariableBlock<T>::minus(value, std::get<T>(x));
+      },
+      y);
+}
+
 bool is_finite(const Variable& variable) {
   return std::visit(
       [](const auto& x) {

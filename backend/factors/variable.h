@@ -152,6 +152,13 @@ struct VariableBlock<Marker> {
 int degrees_of_freedom(const Variable& variable);
 /// "SE3", "plane", ...: for messages.
 const char* kind_name(const Variable& variable);
+/// Number of doubles of its block, and the block's values: VariableBlock of whatever it holds.
+int block_size(const Variable& variable);
+void store_block(const Variable& variable, double* block);
+/// Gives `variable` the value in `block`; its kind stays.
+void load_block(const double* block, Variable& variable);
+/// y [-] x of two variables of one kind; throws ArgumentError if they are of different kinds.
+Eigen::VectorXd minus(const Variable& y, const Variable& x);
 /// Whether all of it is finite numbers.
 bool is_finite(const Variable& variable);
 /// x [+] xi; throws ArgumentError if `xi` has another size than degrees_of_freedom(x).

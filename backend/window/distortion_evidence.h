@@ -17,7 +17,7 @@ struct LensEvidence {
   int residuals = 0;  ///< of points seen from three keyframes at least, two per pixel
 };
 
-/// See SlidingWindow::lens_evidence.
+/// What the points of the window, at its estimate and without its prior, say of the lens.
 LensEvidence lens_evidence(const WindowState& state);
 
 }  // namespace placegraph

@@ -1,4 +1,6 @@
-#include <placegraph/backend/window/window_information.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_state.h>
+#include <placegraph/graph/core/error.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -6,8 +8,13 @@
 
 namespace placegraph {
 
-double sigma_log_length_ratio(const WindowState& state, const WindowInformation& information,
-                              std::int64_t first, std::int64_t middle, std::int64_t last) {
+double sigma_log_length_ratio(const SlidingWindow& window, std::int64_t first, std::int64_t middle,
+                              std::int64_t last) {
+  const WindowState& state = window.state();
+  for (const std::int64_t id : {first, middle, last})
+    require_variable(state, keyframe_variable(id));
+  require(first != middle && middle != last && first != last,
+          "sliding window: a ratio of lengths needs three keyframes");
   const SE3 &T_a = state.keyframes.at(first), &T_b = state.keyframes.at(middle),
             &T_c = state.keyframes.at(last);
   const Eigen::Vector3d ab = T_b.translation() - T_a.translation();
@@ -24,10 +31,9 @@ double sigma_log_length_ratio(const WindowState& state, const WindowInformation&
 
   // The ratio does not feel the gauge, whose directions the information leaves open: they are left
   // out of the inverse. Scaled to a unit diagonal, as metres and radians have no common size.
-  using Kind = WindowVariables::Kind;
   const Eigen::MatrixXd H = joint_information(
-      state, information,
-      {{Kind::kKeyframe, first}, {Kind::kKeyframe, middle}, {Kind::kKeyframe, last}});
+      state, window.information(),
+      {keyframe_variable(first), keyframe_variable(middle), keyframe_variable(last)});
   const Eigen::VectorXd scale = H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * H *
                                                              scale.asDiagonal());

@@ -1,7 +1,8 @@
-#include <placegraph/backend/factors/line_reprojection.h>
-#include <placegraph/backend/factors/reprojection.h>
-#include <placegraph/backend/linear/whitening.h>
-#include <placegraph/backend/window/sliding_window_impl.h>
+#include <placegraph/backend/window/prior_gauge.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_marginalization.h>
+#include <placegraph/backend/window/window_problem.h>
+#include <placegraph/backend/window/window_transform.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -9,22 +10,9 @@
 #include <string>
 
 namespace placegraph {
-
-void SlidingWindowOptions::check() const {
-  check_ranges(*this);
-  require(scale_drift >= 0 && scale_drift <= 1, "scale_drift: must lie between 0 and 1");
-}
-
-void visit(OptionVisitor& field, SlidingWindowOptions& o) {
-  field("max_keyframes", o.max_keyframes, "the oldest keyframe is marginalized beyond this",
-        {2, 1000});
-  field("max_iterations", o.max_iterations, "steps of Levenberg-Marquardt", {1, 1000});
-  field("huber_px", o.huber_px, "width of the Huber kernel, in standard deviations", {1e-3, 1e6});
-  field("relative_decrease", o.relative_decrease,
-        "stop when the cost falls by less than this share", {0, 1});
-}
-
 namespace {
+
+bool positive(double x) { return std::isfinite(x) && x > 0; }
 
 bool is_positive_definite(const Eigen::Matrix2d& m) {
   return m.allFinite() && std::abs(m(0, 1) - m(1, 0)) <= 1e-6 * m.trace() && m(0, 0) > 0 &&
@@ -42,328 +30,264 @@ void insert_observation(std::vector<Observation>& list, const Observation& o,
   list.insert(at, o);
 }
 
-std::optional<Matrix6d> inverse_if_full(const Matrix6d& information) {
-  bool deficient = false;
-  whitening(information, &deficient);
-  if (deficient) return std::nullopt;
-  return Matrix6d(information.llt().solve(Matrix6d::Identity()));
-}
-
-void require_sound(const SE3& pose, const Matrix6d& information, const std::string& name) {
-  require(pose.matrix().allFinite() && information.allFinite() &&
-              information.isApprox(information.transpose(), 1e-9),
-          name + ": the pose must be finite, the information symmetric and finite");
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
-  const double least = eigen.eigenvalues()[0], largest = eigen.eigenvalues()[5];
-  require(largest > 0 && least >= -1e-9 * largest,
-          name + ": the information must be positive semi-definite and not zero");
-}
-
 void require_sound(const LineObservation::SecondEye& eye, const std::string& name) {
   require(eye.eye_cam.allFinite() && eye.eye_cam.norm() > 0 && eye.start_px.allFinite() &&
               eye.end_px.allFinite() && positive(eye.sigma_px),
           name + ": a second eye must lie elsewhere, be finite and its sigma_px positive");
 }
 
+/// "sliding window: landmark 3"
+std::string name_of(const char* what, std::int64_t id) {
+  return std::string("sliding window: ") + what + " " + std::to_string(id);
+}
+
+template <class Map>
+auto& find(Map& all, std::int64_t id, const char* what) {
+  const auto it = all.find(id);
+  require(it != all.end(), name_of(what, id) + " is not in the window");
+  return it->second;
+}
+
+template <class T>
+void insert(std::map<std::int64_t, T>& all, std::int64_t id, const T& value, const char* what) {
+  require(all.try_emplace(id, value).second, name_of(what, id) + " is there already");
+}
+
+template <class T>
+std::vector<std::int64_t> ids_of(const std::map<std::int64_t, T>& all) {
+  std::vector<std::int64_t> ids;
+  for (const auto& [id, value] : all) ids.push_back(id);
+  return ids;
+}
+
+template <class T>
+std::optional<T> value_if_there(const std::map<std::int64_t, T>& all, std::int64_t id) {
+  const auto it = all.find(id);
+  return it == all.end() ? std::nullopt : std::optional(it->second);
+}
+
 }  // namespace
 
 SlidingWindow::SlidingWindow(const SlidingWindowOptions& options, const Camera& camera)
-    : impl_(std::make_unique<Impl>()) {
+    : state_(std::make_unique<WindowState>()) {
   options.check();
   camera.check();
   require(camera.distortion == Distortion::kNone, "sliding window: the camera must be undistorted");
-  impl_->change().options = options;
-  impl_->change().camera = camera;
+  state_->options = options;
+  state_->camera = camera;
 }
 SlidingWindow::~SlidingWindow() = default;
 SlidingWindow::SlidingWindow(SlidingWindow&&) noexcept = default;
 SlidingWindow& SlidingWindow::operator=(SlidingWindow&&) noexcept = default;
 
+WindowState& SlidingWindow::change() {
+  information_.reset();
+  return *state_;
+}
+
+const WindowInformation& SlidingWindow::information() const {
+  if (!information_) information_ = window_information(*state_);
+  return *information_;
+}
+
 void SlidingWindow::add_keyframe(std::int64_t id, const SE3& T_map_cam) {
-  WindowState& state = impl_->change();
+  WindowState& state = change();
   require(state.keyframes.empty() || id > state.keyframes.rbegin()->first,
-          "sliding window: keyframe " + std::to_string(id) + " is not newer than the last one");
-  require(T_map_cam.matrix().allFinite(),
-          "sliding window: pose of keyframe " + std::to_string(id) + " is not finite");
+          name_of("keyframe", id) + " is not newer than the last one");
+  require(T_map_cam.matrix().allFinite(), name_of("pose of keyframe", id) + " is not finite");
   if (state.keyframes.empty() && state.prior.empty()) state.fixed = id;
   state.keyframes.emplace(id, T_map_cam);
 }
 
 void SlidingWindow::add_landmark(std::int64_t id, const Eigen::Vector3d& p_map) {
-  require(p_map.allFinite(), "sliding window: landmark " + std::to_string(id) + " is not finite");
-  const bool added =
-      impl_->change().landmarks.try_emplace(id, WindowLandmark{p_map, {}, {}}).second;
-  require(added, "sliding window: landmark " + std::to_string(id) + " is there already");
+  require(p_map.allFinite(), name_of("landmark", id) + " is not finite");
+  insert(change().landmarks, id, WindowLandmark{p_map, {}, {}}, "landmark");
 }
 
 void SlidingWindow::add_observation(const WindowObservation& o) {
-  impl_->keyframe(o.keyframe);
-  impl_->landmark(o.landmark);
-  std::vector<WindowObservation>& list = impl_->change().landmarks.at(o.landmark).observations;
-  const std::string name = "sliding window: observation of landmark " + std::to_string(o.landmark) +
-                           " in keyframe " + std::to_string(o.keyframe);
-  require(o.px.allFinite() && std::isfinite(o.sigma_px) && o.sigma_px > 0,
+  require_variable(*state_, keyframe_variable(o.keyframe));
+  WindowLandmark& landmark = find(change().landmarks, o.landmark, "landmark");
+  const std::string name =
+      name_of("observation of landmark", o.landmark) + " in keyframe " + std::to_string(o.keyframe);
+  require(o.px.allFinite() && positive(o.sigma_px),
           name + ": px must be finite and sigma_px positive");
   require(!o.covariance_px || is_positive_definite(*o.covariance_px),
           name + ": covariance_px must be finite and positive definite");
-  require(!o.inverse_depth || (std::isfinite(*o.inverse_depth) && o.sigma_inverse_depth > 0 &&
-                               std::isfinite(o.sigma_inverse_depth)),
+  require(!o.inverse_depth || (std::isfinite(*o.inverse_depth) && positive(o.sigma_inverse_depth)),
           name + ": inverse_depth must be finite and its sigma positive");
-  insert_observation(list, o, name);
-}
-
-void SlidingWindow::add_distance(const DistanceObservation& d) {
-  impl_->keyframe(d.from);
-  impl_->keyframe(d.to);
-  require(d.from != d.to, "sliding window: a distance needs two keyframes");
-  require(
-      std::isfinite(d.distance_m) && d.distance_m >= 0 && std::isfinite(d.sigma_m) && d.sigma_m > 0,
-      "sliding window: distance_m must be finite and not negative, sigma_m positive");
-  impl_->change().distances.push_back(d);
-}
-
-void SlidingWindow::keep(std::int64_t keyframe, bool kept) {
-  impl_->keyframe(keyframe);
-  if (kept)
-    impl_->change().kept.insert(keyframe);
-  else
-    impl_->change().kept.erase(keyframe);
+  insert_observation(landmark.observations, o, name);
 }
 
 void SlidingWindow::add_line(std::int64_t id, const Line3& line_map) {
-  require(line_map.coordinates().allFinite(),
-          "sliding window: line " + std::to_string(id) + " is not finite");
-  const bool added = impl_->change().lines.try_emplace(id, WindowLine{line_map, {}}).second;
-  require(added, "sliding window: line " + std::to_string(id) + " is there already");
+  require(line_map.coordinates().allFinite(), name_of("line", id) + " is not finite");
+  insert(change().lines, id, WindowLine{line_map, {}}, "line");
 }
 
 void SlidingWindow::add_line_observation(const LineObservation& o) {
-  impl_->keyframe(o.keyframe);
-  impl_->line(o.line);
-  std::vector<LineObservation>& list = impl_->change().lines.at(o.line).observations;
-  const std::string name = "sliding window: observation of line " + std::to_string(o.line) +
-                           " in keyframe " + std::to_string(o.keyframe);
+  require_variable(*state_, keyframe_variable(o.keyframe));
+  WindowLine& line = find(change().lines, o.line, "line");
+  const std::string name =
+      name_of("observation of line", o.line) + " in keyframe " + std::to_string(o.keyframe);
   require(o.start_px.allFinite() && o.end_px.allFinite() && positive(o.sigma_px),
           name + ": its ends must be finite and sigma_px positive");
   if (o.second) require_sound(*o.second, name);
-  insert_observation(list, o, name);
+  insert_observation(line.observations, o, name);
 }
 
-const std::vector<LineObservation>& SlidingWindow::line_observations(std::int64_t line) const {
-  return impl_->line(line).observations;
+void SlidingWindow::add_plane(std::int64_t id, const Plane3& plane_map) {
+  insert(change().planes, id, plane_map, "plane");
 }
 
-std::optional<Eigen::Vector2d> SlidingWindow::residual_px(const LineObservation& o) const {
-  const WindowState& state = impl_->state();
-  const auto keyframe = state.keyframes.find(o.keyframe);
-  const auto line = state.lines.find(o.line);
-  if (keyframe == state.keyframes.end() || line == state.lines.end()) return std::nullopt;
-  LineReprojectionFactor::Residual r;
-  LineReprojectionFactor(state.camera, o.start_px, o.end_px, 1.0)
-      .compute(keyframe->second, line->second.line_map, r, nullptr);
-  return Eigen::Vector2d(r);
+void SlidingWindow::add_plane_point(const PlanePoint& point) {
+  require_variable(*state_, plane_variable(point.plane));
+  WindowLandmark& landmark = find(change().landmarks, point.landmark, "landmark");
+  require(positive(point.sigma_m), "sliding window: sigma_m must be finite and positive");
+  require(!landmark.on_plane, name_of("landmark", point.landmark) + " lies on a plane already");
+  landmark.on_plane = point;
 }
 
-void SlidingWindow::remove_line(std::int64_t id) {
-  impl_->line(id);
-  impl_->change().lines.erase(id);
+void SlidingWindow::add_world(std::int64_t id, const SO3& R_map_world) {
+  require(R_map_world.matrix().allFinite(), name_of("world", id) + " is not finite");
+  insert(change().worlds, id, R_map_world, "world");
 }
 
-void SlidingWindow::add_pose_prior(const PosePrior& prior) {
-  impl_->keyframe(prior.keyframe);
-  require_sound(prior.T_map_cam, prior.information,
-                "sliding window: prior of keyframe " + std::to_string(prior.keyframe));
-  impl_->change().pose_priors.push_back(prior);
-  bool deficient = false;
-  whitening(prior.information, &deficient);
-  if (!deficient && impl_->change().fixed == prior.keyframe) impl_->change().fixed.reset();
-}
-
-void SlidingWindow::add_motion(const MotionObservation& motion) {
-  impl_->keyframe(motion.from);
-  impl_->keyframe(motion.to);
-  require(motion.from != motion.to, "sliding window: a motion needs two keyframes");
-  require_sound(motion.T_from_to, motion.information,
-                "sliding window: motion from keyframe " + std::to_string(motion.from));
-  impl_->change().motions.push_back(motion);
+void SlidingWindow::add(const WindowFactor& factor) {
+  std::string name = "sliding window: measurement";
+  for (std::size_t k = 0; k < factor.variables.size(); ++k)
+    name += (k == 0 ? " of " : " and ") + to_string(factor.variables[k]);
+  check(factor, name);
+  for (const WindowVariable& variable : factor.variables) require_variable(*state_, variable);
+  WindowState& state = change();
+  state.factors.push_back(factor);
+  if (state.fixed && is_full_pose_prior(state, factor) &&
+      factor.variables[0] == keyframe_variable(*state.fixed))
+    state.fixed.reset();
 }
 
 void SlidingWindow::remove_landmark(std::int64_t id) {
-  impl_->landmark(id);
-  impl_->change().landmarks.erase(id);
+  find(state_->landmarks, id, "landmark");
+  change().landmarks.erase(id);
 }
 
 void SlidingWindow::remove_observation(std::int64_t keyframe, std::int64_t landmark) {
-  impl_->landmark(landmark);
   const std::size_t removed =
-      std::erase_if(impl_->change().landmarks.at(landmark).observations,
+      std::erase_if(find(change().landmarks, landmark, "landmark").observations,
                     [&](const WindowObservation& o) { return o.keyframe == keyframe; });
-  require(removed > 0, "sliding window: landmark " + std::to_string(landmark) +
-                           " has no observation in keyframe " + std::to_string(keyframe));
+  require(removed > 0, name_of("landmark", landmark) + " has no observation in keyframe " +
+                           std::to_string(keyframe));
+}
+
+void SlidingWindow::remove_line(std::int64_t id) {
+  find(state_->lines, id, "line");
+  change().lines.erase(id);
+}
+
+void SlidingWindow::remove_plane(std::int64_t id) {
+  const WindowVariable plane = plane_variable(id);
+  require_variable(*state_, plane);
+  WindowState& state = change();
+  std::erase_if(state.factors, [&](const WindowFactor& factor) { return touches(factor, plane); });
+  for (auto& [landmark_id, landmark] : state.landmarks)
+    if (landmark.on_plane && landmark.on_plane->plane == id) landmark.on_plane.reset();
+  state.kept.erase(plane);
+  state.planes.erase(id);
+  const auto in_prior = std::find(state.prior.planes.begin(), state.prior.planes.end(), id);
+  if (in_prior != state.prior.planes.end())
+    forget_plane(state.prior, static_cast<std::size_t>(in_prior - state.prior.planes.begin()));
+}
+
+void SlidingWindow::remove(const WindowFactor& factor) {
+  const std::shared_ptr<const Factor> which = factor.factor;  // `factor` may be one of the window's
+  const std::size_t removed = std::erase_if(
+      change().factors, [&](const WindowFactor& other) { return other.factor == which; });
+  require(removed > 0, "sliding window: a measurement that is to be removed is not there");
 }
 
 void SlidingWindow::revise_inverse_depth(std::int64_t keyframe, std::int64_t landmark,
                                          double inverse_depth) {
   require(std::isfinite(inverse_depth), "sliding window: inverse_depth must be finite");
-  impl_->landmark(landmark);
-  for (WindowObservation& o : impl_->change().landmarks.at(landmark).observations)
+  for (WindowObservation& o : find(change().landmarks, landmark, "landmark").observations)
     if (o.keyframe == keyframe && o.inverse_depth) {
       o.inverse_depth = inverse_depth;
       return;
     }
-  throw ArgumentError("sliding window: landmark " + std::to_string(landmark) +
-                      " has no inverse depth in keyframe " + std::to_string(keyframe));
+  throw ArgumentError(name_of("landmark", landmark) + " has no inverse depth in keyframe " +
+                      std::to_string(keyframe));
 }
 
 void SlidingWindow::revise_second_eye(std::int64_t keyframe, std::int64_t line,
                                       const LineObservation::SecondEye& second) {
-  impl_->line(line);
-  require_sound(second, "sliding window: line " + std::to_string(line) + " in keyframe " +
-                            std::to_string(keyframe));
-  for (LineObservation& o : impl_->change().lines.at(line).observations)
+  const std::string in_keyframe = " in keyframe " + std::to_string(keyframe);
+  require_sound(second, name_of("line", line) + in_keyframe);
+  for (LineObservation& o : find(change().lines, line, "line").observations)
     if (o.keyframe == keyframe && o.second) {
       o.second = second;
       return;
     }
-  throw ArgumentError("sliding window: line " + std::to_string(line) +
-                      " has no second eye in keyframe " + std::to_string(keyframe));
+  throw ArgumentError(name_of("line", line) + " has no second eye" + in_keyframe);
 }
 
-WindowSummary SlidingWindow::optimize() { return optimize_window(impl_->change()); }
-
-std::vector<std::int64_t> SlidingWindow::marginalize() {
-  WindowState& state = impl_->change();
-  std::vector<std::int64_t> left;
-  while (static_cast<int>(state.keyframes.size()) > state.options.max_keyframes) {
-    // The newest stays in any case.
-    const auto newest = std::prev(state.keyframes.end());
-    const auto oldest = std::find_if(state.keyframes.begin(), newest, [&](const auto& keyframe) {
-      return !state.kept.contains(keyframe.first);
-    });
-    if (oldest == newest) break;
-    left.push_back(oldest->first);
-    const auto held_before = state.fixed;
-    marginalize_keyframe(state, left.back());
-    if (state.fixed && state.fixed != held_before) impl_->tied_to_map = false;
-  }
-  return left;
+void SlidingWindow::keep(const WindowVariable& variable, bool kept) {
+  require_variable(*state_, variable);
+  if (kept)
+    change().kept.insert(variable);
+  else
+    change().kept.erase(variable);
 }
+
+void SlidingWindow::hold_world(std::optional<std::int64_t> id) {
+  if (id) require_variable(*state_, world_variable(*id));
+  change().held_world = id;
+}
+
+WindowSummary SlidingWindow::optimize() { return optimize_window(change()); }
+
+std::vector<std::int64_t> SlidingWindow::marginalize() { return marginalize_window(change()); }
 
 void SlidingWindow::rescale(double scale) {
-  WindowState& state = impl_->change();
-  require(std::isfinite(scale) && scale > 0, "sliding window: scale must be positive");
-  require(!has_metric_observation(state) && !state.prior_is_metric && state.prior.planes.empty(),
+  require(!has_metric_observation(*state_) && !state_->prior_is_metric,
           "sliding window: the scale is measured already, it cannot be set");
-  if (state.keyframes.empty()) return;
-  const Eigen::Vector3d center_map = state.keyframes.begin()->second.translation();
-  const auto move = [&](const Eigen::Vector3d& p_map) -> Eigen::Vector3d {
-    return center_map + scale * (p_map - center_map);
-  };
-  for (auto& [id, T_map_cam] : state.keyframes)
-    T_map_cam = SE3(T_map_cam.rotation(), move(T_map_cam.translation()));
-  for (auto& [id, landmark] : state.landmarks) landmark.p_map = move(landmark.p_map);
-  for (auto& [id, line] : state.lines)
-    line.line_map =
-        Line3::from_direction(move(line.line_map.nearest_point()), line.line_map.direction());
-  for (auto& [id, plane_map] : state.planes)
-    plane_map = Plane3(plane_map.normal(),
-                       plane_map.normal().dot(move(plane_map.distance() * plane_map.normal())));
-  // What holds a direction of the way only does so in any unit.
-  for (MotionObservation& motion : state.motions) {
-    motion.T_from_to = motion.T_from_to.scaled(scale);
-    motion.information.topRows<3>() /= scale;
-    motion.information.leftCols<3>() /= scale;
-  }
-  // Deviations of position grow by `scale`, so their columns shrink: the residual stays the same.
-  for (std::size_t k = 0; k < state.prior.keyframes.size(); ++k) {
-    SE3& T_lin = state.prior.T_map_cam_lin[k];
-    T_lin = SE3(T_lin.rotation(), move(T_lin.translation()));
-    state.prior.J.middleCols<3>(6 * static_cast<Eigen::Index>(k)) /= scale;
-  }
+  rescale_window(change(), scale);
 }
 
-std::vector<std::int64_t> SlidingWindow::keyframes() const {
-  return ids_of(impl_->state().keyframes);
+std::vector<std::int64_t> SlidingWindow::keyframes() const { return ids_of(state_->keyframes); }
+std::vector<std::int64_t> SlidingWindow::landmarks() const { return ids_of(state_->landmarks); }
+std::vector<std::int64_t> SlidingWindow::lines() const { return ids_of(state_->lines); }
+std::vector<std::int64_t> SlidingWindow::planes() const { return ids_of(state_->planes); }
+std::vector<std::int64_t> SlidingWindow::worlds() const { return ids_of(state_->worlds); }
+
+SE3 SlidingWindow::pose(std::int64_t keyframe) const {
+  return find(state_->keyframes, keyframe, "keyframe");
 }
-
-std::vector<std::int64_t> SlidingWindow::landmarks() const {
-  return ids_of(impl_->state().landmarks);
-}
-
-std::vector<std::int64_t> SlidingWindow::lines() const { return ids_of(impl_->state().lines); }
-
-std::optional<Line3> SlidingWindow::line(std::int64_t id) const {
-  const auto it = impl_->state().lines.find(id);
-  if (it == impl_->state().lines.end()) return std::nullopt;
-  return it->second.line_map;
-}
-
-SE3 SlidingWindow::pose(std::int64_t keyframe) const { return impl_->keyframe(keyframe); }
 
 std::optional<Eigen::Vector3d> SlidingWindow::landmark(std::int64_t id) const {
-  const auto it = impl_->state().landmarks.find(id);
-  if (it == impl_->state().landmarks.end()) return std::nullopt;
+  const auto it = state_->landmarks.find(id);
+  if (it == state_->landmarks.end()) return std::nullopt;
   return it->second.p_map;
 }
 
+std::optional<Line3> SlidingWindow::line(std::int64_t id) const {
+  const auto it = state_->lines.find(id);
+  if (it == state_->lines.end()) return std::nullopt;
+  return it->second.line_map;
+}
+
+std::optional<Plane3> SlidingWindow::plane(std::int64_t id) const {
+  return value_if_there(state_->planes, id);
+}
+
+std::optional<SO3> SlidingWindow::world(std::int64_t id) const {
+  return value_if_there(state_->worlds, id);
+}
+
 const std::vector<WindowObservation>& SlidingWindow::observations(std::int64_t landmark) const {
-  return impl_->landmark(landmark).observations;
+  return find(state_->landmarks, landmark, "landmark").observations;
 }
 
-namespace {
-
-std::optional<Eigen::Vector2d> residual_of(const WindowState& state, const WindowObservation& o,
-                                           const Reprojection& reprojection) {
-  const auto keyframe = state.keyframes.find(o.keyframe);
-  const auto landmark = state.landmarks.find(o.landmark);
-  if (keyframe == state.keyframes.end() || landmark == state.landmarks.end()) return std::nullopt;
-  const SE3& T_map_cam = keyframe->second;
-  const PointInCamera point(T_map_cam.rotation().matrix(), T_map_cam.translation(),
-                            landmark->second.p_map);
-  if (!point.projectable()) return std::nullopt;
-  return reprojection.residual(point.p_cam);
+const std::vector<LineObservation>& SlidingWindow::line_observations(std::int64_t line) const {
+  return find(state_->lines, line, "line").observations;
 }
 
-}  // namespace
-
-std::optional<Eigen::Vector2d> SlidingWindow::residual_px(const WindowObservation& o) const {
-  return residual_of(impl_->state(), o, Reprojection(impl_->state().camera, o.px, 1.0));
-}
-
-std::optional<Eigen::Vector2d> SlidingWindow::residual_sigmas(const WindowObservation& o) const {
-  return residual_of(impl_->state(), o, reprojection_of(impl_->state().camera, o));
-}
-
-Matrix6d SlidingWindow::relative_information(std::int64_t from, std::int64_t to) const {
-  impl_->keyframe(from);
-  impl_->keyframe(to);
-  require(from != to, "sliding window: a relative pose needs two keyframes");
-  return placegraph::relative_information(impl_->state(), impl_->information(), from, to);
-}
-
-std::optional<Matrix6d> SlidingWindow::relative_covariance(std::int64_t from,
-                                                           std::int64_t to) const {
-  return inverse_if_full(relative_information(from, to));
-}
-
-std::optional<Matrix6d> SlidingWindow::covariance(std::int64_t keyframe) const {
-  impl_->keyframe(keyframe);
-  if (!impl_->tied_to_map) return std::nullopt;
-  if (impl_->state().fixed == keyframe) return Matrix6d(Matrix6d::Zero());
-  return inverse_if_full(absolute_information(impl_->state(), impl_->information(), keyframe));
-}
-
-LensEvidence SlidingWindow::lens_evidence() const {
-  return placegraph::lens_evidence(impl_->state());
-}
-
-double SlidingWindow::sigma_log_length_ratio(std::int64_t first, std::int64_t middle,
-                                             std::int64_t last) const {
-  for (const std::int64_t id : {first, middle, last}) impl_->keyframe(id);
-  require(first != middle && middle != last && first != last,
-          "sliding window: a ratio of lengths needs three keyframes");
-  return placegraph::sigma_log_length_ratio(impl_->state(), impl_->information(), first, middle,
-                                            last);
-}
+const std::vector<WindowFactor>& SlidingWindow::factors() const { return state_->factors; }
 
 }  // namespace placegraph

@@ -8,64 +8,72 @@
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/factors/reprojection.h>
-#include <placegraph/backend/linear/whitening.h>
 #include <placegraph/backend/window/window_equations.h>
 
 #include <algorithm>
 
 namespace placegraph {
+namespace {
 
+/// The first estimate of a variable if the prior holds one.
 template <class T>
-Linearized<T> WindowEquations::linearize(const T& now, std::int64_t id,
-                                         const std::vector<std::int64_t>& in_prior,
-                                         const std::vector<T>& lin) const {
-  Linearized<T> at;
-  at.now = at.lin = now;
+std::optional<Variable> first_estimate(const std::vector<std::int64_t>& in_prior,
+                                       const std::vector<T>& lin, std::int64_t id) {
   const auto k = std::lower_bound(in_prior.begin(), in_prior.end(), id);
-  if (first_estimates_ && k != in_prior.end() && *k == id) {
-    at.lin = lin[static_cast<std::size_t>(k - in_prior.begin())];
-    at.delta = VariableBlock<T>::minus(now, at.lin);
-  }
-  return at;
+  if (k == in_prior.end() || *k != id) return std::nullopt;
+  return lin[static_cast<std::size_t>(k - in_prior.begin())];
 }
 
-WindowEquations::WindowEquations(const WindowState& state, const WindowVariables& variables,
-                                 bool first_estimates)
+std::optional<Variable> first_estimate(const MarginalPrior& prior, const WindowVariable& variable) {
+  switch (variable.kind) {
+    case WindowVariable::Kind::kPlane:
+      return first_estimate(prior.planes, prior.plane_lin, variable.id);
+    case WindowVariable::Kind::kWorld:
+      return first_estimate(prior.worlds, prior.R_map_world_lin, variable.id);
+    default:
+      return first_estimate(prior.keyframes, prior.T_map_cam_lin, variable.id);
+  }
+}
+
+}  // namespace
+
+Eigen::Index columns_of(const std::vector<WindowVariable>& variables) {
+  Eigen::Index n = 0;
+  for (const WindowVariable& variable : variables) n += degrees_of_freedom(variable);
+  return n;
+}
+
+WindowEquations::WindowEquations(const WindowState& state,
+                                 const std::vector<WindowVariable>& variables, bool first_estimates)
     : state_(state),
       first_estimates_(first_estimates),
       kernel_{RobustKernel::Kind::kHuber, state.options.huber_px} {
-  for (const auto& [id, T_map_cam] : state.keyframes)
-    keyframes_[id] = linearize(T_map_cam, id, state.prior.keyframes, state.prior.T_map_cam_lin);
-  for (const auto& [id, plane_map] : state.planes)
-    planes_[id] = linearize(plane_map, id, state.prior.planes, state.prior.plane_lin);
-  for (const auto& [id, R_map_world] : state.worlds)
-    worlds_[id] = linearize(R_map_world, id, state.prior.worlds, state.prior.R_map_world_lin);
+  for (const WindowVariable& variable : variables_of(state)) {
+    LinearizedVariable& at = variables_[variable];
+    at.now = at.lin = value_of(state, variable);
+    at.delta.setZero(degrees_of_freedom(variable));
+    if (!first_estimates) continue;
+    if (const auto first = first_estimate(state.prior, variable)) {
+      at.lin = *first;
+      at.delta = minus(at.now, at.lin);
+    }
+  }
   Eigen::Index column = 0;
-  for (const WindowVariables::Variable& variable : variables.order) {
-    column_of(variable) = column;
-    column += WindowVariables::size(variable);
+  for (const WindowVariable& variable : variables) {
+    variables_.at(variable).column = column;
+    column += degrees_of_freedom(variable);
   }
   form.H = Eigen::MatrixXd::Zero(column, column);
   form.b = Eigen::VectorXd::Zero(column);
 }
 
-Eigen::Index& WindowEquations::column_of(const WindowVariables::Variable& variable) {
-  switch (variable.kind) {
-    case WindowVariables::Kind::kPlane:
-      return planes_.at(variable.id).column;
-    case WindowVariables::Kind::kWorld:
-      return worlds_.at(variable.id).column;
-    default:
-      return keyframes_.at(variable.id).column;
-  }
-}
-
 template <class Measurement>
-void WindowEquations::add_measurement(const Linearized<SE3>& at, const Eigen::Vector3d& p_map,
+void WindowEquations::add_measurement(const LinearizedVariable& at, const Eigen::Vector3d& p_map,
                                       const Measurement& measurement) {
-  const PointInCamera now(at.now.rotation().matrix(), at.now.translation(), p_map);
-  const Eigen::Matrix3d R_map_cam = at.lin.rotation().matrix();
-  const PointInCamera lin(R_map_cam, at.lin.translation(), p_map);
+  const SE3 &T_now = std::get<SE3>(at.now), &T_lin = std::get<SE3>(at.lin);
+  const PointInCamera now(T_now.rotation().matrix(), T_now.translation(), p_map);
+  const Eigen::Matrix3d R_map_cam = T_lin.rotation().matrix();
+  const PointInCamera lin(R_map_cam, T_lin.translation(), p_map);
   if (!now.projectable() || !lin.projectable()) return;
   Eigen::Vector2d r = measurement.residual(now.p_cam);
   const Eigen::Matrix<double, 2, 3> A = measurement.derivative(lin.p_cam);
@@ -73,16 +81,68 @@ void WindowEquations::add_measurement(const Linearized<SE3>& at, const Eigen::Ve
   const Eigen::Matrix<double, 2, 3> J_point = A * R_map_cam.transpose();
   Eigen::Matrix<double, 2, 6> J_pose;
   J_pose << -A, A * hat(lin.p_cam);
-  if (at.column >= 0) r -= J_pose * at.delta;  // the residual at delta = 0
+  if (at.column >= 0) r -= J_pose * Vector6d(at.delta);  // the residual at delta = 0
   point_.add(r, w, J_point, at.column, J_pose);
 }
 
+void WindowEquations::add_landmark(const WindowLandmark& landmark) {
+  point_.clear();
+  const auto usable = usable_observations(state_, landmark);
+  for (const WindowObservation* o : usable) {
+    const LinearizedVariable& at = variables_.at(keyframe_variable(o->keyframe));
+    add_measurement(at, landmark.p_map, reprojection_of(state_.camera, *o));
+    if (o->inverse_depth)
+      add_measurement(at, landmark.p_map, InverseDepth(*o->inverse_depth, o->sigma_inverse_depth));
+  }
+  if (landmark.on_plane && !usable.empty()) {
+    const PointOnPlaneFactor factor(landmark.on_plane->sigma_m);
+    const LinearizedVariable& at = variables_.at(plane_variable(landmark.on_plane->plane));
+    PointOnPlaneFactor::Residual r, unused;
+    PointOnPlaneFactor::Jacobians J;
+    factor.compute(landmark.p_map, std::get<Plane3>(at.now), r, nullptr);
+    factor.compute(landmark.p_map, std::get<Plane3>(at.lin), unused, &J);
+    const double w = kernel_.evaluate(r.squaredNorm()).first;
+    if (at.column >= 0) r -= std::get<1>(J) * Eigen::Vector3d(at.delta);
+    point_.add(r, w, std::get<0>(J), at.column, std::get<1>(J));
+  }
+  point_.eliminate(form);
+}
+
+void WindowEquations::add_line(const WindowLine& line) {
+  if (!is_usable(line)) return;
+  line_.clear();
+  for (const LineObservation& o : line.observations) {
+    const LinearizedVariable& at = variables_.at(keyframe_variable(o.keyframe));
+    for_factors(state_.camera, o, [&](const LineReprojectionFactor& factor) {
+      LineReprojectionFactor::Residual r;
+      LineReprojectionFactor::Jacobians J;
+      factor.compute(std::get<SE3>(at.now), line.line_map, std::get<SE3>(at.lin), r, &J);
+      const double w = kernel_.evaluate(r.squaredNorm()).first;
+      if (at.column >= 0) r -= std::get<0>(J) * Vector6d(at.delta);
+      line_.add(r, w, std::get<1>(J), at.column, std::get<0>(J));
+    });
+  }
+  line_.eliminate(form);
+}
+
+// TRANSITION: sizes known when it is compiled, as before.
+namespace {
+template <class T>
+struct Linearized {
+  T now, lin;
+  typename VariableBlock<T>::Tangent delta;
+  Eigen::Index column = -1;
+  explicit Linearized(const LinearizedVariable& at)
+      : now(std::get<T>(at.now)), lin(std::get<T>(at.lin)), delta(at.delta), column(at.column) {}
+};
+
 template <class F, class... T>
-void WindowEquations::add_factor(const F& factor, bool robust, const Linearized<T>&... at) {
+void add_typed(const F& factor, bool robust, const RobustKernel& kernel, QuadraticForm& form,
+               const Linearized<T>&... at) {
   typename F::Residual r, unused;
   typename F::Jacobians J;
   if (!factor.compute(at.now..., r, nullptr) || !factor.compute(at.lin..., unused, &J)) return;
-  const double w = robust ? kernel_.evaluate(r.squaredNorm()).first : 1.0;
+  const double w = robust ? kernel.evaluate(r.squaredNorm()).first : 1.0;
   std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> blocks;
   std::apply(
       [&](const auto&... J_k) {
@@ -100,75 +160,25 @@ void WindowEquations::add_factor(const F& factor, bool robust, const Linearized<
       form.H.block(i, j, J_i.cols(), J_j.cols()) += w * J_i.transpose() * J_j;
   }
 }
+}  // namespace
 
-void WindowEquations::add_landmark(const WindowLandmark& landmark) {
-  point_.clear();
-  const auto usable = usable_observations(state_, landmark);
-  for (const WindowObservation* o : usable) {
-    const Linearized<SE3>& at = keyframes_.at(o->keyframe);
-    add_measurement(at, landmark.p_map, reprojection_of(state_.camera, *o));
-    if (o->inverse_depth)
-      add_measurement(at, landmark.p_map, InverseDepth(*o->inverse_depth, o->sigma_inverse_depth));
-  }
-  if (landmark.on_plane && !usable.empty()) {
-    const PointOnPlaneFactor factor(landmark.on_plane->sigma_m);
-    const Linearized<Plane3>& at = planes_.at(landmark.on_plane->plane);
-    PointOnPlaneFactor::Residual r, unused;
-    PointOnPlaneFactor::Jacobians J;
-    factor.compute(landmark.p_map, at.now, r, nullptr);
-    factor.compute(landmark.p_map, at.lin, unused, &J);
-    const double w = kernel_.evaluate(r.squaredNorm()).first;
-    if (at.column >= 0) r -= std::get<1>(J) * at.delta;
-    point_.add(r, w, std::get<0>(J), at.column, std::get<1>(J));
-  }
-  point_.eliminate(form);
-}
-
-void WindowEquations::add_line(const WindowLine& line) {
-  if (!is_usable(line)) return;
-  line_.clear();
-  for (const LineObservation& o : line.observations) {
-    const Linearized<SE3>& at = keyframes_.at(o.keyframe);
-    for_factors(state_.camera, o, [&](const LineReprojectionFactor& factor) {
-      LineReprojectionFactor::Residual r;
-      LineReprojectionFactor::Jacobians J;
-      factor.compute(at.now, line.line_map, at.lin, r, &J);
-      const double w = kernel_.evaluate(r.squaredNorm()).first;
-      if (at.column >= 0) r -= std::get<0>(J) * at.delta;
-      line_.add(r, w, std::get<1>(J), at.column, std::get<0>(J));
-    });
-  }
-  line_.eliminate(form);
-}
-
-void WindowEquations::add_distance(const DistanceObservation& d) {
-  add_factor(DistanceFactor(d.distance_m, d.sigma_m), true, keyframes_.at(d.from),
-             keyframes_.at(d.to));
-}
-
-void WindowEquations::add_height(const HeightObservation& h) {
-  add_factor(HeightAbovePlaneFactor(h.height_m, h.sigma_m), true, keyframes_.at(h.keyframe),
-             planes_.at(h.plane));
-}
-
-void WindowEquations::add_plane_observation(const PlaneObservation& o) {
-  add_factor(PlaneObservationFactor(o.plane_cam, whitening_of(o)), true, keyframes_.at(o.keyframe),
-             planes_.at(o.plane));
-}
-
-void WindowEquations::add_pose_prior(const PosePrior& prior) {
-  add_factor(PosePriorFactor<SE3>(prior.T_map_cam, whitening(prior.information)), false,
-             keyframes_.at(prior.keyframe));
-}
-
-void WindowEquations::add_world_observation(const WorldObservation& o) {
-  add_factor(AbsoluteRotationFactor(o.R_cam_world, whitening_of(o)), true,
-             keyframes_.at(o.keyframe), worlds_.at(o.world));
-}
-
-void WindowEquations::add_motion(const MotionObservation& m) {
-  add_factor(RelativePoseFactor<SE3>(m.T_from_to, whitening(m.information)), false,
-             keyframes_.at(m.from), keyframes_.at(m.to));
+void WindowEquations::add(const WindowFactor& f) {
+  const auto at = [&](std::size_t k) -> const LinearizedVariable& {
+    return variables_.at(f.variables[k]);
+  };
+  const Factor* const factor = f.factor.get();
+  if (const auto* d = dynamic_cast<const DistanceFactor*>(factor))
+    add_typed(*d, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<SE3>(at(1)));
+  else if (const auto* h = dynamic_cast<const HeightAbovePlaneFactor*>(factor))
+    add_typed(*h, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<Plane3>(at(1)));
+  else if (const auto* p = dynamic_cast<const PlaneObservationFactor*>(factor))
+    add_typed(*p, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<Plane3>(at(1)));
+  else if (const auto* x = dynamic_cast<const PosePriorFactor<SE3>*>(factor))
+    add_typed(*x, f.robust, kernel_, form, Linearized<SE3>(at(0)));
+  else if (const auto* w = dynamic_cast<const AbsoluteRotationFactor*>(factor))
+    add_typed(*w, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<SO3>(at(1)));
+  else if (const auto* m = dynamic_cast<const RelativePoseFactor<SE3>*>(factor))
+    add_typed(*m, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<SE3>(at(1)));
 }
 
 void WindowEquations::add_prior() {
@@ -176,9 +186,15 @@ void WindowEquations::add_prior() {
   if (prior.empty()) return;
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(prior.J.rows(), form.H.rows());
   Eigen::VectorXd e = prior.e;
-  const auto add = [&](const auto& J_k, const auto& at, const auto& delta, const auto& J_delta) {
+  const auto add = [&](const WindowVariable& variable, const auto& J_k, const auto& lin,
+                       const auto& J_delta) {
+    using T = std::decay_t<decltype(lin)>;
+    const LinearizedVariable& at = variables_.at(variable);
+    const typename VariableBlock<T>::Tangent delta =
+        VariableBlock<T>::minus(std::get<T>(at.now), lin);
     if (at.column < 0) {
-      e += J_k * at.delta;
+      // In the prior and constant: what it has moved by since then stays in the residual.
+      e += J_k * typename VariableBlock<T>::Tangent(at.delta);
     } else if (first_estimates_) {
       J.middleCols(at.column, delta.size()) = J_k;
     } else {
@@ -186,20 +202,15 @@ void WindowEquations::add_prior() {
       e += J_k * delta;
     }
   };
-  for (std::size_t k = 0; k < prior.keyframes.size(); ++k) {
-    const Linearized<SE3>& at = keyframes_.at(prior.keyframes[k]);
-    add(prior.keyframe_columns(k), at, VariableBlock<SE3>::minus(at.now, prior.T_map_cam_lin[k]),
+  for (std::size_t k = 0; k < prior.keyframes.size(); ++k)
+    add(keyframe_variable(prior.keyframes[k]), prior.keyframe_columns(k), prior.T_map_cam_lin[k],
         SE3::right_jacobian_inverse);
-  }
-  for (std::size_t k = 0; k < prior.planes.size(); ++k) {
-    const Linearized<Plane3>& at = planes_.at(prior.planes[k]);
-    add(prior.plane_columns(k), at, at.now.minus(prior.plane_lin[k]), SO3::right_jacobian_inverse);
-  }
-  for (std::size_t k = 0; k < prior.worlds.size(); ++k) {
-    const Linearized<SO3>& at = worlds_.at(prior.worlds[k]);
-    add(prior.world_columns(k), at, VariableBlock<SO3>::minus(at.now, prior.R_map_world_lin[k]),
+  for (std::size_t k = 0; k < prior.planes.size(); ++k)
+    add(plane_variable(prior.planes[k]), prior.plane_columns(k), prior.plane_lin[k],
         SO3::right_jacobian_inverse);
-  }
+  for (std::size_t k = 0; k < prior.worlds.size(); ++k)
+    add(world_variable(prior.worlds[k]), prior.world_columns(k), prior.R_map_world_lin[k],
+        SO3::right_jacobian_inverse);
   form.H.noalias() += J.transpose() * J;
   form.b.noalias() += J.transpose() * e;
 }

@@ -1,5 +1,14 @@
+#include <placegraph/backend/factors/absolute_rotation.h>
+#include <placegraph/backend/factors/distance.h>
+#include <placegraph/backend/factors/height_above_plane.h>
+#include <placegraph/backend/factors/plane_observation.h>
+#include <placegraph/backend/factors/pose_prior.h>
+#include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/linear/marginalization.h>
-#include <placegraph/backend/window/window_information.h>
+#include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/window/window_equations.h>
+#include <placegraph/graph/core/error.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -8,30 +17,55 @@
 namespace placegraph {
 namespace {
 
-using Kind = WindowVariables::Kind;
-using WindowVariable = WindowVariables::Variable;
+using Kind = WindowVariable::Kind;
+
+bool is_held(const WindowState& state, const WindowVariable& variable) {
+  return variable.kind == Kind::kKeyframe && state.fixed == variable.id;
+}
+
+/// The information of a keyframe's pose in the map, all else marginalized.
+Matrix6d absolute_information(const SlidingWindow& window, std::int64_t keyframe) {
+  return clamp_to_semidefinite(
+      joint_information(window.state(), window.information(), {keyframe_variable(keyframe)}), 1e-9);
+}
+
+std::optional<Matrix6d> inverse_if_full(const Matrix6d& information) {
+  bool deficient = false;
+  whitening(information, &deficient);
+  if (deficient) return std::nullopt;
+  return Matrix6d(information.llt().solve(Matrix6d::Identity()));
+}
+
+/// J information^-1 J^T; nothing where a direction of the information is open.
+std::optional<Eigen::Matrix3d> propagated_covariance(const Eigen::MatrixXd& information,
+                                                     const Eigen::MatrixXd& J) {
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * information *
+                                                             scale.asDiagonal());
+  constexpr double kFloor = 1e-12;
+  if (!(eigen.eigenvalues()[0] > kFloor)) return std::nullopt;
+  const Eigen::MatrixXd root = J * scale.asDiagonal() * eigen.eigenvectors() *
+                               eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
+  return Eigen::Matrix3d(root * root.transpose());
+}
 
 }  // namespace
 
 WindowInformation window_information(const WindowState& state) {
   WindowInformation result;
-  for (const auto& [id, plane_map] : state.planes)
-    result.variables.order.push_back({Kind::kPlane, id});
-  for (const auto& [id, R_map_world] : state.worlds)
-    result.variables.order.push_back({Kind::kWorld, id});
-  for (const auto& [id, T_map_cam] : state.keyframes)
-    result.variables.order.push_back({Kind::kKeyframe, id});
+  const std::vector<WindowVariable> all = variables_of(state);
+  const auto keyframes_end = all.begin() + static_cast<std::ptrdiff_t>(state.keyframes.size());
+  result.variables.assign(keyframes_end, all.end());
+  result.variables.insert(result.variables.end(), all.begin(), keyframes_end);
   WindowEquations equations(state, result.variables, false);
   for (const auto& [id, landmark] : state.landmarks) equations.add_landmark(landmark);
   for (const auto& [id, line] : state.lines) equations.add_line(line);
-  for (const DistanceObservation& distance : state.distances) equations.add_distance(distance);
-  for (const HeightObservation& height : state.heights) equations.add_height(height);
-  for (const PlaneObservation& observation : state.plane_observations)
-    equations.add_plane_observation(observation);
-  for (const PosePrior& prior : state.pose_priors) equations.add_pose_prior(prior);
-  for (const WorldObservation& observation : state.world_observations)
-    equations.add_world_observation(observation);
-  for (const MotionObservation& motion : state.motions) equations.add_motion(motion);
+  // TRANSITION: by type, as before.
+  for (const WindowFactor* factor :
+       by_type(state.factors, {typeid(DistanceFactor), typeid(HeightAbovePlaneFactor),
+                               typeid(PlaneObservationFactor), typeid(PosePriorFactor<SE3>),
+                               typeid(AbsoluteRotationFactor), typeid(RelativePoseFactor<SE3>)}))
+    equations.add(*factor);
   equations.add_prior();
   result.H = std::move(equations.form.H);
   return result;
@@ -43,41 +77,37 @@ Eigen::MatrixXd joint_information(const WindowState& state, const WindowInformat
   std::vector<Eigen::Index> columns;
   std::vector<Eigen::Index> asked(variables.size(), -1);
   Eigen::Index column = 0;
-  for (const WindowVariable& variable : information.variables.order) {
+  for (const WindowVariable& variable : information.variables) {
     const auto k = std::find(variables.begin(), variables.end(), variable);
     if (k != variables.end())
       asked[static_cast<std::size_t>(k - variables.begin())] = column;
-    else if (variable.kind != Kind::kKeyframe || variable.id != state.fixed)
-      for (int i = 0; i < WindowVariables::size(variable); ++i) columns.push_back(column + i);
-    column += WindowVariables::size(variable);
+    else if (!is_held(state, variable))
+      for (int i = 0; i < degrees_of_freedom(variable); ++i) columns.push_back(column + i);
+    column += degrees_of_freedom(variable);
   }
   const auto others = static_cast<Eigen::Index>(columns.size());
   for (std::size_t k = 0; k < variables.size(); ++k)
-    for (int i = 0; i < WindowVariables::size(variables[k]); ++i) columns.push_back(asked[k] + i);
+    for (int i = 0; i < degrees_of_freedom(variables[k]); ++i) columns.push_back(asked[k] + i);
   const QuadraticForm form{information.H(columns, columns),
                            Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns.size()))};
   return marginalize_first(form, others).H;
 }
 
-Matrix6d absolute_information(const WindowState& state, const WindowInformation& information,
-                              std::int64_t keyframe) {
-  return clamp_to_semidefinite(joint_information(state, information, {{Kind::kKeyframe, keyframe}}),
-                               1e-9);
-}
-
-Matrix6d relative_information(const WindowState& state, const WindowInformation& information,
-                              std::int64_t from, std::int64_t to) {
+Matrix6d relative_information(const SlidingWindow& window, std::int64_t from, std::int64_t to) {
+  const WindowState& state = window.state();
+  for (const std::int64_t id : {from, to}) require_variable(state, keyframe_variable(id));
+  require(from != to, "sliding window: a relative pose needs two keyframes");
   const SE3 T_from_to = state.keyframes.at(from).inverse() * state.keyframes.at(to);
   // The held keyframe is the map's frame: what the prior knows, it knows from there.
-  if (state.fixed == from) return absolute_information(state, information, to);
+  if (state.fixed == from) return absolute_information(window, to);
   if (state.fixed == to) {
     // T_from exp(x) changes T_from_to as exp(xi) on its right does, x = -Ad(T_from_to) xi.
     const Matrix6d M = T_from_to.adjoint();
-    return M.transpose() * absolute_information(state, information, from) * M;
+    return M.transpose() * absolute_information(window, from) * M;
   }
-  QuadraticForm joint{
-      joint_information(state, information, {{Kind::kKeyframe, from}, {Kind::kKeyframe, to}}),
-      Eigen::VectorXd::Zero(12)};
+  QuadraticForm joint{joint_information(state, window.information(),
+                                        {keyframe_variable(from), keyframe_variable(to)}),
+                      Eigen::VectorXd::Zero(12)};
   // From (xi_from, xi_to) to (xi_from, xi of T_from_to): xi_to = xi + Ad(T_from_to^-1) xi_from. A
   // window without a prior does not constrain xi_from then, all that is left of it is rounding.
   Eigen::Matrix<double, 12, 12> M = Eigen::Matrix<double, 12, 12>::Identity();
@@ -89,49 +119,58 @@ Matrix6d relative_information(const WindowState& state, const WindowInformation&
   return clamp_to_semidefinite(relative.H, 1e-9);
 }
 
-std::optional<Eigen::Matrix3d> world_covariance(const WindowState& state,
-                                                const WindowInformation& information,
-                                                std::int64_t world, std::int64_t keyframe) {
+std::optional<Matrix6d> relative_covariance(const SlidingWindow& window, std::int64_t from,
+                                            std::int64_t to) {
+  return inverse_if_full(relative_information(window, from, to));
+}
+
+std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, std::int64_t keyframe) {
+  require_variable(window.state(), keyframe_variable(keyframe));
+  if (!window.state().tied_to_map) return std::nullopt;
+  if (window.state().fixed == keyframe) return Matrix6d(Matrix6d::Zero());
+  return inverse_if_full(absolute_information(window, keyframe));
+}
+
+std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, std::int64_t world,
+                                                std::int64_t keyframe) {
+  const WindowState& state = window.state();
+  require_variable(state, keyframe_variable(keyframe));
+  require_variable(state, world_variable(world));
   const SO3 R_world_cam =
       state.worlds.at(world).inverse() * state.keyframes.at(keyframe).rotation();
   std::vector<WindowVariable> variables;
   const bool held = state.fixed == keyframe;
-  if (!held) variables.push_back({Kind::kKeyframe, keyframe});
-  variables.push_back({Kind::kWorld, world});
-  QuadraticForm form{joint_information(state, information, variables), {}};
+  if (!held) variables.push_back(keyframe_variable(keyframe));
+  variables.push_back(world_variable(world));
+  QuadraticForm form{joint_information(state, window.information(), variables), {}};
   form.b = Eigen::VectorXd::Zero(form.H.rows());
   if (!held) form = marginalize_first(form, 3);  // where the keyframe is
-  const Eigen::VectorXd scale = form.H.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * form.H *
-                                                             scale.asDiagonal());
-  constexpr double kFloor = 1e-12;
-  if (!(eigen.eigenvalues()[0] > kFloor)) return std::nullopt;
   // R_cam_world turns on its right by that of the world, less that of the camera seen from it.
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, form.H.cols());
   J.rightCols<3>().setIdentity();
   if (!held) J.leftCols<3>() = -R_world_cam.matrix();
-  const Eigen::MatrixXd root = J * scale.asDiagonal() * eigen.eigenvectors() *
-                               eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
-  return Eigen::Matrix3d(root * root.transpose());
+  return propagated_covariance(form.H, J);
 }
 
-std::optional<Eigen::Matrix3d> plane_covariance(const WindowState& state,
-                                                const WindowInformation& information,
-                                                std::int64_t plane, std::int64_t keyframe) {
+std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, std::int64_t plane,
+                                                std::int64_t keyframe) {
+  const WindowState& state = window.state();
+  require_variable(state, keyframe_variable(keyframe));
+  require_variable(state, plane_variable(plane));
   Eigen::Matrix<double, 3, 6> J_pose;
   Eigen::Matrix3d J_plane;
   transform_to(state.keyframes.at(keyframe), state.planes.at(plane), &J_pose, &J_plane);
   const Eigen::Matrix3d J_inverse = J_plane.inverse();
   Eigen::Matrix3d H;
   if (state.fixed == keyframe) {
-    H = J_inverse.transpose() * joint_information(state, information, {{Kind::kPlane, plane}}) *
-        J_inverse;
+    H = J_inverse.transpose() *
+        joint_information(state, window.information(), {plane_variable(plane)}) * J_inverse;
   } else {
     // From (xi, w of the plane) to (xi, w of the plane in the camera), of which a window that
     // floats as a whole leaves xi open.
-    QuadraticForm joint{
-        joint_information(state, information, {{Kind::kKeyframe, keyframe}, {Kind::kPlane, plane}}),
-        Eigen::VectorXd::Zero(9)};
+    QuadraticForm joint{joint_information(state, window.information(),
+                                          {keyframe_variable(keyframe), plane_variable(plane)}),
+                        Eigen::VectorXd::Zero(9)};
     Eigen::Matrix<double, 9, 9> M = Eigen::Matrix<double, 9, 9>::Identity();
     M.bottomLeftCorner<3, 6>() = -J_inverse * J_pose;
     M.bottomRightCorner<3, 3>() = J_inverse;
@@ -148,6 +187,49 @@ std::optional<Eigen::Matrix3d> plane_covariance(const WindowState& state,
   const Eigen::Matrix3d root = scale.asDiagonal() * eigen.eigenvectors() *
                                eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
   return Eigen::Matrix3d(root * root.transpose());
+}
+
+namespace {
+
+std::optional<Eigen::Vector2d> residual_of(const WindowState& state, const WindowObservation& o,
+                                           const Reprojection& reprojection) {
+  const auto keyframe = state.keyframes.find(o.keyframe);
+  const auto landmark = state.landmarks.find(o.landmark);
+  if (keyframe == state.keyframes.end() || landmark == state.landmarks.end()) return std::nullopt;
+  const SE3& T_map_cam = keyframe->second;
+  const PointInCamera point(T_map_cam.rotation().matrix(), T_map_cam.translation(),
+                            landmark->second.p_map);
+  if (!point.projectable()) return std::nullopt;
+  return reprojection.residual(point.p_cam);
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector2d> residual_px(const SlidingWindow& window,
+                                           const WindowObservation& o) {
+  const WindowState& state = window.state();
+  return residual_of(state, o, Reprojection(state.camera, o.px, 1.0));
+}
+
+std::optional<Eigen::Vector2d> residual_sigmas(const SlidingWindow& window,
+                                               const WindowObservation& o) {
+  return residual_of(window.state(), o, reprojection_of(window.state().camera, o));
+}
+
+std::optional<Eigen::Vector2d> residual_px(const SlidingWindow& window, const LineObservation& o) {
+  const WindowState& state = window.state();
+  const auto keyframe = state.keyframes.find(o.keyframe);
+  const auto line = state.lines.find(o.line);
+  if (keyframe == state.keyframes.end() || line == state.lines.end()) return std::nullopt;
+  LineReprojectionFactor::Residual r;
+  LineReprojectionFactor(state.camera, o.start_px, o.end_px, 1.0)
+      .compute(keyframe->second, line->second.line_map, r, nullptr);
+  return Eigen::Vector2d(r);
+}
+
+std::optional<Eigen::VectorXd> residual_sigmas(const SlidingWindow& window,
+                                               const WindowFactor& factor) {
+  return residual(window.state(), factor);
 }
 
 }  // namespace placegraph

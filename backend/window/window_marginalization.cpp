@@ -1,14 +1,18 @@
+#include <placegraph/backend/factors/absolute_rotation.h>
+#include <placegraph/backend/factors/distance.h>
+#include <placegraph/backend/factors/height_above_plane.h>
+#include <placegraph/backend/factors/plane_observation.h>
+#include <placegraph/backend/factors/pose_prior.h>
+#include <placegraph/backend/factors/relative_pose.h>
+#include <placegraph/backend/window/prior_gauge.h>
 #include <placegraph/backend/window/window_equations.h>
+#include <placegraph/backend/window/window_marginalization.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace placegraph {
 namespace {
-
-using Kind = WindowVariables::Kind;
 
 template <class Landmark>
 bool sees(const Landmark& landmark, std::int64_t keyframe) {
@@ -16,32 +20,97 @@ bool sees(const Landmark& landmark, std::int64_t keyframe) {
                      [&](const auto& o) { return o.keyframe == keyframe; });
 }
 
+/// Whether a point or line is seen from the leaving keyframe and no longer from the newest one: it
+/// goes into the prior.
+template <class Landmark>
+bool ends(const Landmark& landmark, std::int64_t leaving, std::int64_t newest) {
+  return sees(landmark, leaving) && !sees(landmark, newest);
+}
+
+bool touches_any(const WindowFactor& factor, const std::set<WindowVariable>& variables) {
+  return std::any_of(factor.variables.begin(), factor.variables.end(),
+                     [&](const WindowVariable& one) { return variables.contains(one); });
+}
+
+/// The keyframe, and the planes and worlds that nothing in the window but what leaves with it ties
+/// to keyframes, and that nobody wants kept.
+std::set<WindowVariable> leaving_variables(const WindowState& state, std::int64_t leaving,
+                                           std::int64_t newest) {
+  const WindowVariable keyframe = keyframe_variable(leaving);
+  std::set<WindowVariable> touched, staying = state.kept;
+  for (const std::int64_t id : state.prior.planes) touched.insert(plane_variable(id));
+  for (const std::int64_t id : state.prior.worlds) touched.insert(world_variable(id));
+  for (const WindowFactor& factor : state.factors) {
+    const bool leaves = touches(factor, keyframe);
+    const bool between_keyframes =
+        std::any_of(factor.variables.begin(), factor.variables.end(),
+                    [](const auto& one) { return one.kind == WindowVariable::Kind::kKeyframe; });
+    if (between_keyframes)
+      (leaves ? touched : staying).insert(factor.variables.begin(), factor.variables.end());
+  }
+  for (const auto& [id, landmark] : state.landmarks)
+    if (landmark.on_plane)
+      (ends(landmark, leaving, newest) ? touched : staying)
+          .insert(plane_variable(landmark.on_plane->plane));
+  std::set<WindowVariable> result{keyframe};
+  for (const WindowVariable& one : touched)
+    if (one.kind != WindowVariable::Kind::kKeyframe && !staying.contains(one)) result.insert(one);
+  return result;
+}
+
+/// Adds what leaves with the keyframe and the other variables, and the prior. Returns whether
+/// something among it measures the unit of length.
+bool add_leaving(const WindowState& state, const std::set<WindowVariable>& gone,
+                 std::int64_t leaving, std::int64_t newest, WindowEquations& equations) {
+  bool metric = false;
+  for (const auto& [id, landmark] : state.landmarks) {
+    if (!ends(landmark, leaving, newest)) continue;
+    equations.add_landmark(landmark);
+    for (const WindowObservation& o : landmark.observations) metric |= o.inverse_depth.has_value();
+  }
+  for (const auto& [id, line] : state.lines) {
+    if (!ends(line, leaving, newest)) continue;
+    equations.add_line(line);
+    for (const LineObservation& o : line.observations) metric |= o.second.has_value();
+  }
+  if (const auto reference = scale_reference(state)) equations.add(*reference);
+  // TRANSITION: by type, as before.
+  for (const WindowFactor* factor :
+       by_type(state.factors, {typeid(DistanceFactor), typeid(HeightAbovePlaneFactor),
+                               typeid(PlaneObservationFactor), typeid(PosePriorFactor<SE3>),
+                               typeid(AbsoluteRotationFactor), typeid(RelativePoseFactor<SE3>)})) {
+    if (!touches_any(*factor, gone)) continue;
+    equations.add(*factor);
+    metric |= factor->length != WindowFactor::Length::kNone;
+  }
+  equations.add_prior();
+  return metric;
+}
+
 /// The part of a form that carries anything, as the prior on those variables.
-MarginalPrior make_prior(const QuadraticForm& form, const WindowVariables& variables,
+MarginalPrior make_prior(const QuadraticForm& form, const std::vector<WindowVariable>& variables,
                          const WindowEquations& equations) {
   MarginalPrior prior;
-  std::map<Kind, std::vector<Eigen::Index>> columns_of;
+  std::vector<Eigen::Index> columns;
   Eigen::Index column = 0;
-  for (const auto& variable : variables.order) {
-    const int size = WindowVariables::size(variable);
+  for (const WindowVariable& variable : variables) {
+    const int size = degrees_of_freedom(variable);
     if (!form.H.middleCols(column, size).isZero(0)) {
-      if (variable.kind == Kind::kPlane) {
+      const Variable& lin = equations.linearization_point(variable);
+      if (variable.kind == WindowVariable::Kind::kPlane) {
         prior.planes.push_back(variable.id);
-        prior.plane_lin.push_back(equations.plane_lin(variable.id));
-      } else if (variable.kind == Kind::kWorld) {
+        prior.plane_lin.push_back(std::get<Plane3>(lin));
+      } else if (variable.kind == WindowVariable::Kind::kWorld) {
         prior.worlds.push_back(variable.id);
-        prior.R_map_world_lin.push_back(equations.world_lin(variable.id));
+        prior.R_map_world_lin.push_back(std::get<SO3>(lin));
       } else {
         prior.keyframes.push_back(variable.id);
-        prior.T_map_cam_lin.push_back(equations.keyframe_lin(variable.id));
+        prior.T_map_cam_lin.push_back(std::get<SE3>(lin));
       }
-      for (int i = 0; i < size; ++i) columns_of[variable.kind].push_back(column + i);
+      for (int i = 0; i < size; ++i) columns.push_back(column + i);
     }
     column += size;
   }
-  std::vector<Eigen::Index> columns;
-  for (const Kind kind : {Kind::kKeyframe, Kind::kPlane, Kind::kWorld})
-    columns.insert(columns.end(), columns_of[kind].begin(), columns_of[kind].end());
   if (columns.empty()) return prior;
   const SquareRootForm root = square_root({form.H(columns, columns), form.b(columns)});
   prior.J = root.J;
@@ -49,242 +118,33 @@ MarginalPrior make_prior(const QuadraticForm& form, const WindowVariables& varia
   return prior;
 }
 
-/// Smallest eigenvalue, scaled by the diagonal, of the prior's information on motions of the whole
-/// window below which it does not hold them.
-constexpr double kGaugeFloor = 1e-8;
-
-/// What a motion of all keyframes, planes and worlds together, by a right tangent of the prior's
-/// first keyframe, does to the residuals: the others' tangents are Ad(T_k^-1 T_first) times it.
-Eigen::MatrixXd common_motion_of(const MarginalPrior& prior) {
-  const SE3 T_map_first = prior.T_map_cam_lin.front();
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(prior.J.rows(), 6);
-  for (std::size_t k = 0; k < prior.keyframes.size(); ++k)
-    J.noalias() +=
-        prior.keyframe_columns(k) * (prior.T_map_cam_lin[k].inverse() * T_map_first).adjoint();
-  for (std::size_t k = 0; k < prior.planes.size(); ++k) {
-    // The plane moved by exp(xi) is the same plane seen from exp(-xi).
-    Eigen::Matrix<double, 3, 6> J_plane;
-    transform_to(SE3(), prior.plane_lin[k], &J_plane);
-    J.noalias() -= prior.plane_columns(k) * J_plane * T_map_first.adjoint();
-  }
-  for (std::size_t k = 0; k < prior.worlds.size(); ++k)
-    J.rightCols<3>().noalias() +=
-        prior.world_columns(k) *
-        (prior.R_map_world_lin[k].inverse() * T_map_first.rotation()).matrix();
-  return J;
-}
-
-/// Whether the prior ties the window to the map: it resists every motion of all of it.
-bool holds_pose(const MarginalPrior& prior) {
-  if (prior.J.rows() < 6 || prior.keyframes.empty()) return false;
-  Eigen::MatrixXd J = common_motion_of(prior);
-  const Vector6d length = J.colwise().norm();
-  if (!(length.minCoeff() > 0)) return false;
-  J *= length.cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(Matrix6d(J.transpose() * J));
-  return eigen.eigenvalues()[0] > kGaugeFloor;
-}
-
-/// What a growth of all the window about a centre, by a logarithm of one, does to the residuals of
-/// the prior.
-struct Growth {
-  Eigen::VectorXd change;
-  double size = 0;  ///< sum of the squares of what the variables bring, one by one
-};
-
-Growth growth_of(const MarginalPrior& prior, const Eigen::Vector3d& center_map) {
-  Growth growth{Eigen::VectorXd::Zero(prior.J.rows())};
-  const auto add = [&](const Eigen::VectorXd& share) {
-    growth.change += share;
-    growth.size += share.squaredNorm();
-  };
-  for (std::size_t k = 0; k < prior.keyframes.size(); ++k) {
-    const SE3& T_map_cam = prior.T_map_cam_lin[k];
-    add(prior.keyframe_columns(k).leftCols<3>() *
-        (T_map_cam.rotation().inverse() * (T_map_cam.translation() - center_map)));
-  }
-  for (std::size_t k = 0; k < prior.planes.size(); ++k) {
-    // The distance from the centre grows, the normal stays.
-    Eigen::RowVector3d J_distance;
-    prior.plane_lin[k].distance(&J_distance);
-    add(prior.plane_columns(k) * J_distance.transpose() *
-        (-prior.plane_lin[k].distance_to(center_map) / J_distance.squaredNorm()));
-  }
-  return growth;
-}
-
-/// Whether the prior resists a growth of all the window about `center_map`.
-bool holds_scale(const MarginalPrior& prior, const Eigen::Vector3d& center_map) {
-  if (prior.empty()) return false;
-  const Growth growth = growth_of(prior, center_map);
-  return growth.change.squaredNorm() > kGaugeFloor * growth.size;
-}
-
-/// The prior of a window that has grown about `center_map` by a random logarithm of deviation
-/// `sigma`: J s being what the growth does, the residuals are whitened by I + sigma^2 J s (J s)^T.
-void relax_scale(MarginalPrior& prior, const Eigen::Vector3d& center_map, double sigma) {
-  if (prior.empty()) return;
-  const Eigen::VectorXd change = growth_of(prior, center_map).change;
-  const double length = change.norm();
-  if (!(length > 0)) return;
-  const Eigen::VectorXd along = change / length;
-  const double lost = 1 - 1 / std::hypot(1.0, sigma * length);
-  prior.J -= lost * along * (along.transpose() * prior.J).eval();
-  prior.e -= lost * along * along.dot(prior.e);
-}
-
-/// The prior of the window relative to its first keyframe, which has no columns any more: where all
-/// of it lies together is integrated out, that is, the residuals are projected on the complement of
-/// what common motions do.
-void hold_first(MarginalPrior& prior) {
-  const Eigen::MatrixXd common = common_motion_of(prior);
-  // An orthonormal basis of the common motions' part; what is not resisted has none.
-  const Eigen::VectorXd length = common.colwise().norm().transpose().cwiseMax(1e-300);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(common * length.cwiseInverse().asDiagonal());
-  const Eigen::MatrixXd basis =
-      qr.householderQ() * Eigen::MatrixXd::Identity(common.rows(), qr.rank());
-  prior.J -= basis * (basis.transpose() * prior.J).eval();
-  prior.e -= basis * (basis.transpose() * prior.e).eval();
-  prior.J = prior.J.rightCols(prior.J.cols() - 6).eval();
-  prior.keyframes.erase(prior.keyframes.begin());
-  prior.T_map_cam_lin.erase(prior.T_map_cam_lin.begin());
-}
-
-/// Planes that nothing in the window but what leaves with a keyframe speaks of, and that nobody
-/// wants kept.
-std::vector<std::int64_t> leaving_planes(const WindowState& state, std::int64_t leaving,
-                                         std::int64_t newest) {
-  std::set<std::int64_t> touched(state.prior.planes.begin(), state.prior.planes.end()), staying;
-  staying = state.kept_planes;
-  const auto of = [&](const auto& o) {
-    (o.keyframe == leaving ? touched : staying).insert(o.plane);
-  };
-  std::for_each(state.heights.begin(), state.heights.end(), of);
-  std::for_each(state.plane_observations.begin(), state.plane_observations.end(), of);
-  for (const auto& [id, landmark] : state.landmarks) {
-    if (!landmark.on_plane) continue;
-    const bool ends = sees(landmark, leaving) && !sees(landmark, newest);
-    (ends ? touched : staying).insert(landmark.on_plane->plane);
-  }
-  std::vector<std::int64_t> planes;
-  std::set_difference(touched.begin(), touched.end(), staying.begin(), staying.end(),
-                      std::back_inserter(planes));
-  return planes;
-}
-
-/// Worlds that nothing in the window but what leaves with a keyframe speaks of, and that nobody
-/// wants kept.
-std::vector<std::int64_t> leaving_worlds(const WindowState& state, std::int64_t leaving) {
-  std::set<std::int64_t> touched(state.prior.worlds.begin(), state.prior.worlds.end()),
-      staying(state.kept_worlds);
-  for (const WorldObservation& o : state.world_observations)
-    (o.keyframe == leaving ? touched : staying).insert(o.world);
-  std::vector<std::int64_t> worlds;
-  std::set_difference(touched.begin(), touched.end(), staying.begin(), staying.end(),
-                      std::back_inserter(worlds));
-  return worlds;
-}
-
-/// Takes out of the window what has gone into the prior with a keyframe.
-void erase_keyframe(WindowState& state, std::int64_t leaving, std::int64_t newest,
-                    const std::vector<std::int64_t>& planes,
-                    const std::vector<std::int64_t>& worlds) {
+/// Takes out of the window what has gone into the prior.
+void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, std::int64_t leaving,
+                   std::int64_t newest) {
   const auto erase_from = [&](auto& landmarks) {
     for (auto it = landmarks.begin(); it != landmarks.end();) {
       auto& landmark = it->second;
-      const bool ends = sees(landmark, leaving) && !sees(landmark, newest);
+      const bool gone_too = ends(landmark, leaving, newest);
       std::erase_if(landmark.observations, [&](const auto& o) { return o.keyframe == leaving; });
-      it = ends || landmark.observations.empty() ? landmarks.erase(it) : std::next(it);
+      it = gone_too || landmark.observations.empty() ? landmarks.erase(it) : std::next(it);
     }
   };
   erase_from(state.landmarks);
   erase_from(state.lines);
-  std::erase_if(state.distances,
-                [&](const DistanceObservation& d) { return d.from == leaving || d.to == leaving; });
-  std::erase_if(state.motions,
-                [&](const MotionObservation& m) { return m.from == leaving || m.to == leaving; });
-  const auto of_leaving = [&](const auto& o) { return o.keyframe == leaving; };
-  std::erase_if(state.heights, of_leaving);
-  std::erase_if(state.plane_observations, of_leaving);
-  std::erase_if(state.pose_priors, of_leaving);
-  std::erase_if(state.world_observations, of_leaving);
-  for (const std::int64_t world : worlds) {
-    state.worlds.erase(world);
-    if (state.held_world == world) state.held_world.reset();
+  std::erase_if(state.factors,
+                [&](const WindowFactor& factor) { return touches_any(factor, gone); });
+  for (const WindowVariable& variable : gone) {
+    state.kept.erase(variable);
+    if (variable.kind == WindowVariable::Kind::kPlane) state.planes.erase(variable.id);
+    if (variable.kind == WindowVariable::Kind::kKeyframe) state.keyframes.erase(variable.id);
+    if (variable.kind != WindowVariable::Kind::kWorld) continue;
+    state.worlds.erase(variable.id);
+    if (state.held_world == variable.id) state.held_world.reset();
   }
-  for (const std::int64_t plane : planes) state.planes.erase(plane);
-  state.kept.erase(leaving);
-  state.keyframes.erase(leaving);
 }
 
-}  // namespace
-
-void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
-  const std::int64_t newest = state.keyframes.rbegin()->first;
-  const std::vector<std::int64_t> planes = leaving_planes(state, leaving, newest);
-  const std::vector<std::int64_t> worlds = leaving_worlds(state, leaving);
-  // What leaves comes first; while the keyframe fixes the gauge it has no variables.
-  const bool was_fixed = state.fixed == leaving;
-  WindowVariables gone, variables;
-  if (!was_fixed) gone.order.push_back({Kind::kKeyframe, leaving});
-  for (const std::int64_t plane : planes) gone.order.push_back({Kind::kPlane, plane});
-  for (const std::int64_t world : worlds) gone.order.push_back({Kind::kWorld, world});
-  for (const auto& [id, T_map_cam] : state.keyframes)
-    if (id != leaving && state.fixed != id) variables.order.push_back({Kind::kKeyframe, id});
-  for (const auto& [id, plane_map] : state.planes)
-    if (!std::binary_search(planes.begin(), planes.end(), id))
-      variables.order.push_back({Kind::kPlane, id});
-  for (const auto& [id, R_map_world] : state.worlds)
-    if (!std::binary_search(worlds.begin(), worlds.end(), id))
-      variables.order.push_back({Kind::kWorld, id});
-  WindowVariables all = gone;
-  all.order.insert(all.order.end(), variables.order.begin(), variables.order.end());
-  WindowEquations equations(state, all, true);
-
-  bool metric = false;
-  for (const auto& [id, landmark] : state.landmarks) {
-    if (!sees(landmark, leaving) || sees(landmark, newest)) continue;
-    equations.add_landmark(landmark);
-    for (const WindowObservation& o : landmark.observations) metric |= o.inverse_depth.has_value();
-  }
-  for (const auto& [id, line] : state.lines) {
-    if (!sees(line, leaving) || sees(line, newest)) continue;
-    equations.add_line(line);
-    for (const LineObservation& o : line.observations) metric |= o.second.has_value();
-  }
-  if (const auto reference = scale_reference(state)) equations.add_distance(*reference);
-  for (const DistanceObservation& distance : state.distances)
-    if (distance.from == leaving || distance.to == leaving) {
-      equations.add_distance(distance);
-      metric = true;
-    }
-  for (const HeightObservation& height : state.heights)
-    if (height.keyframe == leaving) {
-      equations.add_height(height);
-      metric = true;
-    }
-  for (const PlaneObservation& observation : state.plane_observations)
-    if (observation.keyframe == leaving) {
-      equations.add_plane_observation(observation);
-      metric = true;
-    }
-  for (const PosePrior& prior : state.pose_priors)
-    if (prior.keyframe == leaving) {
-      equations.add_pose_prior(prior);
-      metric |= !prior.information.topRows<3>().isZero(0);
-    }
-  for (const WorldObservation& observation : state.world_observations)
-    if (observation.keyframe == leaving) equations.add_world_observation(observation);
-  for (const MotionObservation& motion : state.motions)
-    if (motion.from == leaving || motion.to == leaving) {
-      equations.add_motion(motion);
-      metric |= is_full(motion);
-    }
-  equations.add_prior();
-  state.prior = make_prior(marginalize_first(equations.form, gone.columns()), variables, equations);
-  state.prior_is_metric |= metric;
-
-  erase_keyframe(state, leaving, newest, planes, worlds);
+/// After a keyframe has left: what holds the window in the map, and its unit of length.
+void settle_gauge(WindowState& state, bool was_fixed) {
   if (was_fixed) state.fixed.reset();
   // Where everything the leaving keyframe saw is still in view, nothing went into the prior.
   const auto& [oldest, T_map_oldest] = *state.keyframes.begin();
@@ -298,6 +158,50 @@ void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
   if (state.options.scale_drift > 0)
     relax_scale(state.prior, T_map_oldest.translation(), state.options.scale_drift);
   state.prior_holds_scale = holds_scale(state.prior, T_map_oldest.translation());
+}
+
+}  // namespace
+
+void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
+  const std::int64_t newest = state.keyframes.rbegin()->first;
+  const std::set<WindowVariable> gone = leaving_variables(state, leaving, newest);
+  // What leaves comes first; a keyframe that is held has no columns.
+  const auto is_constant = [&](const WindowVariable& variable) {
+    return variable.kind == WindowVariable::Kind::kKeyframe && state.fixed == variable.id;
+  };
+  std::vector<WindowVariable> order, staying;
+  for (const WindowVariable& variable : gone)
+    if (!is_constant(variable)) order.push_back(variable);
+  const Eigen::Index columns_gone = columns_of(order);
+  for (const WindowVariable& variable : variables_of(state))
+    if (!gone.contains(variable) && !is_constant(variable)) staying.push_back(variable);
+  order.insert(order.end(), staying.begin(), staying.end());
+
+  WindowEquations equations(state, order, true);
+  const bool metric = add_leaving(state, gone, leaving, newest, equations);
+  state.prior = make_prior(marginalize_first(equations.form, columns_gone), staying, equations);
+  state.prior_is_metric |= metric;
+
+  const bool was_fixed = state.fixed == leaving;
+  erase_leaving(state, gone, leaving, newest);
+  settle_gauge(state, was_fixed);
+}
+
+std::vector<std::int64_t> marginalize_window(WindowState& state) {
+  std::vector<std::int64_t> left;
+  while (static_cast<int>(state.keyframes.size()) > state.options.max_keyframes) {
+    // The newest stays in any case.
+    const auto newest = std::prev(state.keyframes.end());
+    const auto oldest = std::find_if(state.keyframes.begin(), newest, [&](const auto& keyframe) {
+      return !state.kept.contains(keyframe_variable(keyframe.first));
+    });
+    if (oldest == newest) break;
+    left.push_back(oldest->first);
+    const auto held_before = state.fixed;
+    marginalize_keyframe(state, left.back());
+    if (state.fixed && state.fixed != held_before) state.tied_to_map = false;
+  }
+  return left;
 }
 
 }  // namespace placegraph

@@ -3,9 +3,11 @@
 #include <placegraph/backend/factors/marginal_prior.h>
 #include <placegraph/backend/factors/reprojection.h>
 #include <placegraph/backend/window/sliding_window_options.h>
+#include <placegraph/backend/window/window_factor.h>
 #include <placegraph/backend/window/window_observations.h>
 
 #include <map>
+#include <optional>
 #include <set>
 
 namespace placegraph {
@@ -22,7 +24,7 @@ struct WindowLine {
 };
 
 /// All that a sliding window knows. Ordered containers only: every sum runs in the order of the
-/// ids.
+/// ids, and over the factors in the order in which they came.
 struct WindowState {
   SlidingWindowOptions options;
   Camera camera;
@@ -31,23 +33,34 @@ struct WindowState {
   std::map<std::int64_t, WindowLine> lines;
   std::map<std::int64_t, Plane3> planes;  ///< planes of the map
   std::map<std::int64_t, SO3> worlds;     ///< R_map_world
-  std::set<std::int64_t> kept;            ///< keyframes that are not to be marginalized
-  std::set<std::int64_t> kept_worlds;     ///< worlds that are not to be marginalized
-  std::set<std::int64_t> kept_planes;     ///< planes that are not to be marginalized
+  std::set<WindowVariable> kept;          ///< are not to be marginalized
   /// Where the window lies as a whole is chosen so that this one stays as it is.
   std::optional<std::int64_t> held_world;
-  std::vector<DistanceObservation> distances;
-  std::vector<HeightObservation> heights;
-  std::vector<PlaneObservation> plane_observations;
-  std::vector<PosePrior> pose_priors;
-  std::vector<WorldObservation> world_observations;
-  std::vector<MotionObservation> motions;
+  std::vector<WindowFactor> factors;  ///< all measurements but those of points and lines
   MarginalPrior prior;
   bool prior_is_metric = false;  ///< what measures the scale went into the prior
   bool prior_holds_scale = false;
   /// The oldest keyframe, while no prior holds position and heading of the window.
   std::optional<std::int64_t> fixed;
+  /// Nothing but the prior leads back to the keyframe that set the map's frame; once another has to
+  /// be held instead, what is known is known from there only.
+  bool tied_to_map = true;
 };
+
+/// Throws ArgumentError ("sliding window: keyframe 3 is not in the window") unless it is.
+void require_variable(const WindowState& state, const WindowVariable& variable);
+/// The estimate of a variable, which must be in the window.
+Variable value_of(const WindowState& state, const WindowVariable& variable);
+
+/// All of them: keyframes, planes, worlds, each in the order of their ids.
+std::vector<WindowVariable> variables_of(const WindowState& state);
+
+/// The whitened residual of a factor at the estimate; nothing where it cannot be computed or one of
+/// its variables is not in the window.
+std::optional<Eigen::VectorXd> residual(const WindowState& state, const WindowFactor& factor);
+/// Whether a factor leaves no direction of one of its variables open, were the others known.
+bool determines(const WindowState& state, const WindowFactor& factor,
+                const WindowVariable& variable);
 
 /// The observations of a landmark that an estimate can use: those whose point lies in front of the
 /// camera, and only if there are at least two. (One view moves its own point only.)
@@ -71,36 +84,18 @@ void for_factors(const Camera& camera, const LineObservation& o, Use&& use) {
                                o.second->eye_cam));
 }
 
-/// Square root of the information of a world's sighting, or of a measured plane.
-Eigen::Matrix3d whitening_of(const WorldObservation& observation);
-Eigen::Matrix3d whitening_of(const PlaneObservation& observation);
-
-/// Moves all that a window knows, the linearization points of its prior too, by T_new_old on the
-/// left: the same window in another frame (window_worlds.cpp).
-void move_window(WindowState& state, const SE3& T_new_old);
-/// Turns the window about its oldest keyframe so that `world` comes to lie at R_map_world.
-void turn_window(WindowState& state, std::int64_t world, const SO3& R_map_world);
-
-/// A full-rank pose prior in the window holds it in the map.
+/// Whether a factor of one keyframe alone leaves no direction of it open: it holds the window in
+/// the map.
+bool is_full_pose_prior(const WindowState& state, const WindowFactor& factor);
 bool has_full_pose_prior(const WindowState& state);
 
-/// Whether something in the window gives the scale: a depth, a distance, a measured plane, a height
-/// above a plane with at least three points, two known positions, a motion of full rank.
+/// Whether something in the window gives the scale: a depth, a measured length, a height above a
+/// plane with at least three points, two known positions.
 bool has_metric_observation(const WindowState& state);
-
-/// A motion that leaves no direction open.
-bool is_full(const MotionObservation& motion);
 
 /// While nothing gives the scale (nothing measures it, no prior), it is held by a soft distance
 /// (1 %) between the oldest keyframe and the one farthest from it, at its present length: this
 /// picks one of the equivalent solutions and changes none of their residuals.
-std::optional<DistanceObservation> scale_reference(const WindowState& state);
-
-/// Minimizes over all of the window (window_problem.cpp).
-WindowSummary optimize_window(WindowState& state);
-
-/// Moves one keyframe and the landmarks that end with it into the prior
-/// (window_marginalization.cpp).
-void marginalize_keyframe(WindowState& state, std::int64_t leaving);
+std::optional<WindowFactor> scale_reference(const WindowState& state);
 
 }  // namespace placegraph

@@ -40,8 +40,8 @@ void KeyframeAlignment::add(const Keyframe& keyframe, const std::optional<std::i
         motion.T_ref_cur.rotation().inverse() * motion.T_ref_cur.translation();
     covariance.topLeftCorner<3, 3>() += t * t.transpose();
   }
-  window.add_motion(
-      {*previous, keyframe.id, motion.T_ref_cur, covariance.ldlt().solve(Matrix6d::Identity())});
+  add_motion(window, {*previous, keyframe.id, motion.T_ref_cur,
+                      covariance.ldlt().solve(Matrix6d::Identity())});
 }
 
 }  // namespace placegraph

@@ -93,7 +93,7 @@ void LineCue::hold_course(std::int64_t keyframe, double depth, SlidingWindow& wi
       const Eigen::Matrix3d R = T_from_to.rotation().matrix();
       const Eigen::Matrix3d seen = R.transpose() * across * R;
       motion.information.topLeftCorner<3, 3>() = 0.5 * (seen + seen.transpose());
-      window.add_motion(motion);
+      add_motion(window, motion);
     }
   }
 }

@@ -92,7 +92,7 @@ void LineCue::steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& 
     R_odom_cam = heading.R_ref_cam;
     PosePrior prior{keyframe, SE3(R_odom_cam, T_odom_cam.translation()), Matrix6d::Zero()};
     prior.information.bottomRightCorner<3, 3>() = heading.information;
-    window.add_pose_prior(prior);
+    add_pose_prior(window, prior);
   }
   Random random(0, static_cast<std::uint64_t>(keyframe));
   compass_->learn(calibration_.camera, seen, R_odom_cam, random);
@@ -330,7 +330,7 @@ void LineCue::wait(const Frame& frame, const SE3& T_odom_start) {
 void LineCue::prune(SlidingWindow& window) {
   for (const std::int64_t id : window.lines()) {
     const auto& observations = window.line_observations(id);
-    const auto r = observations.empty() ? std::nullopt : window.residual_px(observations.back());
+    const auto r = observations.empty() ? std::nullopt : residual_px(window, observations.back());
     if (r && r->cwiseAbs().maxCoeff() <= options_.outlier_px) continue;
     window.remove_line(id);
     sightings_.erase(id);

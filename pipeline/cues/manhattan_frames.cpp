@@ -56,9 +56,9 @@ std::vector<ManhattanWorlds::Expected> ManhattanWorlds::expected(const SlidingWi
 }
 
 void ManhattanWorlds::see(const Candidate& sighting, std::int64_t world, SlidingWindow& window) {
-  window.add_world_observation(
-      {sighting.keyframe, world, sighting.R_cam_manhattan,
-       Eigen::Matrix3d((options_.correlation * honest(sighting.covariance)).inverse())});
+  add_world_observation(
+      window, {sighting.keyframe, world, sighting.R_cam_manhattan,
+               Eigen::Matrix3d((options_.correlation * honest(sighting.covariance)).inverse())});
   last_seen_[world] = sighting.keyframe;
 }
 
@@ -109,14 +109,14 @@ std::optional<std::int64_t> ManhattanWorlds::begin_world(const Candidate& newest
   if (!window.world(kMapAxes)) {
     constexpr double kExactRad = 1e-4;
     window.add_world(kMapAxes, SO3());
-    window.add_world_observation({oldest, kMapAxes, window.pose(oldest).rotation().inverse(),
-                                  Eigen::Matrix3d::Identity() / (kExactRad * kExactRad)});
-    window.keep_world(kMapAxes);
+    add_world_observation(window, {oldest, kMapAxes, window.pose(oldest).rotation().inverse(),
+                                   Eigen::Matrix3d::Identity() / (kExactRad * kExactRad)});
+    window.keep(world_variable(kMapAxes));
     window.hold_world(kMapAxes);
   }
   const std::int64_t world = next_world_++;
   window.add_world(world, R_map(newest));
-  window.keep_world(world);
+  window.keep(world_variable(world));
   for (const Candidate& sighting : agreeing) see(sighting, world, window);
   last_seen_[world] = newest.keyframe;
   return world;
@@ -127,7 +127,7 @@ void ManhattanWorlds::forget_one(SlidingWindow& window) {
   const auto longest =
       std::min_element(last_seen_.begin(), last_seen_.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  window.keep_world(longest->first, false);
+  window.keep(world_variable(longest->first), false);
   covariance_.erase(longest->first);
   last_seen_.erase(longest);
 }
@@ -135,7 +135,7 @@ void ManhattanWorlds::forget_one(SlidingWindow& window) {
 void ManhattanWorlds::settle(const SlidingWindow& window) {
   covariance_.clear();
   for (const auto& [world, seen] : last_seen_)
-    if (const auto covariance = window.world_covariance(world, window.keyframes().back()))
+    if (const auto covariance = world_covariance(window, world, window.keyframes().back()))
       covariance_[world] = *covariance;
 }
 

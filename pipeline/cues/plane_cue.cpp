@@ -95,7 +95,7 @@ std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(std::int64_t keyframe
   std::vector<Match> result;
   const SE3 T_map_cam = window.pose(keyframe), T_cam_map = T_map_cam.inverse();
   for (const auto& [id, landmark] : landmarks_) {
-    const auto covariance = window.plane_covariance(id, keyframe);
+    const auto covariance = plane_covariance(window, id, keyframe);
     if (!covariance) continue;
     const Plane3 expected = transform_to(T_map_cam, *window.plane(id));
     const std::vector<Eigen::Vector3d> points_cam = moved(T_cam_map, landmark.points_map);
@@ -120,8 +120,8 @@ std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(std::int64_t keyframe
 
 void PlaneLandmarks::see(std::int64_t keyframe, const DepthPlane& plane, std::int64_t id,
                          SlidingWindow& window) {
-  window.add_plane_observation(
-      {keyframe, id, plane.plane_cam, (options_.correlation * plane.covariance).inverse()});
+  add_plane_observation(
+      window, {keyframe, id, plane.plane_cam, (options_.correlation * plane.covariance).inverse()});
   Landmark& landmark = landmarks_.at(id);
   landmark.last_seen = std::max(landmark.last_seen, keyframe);
   const SE3 T_map_cam = window.pose(keyframe);
@@ -146,7 +146,7 @@ std::optional<std::size_t> PlaneLandmarks::partner(std::int64_t keyframe, const 
   for (std::size_t k = 0; k < waiting_.size(); ++k) {
     const DepthPlane& before = waiting_[k].plane;
     if (waiting_[k].keyframe == keyframe) continue;
-    const auto motion = window.relative_covariance(waiting_[k].keyframe, keyframe);
+    const auto motion = relative_covariance(window, waiting_[k].keyframe, keyframe);
     if (!motion) continue;
     const SE3 T_before_now = window.pose(waiting_[k].keyframe).inverse() * window.pose(keyframe);
     Eigen::Matrix<double, 3, 6> J_pose;
@@ -171,7 +171,7 @@ std::int64_t PlaneLandmarks::begin(const Waiting& before, const Waiting& now,
                                    SlidingWindow& window) {
   const std::int64_t id = next_++;
   window.add_plane(id, transform_to(window.pose(now.keyframe).inverse(), now.plane.plane_cam));
-  window.keep_plane(id);
+  window.keep(plane_variable(id));
   landmarks_[id] = {};
   see(before.keyframe, before.plane, id, window);
   see(now.keyframe, now.plane, id, window);
@@ -186,7 +186,7 @@ void PlaneLandmarks::forget(std::int64_t keyframe, SlidingWindow& window) {
     if (static_cast<int>(landmarks_.size()) <= options_.max_landmarks &&
         keyframe - longest->second.last_seen <= options_.patience)
       return;
-    window.keep_plane(longest->first, false);
+    window.keep(plane_variable(longest->first), false);
     landmarks_.erase(longest);
   }
 }
@@ -270,17 +270,17 @@ void PlaneLandmarks::prune(SlidingWindow& window) {
   constexpr int kMostMisfits = 2;
   if (window.keyframes().empty()) return;
   const std::int64_t newest = window.keyframes().back();
-  const std::vector<PlaneObservation> all = window.plane_observations();
-  for (const PlaneObservation& o : all) {
-    const auto landmark = landmarks_.find(o.plane);
-    if (o.keyframe != newest || landmark == landmarks_.end()) continue;
-    if (window.residual_sigmas(o)->norm() < kSigmas) {
+  for (const WindowFactor& seen : plane_observations(window)) {
+    const std::int64_t keyframe = seen.variables[0].id, plane = seen.variables[1].id;
+    const auto landmark = landmarks_.find(plane);
+    if (keyframe != newest || landmark == landmarks_.end()) continue;
+    if (residual_sigmas(window, seen)->norm() < kSigmas) {
       landmark->second.misfits = 0;
       continue;
     }
-    window.remove_plane_observation(o.keyframe, o.plane);
+    window.remove(seen);
     if (++landmark->second.misfits <= kMostMisfits) continue;
-    window.remove_plane(o.plane);
+    window.remove_plane(plane);
     landmarks_.erase(landmark);
   }
 }

@@ -249,7 +249,7 @@ bool PointCue::contradicts_itself(std::int64_t landmark, const SlidingWindow& wi
   double sum_px = 0, sum_sigmas = 0;
   int views = 0;
   for (const WindowObservation& o : window.observations(landmark)) {
-    const auto px = window.residual_px(o), sigmas = window.residual_sigmas(o);
+    const auto px = residual_px(window, o), sigmas = residual_sigmas(window, o);
     if (!px || !sigmas) continue;
     sum_px += px->squaredNorm() / 2;
     sum_sigmas += sigmas->squaredNorm() / 2;
@@ -270,7 +270,7 @@ std::vector<double> PointCue::prune(SlidingWindow& window, std::int64_t newest) 
     const auto& observations = window.observations(id);
     const auto track = track_of.find(id);
     const auto residual =
-        observations.empty() ? std::nullopt : window.residual_px(observations.back());
+        observations.empty() ? std::nullopt : residual_px(window, observations.back());
     const bool misfit = residual && contradicts_itself(id, window);
     if (!residual || residual->norm() > options_.outlier_px || misfit) {
       if (misfit && track != track_of.end()) keep[track->second] = false;

@@ -163,8 +163,8 @@ std::optional<SE3> DirectTracker::prepare_keyframe(const KeyframeImages& images,
 void DirectTracker::observe(const KeyframeImages& images, const RectificationError& /*error*/,
                             LocalMap& map, Random& /*random*/) {
   if (from_before_)
-    map.window().add_motion({*map.before_newest(), map.newest(), from_before_->T_ref_cur,
-                             from_before_->covariance.ldlt().solve(Matrix6d::Identity())});
+    add_motion(map.window(), {*map.before_newest(), map.newest(), from_before_->T_ref_cur,
+                              from_before_->covariance.ldlt().solve(Matrix6d::Identity())});
   if (!manhattan_) return;
   const auto span = times_.measure("directions");
   manhattan_->observe(map.newest(), images.frame.image, std::nullopt, map.window());

@@ -23,7 +23,7 @@ void LensEstimator::observe(const SlidingWindow& window) {
   const auto keyframes = window.keyframes();
   if (keyframes.empty() || keyframes.front() <= newest_) return;
   newest_ = keyframes.back();
-  add(window.lens_evidence());
+  add(lens_evidence(window.state()));
 }
 
 void LensEstimator::add(const LensEvidence& evidence) {

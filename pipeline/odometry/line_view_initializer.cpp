@@ -161,7 +161,7 @@ bool LineViewInitializer::motion_is_known(const std::vector<std::size_t>& chosen
   const double rotated_rad =
       (R_odom_last.inverse() * window.pose(map.newest()).rotation()).log().norm();
   return rotated_rad < kMostRotatedRad &&
-         window.sigma_log_length_ratio(map.first(), middle, map.newest()) < kLeastKnown;
+         sigma_log_length_ratio(window, map.first(), middle, map.newest()) < kLeastKnown;
 }
 
 Initialization LineViewInitializer::accept(const std::vector<std::size_t>& chosen,

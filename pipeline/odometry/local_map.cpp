@@ -102,12 +102,13 @@ double LocalMap::scale_drift() const {
   constexpr double kMost = 0.1;
   const auto ids = window_.keyframes();
   if (ids.size() < 3) return kMost;
-  const double sigma = window_.sigma_log_length_ratio(ids.front(), ids[ids.size() / 2], ids.back());
+  const double sigma =
+      sigma_log_length_ratio(window_, ids.front(), ids[ids.size() / 2], ids.back());
   return std::min(kMost, sigma / std::sqrt(0.5 * static_cast<double>(ids.size() - 1)));
 }
 
 Matrix6d LocalMap::motion_information(std::int64_t from, std::int64_t to) const {
-  Matrix6d information = window_.relative_information(from, to);
+  Matrix6d information = relative_information(window_, from, to);
   if (metric()) return information;
   // The prior's hold on the scale is arbitrary and common to all motions: no error of this one.
   const SE3 T_from_to = window_.pose(from).inverse() * window_.pose(to);

@@ -87,7 +87,7 @@ std::optional<Rescale> MetricScale::measure_ground(const KeyframeImages& images,
   const double distance_m = measured->factor * length;
   std::optional<Rescale> rescale;
   if (!known) rescale = map.rescale(measured->factor);
-  window.add_distance({*old, current, distance_m, measured->sigma_relative * distance_m});
+  add_distance(window, {*old, current, distance_m, measured->sigma_relative * distance_m});
   if (known)
     log(log_, LogLevel::kDebug, "ground {} {} length {:f} measured {:f} +- {:f}", old_frame.id,
         images.frame.id, length, distance_m, measured->sigma_relative * distance_m);
@@ -119,7 +119,7 @@ std::optional<Rescale> MetricScale::measure_floor(const Cues& cues, LocalMap& ma
   if (!old) return rescale;
   const double distance_m =
       (known ? measured->factor : 1) * (window.pose(*old).translation() - here).norm();
-  window.add_distance({*old, current, distance_m, measured->sigma_relative * distance_m});
+  add_distance(window, {*old, current, distance_m, measured->sigma_relative * distance_m});
   log(log_, LogLevel::kDebug, "floor: factor {:f} +- {:f}", measured->factor,
       measured->sigma_relative);
   return rescale;
@@ -151,7 +151,7 @@ std::optional<Rescale> MetricScale::measure_motion(LocalMap& map) {
   if (map.metric()) {
     if (ids.size() < 2) return std::nullopt;
     if (const auto distance = measured_distance(ids[ids.size() - 2], ids.back()))
-      window.add_distance(*distance);
+      add_distance(window, *distance);
     return std::nullopt;
   }
   std::vector<DistanceObservation> distances;
@@ -166,7 +166,7 @@ std::optional<Rescale> MetricScale::measure_motion(LocalMap& map) {
   }
   if (distances.size() < kDistances) return std::nullopt;
   const Rescale rescale = map.rescale(std::exp(median_of(log_ratios)));
-  for (const DistanceObservation& distance : distances) window.add_distance(distance);
+  for (const DistanceObservation& distance : distances) add_distance(window, distance);
   return rescale;
 }
 

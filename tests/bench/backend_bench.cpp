@@ -26,7 +26,7 @@ SlidingWindow window_of(const benchmark::State& state, int max_keyframes) {
   SlidingWindow window(options, world.camera);
   fill_window(window, world, random, 0.05, 0.005, 0.3);
   if (state.range(2) == 0)
-    window.add_distance({0, 1, test::distance_m(world.T_map_cam[0], world.T_map_cam[1]), 0.01});
+    add_distance(window, {0, 1, test::distance_m(world.T_map_cam[0], world.T_map_cam[1]), 0.01});
   return window;
 }
 
@@ -55,7 +55,7 @@ void WindowMarginalize(benchmark::State& state) {
 void WindowRelativeInformation(benchmark::State& state) {
   const SlidingWindow window = window_of(state, 20);
   for (auto _ : state)
-    benchmark::DoNotOptimize(window.relative_information(state.range(0) - 2, state.range(0) - 1));
+    benchmark::DoNotOptimize(relative_information(window, state.range(0) - 2, state.range(0) - 1));
 }
 
 /// A walk on a grid in space, with loops to the row before.

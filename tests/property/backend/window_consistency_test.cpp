@@ -107,8 +107,8 @@ TEST_P(WindowConsistency, TheErrorsAreAsLargeAsTheCovariancesSay) {
     const SlidingWindow window = drive_window(world, drive, seed + 1000000);
     const std::int64_t newest = window.keyframes().back();
     const std::int64_t reference = drive.kept >= 0 ? drive.kept : window.keyframes().front();
-    const auto in_map = window.covariance(newest);
-    const auto to_reference = window.relative_covariance(reference, newest);
+    const auto in_map = keyframe_covariance(window, newest);
+    const auto to_reference = relative_covariance(window, reference, newest);
     ASSERT_TRUE(to_reference) << "seed " << seed;
     ASSERT_EQ(in_map.has_value(), GetParam().tied_to_map) << "seed " << seed;
     const SE3& truth = world.T_map_cam[static_cast<std::size_t>(newest)];

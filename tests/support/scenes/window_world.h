@@ -228,7 +228,7 @@ inline void add_view(SlidingWindow& window, const WindowWorld& world, std::int64
     window.add_line_observation(o);
   }
   for (const HeightObservation& h : world.heights)
-    if (h.keyframe == id) window.add_height(h);
+    if (h.keyframe == id) add_height(window, h);
   for (const PlaneObservation& o : world.planes_seen) {
     if (o.keyframe != id) continue;
     if (!window.plane(o.plane)) {
@@ -237,7 +237,7 @@ inline void add_view(SlidingWindow& window, const WindowWorld& world, std::int64
       const auto which = static_cast<std::size_t>(o.plane - WindowWorld::kFirstPlane);
       window.add_plane(o.plane, world.planes[which].plus(step));
     }
-    window.add_plane_observation(o);
+    add_plane_observation(window, o);
   }
 }
 
@@ -254,7 +254,7 @@ inline SlidingWindow drive_window(const WindowWorld& world, const WindowDrive& d
       T_map_cam = window.pose(id - 1) * (world.T_map_cam[k - 1].inverse() * world.T_map_cam[k]) *
                   random_motion(random, 0.02 * drive.disturbance, 0.002 * drive.disturbance);
     window.add_keyframe(id, T_map_cam);
-    if (id == drive.kept) window.keep(id);
+    if (id == drive.kept) window.keep(keyframe_variable(id));
     add_view(window, world, id, drive.disturbance, random);
     if (k > 0) {
       const WindowSummary summary = window.optimize();

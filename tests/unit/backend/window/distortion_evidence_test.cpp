@@ -68,7 +68,7 @@ double found(const LensEvidence& evidence) { return -evidence.gradient / evidenc
 TEST(LensEvidence, TellsTheDistortionThatTheImagesHave) {
   for (const bool depth : {false, true})
     for (const double k1 : {0.02, -0.02}) {
-      const LensEvidence evidence = look_about(k1, depth, 6).lens_evidence();
+      const LensEvidence evidence = lens_evidence(look_about(k1, depth, 6).state());
       EXPECT_GT(evidence.residuals, 500);
       EXPECT_NEAR(found(evidence), k1, 0.1 * std::abs(k1)) << depth;
       EXPECT_GT(evidence.information, 1 / (0.004 * 0.004)) << depth;
@@ -76,16 +76,16 @@ TEST(LensEvidence, TellsTheDistortionThatTheImagesHave) {
 }
 
 TEST(LensEvidence, FindsNoneWhereThereIsNone) {
-  EXPECT_NEAR(found(look_about(0, false, 6).lens_evidence()), 0, 1e-5);
+  EXPECT_NEAR(found(lens_evidence(look_about(0, false, 6).state())), 0, 1e-5);
 }
 
 TEST(LensEvidence, DepthsAddToIt) {
-  EXPECT_GT(look_about(0, true, 6).lens_evidence().information,
-            look_about(0, false, 6).lens_evidence().information);
+  EXPECT_GT(lens_evidence(look_about(0, true, 6).state()).information,
+            lens_evidence(look_about(0, false, 6).state()).information);
 }
 
 TEST(LensEvidence, PointsInTwoViewsTellNothing) {
-  const LensEvidence evidence = look_about(0.02, false, 2).lens_evidence();
+  const LensEvidence evidence = lens_evidence(look_about(0.02, false, 2).state());
   EXPECT_EQ(evidence.residuals, 0);
   EXPECT_EQ(evidence.information, 0);
 }

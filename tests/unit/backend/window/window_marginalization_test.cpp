@@ -47,7 +47,7 @@ TEST(WindowMarginalization, GivesTheSameNewestPosesAsTheWholeBatch) {
     EXPECT_LT(distance_m(window.pose(id), batch.pose(id)), 2e-6);
     EXPECT_LT(angle_rad(window.pose(id), batch.pose(id)), 2e-7);
   }
-  const Matrix6d a = window.relative_information(8, 11), b = batch.relative_information(8, 11);
+  const Matrix6d a = relative_information(window, 8, 11), b = relative_information(batch, 8, 11);
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
 }
 
@@ -108,8 +108,8 @@ TEST(WindowMarginalization, TheInformationOfADriveIsNotMoreThanThatOfItsBatch) {
   WindowWorldOptions options = stereo_world(0.5);
   options.views_per_landmark = 6;  // longer than the window: observations are dropped
   const WindowWorld world = make_window_world(options, random);
-  const Matrix6d window = drive(world, 4, 9).relative_information(9, 11);
-  const Matrix6d batch = drive(world, 100, 9).relative_information(9, 11);
+  const Matrix6d window = relative_information(drive(world, 4, 9), 9, 11);
+  const Matrix6d batch = relative_information(drive(world, 100, 9), 9, 11);
   // Largest generalized eigenvalue <= 1, but for the difference of the linearization points.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> eigen(window, batch);
   EXPECT_LT(eigen.eigenvalues()[5], 1.05);
@@ -142,7 +142,7 @@ TEST(WindowMarginalization, OfKeyframesWithoutObservationsLeavesNoNaN) {
   EXPECT_EQ(window.marginalize().size(), 3u);
   EXPECT_EQ(window.optimize().outcome.code, Outcome::Code::kTooFewData);
   EXPECT_TRUE(window.pose(4).matrix().allFinite());
-  EXPECT_TRUE(window.relative_information(3, 4).allFinite());
+  EXPECT_TRUE(relative_information(window, 3, 4).allFinite());
 }
 
 TEST(WindowHoldOldest, GivesTheSameMotionsAsTheWholeBatch) {
@@ -159,7 +159,7 @@ TEST(WindowHoldOldest, GivesTheSameMotionsAsTheWholeBatch) {
     EXPECT_LT(distance_m(motion(window, 7, id), motion(batch, 7, id)), 2e-6);
     EXPECT_LT(angle_rad(motion(window, 7, id), motion(batch, 7, id)), 2e-7);
   }
-  const Matrix6d a = window.relative_information(8, 11), b = batch.relative_information(8, 11);
+  const Matrix6d a = relative_information(window, 8, 11), b = relative_information(batch, 8, 11);
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
 }
 
@@ -178,7 +178,7 @@ TEST(WindowHoldOldest, LeavesTheOldestKeyframeWhereItIs) {
   test::add_view(window, world, next, 1, random);
   ASSERT_TRUE(window.optimize().outcome);
   EXPECT_EQ(distance_m(window.pose(oldest), before), 0);
-  EXPECT_GT(window.relative_information(oldest, next).trace(), 0);
+  EXPECT_GT(relative_information(window, oldest, next).trace(), 0);
 }
 
 /// Length of the newest step over its true one, after a drive whose measured distances grow by a
@@ -199,7 +199,7 @@ double newest_step(const WindowWorld& world, double scale_drift) {
     test::add_view(window, world, id, 0, random);
     if (id > 0) {
       const double truth_m = distance_m(true_pose(id - 1), true_pose(id));
-      window.add_distance({id - 1, id, (id < last / 2 ? 1 : 1.1) * truth_m, 0.05 * truth_m});
+      add_distance(window, {id - 1, id, (id < last / 2 ? 1 : 1.1) * truth_m, 0.05 * truth_m});
       EXPECT_TRUE(window.optimize().outcome);
     }
     window.marginalize();
@@ -263,7 +263,7 @@ TEST(WindowRescale, IsRefusedOnceTheScaleIsMeasured) {
   const WindowWorld mono = make_window_world(options, random);
   SlidingWindow measured = drive(mono, 5, 13, 0);
   EXPECT_THROW(measured.rescale(0), ArgumentError);
-  measured.add_distance({10, 11, 1, 0.1});
+  add_distance(measured, {10, 11, 1, 0.1});
   EXPECT_THROW(measured.rescale(2), ArgumentError);
 }
 

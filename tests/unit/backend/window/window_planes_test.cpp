@@ -61,10 +61,10 @@ TEST(WindowPlanes, LeaveTheSamePosesInThePriorAsInTheBatch) {
     EXPECT_LT(angle_rad(window.pose(id), batch.pose(id)), 1e-6);
   }
   EXPECT_LT(window.plane(kPlane)->minus(*batch.plane(kPlane)).norm(), 1e-6);
-  const Matrix6d a = window.relative_information(7, 9), b = batch.relative_information(7, 9);
+  const Matrix6d a = relative_information(window, 7, 9), b = relative_information(batch, 7, 9);
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
-  const Eigen::Matrix3d p = *window.plane_covariance(kPlane, 11),
-                        q = *batch.plane_covariance(kPlane, 11);
+  const Eigen::Matrix3d p = *plane_covariance(window, kPlane, 11),
+                        q = *plane_covariance(batch, kPlane, 11);
   EXPECT_LT((p - q).norm(), 0.05 * q.norm());
 }
 
@@ -75,10 +75,10 @@ TEST(WindowPlanes, AreKnownFromAHeldKeyframeAsTheyWereMeasured) {
   const Plane3 plane_cam = transform_to(T_map_cam, plane);
   window.add_keyframe(0, T_map_cam);
   window.add_plane(3, plane);
-  EXPECT_FALSE(window.plane_covariance(3, 0));
+  EXPECT_FALSE(plane_covariance(window, 3, 0));
   const Eigen::Matrix3d information = plane_information(plane_cam, 0.01, 0.03);
-  window.add_plane_observation({0, 3, plane_cam, information});
-  const Eigen::Matrix3d covariance = *window.plane_covariance(3, 0);
+  add_plane_observation(window, {0, 3, plane_cam, information});
+  const Eigen::Matrix3d covariance = *plane_covariance(window, 3, 0);
   EXPECT_LT((covariance * information - Eigen::Matrix3d::Identity()).norm(), 1e-9);
 }
 
@@ -93,18 +93,18 @@ TEST(WindowPlanes, AreKnownFromAKeyframeWhicheverKeyframeIsHeld) {
   window.add_keyframe(1, T_map_first * T_first_second);
   window.add_plane(3, plane);
   const Eigen::Matrix3d information = plane_information(plane_first, 0.01, 0.03);
-  window.add_plane_observation({0, 3, plane_first, information});
+  add_plane_observation(window, {0, 3, plane_first, information});
   const Matrix6d motion = Vector6d(1e4, 2e4, 3e4, 1e5, 2e5, 3e5).asDiagonal();
-  window.add_motion({0, 1, T_first_second, motion});
+  add_motion(window, {0, 1, T_first_second, motion});
   Eigen::Matrix<double, 3, 6> J_pose;
   Eigen::Matrix3d J_plane;
   transform_to(T_first_second, plane_first, &J_pose, &J_plane);
   const Eigen::Matrix3d expected = J_plane * information.inverse() * J_plane.transpose() +
                                    J_pose * motion.inverse() * J_pose.transpose();
-  const Eigen::Matrix3d covariance = *window.plane_covariance(3, 1);
+  const Eigen::Matrix3d covariance = *plane_covariance(window, 3, 1);
   EXPECT_LT((covariance - expected).norm(), 1e-6 * expected.norm());
   // And the first, held, knows it as it measured it.
-  EXPECT_LT((*window.plane_covariance(3, 0) * information - Eigen::Matrix3d::Identity()).norm(),
+  EXPECT_LT((*plane_covariance(window, 3, 0) * information - Eigen::Matrix3d::Identity()).norm(),
             1e-6);
 }
 
@@ -120,7 +120,7 @@ TEST(WindowPlanes, LeaveWithTheLastKeyframeThatMeasuredThemUnlessTheyAreKept) {
     for (std::int64_t id = 0; id < 12; ++id) {
       window.add_keyframe(id, world.T_map_cam[static_cast<std::size_t>(id)]);
       add_view(window, short_sight, id, 0.1, disturbance);
-      if (id == 0) window.keep_plane(kPlane, kept);
+      if (id == 0) window.keep(plane_variable(kPlane), kept);
       if (id > 0) {
         EXPECT_TRUE(window.optimize().outcome);
       }
@@ -131,8 +131,8 @@ TEST(WindowPlanes, LeaveWithTheLastKeyframeThatMeasuredThemUnlessTheyAreKept) {
     if (!kept) continue;
     // Unseen for a while it is known less well than a keyframe that measures it knows it.
     const SlidingWindow seen = drive_window(world, WindowDrive::exact(5), 3);
-    EXPECT_GT(window.plane_covariance(kPlane, 11)->trace(),
-              seen.plane_covariance(kPlane, 11)->trace());
+    EXPECT_GT(plane_covariance(window, kPlane, 11)->trace(),
+              plane_covariance(seen, kPlane, 11)->trace());
   }
 }
 
@@ -167,12 +167,18 @@ TEST(WindowPlanes, AnOutlierIsSeenInItsResidualAndGoesAlone) {
   const std::int64_t keyframe = wrong.keyframe;
   wrong.plane_cam = wrong.plane_cam.plus({0.2, -0.1, 0.1});
   SlidingWindow window = drive_window(spoiled, drive, 7);
-  EXPECT_GT(window.residual_sigmas(wrong)->norm(), 10);
-  window.remove_plane_observation(keyframe, kPlane);
+  EXPECT_GT(residual_sigmas(window, window_factor(wrong))->norm(), 10);
+  const std::vector<WindowVariable> between{keyframe_variable(keyframe), plane_variable(kPlane)};
+  for (const WindowFactor& seen : plane_observations(window)) {
+    if (seen.variables != between) continue;
+    window.remove(seen);
+    EXPECT_THROW(window.remove(seen), ArgumentError);
+  }
   EXPECT_TRUE(window.optimize().outcome);
-  for (const PlaneObservation& o : window.plane_observations())
-    EXPECT_LT(window.residual_sigmas(o)->norm(), 6);
-  EXPECT_THROW(window.remove_plane_observation(keyframe, kPlane), ArgumentError);
+  for (const WindowFactor& seen : plane_observations(window)) {
+    EXPECT_NE(seen.variables, between);
+    EXPECT_LT(residual_sigmas(window, seen)->norm(), 6);
+  }
 }
 
 TEST(WindowPlanes, ForgottenOnesLeaveWhatElseIsKnown) {
@@ -180,12 +186,12 @@ TEST(WindowPlanes, ForgottenOnesLeaveWhatElseIsKnown) {
   Random random(45);
   const WindowWorld world = make_window_world(stereo_world(), random);
   SlidingWindow window = drive_window(world, WindowDrive::exact(5), 8);
-  const Matrix6d before = window.relative_information(8, 11);
+  const Matrix6d before = relative_information(window, 8, 11);
   const SE3 pose = window.pose(11);
   window.remove_plane(kPlane);
   EXPECT_EQ(window.planes(), std::vector<std::int64_t>{kPlane + 1});
-  EXPECT_EQ(window.plane_observations().size(), 5u);
-  const Matrix6d after = window.relative_information(8, 11);
+  EXPECT_EQ(plane_observations(window).size(), 5u);
+  const Matrix6d after = relative_information(window, 8, 11);
   EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix6d>(before - after).eigenvalues()[0],
             -1e-6 * before.norm());
   EXPECT_TRUE(window.optimize().outcome);
@@ -202,7 +208,7 @@ TEST(WindowPlanes, MeasureTheUnitOfLength) {
   window.add_plane(1, Plane3(Eigen::Vector3d::UnitZ(), 3));
   window.rescale(2);
   EXPECT_NEAR(std::abs(window.plane(1)->distance()), 6, 1e-12);
-  window.add_plane_observation({0, 1, *window.plane(1), Eigen::Matrix3d::Identity()});
+  add_plane_observation(window, {0, 1, *window.plane(1), Eigen::Matrix3d::Identity()});
   EXPECT_THROW(window.rescale(2), ArgumentError);
 }
 
@@ -211,15 +217,15 @@ TEST(WindowPlanes, FaultyOnesAreRefused) {
   window.add_keyframe(0, SE3());
   window.add_plane(1, Plane3());
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  EXPECT_THROW(window.add_plane_observation({5, 1, Plane3(), I}), ArgumentError);
-  EXPECT_THROW(window.add_plane_observation({0, 2, Plane3(), I}), ArgumentError);
-  EXPECT_THROW(window.add_plane_observation({0, 1, Plane3(), -I}), ArgumentError);
-  EXPECT_THROW(window.add_plane_observation({0, 1, Plane3(), 0 * I}), ArgumentError);
-  window.add_plane_observation({0, 1, Plane3(), I});
-  EXPECT_THROW(window.add_plane_observation({0, 1, Plane3(), I}), ArgumentError);
-  EXPECT_THROW(window.keep_plane(2), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {5, 1, Plane3(), I}), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {0, 2, Plane3(), I}), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {0, 1, Plane3(), -I}), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {0, 1, Plane3(), 0 * I}), ArgumentError);
+  add_plane_observation(window, {0, 1, Plane3(), I});
+  EXPECT_THROW(add_plane_observation(window, {0, 1, Plane3(), I}), ArgumentError);
+  EXPECT_THROW(window.keep(plane_variable(2)), ArgumentError);
   EXPECT_THROW(window.remove_plane(2), ArgumentError);
-  EXPECT_FALSE(window.residual_sigmas(PlaneObservation{0, 2, Plane3(), I}));
+  EXPECT_FALSE(residual_sigmas(window, window_factor(PlaneObservation{0, 2, Plane3(), I})));
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(PlaneLandmarks, BeginWithTheSecondSighting) {
   const Seen second = drive.see({kLeft, kAhead});
   EXPECT_EQ(second, (Seen{1, 2}));
   EXPECT_EQ(drive.window.planes(), (std::vector<std::int64_t>{1, 2}));
-  EXPECT_EQ(drive.window.plane_observations().size(), 4u);
+  EXPECT_EQ(plane_observations(drive.window).size(), 4u);
   for (int k = 0; k < 8; ++k) EXPECT_EQ(drive.see({kAhead, kLeft}), (Seen{2, 1}));
 }
 
@@ -127,7 +127,7 @@ TEST(PlaneLandmarks, TheOtherSideOfAThinWallIsAnotherOne) {
   for (std::size_t k = 0; k < 4; ++k) {
     const auto id = static_cast<std::int64_t>(k);
     window.add_keyframe(id, T_map_cam[k]);
-    if (k > 0) window.add_motion({id - 1, id, T_map_cam[k - 1].inverse() * T_map_cam[k], sure});
+    if (k > 0) add_motion(window, {id - 1, id, T_map_cam[k - 1].inverse() * T_map_cam[k], sure});
     results.push_back(
         planes.add(id, {Drive::seen_from(T_map_cam[k], k < 2 ? kAhead : back)}, window));
   }
