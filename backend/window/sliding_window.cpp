@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <typeinfo>
 
 namespace placegraph {
 namespace {
@@ -158,7 +159,13 @@ void SlidingWindow::add(const WindowFactor& factor) {
   check(factor, name);
   for (const WindowVariable& variable : factor.variables) require_variable(*state_, variable);
   WindowState& state = change();
-  state.factors.push_back(factor);
+  // Factors of one type stand together: so it changes no sum how measurements of several types
+  // alternate, as those of a frame do.
+  const auto same_type = [&](const WindowFactor& other) {
+    return typeid(*other.factor) == typeid(*factor.factor);
+  };
+  const auto last = std::find_if(state.factors.rbegin(), state.factors.rend(), same_type);
+  state.factors.insert(last == state.factors.rend() ? state.factors.end() : last.base(), factor);
   if (state.fixed && is_full_pose_prior(state, factor) &&
       factor.variables[0] == keyframe_variable(*state.fixed))
     state.fixed.reset();

@@ -105,7 +105,7 @@ class SlidingWindow {
   std::optional<SO3> world(std::int64_t id) const;  ///< R_map_world
   const std::vector<WindowObservation>& observations(std::int64_t landmark) const;
   const std::vector<LineObservation>& line_observations(std::int64_t line) const;
-  /// In the order in which they came.
+  /// Those of one type together, and these in the order in which they came.
   const std::vector<WindowFactor>& factors() const;
 
   /// All that the window knows.

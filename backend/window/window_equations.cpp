@@ -1,12 +1,6 @@
-#include <placegraph/backend/factors/absolute_rotation.h>
-#include <placegraph/backend/factors/distance.h>
-#include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/inverse_depth.h>
 #include <placegraph/backend/factors/line_reprojection.h>
-#include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/point_on_plane.h>
-#include <placegraph/backend/factors/pose_prior.h>
-#include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/factors/reprojection.h>
 #include <placegraph/backend/window/window_equations.h>
 
@@ -125,60 +119,30 @@ void WindowEquations::add_line(const WindowLine& line) {
   line_.eliminate(form);
 }
 
-// TRANSITION: sizes known when it is compiled, as before.
-namespace {
-template <class T>
-struct Linearized {
-  T now, lin;
-  typename VariableBlock<T>::Tangent delta;
-  Eigen::Index column = -1;
-  explicit Linearized(const LinearizedVariable& at)
-      : now(std::get<T>(at.now)), lin(std::get<T>(at.lin)), delta(at.delta), column(at.column) {}
-};
-
-template <class F, class... T>
-void add_typed(const F& factor, bool robust, const RobustKernel& kernel, QuadraticForm& form,
-               const Linearized<T>&... at) {
-  typename F::Residual r, unused;
-  typename F::Jacobians J;
-  if (!factor.compute(at.now..., r, nullptr) || !factor.compute(at.lin..., unused, &J)) return;
-  const double w = robust ? kernel.evaluate(r.squaredNorm()).first : 1.0;
-  std::vector<std::pair<Eigen::Index, Eigen::MatrixXd>> blocks;
-  std::apply(
-      [&](const auto&... J_k) {
-        const auto take = [&](const auto& J_one, const auto& at_one) {
-          if (at_one.column < 0) return;
-          r -= J_one * at_one.delta;
-          blocks.emplace_back(at_one.column, J_one);
-        };
-        (take(J_k, at), ...);
-      },
-      J);
-  for (const auto& [i, J_i] : blocks) {
-    form.b.segment(i, J_i.cols()) += w * J_i.transpose() * r;
-    for (const auto& [j, J_j] : blocks)
-      form.H.block(i, j, J_i.cols(), J_j.cols()) += w * J_i.transpose() * J_j;
-  }
-}
-}  // namespace
-
 void WindowEquations::add(const WindowFactor& f) {
-  const auto at = [&](std::size_t k) -> const LinearizedVariable& {
-    return variables_.at(f.variables[k]);
-  };
-  const Factor* const factor = f.factor.get();
-  if (const auto* d = dynamic_cast<const DistanceFactor*>(factor))
-    add_typed(*d, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<SE3>(at(1)));
-  else if (const auto* h = dynamic_cast<const HeightAbovePlaneFactor*>(factor))
-    add_typed(*h, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<Plane3>(at(1)));
-  else if (const auto* p = dynamic_cast<const PlaneObservationFactor*>(factor))
-    add_typed(*p, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<Plane3>(at(1)));
-  else if (const auto* x = dynamic_cast<const PosePriorFactor<SE3>*>(factor))
-    add_typed(*x, f.robust, kernel_, form, Linearized<SE3>(at(0)));
-  else if (const auto* w = dynamic_cast<const AbsoluteRotationFactor*>(factor))
-    add_typed(*w, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<SO3>(at(1)));
-  else if (const auto* m = dynamic_cast<const RelativePoseFactor<SE3>*>(factor))
-    add_typed(*m, f.robust, kernel_, form, Linearized<SE3>(at(0)), Linearized<SE3>(at(1)));
+  const std::size_t variables = f.variables.size();
+  std::vector<const LinearizedVariable*> at;
+  std::vector<const Variable*> now, lin;
+  std::vector<Eigen::MatrixXd> J;
+  for (const WindowVariable& variable : f.variables) {
+    at.push_back(&variables_.at(variable));
+    now.push_back(&at.back()->now);
+    lin.push_back(&at.back()->lin);
+    J.emplace_back(f.factor->residual_size(), degrees_of_freedom(variable));
+  }
+  Eigen::VectorXd r(f.factor->residual_size()), unused(f.factor->residual_size());
+  if (!f.factor->evaluate(now, r, {}) || !f.factor->evaluate(lin, unused, J)) return;
+  const double w = f.robust ? kernel_.evaluate(r.squaredNorm()).first : 1.0;
+  for (std::size_t i = 0; i < variables; ++i)
+    if (at[i]->column >= 0) r -= J[i] * at[i]->delta;  // the residual at delta = 0
+  for (std::size_t i = 0; i < variables; ++i) {
+    if (at[i]->column < 0) continue;
+    form.b.segment(at[i]->column, J[i].cols()) += w * J[i].transpose() * r;
+    for (std::size_t j = 0; j < variables; ++j)
+      if (at[j]->column >= 0)
+        form.H.block(at[i]->column, at[j]->column, J[i].cols(), J[j].cols()) +=
+            w * J[i].transpose() * J[j];
+  }
 }
 
 void WindowEquations::add_prior() {

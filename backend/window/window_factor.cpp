@@ -5,15 +5,6 @@
 
 namespace placegraph {
 
-std::vector<const WindowFactor*> by_type(const std::vector<WindowFactor>& factors,
-                                         const std::vector<std::type_index>& types) {
-  std::vector<const WindowFactor*> result;
-  for (const std::type_index& type : types)
-    for (const WindowFactor& factor : factors)
-      if (std::type_index(typeid(*factor.factor)) == type) result.push_back(&factor);
-  return result;
-}
-
 bool touches(const WindowFactor& factor, const WindowVariable& variable) {
   return std::find(factor.variables.begin(), factor.variables.end(), variable) !=
          factor.variables.end();

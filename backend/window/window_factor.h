@@ -3,12 +3,9 @@
 #include <placegraph/backend/window/window_variable.h>
 
 #include <memory>
-#include <typeindex>
 #include <vector>
 
 namespace placegraph {
-
-struct MotionObservation;
 
 /// A measurement between variables of a sliding window: a factor of backend/factors and the
 /// variables that it stands between, in the order in which the factor takes them. The window knows
@@ -31,12 +28,7 @@ struct WindowFactor {
   std::vector<WindowVariable> variables;
   bool robust = true;  ///< under the window's Huber kernel
   Length length = Length::kNone;
-  std::shared_ptr<const MotionObservation> motion = nullptr;  // TRANSITION
 };
-
-/// TRANSITION: the factors of the types, type by type.
-std::vector<const WindowFactor*> by_type(const std::vector<WindowFactor>& factors,
-                                         const std::vector<std::type_index>& types);
 
 bool touches(const WindowFactor& factor, const WindowVariable& variable);
 

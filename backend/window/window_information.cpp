@@ -1,9 +1,3 @@
-#include <placegraph/backend/factors/absolute_rotation.h>
-#include <placegraph/backend/factors/distance.h>
-#include <placegraph/backend/factors/height_above_plane.h>
-#include <placegraph/backend/factors/plane_observation.h>
-#include <placegraph/backend/factors/pose_prior.h>
-#include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/linear/marginalization.h>
 #include <placegraph/backend/linear/whitening.h>
 #include <placegraph/backend/window/sliding_window.h>
@@ -60,12 +54,7 @@ WindowInformation window_information(const WindowState& state) {
   WindowEquations equations(state, result.variables, false);
   for (const auto& [id, landmark] : state.landmarks) equations.add_landmark(landmark);
   for (const auto& [id, line] : state.lines) equations.add_line(line);
-  // TRANSITION: by type, as before.
-  for (const WindowFactor* factor :
-       by_type(state.factors, {typeid(DistanceFactor), typeid(HeightAbovePlaneFactor),
-                               typeid(PlaneObservationFactor), typeid(PosePriorFactor<SE3>),
-                               typeid(AbsoluteRotationFactor), typeid(RelativePoseFactor<SE3>)}))
-    equations.add(*factor);
+  for (const WindowFactor& factor : state.factors) equations.add(factor);
   equations.add_prior();
   result.H = std::move(equations.form.H);
   return result;

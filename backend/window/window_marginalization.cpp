@@ -1,9 +1,3 @@
-#include <placegraph/backend/factors/absolute_rotation.h>
-#include <placegraph/backend/factors/distance.h>
-#include <placegraph/backend/factors/height_above_plane.h>
-#include <placegraph/backend/factors/plane_observation.h>
-#include <placegraph/backend/factors/pose_prior.h>
-#include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/window/prior_gauge.h>
 #include <placegraph/backend/window/window_equations.h>
 #include <placegraph/backend/window/window_marginalization.h>
@@ -74,14 +68,10 @@ bool add_leaving(const WindowState& state, const std::set<WindowVariable>& gone,
     for (const LineObservation& o : line.observations) metric |= o.second.has_value();
   }
   if (const auto reference = scale_reference(state)) equations.add(*reference);
-  // TRANSITION: by type, as before.
-  for (const WindowFactor* factor :
-       by_type(state.factors, {typeid(DistanceFactor), typeid(HeightAbovePlaneFactor),
-                               typeid(PlaneObservationFactor), typeid(PosePriorFactor<SE3>),
-                               typeid(AbsoluteRotationFactor), typeid(RelativePoseFactor<SE3>)})) {
-    if (!touches_any(*factor, gone)) continue;
-    equations.add(*factor);
-    metric |= factor->length != WindowFactor::Length::kNone;
+  for (const WindowFactor& factor : state.factors) {
+    if (!touches_any(factor, gone)) continue;
+    equations.add(factor);
+    metric |= factor.length != WindowFactor::Length::kNone;
   }
   equations.add_prior();
   return metric;

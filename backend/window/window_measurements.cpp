@@ -107,8 +107,7 @@ WindowFactor window_factor(const MotionObservation& motion) {
   return {std::make_shared<RelativePoseFactor<SE3>>(motion.T_from_to, W),
           {keyframe_variable(motion.from), keyframe_variable(motion.to)},
           false,
-          deficient ? Length::kNone : Length::kMeasured,
-          std::make_shared<MotionObservation>(motion)};
+          deficient ? Length::kNone : Length::kMeasured};
 }
 
 namespace {

@@ -1,17 +1,11 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-#include <placegraph/backend/factors/absolute_rotation.h>
 #include <placegraph/backend/factors/ceres_factor.h>
-#include <placegraph/backend/factors/distance.h>
 #include <placegraph/backend/factors/factor_cost.h>
-#include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/inverse_depth.h>
 #include <placegraph/backend/factors/kernel_loss.h>
-#include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/point_factor.h>
 #include <placegraph/backend/factors/point_on_plane.h>
-#include <placegraph/backend/factors/pose_prior.h>
-#include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/window/window_blocks.h>
 #include <placegraph/backend/window/window_problem.h>
 #include <placegraph/backend/window/window_transform.h>
@@ -144,15 +138,8 @@ void WindowProblem::add_lines() {
 
 void WindowProblem::add_factors() {
   reference_ = scale_reference(state_);
-  // TRANSITION: by type, as before.
-  for (const WindowFactor* factor :
-       by_type(state_.factors, {typeid(HeightAbovePlaneFactor), typeid(PlaneObservationFactor),
-                                typeid(PosePriorFactor<SE3>), typeid(RelativePoseFactor<SE3>),
-                                typeid(DistanceFactor)}))
-    add_factor(*factor);
   if (reference_) add_factor(*reference_);
-  for (const WindowFactor* factor : by_type(state_.factors, {typeid(AbsoluteRotationFactor)}))
-    add_factor(*factor);
+  for (const WindowFactor& factor : state_.factors) add_factor(factor);
 }
 
 void WindowProblem::add_factor(const WindowFactor& factor) {

@@ -24,7 +24,7 @@ struct WindowLine {
 };
 
 /// All that a sliding window knows. Ordered containers only: every sum runs in the order of the
-/// ids, and over the factors in the order in which they came.
+/// ids, and over the factors as they stand.
 struct WindowState {
   SlidingWindowOptions options;
   Camera camera;
@@ -36,7 +36,9 @@ struct WindowState {
   std::set<WindowVariable> kept;          ///< are not to be marginalized
   /// Where the window lies as a whole is chosen so that this one stays as it is.
   std::optional<std::int64_t> held_world;
-  std::vector<WindowFactor> factors;  ///< all measurements but those of points and lines
+  /// All measurements but those of points and lines: those of one type together, in the order in
+  /// which they came.
+  std::vector<WindowFactor> factors;
   MarginalPrior prior;
   bool prior_is_metric = false;  ///< what measures the scale went into the prior
   bool prior_holds_scale = false;
