@@ -21,6 +21,9 @@ class PlaneOrthogonalFactor final : public SizedFactor<1, Plane3, Plane3> {
     std::get<1>(*J).noalias() = inverse_sigma_ * n_a.transpose() * J_b;
     return true;
   }
+  std::shared_ptr<const Factor> transformed(const Sim3&) const override {
+    return std::make_shared<PlaneOrthogonalFactor>(*this);
+  }
 
  private:
   double inverse_sigma_;

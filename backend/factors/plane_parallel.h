@@ -21,6 +21,9 @@ class PlaneParallelFactor final : public SizedFactor<3, Plane3, Plane3> {
     std::get<1>(*J).noalias() = inverse_sigma_ * hat(n_a) * J_b;
     return true;
   }
+  std::shared_ptr<const Factor> transformed(const Sim3&) const override {
+    return std::make_shared<PlaneParallelFactor>(*this);
+  }
 
  private:
   double inverse_sigma_;
