@@ -2,7 +2,7 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <placegraph/backend/factor_graph/factor_graph.h>
-#include <placegraph/backend/factors/factor_cost.h>
+#include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/variable_manifold.h>
 #include <placegraph/backend/linear/blas_threads.h>
@@ -112,7 +112,7 @@ class FactorGraphProblem {
   const FactorGraph& graph_;
   std::vector<std::size_t> offsets_;  ///< of the variables' blocks in `blocks_`
   std::vector<double> blocks_;
-  std::deque<FactorCost> costs_;
+  std::deque<DynamicCeresFactor> costs_;
   std::deque<KernelLoss> kernels_;
   Manifolds manifolds_;
   int free_ = 0;

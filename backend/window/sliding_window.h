@@ -1,6 +1,5 @@
 #pragma once
 #include <placegraph/backend/window/distortion_evidence.h>
-#include <placegraph/backend/window/scale_uncertainty.h>
 #include <placegraph/backend/window/sliding_window_options.h>
 #include <placegraph/backend/window/window_information.h>
 #include <placegraph/backend/window/window_measurements.h>

@@ -47,6 +47,13 @@ std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, std
 std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, std::int64_t plane,
                                                 std::int64_t keyframe);
 
+/// Standard deviation of log(|t_middle_last| / |t_first_middle|) between three keyframes of the
+/// window: how well it holds its unit of length where nothing measures that. The gauge plays no
+/// part in it. Infinite if two of the three stand in one point. Throws ArgumentError unless they
+/// are three different keyframes of the window.
+double sigma_log_length_ratio(const SlidingWindow& window, std::int64_t first, std::int64_t middle,
+                              std::int64_t last);
+
 /// Reprojection error [px] of an observation at the current estimate; nothing behind the camera.
 /// `residual_sigmas`: the same in standard deviations of its noise.
 std::optional<Eigen::Vector2d> residual_px(const SlidingWindow& window,

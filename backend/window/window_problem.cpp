@@ -1,7 +1,6 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 #include <placegraph/backend/factors/ceres_factor.h>
-#include <placegraph/backend/factors/factor_cost.h>
 #include <placegraph/backend/factors/inverse_depth.h>
 #include <placegraph/backend/factors/kernel_loss.h>
 #include <placegraph/backend/factors/point_factor.h>
@@ -84,7 +83,7 @@ class WindowProblem {
   std::deque<PointFactor<InverseDepth>> inverse_depths_;
   std::deque<CeresFactor<LineReprojectionFactor>> segments_;
   std::deque<CeresFactor<PointOnPlaneFactor>> plane_points_;
-  std::deque<FactorCost> factors_;
+  std::deque<DynamicCeresFactor> factors_;
   std::optional<MarginalPriorFactor> prior_;
   ceres::Problem problem_;  // after all it points to
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;

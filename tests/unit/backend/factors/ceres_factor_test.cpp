@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/distance.h>
-#include <placegraph/backend/factors/factor_cost.h>
 #include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/graph/core/error.h>
 
@@ -12,11 +11,11 @@
 namespace placegraph {
 namespace {
 
-TEST(FactorCost, IsTheFactorAsOneWhoseTypeIsKnown) {
+TEST(DynamicCeresFactor, IsTheFactorAsOneWhoseTypeIsKnown) {
   const SE3 T_map_cam(SO3::exp({0.1, 0.5, 0.3}), Eigen::Vector3d(1, 2, 3));
   const Plane3 plane({0.2, 1, 0.1}, 0.4);
   const HeightAbovePlaneFactor factor(1.5, 0.1);
-  const FactorCost cost(factor, {SE3(), Plane3()});
+  const DynamicCeresFactor cost(factor, {SE3(), Plane3()});
   const CeresFactor<HeightAbovePlaneFactor> known(factor);
   EXPECT_EQ(cost.num_residuals(), 1);
   EXPECT_EQ(cost.parameter_block_sizes(), known.parameter_block_sizes());
@@ -35,9 +34,9 @@ TEST(FactorCost, IsTheFactorAsOneWhoseTypeIsKnown) {
   EXPECT_EQ(J_plane[0], K_plane[0]) << "a block that is held has no derivative";
 }
 
-TEST(FactorCost, FailsWhereTheResidualIsNotANumber) {
+TEST(DynamicCeresFactor, FailsWhereTheResidualIsNotANumber) {
   const DistanceFactor factor(std::numeric_limits<double>::quiet_NaN(), 0.1);
-  const FactorCost cost(factor, {SE3(), SE3()});
+  const DynamicCeresFactor cost(factor, {SE3(), SE3()});
   double a[7], b[7], r[1];
   VariableBlock<SE3>::store(SE3(), a);
   VariableBlock<SE3>::store(SE3(SO3(), Eigen::Vector3d(1, 0, 0)), b);
