@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/odometry/feature_tracker.h>
+#include <placegraph/pipeline/tracking/feature_tracker.h>
 #include <placegraph/pipeline/odometry/initializer.h>
 
 namespace placegraph {

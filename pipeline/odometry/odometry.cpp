@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/odometry/direct_tracker.h>
+#include <placegraph/pipeline/tracking/direct_tracker.h>
 #include <placegraph/pipeline/odometry/first_frame_initializer.h>
 #include <placegraph/pipeline/odometry/line_view_initializer.h>
 #include <placegraph/pipeline/odometry/odometry.h>

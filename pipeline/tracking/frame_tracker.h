@@ -1,10 +1,10 @@
 #pragma once
 #include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/odometry/keyframe_masks.h>
-#include <placegraph/pipeline/odometry/metric_scale.h>
-#include <placegraph/pipeline/odometry/motion_model.h>
-#include <placegraph/pipeline/odometry/odometry_update.h>
+#include <placegraph/pipeline/local_map/keyframe_masks.h>
+#include <placegraph/pipeline/local_map/metric_scale.h>
+#include <placegraph/pipeline/tracking/motion_model.h>
+#include <placegraph/pipeline/tracking/odometry_update.h>
 
 namespace placegraph {
 

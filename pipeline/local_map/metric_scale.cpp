@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/odometry/metric_scale.h>
+#include <placegraph/pipeline/local_map/metric_scale.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/pipeline/cues/surface_labels.h>
-#include <placegraph/pipeline/odometry/local_map.h>
+#include <placegraph/pipeline/local_map/local_map.h>
 
 #include <memory>
 #include <optional>

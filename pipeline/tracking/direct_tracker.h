@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/pipeline/odometry/frame_tracker.h>
-#include <placegraph/pipeline/odometry/odometry_options.h>
+#include <placegraph/pipeline/tracking/frame_tracker.h>
+#include <placegraph/pipeline/tracking/odometry_options.h>
 
 namespace placegraph {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/pipeline/cues/keyframe_alignment.h>
-#include <placegraph/pipeline/odometry/frame_tracker.h>
-#include <placegraph/pipeline/odometry/intermediate_frames.h>
-#include <placegraph/pipeline/odometry/odometry_options.h>
+#include <placegraph/pipeline/tracking/frame_tracker.h>
+#include <placegraph/pipeline/tracking/intermediate_frames.h>
+#include <placegraph/pipeline/tracking/odometry_options.h>
 
 namespace placegraph {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
-#include <placegraph/pipeline/odometry/local_map.h>
+#include <placegraph/pipeline/local_map/local_map.h>
 
 #include <map>
 #include <optional>

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
-#include <placegraph/pipeline/odometry/feature_tracker.h>
-#include <placegraph/pipeline/odometry/line_pose.h>
+#include <placegraph/pipeline/tracking/feature_tracker.h>
+#include <placegraph/pipeline/tracking/line_pose.h>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/odometry/lens_estimator.h>
+#include <placegraph/pipeline/local_map/lens_estimator.h>
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 #include <placegraph/pipeline/cues/plane_cue.h>
 #include <placegraph/pipeline/cues/point_cue.h>
-#include <placegraph/pipeline/odometry/cue_list.h>
-#include <placegraph/pipeline/odometry/keyframe_selector.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
+#include <placegraph/pipeline/tracking/keyframe_selector.h>
 #include <placegraph/pipeline/scale/ground_plane_scale.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/odometry/direct_tracker.h>
+#include <placegraph/pipeline/tracking/direct_tracker.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/odometry/local_map.h>
+#include <placegraph/pipeline/local_map/local_map.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/cues/line_cue.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
-#include <placegraph/pipeline/odometry/keyframe_masks.h>
-#include <placegraph/pipeline/odometry/local_map.h>
+#include <placegraph/pipeline/local_map/keyframe_masks.h>
+#include <placegraph/pipeline/local_map/local_map.h>
 #include <placegraph/pipeline/scale/floor_line_scale.h>
 #include <placegraph/pipeline/scale/ground_plane_scale.h>
 

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/odometry/odometry_options.h>
+#include <placegraph/pipeline/tracking/odometry_options.h>
 
 namespace placegraph {
 

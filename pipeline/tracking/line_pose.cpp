@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/odometry/line_pose.h>
+#include <placegraph/pipeline/tracking/line_pose.h>
 
 namespace placegraph {
 namespace {
