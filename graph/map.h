@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/geometry/trajectory.h>
-#include <placegraph/graph/loop_model.h>
+#include <placegraph/graph/loop_stage.h>
 #include <placegraph/graph/place_graph.h>
 #include <placegraph/graph/place_view.h>
 
@@ -32,15 +32,15 @@ struct FrameRecord {
 struct LoopRecord {
   std::int64_t query_frame = 0, match_frame = 0;
   int inliers = 0;  ///< points that agree with the pose
-  bool accepted = false;
-  /// The test that decided: "retrieval", "geometry", "drift", "covariance", "support", "accepted".
-  std::string stage;
+  LoopStage stage = LoopStage::kRetrieval;
   SE3 T_match_query;  ///< of accepted ones
   LoopModel model = LoopModel::kNone;
   int lines = 0;        ///< lines that agree with the pose
   double likeness = 0;  ///< of the views, as a share of that to the keyframe before the query
   /// That the two show one place, by all that the decision knew: an estimate, see docs/places.md.
   double probability = 0;
+
+  bool accepted() const { return stage == LoopStage::kAccepted; }
 };
 
 /// All that a run leaves behind. A plain value: a copy is a snapshot.

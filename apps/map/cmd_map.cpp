@@ -121,7 +121,7 @@ json describe_map(const std::string& path, const StoredMap& stored) {
                {"landmarks", map.landmarks.size()},
                {"constraints", map.place_graph.constraints.size()},
                {"loops_accepted", std::count_if(map.loops.begin(), map.loops.end(),
-                                                [](const auto& loop) { return loop.accepted; })},
+                                                [](const auto& loop) { return loop.accepted(); })},
                {"frames", map.frames.size()},
                {"posed", optimized.posed()},
                {"metric", map.metric},

@@ -25,7 +25,7 @@ using nlohmann::json;
 json json_of(const LoopRecord& loop) {
   return {{"query_frame", loop.query_frame},
           {"match_frame", loop.match_frame},
-          {"stage", loop.stage},
+          {"stage", to_string(loop.stage)},
           {"probability", loop.probability},
           {"likeness", loop.likeness},
           {"model", to_string(loop.model)},

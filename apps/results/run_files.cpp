@@ -85,7 +85,7 @@ std::string places_json(const Map& map) {
     transitions.push_back({{"from", t.from}, {"to", t.to}, {"count", t.count}});
   json loops = json::array();
   for (const LoopRecord& loop : map.loops)
-    if (loop.accepted)
+    if (loop.accepted())
       loops.push_back({{"query_frame", loop.query_frame},
                        {"match_frame", loop.match_frame},
                        {"T_match_query", pose_json(loop.T_match_query)}});
@@ -99,8 +99,8 @@ std::string loops_csv(const Map& map) {
   csv << "query,match,inliers,accepted,stage,model,lines,likeness,probability\n";
   for (const LoopRecord& loop : map.loops)
     csv << loop.query_frame << ',' << loop.match_frame << ',' << loop.inliers << ','
-        << (loop.accepted ? 1 : 0) << ',' << loop.stage << ',' << to_string(loop.model) << ','
-        << loop.lines << ',' << loop.likeness << ',' << loop.probability << '\n';
+        << (loop.accepted() ? 1 : 0) << ',' << to_string(loop.stage) << ',' << to_string(loop.model)
+        << ',' << loop.lines << ',' << loop.likeness << ',' << loop.probability << '\n';
   return csv.str();
 }
 
@@ -130,7 +130,7 @@ json describe_run(const RunResult& run, const Trajectory& optimized) {
   std::set<int> components;
   for (const Place& place : map.place_graph.places) components.insert(place.component);
   const auto accepted = std::count_if(map.loops.begin(), map.loops.end(),
-                                      [](const LoopRecord& loop) { return loop.accepted; });
+                                      [](const LoopRecord& loop) { return loop.accepted(); });
   return {{"sensor", to_string(run.sensor)},
           {"frames", map.frames.size()},
           {"posed", optimized.posed()},
@@ -170,7 +170,7 @@ std::string run_plot(const RunResult& run, const Trajectory& optimized,
     plot.places_m = place_positions(run.map, {});
     const PlotCurve& curve = plot.curves.back();
     for (const LoopRecord& loop : run.map.loops) {
-      if (!loop.accepted) continue;
+      if (!loop.accepted()) continue;
       std::optional<Eigen::Vector3d> ends[2];
       for (std::size_t i = 0; i < run.map.frames.size(); ++i) {
         if (run.map.frames[i].frame == loop.query_frame) ends[0] = curve.positions_m[i];

@@ -31,7 +31,7 @@ LoopCheck check_loops(const Trajectory& truth, const std::vector<LoopRecord>& lo
   options.check();
   LoopCheck result;
   for (const LoopRecord& loop : loops) {
-    if (!loop.accepted) continue;
+    if (!loop.accepted()) continue;
     if (std::abs(loop.query_frame - loop.match_frame) < options.min_frames_apart) {
       ++result.too_near;
       continue;

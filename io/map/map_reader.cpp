@@ -295,12 +295,15 @@ void MapReader::read_loops() {
     loop.query_frame = rows.integer(1, 0);
     loop.match_frame = rows.integer(2, 0);
     loop.inliers = static_cast<int>(rows.integer(3, 0, kMost));
-    loop.accepted = rows.integer(4, 0, 1) == 1;
-    loop.stage = rows.text(5);
     loop.T_match_query = pose(rows, 6, "T_match_query");
     const auto model = loop_model(rows.text(7));
     if (!model) rows.refuse("model: none that loops are found by");
     loop.model = *model;
+    const auto stage = loop_stage(rows.text(5), loop.model);
+    if (!stage) rows.refuse("stage: none that loops go through: " + std::string(rows.text(5)));
+    loop.stage = *stage;
+    if ((rows.integer(4, 0, 1) == 1) != loop.accepted())
+      rows.refuse("accepted: contradicts stage " + std::string(rows.text(5)));
     loop.lines = static_cast<int>(rows.integer(8, 0, kMost));
     loop.likeness = rows.real(9);
     loop.probability = rows.real(10);

@@ -65,7 +65,7 @@ std::optional<Explanation> explain_frame(const Map& map, std::int64_t frame) {
     return other == frame || other == frame_of_keyframe;
   };
   for (const LoopRecord& loop : map.loops) {
-    if (loop.accepted && (about(loop.query_frame) || about(loop.match_frame)))
+    if (loop.accepted() && (about(loop.query_frame) || about(loop.match_frame)))
       told.loops.push_back(loop);
     else if (about(loop.query_frame))
       told.refused.push_back(loop);

@@ -8,17 +8,17 @@
 
 namespace placegraph {
 
-/// How two keyframes lie to each other by odometry, and the length of the way between them.
+/// How two keyframes lie to each other by odometry, and the length of the path between them.
 struct TrackedMotion {
   SE3 T_a_b;
-  double way = 0;  ///< in the map's unit
+  double path_length = 0;  ///< in the unit of the run of tracking
 };
 
 /// How two keyframes lie to each other by the map, loops and all.
 struct PredictedMotion {
   Sim3 S_a_b;
   Matrix7d covariance = Matrix7d::Zero();  ///< in its right tangent; over SE(3) without the last
-  double way = 0;                          ///< the shortest along motions and loops, in b's unit
+  double path_length = 0;  ///< of the shortest path along links and loops, in b's unit
 };
 
 /// Of keyframes a and b; nothing where no unbroken run of tracking joins the two.
@@ -29,9 +29,8 @@ using MotionBetween = std::function<std::optional<TrackedMotion>(std::int64_t a,
 struct KnownMotions {
   MotionBetween odometry;
   std::function<std::optional<PredictedMotion>(std::int64_t a, std::int64_t b)> map;
-  /// Whether the two have units of length of their own, so that a loop between them must tell their
-  /// ratio.
-  std::function<bool(std::int64_t a, std::int64_t b)> units_differ;
+  /// Whether the two have scales of their own, so that a loop between them must tell their ratio.
+  std::function<bool(std::int64_t a, std::int64_t b)> scale_differs;
 };
 
 }  // namespace placegraph

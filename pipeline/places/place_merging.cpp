@@ -64,7 +64,8 @@ std::optional<std::int64_t> PlaceMapper::known_ground(const Sim3& S_map_here, st
     const SO3 turn = place.S_map_place.rotation().inverse() * S_map_here.rotation();
     if (turn.log().norm() >= deg_to_rad(options_.max_angle_deg)) continue;
     const auto way = odometry(place.anchor_keyframe, keyframe);
-    if (way && way->way * own.S_map_place.scale() < 2 * std::max(reach, place_reach)) continue;
+    if (way && way->path_length * own.S_map_place.scale() < 2 * std::max(reach, place_reach))
+      continue;
     least = distance;
     nearest = number;
   }

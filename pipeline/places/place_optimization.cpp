@@ -153,7 +153,7 @@ std::optional<PredictedMotion> PlaceMapper::predicted(std::int64_t from, std::in
     return std::nullopt;
   PredictedMotion motion{S_map_keyframe(from).inverse() * S_map_keyframe(to)};
   if (a == b) return motion;
-  motion.way = shortest_way(a, b) / S_map_keyframe(to).scale();
+  motion.path_length = shortest_way(a, b) / S_map_keyframe(to).scale();
   const Matrix7d adjoint = S_place_keyframe(nodes_.at(to)).inverse().adjoint();
   motion.covariance = adjoint * optimizer_.relative_covariance(a, b) * adjoint.transpose();
   return motion;

@@ -19,21 +19,26 @@
 namespace placegraph {
 namespace {
 
-constexpr int kFates = static_cast<int>(kLoopFates.size());
-constexpr int kUnknowns = kFates + 2;
+constexpr int kStages = kLoopStageCount;
+constexpr int kUnknowns = kStages + 2;
 using Vector = Eigen::Matrix<double, kUnknowns, 1>;
 using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
+/// The two stages that files call "drift" differ here.
+std::string name_of(LoopStage stage) {
+  return stage == LoopStage::kReach ? "reach" : to_string(stage);
+}
+
 struct Candidate {
-  LoopOddsCues cues;
+  LoopFeatures features;
   bool same = false;
   double weight = 1;
 
   Vector row() const {
     Vector x = Vector::Zero();
-    x[static_cast<Eigen::Index>(cues.fate)] = 1;
-    x[kFates] = cues.log_likeness;
-    x[kFates + 1] = cues.log_agreeing;
+    x[static_cast<Eigen::Index>(features.stage)] = 1;
+    x[kStages] = features.log_similarity;
+    x[kStages + 1] = features.log_agreeing;
     return x;
   }
 };
@@ -49,7 +54,7 @@ std::vector<Candidate> candidates_of(const std::string& map, const std::string& 
       return truth.poses[static_cast<std::size_t>(frame)].T_world_body;
     };
     const auto query = at(loop.query_frame), match = at(loop.match_frame);
-    if (query && match) candidates.push_back({loop_odds_cues(loop), same.holds(*query, *match)});
+    if (query && match) candidates.push_back({loop_features(loop), same.holds(*query, *match)});
   }
   for (Candidate& candidate : candidates)
     candidate.weight = 50.0 / static_cast<double>(candidates.size());
@@ -86,18 +91,18 @@ void run(int count, char** arguments) {
     candidates.insert(candidates.end(), of_run.begin(), of_run.end());
   }
   const Vector coefficients = fit(candidates);
-  for (int fate = 0; fate < kFates; ++fate) {
+  for (int stage = 0; stage < kStages; ++stage) {
     int all = 0, same = 0;
     for (const Candidate& candidate : candidates) {
-      if (static_cast<int>(candidate.cues.fate) != fate) continue;
+      if (static_cast<int>(candidate.features.stage) != stage) continue;
       ++all;
       same += candidate.same;
     }
-    fmt::print("{}\t{}\t{}\t{:.2f}\n", kLoopFates[static_cast<std::size_t>(fate)], all, same,
-               coefficients[fate]);
+    fmt::print("{}\t{}\t{}\t{:.2f}\n", name_of(static_cast<LoopStage>(stage)), all, same,
+               coefficients[stage]);
   }
-  fmt::print("per log likeness\t{:.2f}\nper log agreeing\t{:.2f}\n", coefficients[kFates],
-             coefficients[kFates + 1]);
+  fmt::print("per log likeness\t{:.2f}\nper log agreeing\t{:.2f}\n", coefficients[kStages],
+             coefficients[kStages + 1]);
 }
 
 }  // namespace

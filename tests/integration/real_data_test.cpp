@@ -73,7 +73,7 @@ TEST(RealData, SevenScenesClosesTrueLoopsOnly) {
   int accepted = 0, right = 0;
   double worst_m = 0, worst_rad = 0;
   for (const LoopRecord& loop : judged.run.map.loops) {
-    if (!loop.accepted) continue;
+    if (!loop.accepted()) continue;
     ++accepted;
     const auto at = [&](std::int64_t frame) {
       return SE3(*truth.poses.at(static_cast<std::size_t>(frame)).T_world_body);

@@ -54,7 +54,7 @@ inline std::string map_bits(const Map& map) {
     for (Eigen::Index i = 0; i < c.information.size(); ++i) put(c.information.data()[i]);
   }
   for (const LoopRecord& loop : map.loops) {
-    put(loop.query_frame), put(loop.match_frame), put(loop.inliers), put(loop.accepted);
+    put(loop.query_frame), put(loop.match_frame), put(loop.inliers), put(loop.stage);
     put_pose(loop.T_match_query);
     put(loop.lines), put(loop.likeness), put(loop.probability);
   }

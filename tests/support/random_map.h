@@ -134,8 +134,8 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
     map.landmarks.push_back(
         {l, random.index(static_cast<int>(id)), Eigen::Vector3d::Random(), random.index(9)});
   map.loops.push_back(
-      {9, 1, 33, true, "accepted", random_pose(random), LoopModel::kPoints3d2d, 4, 0.7, 0.9});
-  map.loops.push_back({10, 2, 0, false, "geometry", {}});
+      {9, 1, 33, LoopStage::kAccepted, random_pose(random), LoopModel::kPoints3d2d, 4, 0.7, 0.9});
+  map.loops.push_back({10, 2, 0, LoopStage::kGeometry, {}});
   stored.history.loops.push_back(
       {id - 1, 0, random_pose(random), random_information<7>(random), 1});
   stored.history.founded = places + 2;

@@ -17,7 +17,7 @@ LoopRecord loop(int query, int match, const Eigen::Isometry3d& T_match_query,
   LoopRecord record;
   record.query_frame = query;
   record.match_frame = match;
-  record.accepted = accepted;
+  record.stage = accepted ? LoopStage::kAccepted : LoopStage::kSupport;
   record.T_match_query = SE3(T_match_query);
   return record;
 }

@@ -99,6 +99,14 @@ TEST_F(MapDatabaseFaults, ALoopModelThatThereIsNotIsNamed) {
   EXPECT_THAT(refusal(), HasSubstr("table loop, row 0: likeness or probability"));
 }
 
+TEST_F(MapDatabaseFaults, ALoopStageThatThereIsNotIsNamed) {
+  change("UPDATE loop SET stage = 'guess' WHERE number = 1");
+  EXPECT_THAT(refusal(), HasSubstr("map.db: table loop, row 1: stage"));
+  EXPECT_THAT(refusal(), HasSubstr("guess"));
+  change("UPDATE loop SET stage = 'geometry', accepted = 1 WHERE number = 1");
+  EXPECT_THAT(refusal(), HasSubstr("table loop, row 1: accepted"));
+}
+
 // Schema 1 had no more columns of loops than these.
 TEST_F(MapDatabaseFaults, AMapOfTheFirstSchemaIsReadAndUpgradedWhenWritten) {
   change(

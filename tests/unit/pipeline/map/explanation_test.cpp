@@ -36,9 +36,9 @@ Map two_places() {
                 {3, 30, -1, std::nullopt, 0}};
   map.metric = true;
   LoopRecord accepted, refused;
-  accepted.query_frame = 1, accepted.match_frame = 0, accepted.accepted = true;
-  accepted.stage = "accepted";
-  refused.query_frame = 1, refused.match_frame = 0, refused.stage = "geometry";
+  accepted.query_frame = 1, accepted.match_frame = 0;
+  accepted.stage = LoopStage::kAccepted;
+  refused.query_frame = 1, refused.match_frame = 0, refused.stage = LoopStage::kGeometry;
   map.loops = {accepted, refused};
   return map;
 }

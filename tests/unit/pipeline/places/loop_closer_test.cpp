@@ -49,8 +49,8 @@ class LoopCloserOnAStreet : public testing::Test {
   static std::string stages(const LoopCloser& closer) {
     std::string text;
     for (const LoopRecord& r : closer.records())
-      text += std::to_string(r.query_frame) + "-" + std::to_string(r.match_frame) + " " + r.stage +
-              " " + std::to_string(r.inliers) + "; ";
+      text += std::to_string(r.query_frame) + "-" + std::to_string(r.match_frame) + " " +
+              to_string(r.stage) + " " + std::to_string(r.inliers) + "; ";
     return text;
   }
   static SE3 T_previous_this(int k, double unit_m) {
@@ -97,16 +97,52 @@ TEST_F(LoopCloserOnAStreet, AcceptsARevisitWhenASecondOneAgrees) {
     EXPECT_GT(loop.information(0, 0), 0);
   }
   const auto accepted = std::count_if(closer.records().begin(), closer.records().end(),
-                                      [](const LoopRecord& r) { return r.accepted; });
+                                      [](const LoopRecord& r) { return r.accepted(); });
   EXPECT_EQ(static_cast<std::size_t>(accepted), loops.size());
 }
 
-TEST_F(LoopCloserOnAStreet, RefusesALoopThatOdometryCannotHaveDriftedTo) {
+TEST_F(LoopCloserOnAStreet, LooksAtNoCandidateThatIsOutOfReachByOdometry) {
   LoopCloser closer(small_options(), one_eye(), 1);
   EXPECT_TRUE(drive(closer, 1, pose({0, 0, 0}, {0, 0, 6}), false).empty());
-  EXPECT_TRUE(std::any_of(closer.records().begin(), closer.records().end(),
-                          [](const LoopRecord& r) { return r.stage == "drift"; }))
-      << stages(closer);
+  ASSERT_FALSE(closer.records().empty());
+  for (const LoopRecord& record : closer.records()) {
+    EXPECT_EQ(record.stage, LoopStage::kReach) << stages(closer);
+    EXPECT_EQ(record.model, LoopModel::kNone);
+  }
+}
+
+TEST_F(LoopCloserOnAStreet, RefusesALoopThatOdometryCannotHaveDriftedTo) {
+  // 11 degrees over 5 m at a depth of 10 m, where 2.5 are allowed.
+  LoopCloser closer(small_options(), one_eye(), 1);
+  EXPECT_TRUE(drive(closer, 1, pose({0, 0.2, 0}, {0, 0, 0}), false).empty());
+  const auto refused =
+      std::find_if(closer.records().begin(), closer.records().end(),
+                   [](const LoopRecord& r) { return r.stage == LoopStage::kDrift; });
+  ASSERT_NE(refused, closer.records().end()) << stages(closer);
+  EXPECT_NE(refused->model, LoopModel::kNone);
+  EXPECT_GT(refused->inliers, 0);
+}
+
+TEST_F(LoopCloserOnAStreet, WaitsForASecondLoopThatAgrees) {
+  // The two drives are sure of themselves, but each says another length of the second drive's path:
+  // no two loops agree.
+  LoopCloser closer(small_options(), one_eye(), 1);
+  std::size_t loops = 0;
+  for (int k = 0; k < kAll; ++k) {
+    const auto odometry = [](std::int64_t a, std::int64_t b) -> std::optional<TrackedMotion> {
+      if ((a < kFirst) != (b < kFirst)) return std::nullopt;
+      const SE3 T = T_world(static_cast<int>(a)).inverse() * T_world(static_cast<int>(b));
+      return TrackedMotion{a < kFirst ? T : T.scaled(2), T.translation().norm()};
+    };
+    closer.add_view(k, frame(k),
+                    k == 0 || k == kFirst ? std::nullopt : std::optional(T_previous_this(k, 1)));
+    loops += closer.find_loops({odometry, {}, {}}, kDepth_m).size();
+  }
+  EXPECT_EQ(loops, 0u);
+  const auto waiting =
+      std::count_if(closer.records().begin(), closer.records().end(),
+                    [](const LoopRecord& r) { return r.stage == LoopStage::kSupport; });
+  EXPECT_GE(waiting, 2) << stages(closer);
 }
 
 /// The map knows the two by `sigma`, over `way`, and is `off` from the truth.
@@ -119,7 +155,7 @@ KnownMotions certain_map(const SE3& off, double sigma, double way,
   known.map = [=](std::int64_t a, std::int64_t b) {
     PredictedMotion motion{Sim3(T_world(a).inverse() * T_world(b) * off)};
     motion.covariance.diagonal().head<6>().setConstant(sigma * sigma);
-    motion.way = way;
+    motion.path_length = way;
     return motion;
   };
   return known;
@@ -136,8 +172,9 @@ TEST_F(LoopCloserOnAStreet, RefusesALoopThatACertainMapContradicts) {
                       k == 0 || k == kFirst ? std::nullopt : std::optional(T_previous_this(k, 1)));
       loops += closer.find_loops(known, kDepth_m).size();
     }
-    const bool refused = std::any_of(closer.records().begin(), closer.records().end(),
-                                     [](const LoopRecord& r) { return r.stage == "covariance"; });
+    const bool refused =
+        std::any_of(closer.records().begin(), closer.records().end(),
+                    [](const LoopRecord& r) { return r.stage == LoopStage::kCovariance; });
     EXPECT_EQ(refused, loops == 0) << stages(closer);
     return loops;
   };

@@ -39,7 +39,7 @@ TEST(PlaceHistory, AMapperGoesOnWhereAnotherStood) {
     mapper->add_keyframe(7, link(6, kLong), {}, kDepth_m);
     mapper->add_loop(loop(7, 1, SE3(), 0.3, 0.05));
   }
-  EXPECT_NEAR(first.odometry(1, 7)->way, second.odometry(1, 7)->way, 1e-9);
+  EXPECT_NEAR(first.odometry(1, 7)->path_length, second.odometry(1, 7)->path_length, 1e-9);
   // Both iterate to the end of the same graph: to the optimizer's tolerance.
   expect_same(optimized(first), optimized(second), 1e-4);
 }

@@ -29,8 +29,8 @@ TEST(PlaceMapper, GathersNearKeyframesInOnePlace) {
   EXPECT_EQ(mapper.place_of(4), 2);
   EXPECT_LT(distance_m(mapper.T_map_keyframe(3), T_map_first * kShort * kShort * kLong), 1e-12);
   EXPECT_LT(distance_m(mapper.odometry(1, 3)->T_a_b, kShort * kLong), 1e-12);
-  EXPECT_NEAR(mapper.odometry(3, 1)->way, kShort.translation().norm() + kLong.translation().norm(),
-              1e-12);
+  EXPECT_NEAR(mapper.odometry(3, 1)->path_length,
+              kShort.translation().norm() + kLong.translation().norm(), 1e-12);
   EXPECT_FALSE(mapper.odometry(0, 9));
   EXPECT_THROW(mapper.add_keyframe(4, std::nullopt, {}, kDepth_m), ArgumentError);
 }

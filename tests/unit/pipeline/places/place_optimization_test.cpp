@@ -57,13 +57,13 @@ TEST(PlaceOptimization, PredictsHowTwoKeyframesLieAndHowWellThatIsKnown) {
     return motion.covariance.diagonal().segment<3>(3).sum();
   };
   EXPECT_NEAR(rotation(*chain), 4 * 3 * 0.03 * 0.03, 1e-6);
-  EXPECT_NEAR(chain->way, 4 * 5.2, 1e-6);
+  EXPECT_NEAR(chain->path_length, 4 * 5.2, 1e-6);
   mapper.add_loop(loop(4, 0, SE3(), 0.01, 0.001));
   (void)mapper.optimize();
   const auto closed = mapper.predicted(0, 5);
   ASSERT_TRUE(closed);
   EXPECT_LT(rotation(*closed), 3.1 * 0.001 * 0.001);
-  EXPECT_LT(closed->way, 0.1);
+  EXPECT_LT(closed->path_length, 0.1);
   EXPECT_EQ(mapper.predicted(4, 5)->covariance.norm(), 0);  // of one place
   mapper.add_keyframe(6, std::nullopt, pose({0, 0, 0}, {50, 0, 0}), kDepth_m);
   (void)mapper.optimize();
