@@ -117,6 +117,22 @@ TEST(WindowFactor, OfEveryKindIsInTheCostOnceItIsAdded) {
   }
 }
 
+TEST(WindowFactor, IsUnderTheKernelIfItIsRobust) {
+  const FactorScene scene;
+  for (const auto& [name, factor] : factors_of_every_kind(scene)) {
+    SlidingWindowOptions options = exact_options();
+    options.huber_px = 0.5;
+    SlidingWindow window = scene.window(options);
+    add_chain(window, scene);
+    add_sightings(window, scene);
+    window.add(factor);
+    const double r = residual_sigmas(window, factor)->norm();
+    ASSERT_GT(r, 0.5) << name;
+    const double expected = 0.5 * (factor.robust ? 2 * 0.5 * r - 0.25 : r * r);  // Huber
+    EXPECT_NEAR(window.optimize().cost_initial, expected, 1e-9) << name;
+  }
+}
+
 TEST(WindowFactor, OfEveryKindIsForgottenOnceItIsRemoved) {
   const FactorScene scene;
   for (const auto& [name, factor] : factors_of_every_kind(scene)) {
@@ -291,6 +307,12 @@ TEST(WindowFactor, SaysWhetherItMeasuresTheUnitOfLength) {
     const bool measures = name != "height" && name != "world";
     EXPECT_EQ(has_metric_observation(window.state()), measures) << name;
   }
+  // One position in a map that nothing else holds says where the window lies, two give a length.
+  SlidingWindow floating = scene.window({});
+  add_pose_prior(floating, {0, scene.T_map_cam[0], motion_information()});
+  EXPECT_FALSE(has_metric_observation(floating.state()));
+  add_pose_prior(floating, {1, scene.T_map_cam[1], motion_information()});
+  EXPECT_TRUE(has_metric_observation(floating.state()));
   // Two heights say nothing until three points hold the plane where they are.
   SlidingWindow window = scene.window({});
   window.add(factors_of_every_kind(scene)[1].second);
