@@ -19,7 +19,7 @@
 #include "apps/map/cmd_explain.h"
 #include "apps/map/cmd_georeference.h"
 #include "apps/map/cmd_localize.h"
-#include "apps/map/cmd_map.h"
+#include "apps/saved_map/cmd_map.h"
 #include "apps/map/cmd_route.h"
 #include "apps/places/cmd_match.h"
 #include "apps/places/cmd_places.h"

@@ -8,7 +8,7 @@
 
 #include <memory>
 
-#include "apps/map/image_range.h"
+#include "apps/support/image_range.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/map/image_range.h"
+#include "apps/support/image_range.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>

@@ -1,4 +1,4 @@
-#include "apps/map/map_learn.h"
+#include "apps/saved_map/map_learn.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-#include "apps/map/image_range.h"
+#include "apps/support/image_range.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 

@@ -1,4 +1,4 @@
-#include "apps/map/map_label.h"
+#include "apps/saved_map/map_label.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
@@ -13,7 +13,7 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/map/image_range.h"
+#include "apps/support/image_range.h"
 #include "apps/results/map_file.h"
 #include "apps/support/output.h"
 

@@ -1,4 +1,4 @@
-#include "apps/map/cmd_map.h"
+#include "apps/saved_map/cmd_map.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
@@ -20,10 +20,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "apps/map/cmd_map_label.h"
-#include "apps/map/cmd_map_learn.h"
-#include "apps/map/cmd_map_plan.h"
-#include "apps/map/cmd_map_semantic.h"
+#include "apps/saved_map/cmd_map_label.h"
+#include "apps/saved_map/cmd_map_learn.h"
+#include "apps/saved_map/cmd_map_plan.h"
+#include "apps/saved_map/cmd_map_semantic.h"
 #include "apps/results/map_file.h"
 #include "apps/results/run_files.h"
 #include "apps/support/output.h"
