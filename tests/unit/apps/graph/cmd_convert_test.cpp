@@ -26,7 +26,7 @@ void convert(std::vector<std::string> arguments) {
 
 const std::string kKitti = "1 0 0 0 0 1 0 0 0 0 1 0\n0 -1 0 1 1 0 0 2 0 0 1 3\n";
 
-TEST(ConvertCommand, GoesRoundThroughAllThreeForms) {
+TEST(ConvertCommandLine, GoesRoundThroughAllThreeForms) {
   const TemporaryFolder folder;
   const std::string in = folder.write("in.txt", kKitti);
   convert({in, folder / "a.tum", "--times",
@@ -43,7 +43,7 @@ TEST(ConvertCommand, GoesRoundThroughAllThreeForms) {
   EXPECT_LT((read.poses[1].T_world_body->matrix() - expected).cwiseAbs().maxCoeff(), 1e-11);
 }
 
-TEST(ConvertCommand, GoesByContentInAndByNameOrFlagOut) {
+TEST(ConvertCommandLine, GoesByContentInAndByNameOrFlagOut) {
   const TemporaryFolder folder;
   const std::string tum = folder.write("misnamed.csv", "1 0 0 0 0 0 0 1\n");
   convert({tum, folder / "out.dat", "--to", "kitti"});
@@ -58,7 +58,7 @@ TEST(ConvertCommand, GoesByContentInAndByNameOrFlagOut) {
               HasSubstr("is a trajectory"));
 }
 
-TEST(ConvertCommand, NormalizesAGraph) {
+TEST(ConvertCommandLine, NormalizesAGraph) {
   const TemporaryFolder folder;
   const std::string in = folder.write("in.g2o",
                                       "# c\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n"
@@ -72,7 +72,7 @@ TEST(ConvertCommand, NormalizesAGraph) {
               HasSubstr("is a pose graph"));
 }
 
-TEST(ConvertCommand, TakesThePosesOfAGraphInTheOrderOfTheirIds) {
+TEST(ConvertCommandLine, TakesThePosesOfAGraphInTheOrderOfTheirIds) {
   const TemporaryFolder folder;
   const std::string planar =
       folder.write("planar.g2o", "VERTEX_SE2 7 3 4 1.5707963267948966\nVERTEX_SE2 -1 1 2 0\n");
@@ -99,7 +99,7 @@ TEST(ConvertCommand, TakesThePosesOfAGraphInTheOrderOfTheirIds) {
             Eigen::Matrix4d::Identity());
 }
 
-TEST(ConvertCommand, LeavesLostFramesOutOnRequest) {
+TEST(ConvertCommandLine, LeavesLostFramesOutOnRequest) {
   const TemporaryFolder folder;
   const std::string lost = "nan nan nan nan nan nan nan nan nan nan nan nan\n";
   const std::string first = kKitti.substr(0, kKitti.find('\n') + 1),
@@ -122,7 +122,7 @@ TEST(ConvertCommand, LeavesLostFramesOutOnRequest) {
               HasSubstr("not a pose graph"));
 }
 
-TEST(ConvertCommand, NeverOverwritesWithoutForce) {
+TEST(ConvertCommandLine, NeverOverwritesWithoutForce) {
   const TemporaryFolder folder;
   const std::string in = folder.write("in.txt", kKitti);
   const std::string out = folder.write("out.kitti", "precious");
@@ -132,7 +132,7 @@ TEST(ConvertCommand, NeverOverwritesWithoutForce) {
   EXPECT_EQ(read_trajectory(out).size(), 2u);
 }
 
-TEST(ConvertCommand, AsksForTimesWhereTheFormNeedsThem) {
+TEST(ConvertCommandLine, AsksForTimesWhereTheFormNeedsThem) {
   const TemporaryFolder folder;
   const std::string in = folder.write("in.txt", kKitti);
   EXPECT_THAT(message_of<ArgumentError>([&] {
