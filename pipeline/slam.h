@@ -4,6 +4,7 @@
 #include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/places/loop_closer.h>
 #include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/slam/environment_monitor.h>
 
 namespace placegraph {
 
@@ -28,14 +29,6 @@ struct ContextOptions {
   EnvironmentFilterOptions filter;
 };
 void visit(OptionVisitor& field, ContextOptions& options);
-
-/// What one keyframe says of its surroundings.
-struct EnvironmentSight {
-  std::int64_t keyframe = 0, frame = 0;
-  EnvironmentEvidence evidence;
-  std::array<double, kEnvironmentCount> probabilities{};  ///< by this view alone
-  std::optional<Environment> kind;                        ///< with those before it
-};
 
 struct SlamOptions {
   std::uint64_t seed = 0;  ///< of every random stream

@@ -1,0 +1,43 @@
+#pragma once
+#include <placegraph/frontend/scene/environment.h>
+#include <placegraph/graph/map.h>
+#include <placegraph/graph/measurements/frame.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// What one keyframe says of its surroundings.
+struct EnvironmentSight {
+  std::int64_t keyframe = 0, frame = 0;
+  EnvironmentEvidence evidence;
+  std::array<double, kEnvironmentCount> probabilities{};  ///< by this view alone
+  std::optional<Environment> kind;                        ///< with those before it
+};
+
+/// Classifies the environment of keyframes in order of travel, and labels places by it.
+class EnvironmentMonitor {
+ public:
+  EnvironmentMonitor(const EnvironmentFilterOptions& options, const Camera& camera)
+      : filter_(options), camera_(camera) {}
+
+  /// Classifies the newest keyframe. `shares`: of its surfaces in the image; null: not labelled.
+  /// `points_cam`: landmarks in its camera's frame, in metres if `metric`. Returns whether the kind
+  /// is another one now.
+  bool classify(std::int64_t keyframe, const Frame& frame, const SurfaceShares* shares,
+                const std::vector<Eigen::Vector3d>& points_cam, bool metric);
+  /// The kind that holds now; nothing while it is unknown.
+  std::optional<Environment> kind() const { return filter_.kind(); }
+  const std::vector<EnvironmentSight>& observations() const { return observations_; }
+  /// Labels places by the kind that most of their keyframes had; not where that is unknown.
+  void label(std::vector<Place>& places) const;
+
+ private:
+  EnvironmentFilter filter_;
+  Camera camera_;
+  std::vector<EnvironmentSight> observations_;  // of keyframes, ascending
+};
+
+}  // namespace placegraph

@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/slam/trajectory_recorder.h>
+
+namespace placegraph {
+namespace {
+
+Frame frame(std::int64_t id) {
+  Frame f;
+  f.id = id;
+  f.stamp_ns = 100 * id;
+  return f;
+}
+SE3 along(double z) { return SE3(SO3(), Eigen::Vector3d(0, 0, z)); }
+
+/// Frames 0 to 4; 0 and 3 are keyframes 0 and 1, and every frame is a metre further.
+struct Recorded {
+  TrajectoryRecorder recorder;
+  LocalMap map{{}, Camera{.width = 100, .height = 100, .fx = 80, .fy = 80, .cx = 50, .cy = 50},
+               Scale::kMetric};
+  Recorded() {
+    for (int i = 0; i < 5; ++i) {
+      recorder.begin(frame(i));
+      if (i % 3 == 0) {
+        map.add_keyframe(along(i));
+        map.update_poses({}, false);
+        recorder.add_keyframe({i / 3, frame(i)});
+      }
+      recorder.record(i / 3, along(i % 3), 50);
+      recorder.finish(along(i));
+    }
+    recorder.tell_all();
+  }
+};
+
+TEST(TrajectoryRecorder, KeepsFramesRelativeToTheirKeyframe) {
+  const Recorded r;
+  ASSERT_EQ(r.recorder.records().size(), 5u);
+  EXPECT_EQ(r.recorder.records()[4].keyframe, 1);
+  EXPECT_NEAR(r.recorder.records()[4].T_keyframe_frame->translation().z(), 1, 1e-12);
+  EXPECT_EQ(r.recorder.records()[4].inliers, 50);
+  EXPECT_EQ(r.recorder.newest_keyframe(), 1);
+  EXPECT_EQ(r.recorder.frame_of(1), 3);
+  EXPECT_EQ(r.recorder.stamp_ns_of(1), 300);
+}
+
+TEST(TrajectoryRecorder, FramesMustBeInOrder) {
+  const Recorded r;
+  EXPECT_TRUE(TrajectoryRecorder().accepts(frame(7)));
+  EXPECT_TRUE(r.recorder.accepts(frame(5)));
+  EXPECT_FALSE(r.recorder.accepts(frame(4)));
+  Frame late = frame(5);
+  late.stamp_ns = 400;
+  EXPECT_FALSE(r.recorder.accepts(late));
+}
+
+TEST(TrajectoryRecorder, ACorrectionStaysWithTheKeyframeOfItsSegment) {
+  Recorded r;
+  r.recorder.correct({{1, along(1.25)}, {4, along(4.5)}}, 1, r.map);
+  EXPECT_EQ(r.recorder.records()[1].keyframe, 0);
+  EXPECT_NEAR(r.recorder.records()[1].T_keyframe_frame->translation().z(), 1.25, 1e-12);
+  EXPECT_NEAR(r.recorder.records()[4].T_keyframe_frame->translation().z(), 1.5, 1e-12);
+  EXPECT_EQ(r.recorder.first_changed(), 1u);
+  // What was known online stays.
+  EXPECT_NEAR(r.recorder.online().poses[4].T_world_body->translation().z(), 4, 1e-12);
+}
+
+TEST(TrajectoryRecorder, FramesFromBeforeASegmentHangOnItsFirstKeyframe) {
+  Recorded r;
+  r.map.restart(Scale::kMetric, std::nullopt);
+  const std::int64_t first = r.map.add_keyframe(along(10));
+  r.map.update_poses({}, false);
+  r.recorder.correct({{2, along(8)}}, first, r.map);
+  EXPECT_EQ(r.recorder.records()[2].keyframe, first);
+  EXPECT_NEAR(r.recorder.records()[2].T_keyframe_frame->translation().z(), -2, 1e-12);
+}
+
+TEST(TrajectoryRecorder, ANewScaleReachesTheKeyframesOfItsSegment) {
+  Recorded r;
+  r.recorder.rescale(1, 3);
+  EXPECT_NEAR(r.recorder.records()[1].T_keyframe_frame->translation().z(), 1, 1e-12);
+  EXPECT_NEAR(r.recorder.records()[4].T_keyframe_frame->translation().z(), 3, 1e-12);
+  EXPECT_EQ(r.recorder.first_changed(), 0u);
+}
+
+TEST(TrajectoryRecorder, AnOriginThatIsReplacedHasNoPoseUnlessTheCameraOnlyRotated) {
+  TrajectoryRecorder recorder;
+  for (int i = 0; i < 3; ++i) {
+    recorder.begin(frame(i));
+    recorder.begin_at_origin(i == 1);  // frame 1 has rotated since 0; 2 has not
+    recorder.finish(along(0));
+    if (i == 1) EXPECT_TRUE(recorder.online().poses[0].T_world_body);
+  }
+  EXPECT_FALSE(recorder.online().poses[0].T_world_body);
+  EXPECT_FALSE(recorder.online().poses[1].T_world_body);
+  EXPECT_TRUE(recorder.online().poses[2].T_world_body);
+}
+
+TEST(TrajectoryRecorder, TakesUpASavedMapUpToItsLastKeyframe) {
+  const Recorded r;
+  Map map;
+  map.frames = r.recorder.records();
+  map.trajectory_online = r.recorder.online();
+  Keyframe keyframe;
+  keyframe.id = 1, keyframe.frame = 3, keyframe.stamp_ns = 300;
+  map.keyframes.push_back(keyframe);
+  TrajectoryRecorder next;
+  next.take_up(map, 3);
+  EXPECT_EQ(next.records().size(), 4u);
+  EXPECT_EQ(next.online().poses.size(), 4u);
+  EXPECT_EQ(next.newest_keyframe(), 1);
+  EXPECT_EQ(next.first_changed(), 4u);
+}
+
+}  // namespace
+}  // namespace placegraph
