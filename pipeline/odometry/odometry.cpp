@@ -1,57 +1,20 @@
-#include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/tracking/direct_tracker.h>
-#include <placegraph/pipeline/odometry/first_frame_initializer.h>
-#include <placegraph/pipeline/odometry/line_view_initializer.h>
 #include <placegraph/pipeline/odometry/odometry.h>
-#include <placegraph/pipeline/odometry/two_view_initializer.h>
+#include <placegraph/pipeline/odometry/odometry_parts.h>
 
 namespace placegraph {
-namespace {
-
-/// `measured`: whether the ground or another sensor gives a monocular camera its scale.
-LocalMap empty_map(const OdometryOptions& options, const Calibration& calibration, bool measured) {
-  const bool metric = metric_from_start(parse_cues(options.cues), calibration);
-  SlidingWindowOptions window = options.window;
-  if (measured) window.scale_drift = options.scale_drift;
-  // The scale of a monocular map is handed on by where the window lies: it needs the prior's hold.
-  if (metric) window.hold_oldest = true;
-  return LocalMap(window, calibration.camera, metric ? Scale::kMetric : Scale::kArbitrary);
-}
-
-}  // namespace
 
 Odometry::Odometry(const OdometryOptions& options, const Calibration& calibration,
                    std::uint64_t seed, LogSink log, StageTimes& times)
     : options_((options.check(), options)),
       calibration_((calibration.check(), calibration)),
-      cues_(parse_cues(options.cues)),
       seed_(seed),
       log_(std::move(log)),
       times_(times),
-      map_(empty_map(options, calibration, false)),
-      mapping_(options, calibration, seed, log_, times) {
-  require(calibration.camera.distortion == Distortion::kNone,
-          "calibration.camera: undistorted images needed (rectify them first)");
-  require(!cues_.surfaces_alone() || map_.metric(),
-          "cues: surfaces without points need a right eye, depth or the camera's height");
-  require(!cues_.direct || map_.metric() || calibration.camera_height_m,
-          "cues: direct needs a right eye, depth or the camera's height");
-  map_ = empty_map(options, calibration, mapping_.scale().available());
-  if (cues_.surfaces_alone()) {
-    tracker_ = std::make_unique<DirectTracker>(options, calibration, seed, log_, times);
-    initializer_ = std::make_unique<FirstFrameInitializer>(*tracker_, log_);
-    return;
-  }
-  auto features = std::make_unique<FeatureTracker>(options, calibration, seed, log_, times);
-  if (map_.metric())
-    initializer_ = std::make_unique<FirstFrameInitializer>(*features, log_);
-  else if (cues_.points)
-    initializer_ =
-        std::make_unique<TwoViewInitializer>(options, calibration, seed, *features, log_, times);
-  else
-    initializer_ =
-        std::make_unique<LineViewInitializer>(options, calibration, seed, *features, log_);
-  tracker_ = std::move(features);
+      mapping_(options, calibration, seed, log_, times),
+      map_(make_local_map(options, calibration, mapping_.scale().available())) {
+  auto [tracker, initializer] = make_tracker(options, calibration, seed, log_, times);
+  tracker_ = std::move(tracker);
+  initializer_ = std::move(initializer);
 }
 
 OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>& T_odom_cam_known) {
@@ -127,10 +90,8 @@ OdometryUpdate Odometry::posed(int inliers, OdometryUpdate update) const {
 
 void Odometry::restart(const SE3& T_odom_cam, bool in_known_map,
                        const std::optional<double>& median_depth) {
-  const Scale scale = metric_from_start(cues_, calibration_) ? Scale::kMetric
-                      : in_known_map                         ? Scale::kFromMap
-                      : median_depth                         ? Scale::kGuessed
-                                                             : Scale::kArbitrary;
+  const Scale scale =
+      scale_at_start(options_, calibration_, in_known_map, median_depth.has_value());
   map_.restart(scale, in_known_map ? std::optional(map_.median_depth())
                                    : median_depth.value_or(LocalMap::kUnknownDepth));
   tracker_->reset();
@@ -143,12 +104,13 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map,
 void Odometry::set_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
   if (map_.metric()) return;
   mapping_.scale().use_motion(std::move(motion_cam));
-  map_ = empty_map(options_, calibration_, mapping_.scale().available());
+  map_ = make_local_map(options_, calibration_, mapping_.scale().available());
 }
 
 void Odometry::set_scene(std::shared_ptr<const SceneEye> labeller, bool masks) {
   // Surfaces that are followed by their intensities alone are not masked.
-  if (!cues_.surfaces_alone()) mapping_.masks().set_model(std::move(labeller), masks);
+  if (!parse_cues(options_.cues).surfaces_alone())
+    mapping_.masks().set_model(std::move(labeller), masks);
 }
 
 void Odometry::assume(const std::optional<Assumptions>& assumptions) {

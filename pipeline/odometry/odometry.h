@@ -68,12 +68,11 @@ class Odometry {
 
   OdometryOptions options_;
   Calibration calibration_;
-  Cues cues_;
   std::uint64_t seed_;
   LogSink log_;
   StageTimes& times_;
-  LocalMap map_;
   LocalMapping mapping_;
+  LocalMap map_;
   MotionModel motion_;
   std::unique_ptr<FrameTracker> tracker_;
   std::unique_ptr<Initializer> initializer_;

@@ -114,8 +114,7 @@ TEST(TrackRecovery, MotionOfOtherSensorsCarriesAFrameFromTheLastKeyframe) {
   step.to_ns = 10'000'000'000;
   step.T_from_to = SE3(SO3(), Eigen::Vector3d(0, 0, 20));
   step.covariance = 0.04 * Matrix6d::Identity();
-  scene.recovery.use_motion(
-      std::make_shared<const MeasuredMotion>(std::vector<MotionStep>{step}));
+  scene.recovery.use_motion(std::make_shared<const MeasuredMotion>(std::vector<MotionStep>{step}));
   const auto at = scene.recovery.pose_without_tracking(Scene::dark(5), std::nullopt, Scene::lost(),
                                                        scene.known(), scene.odometry);
   ASSERT_TRUE(at);

@@ -15,7 +15,8 @@ SE3 along(double z) { return SE3(SO3(), Eigen::Vector3d(0, 0, z)); }
 /// Frames 0 to 4; 0 and 3 are keyframes 0 and 1, and every frame is a metre further.
 struct Recorded {
   TrajectoryRecorder recorder;
-  LocalMap map{{}, Camera{.width = 100, .height = 100, .fx = 80, .fy = 80, .cx = 50, .cy = 50},
+  LocalMap map{{},
+               Camera{.width = 100, .height = 100, .fx = 80, .fy = 80, .cx = 50, .cy = 50},
                Scale::kMetric};
   Recorded() {
     for (int i = 0; i < 5; ++i) {

@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/median.h>
+#include <placegraph/pipeline/places/keyframe_describer.h>
+
+#include "tests/support/scenes/street.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+const StreetDataset& street_of(bool with_depth) {
+  static const StreetDataset stereo(4), depth(1, 0, 0, true);
+  return with_depth ? depth : stereo;
+}
+KeyframeDescriber describer_of(Sensor sensor) {
+  return KeyframeDescriber({}, {}, street_of(sensor == Sensor::kRgbd).calibration(sensor));
+}
+
+/// How far points are off the road, the house fronts and the end wall [m].
+double off_the_street(const DescribedKeyframe& keyframe, const SE3& T_world_cam) {
+  std::vector<double> off;
+  for (const Feature& feature : keyframe.features) {
+    if (!feature.point_cam) continue;
+    const Eigen::Vector3d p = T_world_cam * feature.point_cam->cast<double>();
+    off.push_back(std::min({std::abs(p.y()), std::abs(std::abs(p.x()) - 5), std::abs(p.z() - 32)}));
+  }
+  return off.size() < 20 ? 1e3 : median_of(off);
+}
+
+TEST(KeyframeDescriber, ADepthImagePlacesTheFeaturesThatItCovers) {
+  const auto keyframe =
+      describer_of(Sensor::kRgbd).describe(7, street_of(true).frame(0, Sensor::kRgbd), {});
+  EXPECT_EQ(keyframe.keyframe, 7);
+  EXPECT_EQ(keyframe.frame, 0);
+  EXPECT_LT(off_the_street(keyframe, street_T_world_cam(0)), 0.02);
+  EXPECT_GT(farthest_depth(keyframe), 10);
+  EXPECT_LT(farthest_depth(keyframe), 40);
+}
+
+TEST(KeyframeDescriber, ParallaxPlacesTheFeaturesThatTwoKeyframesShare) {
+  const KeyframeDescriber describer = describer_of(Sensor::kMono);
+  auto before = describer.describe(0, street_of(false).frame(0, Sensor::kMono), {});
+  auto now = describer.describe(1, street_of(false).frame(3, Sensor::kMono), {});
+  EXPECT_EQ(farthest_depth(now), 0);
+  describer.triangulate(before, now, street_T_world_cam(0).inverse() * street_T_world_cam(3));
+  EXPECT_LT(off_the_street(before, street_T_world_cam(0)), 0.3);
+  EXPECT_LT(off_the_street(now, street_T_world_cam(3)), 0.3);
+}
+
+TEST(KeyframeDescriber, LinesGetTheirDescriptors) {
+  LineFeature line;
+  line.segment = {{100, 60}, {100, 200}};
+  const auto keyframe =
+      describer_of(Sensor::kMono).describe(0, street_of(false).frame(0, Sensor::kMono), {line});
+  ASSERT_EQ(keyframe.lines.size(), 1u);
+  EXPECT_NE(keyframe.lines[0].descriptor, line.descriptor);
+}
+
+TEST(KeyframeDescriber, RescalingMultipliesAllLengths) {
+  auto keyframe =
+      describer_of(Sensor::kRgbd).describe(0, street_of(true).frame(0, Sensor::kRgbd), {});
+  LineFeature line;
+  line.line_cam = Line3::from_direction({1, 0, 4}, {0, 1, 0});
+  keyframe.lines.push_back(line);
+  const double farthest = farthest_depth(keyframe);
+  rescale(keyframe, 2.5);
+  EXPECT_NEAR(farthest_depth(keyframe), 2.5 * farthest, 1e-4);
+  const Line3& rescaled = *keyframe.lines.back().line_cam;
+  EXPECT_LT((rescaled.nearest_point() - Eigen::Vector3d(2.5, 0, 10)).norm(), 1e-9);
+  EXPECT_LT((rescaled.direction().cross(Eigen::Vector3d::UnitY())).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace placegraph
