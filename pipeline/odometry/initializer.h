@@ -19,12 +19,27 @@ struct Initialization {
   /// one before it.
   std::optional<PureRotation> rotation;
 
+  /// The same as an update of the odometry; the pose of a map that has begun is still missing.
+  OdometryUpdate update() const;
   static Initialization waiting(std::string reason) {
     Initialization result;
     result.reason = std::move(reason);
     return result;
   }
 };
+
+inline OdometryUpdate Initialization::update() const {
+  OdometryUpdate update;
+  update.state = state;
+  update.reason = reason;
+  update.inliers = inliers;
+  update.new_keyframes = keyframes;
+  update.posed_again = posed;
+  update.rotation = rotation;
+  update.reference = is_reference;
+  update.T_odom_cam = T_odom_reference;
+  return update;
+}
 
 /// Begins a map: adds its first keyframes and landmarks, or nothing.
 class Initializer {

@@ -21,13 +21,16 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
   OdometryUpdate update = tracking_ ? track(frame) : initialize(frame, T_odom_cam_known);
   lost_ = update.state == TrackingState::kLost;
   if (lost_) motion_.forget_velocity();
+  if (update.state != TrackingState::kTracking) return update;
+  update.T_odom_cam = motion_.T_odom_cam();
+  update.keyframe = map_.newest();
   return update;
 }
 
 OdometryUpdate Odometry::track(const Frame& frame) {
   const auto span = times_.measure(tracker_->stage());
-  OdometryUpdate update;
   Random random(seed_, frame.id);
+  OdometryUpdate update;
 
   // 1. Pose the frame against the local map, from where the motion model expects it.
   TrackedFrame tracked = tracker_->track(frame, map_, motion_, random);
@@ -35,11 +38,11 @@ OdometryUpdate Odometry::track(const Frame& frame) {
     if (const auto last = tracker_->keyframe_to_retry_from();
         last && add_keyframe(*last, motion_.T_odom_cam(), update))
       tracked = tracker_->track(frame, map_, motion_, random);
+  update.state = tracked.outcome ? TrackingState::kTracking : TrackingState::kLost;
+  update.inliers = tracked.inliers;
   if (!tracked.outcome) {
     log(log_, LogLevel::kInfo, "frame {} lost: {}", frame.id, tracked.outcome.reason);
-    update.state = TrackingState::kLost;
     update.reason = tracked.outcome.reason;
-    update.inliers = tracked.inliers;
     update.rotation = tracked.rotation;
     return update;
   }
@@ -49,15 +52,14 @@ OdometryUpdate Odometry::track(const Frame& frame) {
   if (tracked.keyframe_due && add_keyframe(frame, tracked.T_odom_cam, update))
     motion_.correct(map_.pose(map_.newest()));
   if (update.rescale) motion_.rescale_velocity(update.rescale->factor);
-  return posed(tracked.inliers, std::move(update));
+  return update;
 }
 
 bool Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update) {
   const auto added = mapping_.add(frame, T_odom_cam, *tracker_, map_);
   if (!added) return false;
   update.new_keyframes.push_back(added->keyframe);
-  update.posed_again.insert(update.posed_again.end(), added->posed_again.begin(),
-                            added->posed_again.end());
+  update.posed_again = added->posed_again;
   update.rescale = added->rescale;
   return true;
 }
@@ -65,27 +67,9 @@ bool Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
 OdometryUpdate Odometry::initialize(const Frame& frame,
                                     const std::optional<SE3>& T_odom_cam_known) {
   const Initialization start = initializer_->add(frame, T_odom_cam_known, map_, mapping_);
-  OdometryUpdate update;
-  update.reason = start.reason;
-  update.new_keyframes = start.keyframes;
-  update.posed_again = start.posed;
-  update.rotation = start.rotation;
-  update.reference = start.is_reference;
-  update.T_odom_cam = start.T_odom_reference;
-  update.state = start.state;
   tracking_ = start.state == TrackingState::kTracking;
-  if (!tracking_) return update;
-  const SE3 T_odom_cam = map_.pose(map_.newest());
-  motion_ = start.T_last_cur ? MotionModel(T_odom_cam, *start.T_last_cur) : MotionModel(T_odom_cam);
-  return posed(start.inliers, std::move(update));
-}
-
-OdometryUpdate Odometry::posed(int inliers, OdometryUpdate update) const {
-  update.state = TrackingState::kTracking;
-  update.T_odom_cam = motion_.T_odom_cam();
-  update.keyframe = map_.newest();
-  update.inliers = inliers;
-  return update;
+  if (tracking_) motion_ = MotionModel(map_.pose(map_.newest()), start.T_last_cur);
+  return start.update();
 }
 
 void Odometry::restart(const SE3& T_odom_cam, bool in_known_map,

@@ -64,7 +64,6 @@ class Odometry {
   OdometryUpdate initialize(const Frame& frame, const std::optional<SE3>& T_odom_cam_known);
   OdometryUpdate track(const Frame& frame);
   bool add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryUpdate& update);
-  OdometryUpdate posed(int inliers, OdometryUpdate update) const;
 
   OdometryOptions options_;
   Calibration calibration_;

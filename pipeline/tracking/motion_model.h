@@ -8,8 +8,8 @@ namespace placegraph {
 /// Motion of the camera from frame to frame at constant velocity.
 class MotionModel {
  public:
-  explicit MotionModel(const SE3& T_odom_cam = SE3()) : T_odom_cam_(T_odom_cam) {}
-  MotionModel(const SE3& T_odom_cam, const SE3& T_last_cur)
+  /// `T_last_cur`: motion over one frame; nothing while it is not known.
+  explicit MotionModel(const SE3& T_odom_cam = SE3(), const std::optional<SE3>& T_last_cur = {})
       : T_odom_cam_(T_odom_cam), T_last_cur_(T_last_cur) {}
 
   /// Pose of the last frame that has one.
