@@ -161,8 +161,9 @@ void SlidingWindow::add(const WindowFactor& factor) {
   WindowState& state = change();
   // Factors of one type stand together: so it changes no sum how measurements of several types
   // alternate, as those of a frame do.
-  const auto same_type = [&](const WindowFactor& other) {
-    return typeid(*other.factor) == typeid(*factor.factor);
+  const auto same_type = [&added = *factor.factor](const WindowFactor& other) {
+    const Factor& before = *other.factor;
+    return typeid(before) == typeid(added);
   };
   const auto last = std::find_if(state.factors.rbegin(), state.factors.rend(), same_type);
   state.factors.insert(last == state.factors.rend() ? state.factors.end() : last.base(), factor);

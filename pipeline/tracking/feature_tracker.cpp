@@ -48,7 +48,10 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
       cues_.points ? points_.follow(frame.image, window, motion.T_odom_cam(), motion.predicted(),
                                     motion.velocity_known(), map.median_depth(), random)
                    : points_.pose(window, motion.predicted(), random);
-  TrackedFrame tracked{points.outcome, points.T_ref_cam, static_cast<int>(points.inliers.size())};
+  TrackedFrame tracked;
+  tracked.outcome = points.outcome;
+  tracked.T_odom_cam = points.T_ref_cam;
+  tracked.inliers = static_cast<int>(points.inliers.size());
   Matrix6d information = points.information;
   if (lines_) {
     const PoseFromLines both =
