@@ -18,9 +18,9 @@ namespace placegraph {
 /// What is seen in one image.
 struct HoverSights {
   std::int64_t stamp_ns = 0;
-  std::vector<FlowVector> flow;  ///< from the last image to this one
-  std::vector<MarkerSighting> markers;
-  std::vector<BeaconSighting> beacons;
+  std::vector<FlowVector> flow = {};  ///< from the last image to this one
+  std::vector<MarkerSighting> markers = {};
+  std::vector<BeaconSighting> beacons = {};
 };
 
 /// What became of one image.

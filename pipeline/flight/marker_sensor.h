@@ -19,9 +19,9 @@ struct MarkerSensorOptions {
   int max_markers = 4;       ///< searched for where more are expected: the largest
   int restart_after = 20;    ///< images in a row whose markers contradict the expected state
   int search_interval = 20;  ///< images without an accepted marker until one is searched whole
-  MarkerDetectorOptions detector;
-  BeaconDetectorOptions beacons;
-  MarkerFilterOptions markers;
+  MarkerDetectorOptions detector = {};
+  BeaconDetectorOptions beacons = {};
+  MarkerFilterOptions markers = {};
 };
 void visit(OptionVisitor& field, MarkerSensorOptions& options);
 

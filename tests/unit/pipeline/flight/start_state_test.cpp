@@ -65,10 +65,11 @@ TEST(StartState, KeepsTheBiasesThatWereKnownBeforeAndNothingElse) {
   for (int i = 0; i < 15; ++i)
     for (int j = 0; j < 15; ++j) {
       const bool biases = i >= 9 && j >= 9, both_poses = i % 6 < 3 && j % 6 < 3 && i < 9 && j < 9;
-      if (biases)
+      if (biases) {
         EXPECT_EQ(state.covariance(i, j), before.covariance(i, j)) << i << " " << j;
-      else if (i != j && !both_poses)
+      } else if (i != j && !both_poses) {
         EXPECT_EQ(state.covariance(i, j), 0) << i << " " << j;
+      }
     }
 }
 
