@@ -30,11 +30,11 @@ std::int64_t LocalMap::add_keyframe(const SE3& T_odom_cam) {
   return next_++;
 }
 
-void LocalMap::discard(std::int64_t from, double median_depth) {
+void LocalMap::discard(double median_depth) {
   window_ = SlidingWindow(options_, camera_);
   poses_.clear();
   links_.clear();
-  next_ = from;
+  next_ = first_;
   median_depth_ = median_depth;
 }
 

@@ -39,8 +39,8 @@ class LocalMap {
   /// Adds a keyframe at T_odom_cam to the window; returns its id.
   std::int64_t add_keyframe(const SE3& T_odom_cam);
   /// Takes back all keyframes and landmarks of this segment, as if they had never been added;
-  /// `from` is the first of them, `median_depth` that before it.
-  void discard(std::int64_t from, double median_depth);
+  /// `median_depth`: that before them.
+  void discard(double median_depth);
   /// Optimizes the window; there is nothing to optimize about a single keyframe.
   Outcome optimize();
   /// Takes over the poses of the window. `depths`: of landmarks in the newest keyframe.

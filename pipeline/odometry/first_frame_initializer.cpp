@@ -4,7 +4,6 @@ namespace placegraph {
 
 Initialization FirstFrameInitializer::add(const Frame& frame, const std::optional<SE3>& /*known*/,
                                           LocalMap& map, LocalMapping& mapping) {
-  const std::int64_t first = map.first();
   const double median_depth = map.median_depth();
   tracker_.see_first(frame);
   const auto added = mapping.add(frame, T_odom_start_, tracker_, map);
@@ -14,7 +13,7 @@ Initialization FirstFrameInitializer::add(const Frame& frame, const std::optiona
   if (!outcome) {
     log(log_, LogLevel::kDebug, "frame {}: {}", frame.id, outcome.reason);
     // Neither the keyframe nor its few landmarks belong to the map.
-    map.discard(first, median_depth);
+    map.discard(median_depth);
     tracker_.reset();
     return Initialization::waiting(outcome.reason);
   }

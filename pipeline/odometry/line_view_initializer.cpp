@@ -132,7 +132,6 @@ bool LineViewInitializer::add_keyframes(const std::vector<std::size_t>& chosen,
   LineCue& lines = *tracker_.lines();
   const LineCue before = lines;
   const double depth_before = map.median_depth();
-  const std::int64_t first = map.first();
   for (const std::size_t v : chosen) {
     const std::int64_t id = map.add_keyframe(T_odom_start_ * start.T_ref_view[v].scaled(scale));
     lines.observe_earlier(id, views_[v].lines, map.window());
@@ -143,7 +142,7 @@ bool LineViewInitializer::add_keyframes(const std::vector<std::size_t>& chosen,
   };
   for (int round = 0; round < kRounds && enough(); ++round) mapping.refine(tracker_, map);
   if (enough() && motion_is_known(chosen, start, map)) return true;
-  map.discard(first, depth_before);
+  map.discard(depth_before);
   lines = before;  // lines that contradict a wrong start may still be good
   return false;
 }

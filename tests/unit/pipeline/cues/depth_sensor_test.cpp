@@ -16,10 +16,11 @@ DepthSensor sensor_of(Sensor sensor) {
   return DepthSensor(street_of(sensor == Sensor::kRgbd).calibration(sensor), {});
 }
 
-/// Pixels on the house fronts and the wall, and their true depths [m].
+/// Pixels on the house fronts and the end wall. The road is too slanted for patches of one disparity:
+/// they err by several deviations there.
 std::vector<Eigen::Vector2f> pixels() {
   std::vector<Eigen::Vector2f> px;
-  for (int v = 60; v < 240; v += 20)
+  for (int v = 60; v < 180; v += 20)
     for (int u = 40; u < 420; u += 20)
       px.emplace_back(static_cast<float>(u), static_cast<float>(v));
   return px;
@@ -43,7 +44,7 @@ TEST(DepthSensor, StereoMeasuresInverseDepthsToTheirDeviation) {
     EXPECT_LT((depths[i]->ray_cam - ray).norm(), 1e-6);
   }
   EXPECT_GT(found, 60);
-  EXPECT_GT(within, 0.8 * found);  // others are matched across the edge of a front
+  EXPECT_GT(within, 0.95 * found);
 }
 
 TEST(DepthSensor, ARectificationErrorIsTakenOffTheDisparity) {
@@ -77,7 +78,7 @@ TEST(DepthSensor, ADepthImageIsLookedUp) {
     EXPECT_NEAR(1 / depths[i]->value, true_depth(pixels()[i]), 0.03 * true_depth(pixels()[i]));
     EXPECT_EQ(depths[i]->sigma, 0.005);
   }
-  EXPECT_GT(found, 50);  // not beside steps of the depth
+  EXPECT_GT(found, 50);  // of 114: elsewhere fronts recede by more than max_spread beside the pixel
 }
 
 TEST(DepthSensor, AMonocularCameraMeasuresNone) {

@@ -77,7 +77,7 @@ TEST(LocalMap, WhatIsDiscardedWasNeverThere) {
   drive.add(0);
   drive.add(1);
   EXPECT_EQ(drive.map.median_depth(), 4);
-  drive.map.discard(0, 7.0);
+  drive.map.discard(7.0);
   EXPECT_TRUE(drive.map.empty());
   EXPECT_EQ(drive.map.median_depth(), 7);
   EXPECT_TRUE(drive.map.landmarks().empty());
