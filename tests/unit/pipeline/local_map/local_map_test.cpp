@@ -104,6 +104,16 @@ TEST(LocalMap, RescalingMovesTheSegmentAboutTheOldestKeyframe) {
     EXPECT_LT(distance_m(drive.map.pose(id), drive.map.window().pose(id)), 1e-12);
 }
 
+TEST(LocalMap, TheOldestKeyframeStaysInItsPlaceWhereverThatIs) {
+  LocalMap map({}, window_camera(), Scale::kArbitrary);
+  map.add_keyframe(SE3(SO3(), Eigen::Vector3d(5, 1, -2)));
+  map.add_keyframe(SE3(SO3(), Eigen::Vector3d(5, 1, 0)));
+  map.update_poses({}, false);
+  (void)map.rescale(3);
+  EXPECT_LT((map.pose(0).translation() - Eigen::Vector3d(5, 1, -2)).norm(), 1e-12);
+  EXPECT_LT((map.pose(1).translation() - Eigen::Vector3d(5, 1, 4)).norm(), 1e-12);
+}
+
 TEST(LocalMap, LandmarksThatHaveLeftTheWindowAreRescaledWithTheirSegmentAlone) {
   Drive drive(Scale::kArbitrary, 8, 4);
   drive.add_all(0.5);

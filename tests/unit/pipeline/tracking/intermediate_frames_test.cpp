@@ -53,9 +53,9 @@ TEST(IntermediateFrames, StayAsTheyWereWithoutEnoughLandmarks) {
 TEST(IntermediateFrames, BeginWithinReachAfterTheMapHasBeenRescaled) {
   const Scene scene;
   IntermediateFrames frames = scene.frames();
-  // When it was remembered, lengths were a thousandth.
-  frames.remember({5, scene.T_keyframe_cam.scaled(1e-3), scene.px, std::nullopt});
-  const auto posed = frames.repose(scene.map, 0, 1e3);
+  // When it was remembered, lengths were a hundred times as long: beyond all landmarks.
+  frames.remember({5, scene.T_keyframe_cam.scaled(100), scene.px, std::nullopt});
+  const auto posed = frames.repose(scene.map, 0, 0.01);
   ASSERT_EQ(posed.size(), 1u);
   EXPECT_LT((posed[0].second.inverse() * scene.T_odom_keyframe * scene.T_keyframe_cam).log().norm(),
             1e-6);
