@@ -85,6 +85,28 @@ TEST(Odometry, AMonocularCameraWaitsForParallaxAndThenPosesTheFramesThatWaited) 
   EXPECT_GT(found.translation().normalized().dot(truth.translation().normalized()), 0.998);
 }
 
+TEST(Odometry, FramesBetweenTheTwoViewsArePosedByTheirPoints) {
+  const auto slowly = [](int i) {
+    return SE3(SO3(), Eigen::Vector3d(0.03 * i, -kStreetHeight_m, 0.02 * i));
+  };
+  const StreetDataset slow(16, 0, 0, false, slowly);
+  StageTimes times;
+  Odometry odometry(Street::options("points"), slow.calibration(Sensor::kMono), 1, {}, times);
+  OdometryUpdate update;
+  int i = 0;
+  for (; i < 16 && update.state != TrackingState::kTracking; ++i)
+    update = odometry.add_frame(slow.frame(i, Sensor::kMono));
+  ASSERT_EQ(update.state, TrackingState::kTracking);
+  std::map<std::int64_t, SE3> posed;  // later ones are better than by the rotation alone
+  for (const PosedFrame& frame : update.posed_again) posed[frame.first] = frame.second;
+  ASSERT_GE(i, 4);
+  for (int k = 1; k + 1 < i; ++k) {
+    ASSERT_TRUE(posed.contains(k)) << k;
+    const double share = posed[k].translation().norm() / update.T_odom_cam.translation().norm();
+    EXPECT_NEAR(share, static_cast<double>(k) / (i - 1), 0.15) << k;
+  }
+}
+
 TEST(Odometry, TheHeightOfAMonocularCameraGivesItsScale) {
   Street run(Sensor::kMono, "points,plane", kStreetHeight_m);
   OdometryUpdate update;
