@@ -49,6 +49,7 @@ TEST(ConfigCommand, KnowsTheOptionsOfHover) {
   arguments.of = "hover";
   arguments.form = ConfigForm::kMarkdown;
   EXPECT_THAT(config(arguments), testing::StartsWith("# Options of `placegraph hover`\n"));
+  EXPECT_THAT(config(arguments), HasSubstr("marker_delay_s"));  // run has no such option
   arguments.of = "walk";
   EXPECT_THAT(message_of<ArgumentError>([&] { config(arguments); }),
               HasSubstr("--of: 'walk' is none of run, hover"));
