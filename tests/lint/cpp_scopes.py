@@ -1,0 +1,120 @@
+"""Finds the classes and functions of a C++ source: what they are called and which lines they take.
+
+A scanner of braces and no parser: what stands before a brace, since the last ';', '{' or '}' of the
+same scope, tells whether a namespace, a class, an enumeration or a function begins there. Sources
+must be laid out so that braces balance in every branch of the preprocessor.
+"""
+import re
+from typing import NamedTuple
+
+from source_includes import without_comments
+
+CLASS = re.compile(r"\b(?:class|struct|union)\s+(?:\[\[[^\]]*\]\]\s*|alignas\([^)]*\)\s*)*((?:[A-Za-z_]\w*::)*[A-Za-z_]\w*)")
+NAMESPACE = re.compile(r"\bnamespace\b|\bextern\s+\"\"")
+QUALIFIED = re.compile(r"([A-Za-z_]\w*)\s*(?:<[^<>()]*>)?\s*::\s*(~?[A-Za-z_]\w*|operator\b[^(]*)\s*\($")
+PLAIN = re.compile(r"(~?[A-Za-z_]\w*|operator\b[^(]*)\s*\($")
+
+
+class Scope(NamedTuple):
+    kind: str     # "class" or "function"
+    name: str     # without the class that it is qualified by
+    owner: str    # the class named before "::" in a definition outside of it, else empty
+    first: int    # line on which the head begins, counted from 1
+    last: int     # line of the closing brace
+    body: int     # line of the opening brace
+
+    @property
+    def lines(self):
+        return self.last - self.first + 1
+
+
+def without_literals(text):
+    """The text with the same lines, without comments, preprocessor lines and contents of literals."""
+    text = re.sub(r'R"([^(\s]*)\((?:.*?)\)\1"', lambda m: '""' + "\n" * m.group(0).count("\n"), text,
+                  flags=re.S)
+    text = without_comments(text)
+    text = re.sub(r"(?<=[0-9a-fA-F])'(?=[0-9a-fA-F])", "", text)
+    text = re.sub(r'"(?:\\.|[^"\\\n])*"', '""', text)
+    text = re.sub(r"'(?:\\.|[^'\\\n])*'", "''", text)
+    return re.sub(r"^[ \t]*#(?:[^\n\\]|\\.)*(?:\\\n[^\n]*)*",
+                  lambda m: "\n" * m.group(0).count("\n"), text, flags=re.M)
+
+
+def _without_templates(head):
+    """The head without its "template <...>" parts."""
+    while True:
+        match = re.search(r"\btemplate\s*<", head)
+        if not match:
+            return head
+        depth, at = 1, match.end()
+        while at < len(head) and depth:
+            depth += {"<": 1, ">": -1}.get(head[at], 0)
+            at += 1
+        head = head[:match.start()] + head[at:]
+
+
+def _first_parenthesis(head):
+    """Index of the first '(' that opens a list of parameters, or -1."""
+    for match in re.finditer(r"\(", head):
+        before = head[:match.start()].rstrip()
+        if not re.search(r"\b(?:alignas|decltype|noexcept|requires|__attribute__)$", before):
+            return match.start()
+    return -1
+
+
+def classify(head):
+    """(kind, name, owner) of the scope that the head opens; kind "other" for blocks and values."""
+    head = _without_templates(head).strip()
+    if NAMESPACE.search(head):
+        return "namespace", "", ""
+    at = _first_parenthesis(head)
+    found = CLASS.search(head if at < 0 else head[:at])
+    if re.match(r"(?:typedef\s+)?enum\b", head):
+        return "other", "", ""
+    if found and (at < 0 or not re.search(r"[\w&*>]\s+[\w:~]+\s*$", head[found.end():at])):
+        if "=" not in head:
+            return "class", found.group(1).rsplit("::", 1)[-1], ""
+    if at < 0 or re.search(r"(?<![=!<>])=(?!=)", head[:at].replace("operator=", "")):
+        return "other", "", ""
+    before = head[:at + 1]
+    match = QUALIFIED.search(before)
+    if match:
+        return "function", match.group(2).strip(), match.group(1)
+    match = PLAIN.search(before)
+    return ("function", match.group(1).strip(), "") if match else ("other", "", "")
+
+
+def scopes_of(text):
+    """The classes and functions of a source text, nested classes and their functions too."""
+    text = without_literals(text)
+    found, open_scopes = [], []
+    line, head, head_line, parentheses = 1, "", 0, 0
+    for character in text:
+        if character == "\n":
+            line += 1
+        inside = open_scopes and open_scopes[-1][0] in ("function", "other")
+        if character == "{":
+            kind = ("other", "", "") if inside or parentheses else classify(head)
+            if parentheses or (kind[0] == "other" and not inside):
+                open_scopes.append(("other", "", "", head_line or line, line, head, parentheses))
+            else:
+                open_scopes.append((*kind, head_line or line, line, "", 0))
+            head, head_line, parentheses = "", 0, 0
+        elif character == "}":
+            if open_scopes:
+                kind, name, owner, first, body, before, outer = open_scopes.pop()
+                if kind in ("class", "function"):
+                    found.append(Scope(kind, name, owner, first, line, body))
+                head, head_line, parentheses = before, first if before else 0, outer
+        elif inside:
+            continue
+        elif character == ";" and not parentheses:
+            head, head_line = "", 0
+        else:
+            parentheses += {"(": 1, ")": -1}.get(character, 0)
+            head += character
+            if character == ":" and head.strip() in ("public:", "private:", "protected:"):
+                head, head_line = "", 0
+            elif not head_line and not character.isspace():
+                head_line = line
+    return sorted(found, key=lambda scope: (scope.first, scope.last))
