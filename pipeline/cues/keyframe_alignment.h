@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/cues/direct_cue.h>
+#include <placegraph/pipeline/cues/surface_cue.h>
 
 namespace placegraph {
 

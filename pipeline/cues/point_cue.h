@@ -4,7 +4,7 @@
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/pipeline/cues/depth_sensor.h>
-#include <placegraph/pipeline/cues/direct_cue.h>
+#include <placegraph/pipeline/cues/surface_cue.h>
 
 #include <map>
 #include <optional>

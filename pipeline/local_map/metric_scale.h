@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/measurements/measured_motion.h>
-#include <placegraph/pipeline/cues/line_cue.h>
+#include <placegraph/pipeline/lines/line_cue.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 #include <placegraph/pipeline/local_map/keyframe_masks.h>
 #include <placegraph/pipeline/local_map/local_map.h>

@@ -2,7 +2,7 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/pipeline/cues/line_cue.h>
+#include <placegraph/pipeline/lines/line_cue.h>
 
 #include <optional>
 #include <set>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
-#include <placegraph/pipeline/cues/line_cue.h>
+#include <placegraph/pipeline/lines/line_cue.h>
 #include <placegraph/pipeline/tracking/motion_model.h>
 
 namespace placegraph {

@@ -4,8 +4,8 @@
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/frontend/relative_pose/rotation_2d2d.h>
-#include <placegraph/pipeline/cues/direct_cue.h>
-#include <placegraph/pipeline/cues/line_cue.h>
+#include <placegraph/pipeline/cues/surface_cue.h>
+#include <placegraph/pipeline/lines/line_cue.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 #include <placegraph/pipeline/cues/plane_cue.h>
 #include <placegraph/pipeline/cues/point_cue.h>

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/cues/direct_cue.h>
+#include <placegraph/pipeline/cues/surface_cue_options.h>
 
 namespace placegraph {
 

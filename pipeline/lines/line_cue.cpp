@@ -1,4 +1,8 @@
-#include <placegraph/pipeline/cues/line_cue.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/pipeline/lines/line_course.h>
+#include <placegraph/pipeline/lines/line_cue.h>
+#include <placegraph/pipeline/lines/line_prediction.h>
+#include <placegraph/pipeline/lines/line_second_eye.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -12,46 +16,7 @@ SE3 beside(const SE3& T_odom_cam, const Eigen::Vector3d& eye_cam) {
   return T_odom_cam * SE3(SO3(), eye_cam);
 }
 
-constexpr double kNear = 0.05;  // of the median depth
-
-/// Where a camera that has moved sees a segment whose ends are that deep: the part beyond
-/// `least`; without length if none is.
-LineSegment moved_segment(const Camera& camera, const LineSegment& seen, const double (&depths)[2],
-                          const SE3& T_new_old, double least) {
-  Eigen::Vector3d ends[2];
-  for (int k = 0; k < 2; ++k) {
-    const auto ray = camera.unproject(k == 0 ? seen.start : seen.end);
-    ends[k] = T_new_old * Eigen::Vector3d(depths[k] * ray.value_or(Eigen::Vector3d::UnitZ()));
-  }
-  for (int k = 0; k < 2; ++k)
-    if (ends[k].z() < least && ends[1 - k].z() > least)
-      ends[k] = ends[1 - k] + (ends[1 - k].z() - least) / (ends[1 - k].z() - ends[k].z()) *
-                                  (ends[k] - ends[1 - k]);
-  const auto start = camera.project(ends[0]), end = camera.project(ends[1]);
-  if (!start || !end || ends[0].z() <= 0.5 * least || ends[1].z() <= 0.5 * least) return {};
-  return {*start, *end};
-}
-
 }  // namespace
-
-void LineCueOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LineCueOptions& o) {
-  field.group("tracker", o.tracker, "lines followed over time");
-  field.group("stereo", o.stereo, "lines in the right eye");
-  field.group("triangulation", o.triangulation, "when a line's place is known");
-  field.group("pose", o.pose, "pose of a frame from lines");
-  field.group("start", o.start, "first views of a single eye without points");
-  field.group("floor", o.floor, "metric scale from lines on the floor, without points");
-  field("sigma_floor_px", o.sigma_floor_px, "no line is placed better across", {0.01, 10});
-  field("alike_sightings", o.alike_sightings,
-        "sightings of one edge in the window that are worth one independent one", {1, 1000});
-  field("min_turn_steered_deg", o.min_turn_steered_deg,
-        "triangulation.min_turn_deg where directions show the rotation", {0.01, 45});
-  field("stay_frames", o.stay_frames,
-        "an edge that the motion takes out of the image before is begun last", {0, 100});
-  field("outlier_px", o.outlier_px, "a line that is missed by more is dropped", {0.5, 100});
-}
 
 LineCue::LineCue(const LineCueOptions& options, const Calibration& calibration,
                  const StereoMatcherOptions& stereo)
@@ -98,54 +63,10 @@ void LineCue::steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& 
   compass_->learn(calibration_.camera, seen, R_odom_cam, random);
 }
 
-/// What the lines of the window tell of depths in the newest image.
-std::vector<KnownDepth> LineCue::known_depths(const SlidingWindow& window) const {
-  std::vector<KnownDepth> known;
-  for (const LineTrack& track : tracker_.tracks()) {
-    const auto line = window.line(track.id);
-    if (!line) continue;
-    const LineSegment& s = track.edge.segment;
-    for (const Eigen::Vector2d& px : {s.start, s.middle(), s.end}) {
-      const auto z = depth_on_line(calibration_.camera, T_odom_last_, *line, px);
-      if (z && *z > 0) known.push_back({px.cast<float>(), *z});
-    }
-  }
-  return known;
-}
-
-/// Where the tracks should be seen from `T_odom_cam`: the points at their ends, on the line of the
-/// window or as deep as those beside them (or at `depth`), moved; the latter go on to drift as they
-/// did.
-std::vector<LineSegment> LineCue::expected(const SlidingWindow& window, const SE3& T_odom_cam,
-                                           double depth) const {
-  const Camera& camera = calibration_.camera;
-  const SE3 T_cam_last = T_odom_cam.inverse() * T_odom_last_;
-  const std::vector<KnownDepth> known = known_depths(window);
-  std::vector<LineSegment> result;
-  for (const LineTrack& track : tracker_.tracks()) {
-    const LineSegment& now = track.edge.segment;
-    const auto line = window.line(track.id);
-    const double beside = line ? depth : depth_nearby(known, now.middle().cast<float>(), depth);
-    double depths[2];
-    for (int k = 0; k < 2; ++k) {
-      const auto z = line ? depth_on_line(camera, T_odom_last_, *line, k == 0 ? now.start : now.end)
-                          : std::optional(beside);
-      depths[k] = z && *z > 0 ? *z : depth;
-    }
-    LineSegment segment = moved_segment(camera, now, depths, T_cam_last, kNear * depth);
-    if (const auto drift = drift_px_.find(track.id);
-        !line && drift != drift_px_.end() && segment.length() > 1) {
-      const Eigen::Vector2d across = drift->second * segment.normal();
-      segment.start += across, segment.end += across;
-    }
-    result.push_back(segment);
-  }
-  return result;
-}
-
 void LineCue::track(const Image& image, const SlidingWindow& window, const SE3& T_odom_cam,
                     double depth) {
-  const std::vector<LineSegment> wanted = expected(window, T_odom_cam, depth);
+  const std::vector<LineSegment> wanted = predict_segments(
+      calibration_.camera, tracker_.tracks(), window, {T_odom_last_, T_odom_cam, depth, drift_px_});
   T_odom_before_ = T_odom_last_;
   std::map<std::int64_t, LineSegment> wanted_of;
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted_of[tracker_.tracks()[i].id] = wanted[i];
@@ -233,7 +154,7 @@ void LineCue::accept(const SlidingWindow& window, const SE3& T_odom_cam) {
   tracker_.keep(keep);
 }
 
-void LineCue::add_to_window(std::int64_t id, const Sighting& sighting,
+void LineCue::add_to_window(std::int64_t id, const LineInKeyframe& sighting,
                             SlidingWindow& window) const {
   const double alike = std::sqrt(options_.alike_sightings);
   LineObservation observation{sighting.keyframe,
@@ -258,14 +179,17 @@ void LineCue::observe(std::int64_t keyframe, const Frame& frame,
   SE3 T_later_now;
   for (int k = 0; k < options_.stay_frames; ++k)
     T_later_now = T_odom_last_.inverse() * T_odom_before_ * T_later_now;
-  const std::vector<KnownDepth> known = known_depths(window);
+  const std::vector<KnownDepth> known =
+      known_depths(calibration_.camera, tracker_.tracks(), window, T_odom_last_);
   tracker_.detect(frame.mask, [&](const LineSegment& seen) {
     const double beside = depth_nearby(known, seen.middle().cast<float>(), depth);
-    return moved_segment(calibration_.camera, seen, {beside, beside}, T_later_now, kNear * depth);
+    return moved_segment(calibration_.camera, seen, {beside, beside}, T_later_now, depth);
   });
   follow_mergers();
-  const auto seconds = second_eyes(frame, rectification);
-  std::map<std::int64_t, Sighting> now;
+  std::vector<LineSegment> segments;
+  for (const LineTrack& track : tracker_.tracks()) segments.push_back(track.edge.segment);
+  const auto seconds = second_eyes(frame, segments, calibration_, rectification, stereo_, options_);
+  std::map<std::int64_t, LineInKeyframe> now;
   for (std::size_t i = 0; i < tracker_.tracks().size(); ++i) {
     const LineTrack& track = tracker_.tracks()[i];
     now[track.id] = {keyframe, track.edge.line.carriers(options_.sigma_floor_px), seconds[i]};
@@ -277,19 +201,20 @@ void LineCue::observe(std::int64_t keyframe, const Frame& frame,
 }
 
 /// The newest sighting of each track, and of those that are known well enough a place.
-void LineCue::add_sightings(std::int64_t keyframe, const std::map<std::int64_t, Sighting>& all_now,
+void LineCue::add_sightings(std::int64_t keyframe,
+                            const std::map<std::int64_t, LineInKeyframe>& all_now,
                             SlidingWindow& window) {
   const std::int64_t oldest = window.keyframes().front();
   const LineTriangulationOptions options = triangulation(window);
-  std::map<std::int64_t, std::vector<Sighting>> all;
+  LineSightings all;
   std::map<std::int64_t, Eigen::Matrix4d> covariances;
   for (const auto& [id, now] : all_now) {
-    std::vector<Sighting> sightings;
-    for (const Sighting& s : sightings_[id])
+    std::vector<LineInKeyframe> sightings;
+    for (const LineInKeyframe& s : sightings_[id])
       if (s.keyframe >= oldest && s.keyframe < keyframe) sightings.push_back(s);
     sightings.push_back(now);
     std::vector<LineSighting> views;
-    for (const Sighting& s : sightings) {
+    for (const LineInKeyframe& s : sightings) {
       views.push_back({window.pose(s.keyframe), s.seen});
       if (s.second)
         views.push_back({beside(window.pose(s.keyframe), s.second->eye_cam),
@@ -304,7 +229,7 @@ void LineCue::add_sightings(std::int64_t keyframe, const std::map<std::int64_t, 
         covariances[id] = covariances_[id];
     } else if (place.outcome) {
       window.add_line(id, place.line_ref);
-      for (const Sighting& s : sightings) add_to_window(id, s, window);
+      for (const LineInKeyframe& s : sightings) add_to_window(id, s, window);
       covariances[id] = place.covariance;
     }
     all[id] = std::move(sightings);
@@ -314,7 +239,7 @@ void LineCue::add_sightings(std::int64_t keyframe, const std::map<std::int64_t, 
 }
 
 void LineCue::observe_earlier(std::int64_t keyframe, const LineView& seen, SlidingWindow& window) {
-  std::map<std::int64_t, Sighting> now;
+  std::map<std::int64_t, LineInKeyframe> now;
   for (const auto& [id, line] : seen) now[id] = {keyframe, line.seen, std::nullopt};
   steer(keyframe, seen, window);
   add_sightings(keyframe, now, window);
@@ -327,6 +252,41 @@ void LineCue::wait(const Frame& frame, const SE3& T_odom_start) {
   tracker_.detect(frame.mask);
 }
 
+std::vector<SharedDirection> LineCue::shared_directions() const {
+  std::vector<SharedDirection> shared;
+  if (!compass_) return shared;
+  for (const auto& family : compass_->families())
+    shared.push_back({family.d_ref, family.sigma_rad});
+  return shared;
+}
+
+void LineCue::hold_course(std::int64_t keyframe, double depth, SlidingWindow& window) const {
+  if (!compass_) return;
+  for (const MotionObservation& motion :
+       course_along_lines(window, calibration_.camera, compass_->families(), sightings_, keyframe,
+                          depth, deg_to_rad(options_.triangulation.min_turn_deg)))
+    add_motion(window, motion);
+}
+
+std::vector<PlacedLine> LineCue::placed(const SlidingWindow& window) const {
+  std::vector<PlacedLine> placed;
+  for (const LineTrack& track : tracker_.tracks()) {
+    const auto line = window.line(track.id);
+    const auto covariance = covariances_.find(track.id);
+    if (line && covariance != covariances_.end())
+      placed.push_back({track.id, *line, covariance->second, track.edge.segment});
+  }
+  return placed;
+}
+
+std::vector<double> LineCue::flow_px() const {
+  std::vector<double> result;
+  for (const LineTrack& track : tracker_.tracks())
+    if (const auto at = at_keyframe_.find(track.id); at != at_keyframe_.end())
+      result.push_back(std::abs(track.edge.segment.offset_of(at->second.middle())));
+  return result;
+}
+
 void LineCue::prune(SlidingWindow& window) {
   for (const std::int64_t id : window.lines()) {
     const auto& observations = window.line_observations(id);
@@ -334,6 +294,45 @@ void LineCue::prune(SlidingWindow& window) {
     if (r && r->cwiseAbs().maxCoeff() <= options_.outlier_px) continue;
     window.remove_line(id);
     sightings_.erase(id);
+  }
+}
+
+std::vector<DisparitySample> LineCue::disparity_samples(const SlidingWindow& window,
+                                                        const RectificationError& rectification) {
+  constexpr std::size_t kViews = 4;
+  std::vector<DisparitySample> samples;
+  std::set<std::int64_t> heard;
+  for (const std::int64_t id : window.lines()) {
+    if (calibrated_.contains(id)) {
+      heard.insert(id);
+    } else if (window.line_observations(id).size() >= kViews) {
+      if (const auto sample =
+              disparity_of_line(window, id, calibration_, rectification, options_.triangulation)) {
+        samples.push_back(*sample);
+        heard.insert(id);
+      }
+    }
+  }
+  calibrated_ = std::move(heard);
+  return samples;
+}
+
+void LineCue::revise_eyes(SlidingWindow& window, const RectificationError& before,
+                          const RectificationError& now) {
+  const RectificationError more{now.offset_px - before.offset_px, now.by_x_px - before.by_x_px,
+                                now.by_y_px - before.by_y_px};
+  const auto revised = [&](const LineObservation::SecondEye& second, const Eigen::Vector2d& a,
+                           const Eigen::Vector2d& b) {
+    return corrected(second, calibration_.camera, a, b, more);
+  };
+  for (auto& [id, sightings] : sightings_)
+    for (LineInKeyframe& s : sightings)
+      if (s.second) s.second = revised(*s.second, s.seen.first, s.seen.second);
+  for (const std::int64_t id : window.lines()) {
+    const std::vector<LineObservation> observations = window.line_observations(id);
+    for (const LineObservation& o : observations)
+      if (o.second)
+        window.revise_second_eye(o.keyframe, id, revised(*o.second, o.start_px, o.end_px));
   }
 }
 

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/cues/floor_line_scale_options.h>
+#include <placegraph/pipeline/scale/floor_line_scale_options.h>
 
 namespace placegraph {
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/cues/line_cue.h>
+#include <placegraph/pipeline/lines/line_cue.h>
+
+#include "tests/unit/pipeline/lines/line_scene.h"
 
 namespace placegraph {
 namespace {
@@ -10,8 +12,8 @@ namespace {
 struct Pair {
   Calibration calibration;
   SlidingWindow window;
-  explicit Pair(const RectificationError& error) : window({}, camera()) {
-    calibration.camera = camera();
+  explicit Pair(const RectificationError& error) : window({}, line_camera()) {
+    calibration.camera = line_camera();
     calibration.baseline_m = 0.5;
     for (int k = 0; k < 4; ++k) window.add_keyframe(k, SE3(SO3(), Eigen::Vector3d(0.4 * k, 0, 0)));
     for (int i = 0; i < 6; ++i) {
@@ -27,13 +29,6 @@ struct Pair {
         window.add_line_observation(o);
       }
     }
-  }
-  static Camera camera() {
-    Camera c;
-    c.width = 640, c.height = 480;
-    c.fx = c.fy = 500;
-    c.cx = 320, c.cy = 240;
-    return c;
   }
   LineCue cue() const { return LineCue({}, calibration, {}); }
 };

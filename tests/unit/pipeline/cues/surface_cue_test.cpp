@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/cues/direct_cue.h>
+#include <placegraph/pipeline/cues/surface_cue.h>
 
 #include <opencv2/core.hpp>
 

@@ -1,5 +1,5 @@
-#include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/cues/line_cue.h>
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/pipeline/lines/line_course.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -35,34 +35,29 @@ std::optional<PlaneAlong> plane_along(const Camera& camera, const ImageLine::Car
 
 }  // namespace
 
-std::vector<SharedDirection> LineCue::shared_directions() const {
-  std::vector<SharedDirection> shared;
-  if (!compass_) return shared;
-  for (const auto& family : compass_->families())
-    shared.push_back({family.d_ref, family.sigma_rad});
-  return shared;
-}
-
 /// With t the way in the earlier keyframe, n the plane's normal there and r the line's distance
 /// across, n^T t = r sin(turn). r is known to a factor only, so that the turn itself counts as its
 /// deviation.
-void LineCue::hold_course(std::int64_t keyframe, double depth, SlidingWindow& window) const {
+std::vector<MotionObservation> course_along_lines(
+    const SlidingWindow& window, const Camera& camera,
+    const std::vector<DirectionCompass::Family>& families, const LineSightings& sightings,
+    std::int64_t keyframe, double depth, double max_turn_rad) {
   constexpr std::size_t kBack = 5;        // keyframes
   constexpr double kAlong = 0.96;         // cosine to the way: others are placed, or far
   constexpr double kRollSigmaRad = 1e-3;  // between two keyframes
   constexpr double kFactor = 2;           // of the distance
-  if (!compass_) return;
   const auto keyframes = window.keyframes();
   const std::int64_t oldest = keyframes[keyframes.size() - std::min(keyframes.size(), kBack + 1)];
   const SE3 T_odom_to = window.pose(keyframe);
-  for (const auto& family : compass_->families()) {
+  std::vector<MotionObservation> motions;
+  for (const auto& family : families) {
     std::map<std::int64_t, Eigen::Matrix3d> held;  // by the earlier keyframe, in its frame
     for (const std::int64_t id : family.tracks) {
-      const auto track = sightings_.find(id);
-      if (track == sightings_.end() || window.line(id)) continue;
-      const Sighting& now = track->second.back();
+      const auto track = sightings.find(id);
+      if (track == sightings.end() || window.line(id)) continue;
+      const LineInKeyframe& now = track->second.back();
       const auto then = std::find_if(track->second.begin(), track->second.end(),
-                                     [&](const Sighting& s) { return s.keyframe >= oldest; });
+                                     [&](const LineInKeyframe& s) { return s.keyframe >= oldest; });
       if (now.keyframe != keyframe || then->keyframe == keyframe) continue;
       const SE3 T_odom_from = window.pose(then->keyframe);
       const SE3 T_from_to = T_odom_from.inverse() * T_odom_to;
@@ -70,13 +65,12 @@ void LineCue::hold_course(std::int64_t keyframe, double depth, SlidingWindow& wi
       if (!(std::abs(d_from.dot(T_from_to.translation())) >
             kAlong * T_from_to.translation().norm()))
         continue;
-      const auto a = plane_along(calibration_.camera, then->seen, d_from);
-      const auto b =
-          plane_along(calibration_.camera, now.seen, T_from_to.rotation().inverse() * d_from);
+      const auto a = plane_along(camera, then->seen, d_from);
+      const auto b = plane_along(camera, now.seen, T_from_to.rotation().inverse() * d_from);
       if (!a || !b) continue;
       const double turn_rad =
           std::asin(std::min(1.0, a->n.cross(T_from_to.rotation() * b->n).norm()));
-      if (turn_rad > deg_to_rad(options_.triangulation.min_turn_deg)) continue;
+      if (turn_rad > max_turn_rad) continue;
       const double sigma =
           kFactor * depth * b->reach *
           std::hypot(turn_rad, std::hypot(a->sigma_rad, b->sigma_rad), kRollSigmaRad);
@@ -93,9 +87,10 @@ void LineCue::hold_course(std::int64_t keyframe, double depth, SlidingWindow& wi
       const Eigen::Matrix3d R = T_from_to.rotation().matrix();
       const Eigen::Matrix3d seen = R.transpose() * across * R;
       motion.information.topLeftCorner<3, 3>() = 0.5 * (seen + seen.transpose());
-      add_motion(window, motion);
+      motions.push_back(motion);
     }
   }
+  return motions;
 }
 
 }  // namespace placegraph

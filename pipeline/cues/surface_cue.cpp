@@ -2,7 +2,7 @@
 #include <placegraph/frontend/features/depth_lookup.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/cues/direct_cue.h>
+#include <placegraph/pipeline/cues/surface_cue.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -4,39 +4,17 @@
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/lines/direction_compass.h>
 #include <placegraph/frontend/lines/line_feature.h>
-#include <placegraph/frontend/lines/line_stereo.h>
 #include <placegraph/frontend/lines/line_tracker.h>
-#include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/graph/measurements/frame.h>
-#include <placegraph/pipeline/cues/floor_line_scale_options.h>
-#include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/cues/nearest_depth.h>
+#include <placegraph/pipeline/lines/line_cue_options.h>
+#include <placegraph/pipeline/lines/line_sightings.h>
+#include <placegraph/pipeline/lines/line_tracks.h>
 
 #include <map>
 #include <set>
 #include <vector>
 
 namespace placegraph {
-
-struct LineCueOptions {
-  LineTrackerOptions tracker;
-  LineStereoOptions stereo;
-  LineTriangulationOptions triangulation;
-  PoseFromLinesOptions pose;
-  LineInitializerOptions start;
-  FloorScaleOptions floor;
-  double sigma_floor_px = 0.15;  ///< no line is placed better across: lens, rolling shutter, blur
-  /// What one look at an edge errs by stays while it is followed: so many sightings in the window
-  /// are worth one independent one.
-  double alike_sightings = 16;
-  /// In place of triangulation.min_turn_deg where directions show the rotation, and turns of planes
-  /// are those of the way alone: with what is not known of its place, a line is of use much sooner.
-  double min_turn_steered_deg = 0.4;
-  int stay_frames = 10;   ///< an edge that the motion takes out of the image before is begun last
-  double outlier_px = 4;  ///< a line of the window that is missed by more is dropped
-  void check() const;
-};
-void visit(OptionVisitor& field, LineCueOptions& options);
 
 /// The share of lines in motion memory: follows edges from frame to frame, poses a frame against
 /// the lines of the window, and gives keyframes' sightings to it, with second eyes where there is a
@@ -65,12 +43,14 @@ class LineCue {
   /// is known of the motion. Edges that are new are followed from here on.
   void wait(const Frame& frame, const SE3& T_odom_start);
   /// Where the tracks are seen in the newest image.
-  LineView seen() const;
+  LineView seen() const { return line_view(tracker_.tracks(), options_.sigma_floor_px); }
   /// Adds what an earlier keyframe saw to the window: to begin with, in order of time.
   void observe_earlier(std::int64_t keyframe, const LineView& seen, SlidingWindow& window);
   /// Edges of the newest image, taken at T_odom_cam, with their lines where the window has them;
   /// not described.
-  std::vector<LineFeature> features(const SlidingWindow& window, const SE3& T_odom_cam) const;
+  std::vector<LineFeature> features(const SlidingWindow& window, const SE3& T_odom_cam) const {
+    return features_of_lines(calibration_.camera, tracker_.tracks(), window, T_odom_cam);
+  }
   /// Lines of the window as the newest image sees them.
   std::vector<PlacedLine> placed(const SlidingWindow& window) const;
   /// Directions that several of the lines in the newest keyframe share, in the window's frame.
@@ -89,32 +69,24 @@ class LineCue {
   /// Drops lines of the window that the newest keyframe contradicts.
   void prune(SlidingWindow& window);
   /// Depths, in the newest image, of the lines of the window that it sees.
-  std::vector<double> depths(const SlidingWindow& window) const;
+  std::vector<double> depths(const SlidingWindow& window) const {
+    return depths_of_lines(calibration_.camera, tracker_.tracks(), window, T_odom_last_);
+  }
   /// How far lines have moved across since the last keyframe [px].
   std::vector<double> flow_px() const;
   /// Lines of the window that are followed.
-  int followed(const SlidingWindow& window) const;
-  std::vector<FrameView::Line> view(const SlidingWindow& window, const SE3& T_odom_cam) const;
+  int followed(const SlidingWindow& window) const { return count_lines(tracker_.tracks(), window); }
+  std::vector<FrameView::Line> view(const SlidingWindow& window, const SE3& T_odom_cam) const {
+    return view_of_lines(calibration_.camera, tracker_.tracks(), window, T_odom_cam);
+  }
   void reset();
 
  private:
-  struct Sighting {
-    std::int64_t keyframe;
-    ImageLine::Carriers seen;
-    std::optional<LineObservation::SecondEye> second;
-  };
-  std::vector<KnownDepth> known_depths(const SlidingWindow& window) const;
-  std::vector<LineSegment> expected(const SlidingWindow& window, const SE3& T_odom_cam,
-                                    double depth) const;
-  std::vector<std::optional<LineObservation::SecondEye>> second_eyes(
-      const Frame& frame, const RectificationError& rectification) const;
-  std::optional<DisparitySample> disparity_sample(const SlidingWindow& window, std::int64_t line,
-                                                  const RectificationError& rectification) const;
-  void add_sightings(std::int64_t keyframe, const std::map<std::int64_t, Sighting>& now,
+  void add_sightings(std::int64_t keyframe, const std::map<std::int64_t, LineInKeyframe>& now,
                      SlidingWindow& window);
   LineTriangulationOptions triangulation(const SlidingWindow& window) const;
   std::optional<PoseGuess> with_heading(const PoseGuess& guess) const;
-  void add_to_window(std::int64_t id, const Sighting& sighting, SlidingWindow& window) const;
+  void add_to_window(std::int64_t id, const LineInKeyframe& sighting, SlidingWindow& window) const;
   void follow_mergers();
   void steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& window);
 
@@ -123,13 +95,13 @@ class LineCue {
   Calibration calibration_;
   LineTracker tracker_;
   std::optional<DirectionCompass> compass_;
-  SE3 T_odom_last_;                                          // of the newest image, once accepted
-  SE3 T_odom_before_;                                        // of the image before
-  std::map<std::int64_t, std::vector<Sighting>> sightings_;  // of live tracks
+  SE3 T_odom_last_;          // of the newest image, once accepted
+  SE3 T_odom_before_;        // of the image before
+  LineSightings sightings_;  // of live tracks
   std::map<std::int64_t, LineSegment> at_keyframe_;
   std::map<std::int64_t, Eigen::Matrix4d> covariances_;  // of lines of the window
-  std::set<std::int64_t> calibrated_;                    // lines of the window, see above
-  std::map<std::int64_t, double> drift_px_;  // across, beyond what `expected` foresaw last
+  std::set<std::int64_t> calibrated_;        // lines of the window whose disparity was given out
+  std::map<std::int64_t, double> drift_px_;  // across, beyond what was predicted last
 };
 
 }  // namespace placegraph

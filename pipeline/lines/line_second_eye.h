@@ -1,0 +1,37 @@
+#pragma once
+#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/frontend/features/rectification.h>
+#include <placegraph/frontend/features/stereo_matcher.h>
+#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/pipeline/lines/line_cue_options.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// What a second camera sees of each segment of the left (or only) image: the right camera of a
+/// rectified pair, or one made up from depth. Nothing where it does not see the segment, and for
+/// all segments where the frame has neither a right image nor depth. What the right camera sees is
+/// corrected by `rectification`.
+std::vector<std::optional<LineObservation::SecondEye>> second_eyes(
+    const Frame& frame, const std::vector<LineSegment>& segments, const Calibration& calibration,
+    const RectificationError& rectification, const StereoMatcherOptions& stereo,
+    const LineCueOptions& options);
+
+/// The line in the right image, moved by `error`: each of its points by the error at the point of
+/// the same row of the left line through `left_a` and `left_b` [px].
+LineObservation::SecondEye corrected(LineObservation::SecondEye second, const Camera& camera,
+                                     const Eigen::Vector2d& left_a, const Eigen::Vector2d& left_b,
+                                     const RectificationError& error);
+
+/// The newest disparity of a line of the window, in the middle of its carriers, beside what the
+/// motion of the left camera says of it. Nothing where the newest keyframe has no second eye for
+/// the line, or where motion says too little. `rectification`: by which the observations are
+/// corrected already.
+std::optional<DisparitySample> disparity_of_line(const SlidingWindow& window, std::int64_t line,
+                                                 const Calibration& calibration,
+                                                 const RectificationError& rectification,
+                                                 const LineTriangulationOptions& options);
+
+}  // namespace placegraph

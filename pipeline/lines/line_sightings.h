@@ -1,0 +1,22 @@
+#pragma once
+#include <placegraph/backend/window/window_observations.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// What one keyframe saw of a line that is followed.
+struct LineInKeyframe {
+  std::int64_t keyframe = 0;
+  ImageLine::Carriers seen;
+  std::optional<LineObservation::SecondEye> second;  ///< by the right camera, or made from depth
+};
+
+/// By id of the track, in order of the keyframes.
+using LineSightings = std::map<std::int64_t, std::vector<LineInKeyframe>>;
+
+}  // namespace placegraph

@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/pipeline/lines/line_course.h>
+
+#include "tests/unit/pipeline/lines/line_scene.h"
+
+namespace placegraph {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A straight corridor along z of the odometry frame: four edges along it, seen from two keyframes
+/// `way` apart, whose poses the window holds with an error of `error` in the second one.
+struct Corridor {
+  SlidingWindow window{{}, line_camera()};
+  LineSightings sightings;
+  std::vector<DirectionCompass::Family> families{{Vector3d::UnitZ(), 1e-3, {1, 2, 3, 4}}};
+
+  explicit Corridor(const Vector3d& way, const Vector3d& error = Vector3d::Zero(),
+                    const SO3& R_odom_first = SO3()) {
+    const SE3 first(R_odom_first, Vector3d::Zero()), second(R_odom_first, way);
+    window.add_keyframe(0, first);
+    window.add_keyframe(1, SE3(R_odom_first, way + error));
+    for (int i = 1; i <= 4; ++i) {
+      const double x = i % 2 ? -1.5 : 1.5, y = i <= 2 ? -1 : 1;
+      for (int k = 0; k < 2; ++k) {
+        const LineTrack track =
+            track_of(i, k ? second : first, Vector3d(x, y, 6), Vector3d(x, y, 20));
+        sightings[i].push_back({k, track.edge.line.carriers(0.1), std::nullopt});
+      }
+    }
+  }
+  std::vector<MotionObservation> course(double depth = 3) const {
+    return course_along_lines(window, line_camera(), families, sightings, 1, depth,
+                              deg_to_rad(2.0));
+  }
+};
+
+TEST(LineCourse, EdgesAlongTheWaySayThatTheCameraStayedOnTheirDirection) {
+  // The window thinks that the camera went 4 cm aside on a way of 1 m.
+  const Corridor corridor({0, 0, 1}, {0.04, 0, 0});
+  const auto motions = corridor.course();
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_EQ(motions[0].from, 0);
+  EXPECT_EQ(motions[0].to, 1);
+  EXPECT_NEAR((motions[0].T_from_to.translation() - Vector3d(0, 0, 1)).norm(), 0, 1e-9);
+  // Across the way it is known, along the way and in rotation it is not.
+  const auto& information = motions[0].information;
+  EXPECT_GT(information(0, 0), 100);
+  EXPECT_GT(information(1, 1), 100);
+  EXPECT_NEAR(information(2, 2), 0, 1e-6 * information(0, 0));
+  EXPECT_EQ((information.bottomRightCorner<3, 3>().norm()), 0);
+}
+
+TEST(LineCourse, InformationIsThatOfTheNewestKeyframesAxes) {
+  const SO3 R = SO3::exp({0, 0, 0.5 * 1.0});
+  const Corridor straight({0, 0, 1}), rolled({0, 0, 1}, Vector3d::Zero(), R);
+  const auto a = straight.course(), b = rolled.course();
+  ASSERT_EQ(a.size(), 1u);
+  ASSERT_EQ(b.size(), 1u);
+  const Eigen::Matrix3d in_odom =
+      R.matrix() * b[0].information.topLeftCorner<3, 3>() * R.matrix().transpose();
+  const Eigen::Matrix3d wanted = a[0].information.topLeftCorner<3, 3>();
+  EXPECT_LT((in_odom - wanted).norm(), 0.2 * wanted.norm());
+}
+
+TEST(LineCourse, TwiceAsDeepIsHalfAsWellKnown) {
+  const Corridor corridor({0, 0, 1});
+  const auto near = corridor.course(3), far = corridor.course(6);
+  ASSERT_EQ(near.size(), 1u);
+  ASSERT_EQ(far.size(), 1u);
+  EXPECT_NEAR(far[0].information(0, 0) / near[0].information(0, 0), 0.25, 1e-9);
+}
+
+TEST(LineCourse, AWayAcrossTheEdgesHoldsNothing) {
+  EXPECT_TRUE(Corridor({0.5, 0, 0.5}).course().empty());
+}
+
+TEST(LineCourse, LinesOfTheWindowAndLinesThatTurnedDoNotCount) {
+  Corridor placed({0, 0, 1});
+  for (int i = 1; i <= 4; ++i) placed.window.add_line(i, Line3());
+  EXPECT_TRUE(placed.course().empty());
+  // The camera left the edges' direction by 30 cm: their planes turned by more than two degrees.
+  EXPECT_TRUE(Corridor({0.3, 0, 2}, {-0.3, 0, 0}).course().empty());
+}
+
+TEST(LineCourse, OnlyTheLastSightingInTheNewestKeyframeCounts) {
+  Corridor corridor({0, 0, 1});
+  for (auto& [id, seen] : corridor.sightings) seen.pop_back();
+  EXPECT_TRUE(corridor.course().empty());
+}
+
+}  // namespace
+}  // namespace placegraph
