@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/linear/elimination_plan.h>
+#include <placegraph/backend/linear/front_forest.h>
 #include <placegraph/backend/linear/matrix_pool.h>
 
 #include <Eigen/Core>
@@ -18,15 +19,15 @@ namespace placegraph {
 template <int D>
 class EliminationTree {
  public:
-  using Block = Eigen::Matrix<double, D, D>;
-  using Vector = Eigen::Matrix<double, D, 1>;
+  using Block = typename FrontForest<D>::Block;
+  using Vector = typename FrontForest<D>::Vector;
 
   /// A variable that is not active yet; returns its number, which counts from 0.
   int add_variable();
   /// Only active variables are eliminated; of a term with a variable that is not, the other's part
   /// counts alone.
   void set_active(int variable, bool active);
-  bool active(int variable) const { return variables_[variable].active; }
+  bool active(int variable) const { return forest_.variables[variable].active; }
 
   /// A term over `a` and `b` (-1: over `a` alone), zero at first; returns its number.
   int add_term(int a, int b);
@@ -51,7 +52,7 @@ class EliminationTree {
   /// delta^T H_vv delta of none of its variables exceeds `threshold` and the decrease that its
   /// subtree still holds does not either. Returns the variables solved for; delta(v) is theirs.
   const std::vector<int>& solve(double threshold);
-  const Vector& delta(int variable) const { return variables_[variable].delta; }
+  const Vector& delta(int variable) const { return forest_.variables[variable].delta; }
 
   /// Blocks of H^-1 over the given active variables, in their order; needs an up-to-date factor.
   Eigen::MatrixXd covariance(const std::vector<int>& variables) const;
@@ -62,30 +63,9 @@ class EliminationTree {
   std::int64_t entries_when_ordered() const { return entries_when_ordered_; }
 
  private:
-  struct Variable {
-    bool active = false;
-    int front = -1;          ///< where it is eliminated
-    std::int64_t order = 0;  ///< later eliminated: larger
-    std::vector<int> terms;
-    Block diagonal = Block::Zero();
-    Vector gradient = Vector::Zero(), delta = Vector::Zero();
-    bool diagonal_stale = false, significant = false;
-    int local = -1;  ///< scratch: place in the front at hand
-  };
-  struct Term {
-    int a, b;
-    Block H_aa, H_ab, H_bb;
-    bool zero = true;
-  };
-  struct Front {
-    std::vector<int> frontal, separator, children;
-    int parent = -1;
-    std::vector<double> matrix;  ///< factor and Schur complement, see FrontKernels
-    std::vector<double> rhs;     ///< [y; what the subtree adds to the separator's right-hand side]
-    double decrease = 0;         ///< |y|^2 of the subtree
-    bool matrix_stale = true, rhs_stale = true, in_top = false;
-    int blocks() const { return static_cast<int>(frontal.size() + separator.size()); }
-  };
+  using Variable = typename FrontForest<D>::Variable;
+  using Term = typename FrontForest<D>::Term;
+  using Front = typename FrontForest<D>::Front;
 
   bool covered(const Term& term) const;
   void touch(int variable);
@@ -93,18 +73,11 @@ class EliminationTree {
   VariableSets sets_of(const std::vector<int>& top, const std::vector<int>& orphans) const;
   void restructure();
   std::vector<int> collect_top(std::vector<int>& orphans);
-  void assemble(Front& front);
   bool factorize_stale();
-  void forward(Front& front);
   int new_front();
-  bool earlier(int front_a, int front_b) const;
-  const Block& diagonal(int variable);
 
-  std::vector<Variable> variables_;
-  std::vector<Term> terms_;
-  std::vector<int> free_terms_;
-  std::vector<Front> fronts_;
-  std::vector<int> free_fronts_, roots_;
+  FrontForest<D> forest_;
+  std::vector<int> free_terms_, free_fronts_;
   MatrixPool pool_;
   std::vector<int> touched_;  ///< variables whose way to the root is to be reordered
   std::vector<int> stale_matrices_, stale_rhs_;  ///< fronts, with all their ancestors

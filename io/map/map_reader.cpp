@@ -1,65 +1,13 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/map/map_columns.h>
 #include <placegraph/io/map/map_database.h>
+#include <placegraph/io/map/map_history_reader.h>
 #include <placegraph/io/map/map_reader.h>
 
 #include <algorithm>
 #include <filesystem>
 
 namespace placegraph {
-
-/// Whatever the blob of a column is refused for, named with its row.
-template <class Read>
-auto MapReader::decoded(const SqliteRows& rows, std::string_view bytes, const char* column,
-                        Read read) {
-  try {
-    BlobReader reader(bytes);
-    auto value = read(reader);
-    reader.end();
-    return value;
-  } catch (const ArgumentError& error) {
-    rows.refuse(std::string(column) + ": " + error.what());
-  }
-}
-
-SE3 MapReader::pose(const SqliteRows& rows, int column, const char* name) {
-  return decoded(rows, rows.blob(column, kPoseBytes), name,
-                 [](BlobReader& reader) { return reader.pose(); });
-}
-
-Sim3 MapReader::similarity(const SqliteRows& rows, int column, const char* name) {
-  return decoded(rows, rows.blob(column, kSimilarityBytes), name,
-                 [](BlobReader& reader) { return reader.similarity(); });
-}
-
-Information MapReader::symmetric(const SqliteRows& rows, int column, const char* name, int size) {
-  const auto bytes = static_cast<std::size_t>(size * (size + 1) / 2) * sizeof(double);
-  return decoded(rows, rows.blob(column, bytes), name,
-                 [size](BlobReader& reader) { return reader.symmetric(size); });
-}
-
-Keyframe& MapReader::keyframe_of(const SqliteRows& rows, std::int64_t id, const char* column) {
-  auto& all = stored_.map.keyframes;
-  const auto found =
-      std::lower_bound(all.begin(), all.end(), id,
-                       [](const Keyframe& k, std::int64_t value) { return k.id < value; });
-  if (found == all.end() || found->id != id)
-    rows.refuse(std::string(column) + " " + std::to_string(id) + " is no keyframe of the map");
-  return *found;
-}
-
-Place& MapReader::place_of(const SqliteRows& rows, std::int64_t id, const char* column) {
-  auto& all = stored_.map.place_graph.places;
-  const auto found = std::lower_bound(
-      all.begin(), all.end(), id, [](const Place& p, std::int64_t value) { return p.id < value; });
-  if (found == all.end() || found->id != id)
-    rows.refuse(std::string(column) + " " + std::to_string(id) + " is no place of the map");
-  return *found;
-}
-
-void MapReader::require_next(const SqliteRows& rows, std::size_t expected) {
-  if (rows.integer(0) != static_cast<std::int64_t>(expected))
-    rows.refuse("row " + std::to_string(expected) + " is missing before it");
-}
 
 void MapReader::read_origin() {
   SqliteRows rows(database_, "origin",
@@ -86,7 +34,7 @@ void MapReader::read_origin() {
   read_camera(1, calibration.camera);
   if (!rows.is_null(9)) {
     calibration.depth.emplace();
-    calibration.depth->T_cam_depth = pose(rows, 9, "T_cam_depth");
+    calibration.depth->T_cam_depth = pose_column(rows, 9, "T_cam_depth");
     calibration.depth->sigma_at_1m = rows.positive(10);
     read_camera(2, calibration.depth->camera);
   }
@@ -121,7 +69,7 @@ void MapReader::read_keyframes() {
     keyframe.frame = rows.integer(1, 0);
     keyframe.stamp_ns = rows.integer(2);
     keyframe.place = rows.integer(3, 0);
-    keyframe.T_place_keyframe = pose(rows, 4, "T_place_keyframe");
+    keyframe.T_place_keyframe = pose_column(rows, 4, "T_place_keyframe");
     keyframe.scale = rows.positive(5);
   }
   read_features();
@@ -131,7 +79,7 @@ void MapReader::read_features() {
   SqliteRows rows(database_, "features", "keyframe, count, data");
   std::size_t described = 0;
   while (rows.next()) {
-    Keyframe& keyframe = keyframe_of(rows, rows.integer(0), "keyframe");
+    Keyframe& keyframe = keyframe_of(stored_, rows, rows.integer(0), "keyframe");
     const auto count = static_cast<std::size_t>(rows.integer(1, 0, kMost));
     keyframe.features = decoded(rows, rows.blob(2, count * kFeatureBytes), "data",
                                 [&](BlobReader& reader) { return reader.features(count); });
@@ -150,19 +98,19 @@ void MapReader::read_places() {
   while (rows.next()) {
     Place& place = places.emplace_back();
     place.id = rows.integer(0, 0);
-    place.anchor_keyframe = keyframe_of(rows, rows.integer(1), "anchor_keyframe").id;
+    place.anchor_keyframe = keyframe_of(stored_, rows, rows.integer(1), "anchor_keyframe").id;
     place.component = static_cast<int>(rows.integer(2, 0, kMost));
-    place.T_map_place = pose(rows, 3, "T_map_place");
+    place.T_map_place = pose_column(rows, 3, "T_map_place");
     place.scale = rows.positive(4);
     if (rows.is_null(5)) continue;
     stored_.history.places.push_back({place.id, rows.real(5), rows.integer(6)});
-    (void)keyframe_of(rows, rows.integer(6), "last_keyframe");
+    (void)keyframe_of(stored_, rows, rows.integer(6), "last_keyframe");
   }
   if (!stored_.history.places.empty() && stored_.history.places.size() != places.size())
     throw FileError(database_.path(), "table place: only some rows have a reach");
   SqliteRows labels(database_, "label", "place, position, label", "ORDER BY place, position");
   while (labels.next()) {
-    Place& place = place_of(labels, labels.integer(0), "place");
+    Place& place = place_of(stored_, labels, labels.integer(0), "place");
     if (labels.integer(1) != static_cast<std::int64_t>(place.labels.size()))
       labels.refuse("a label is missing before position " + std::to_string(labels.integer(1)));
     place.labels.emplace_back(labels.text(2));
@@ -174,8 +122,8 @@ void MapReader::read_members() {
   SqliteRows rows(database_, "keyframe", "id, place");
   for (Place& place : stored_.map.place_graph.places) place.members.emplace_back();
   while (rows.next()) {
-    Place& place = place_of(rows, rows.integer(1), "place");
-    const Keyframe& keyframe = keyframe_of(rows, rows.integer(0), "id");
+    Place& place = place_of(stored_, rows, rows.integer(1), "place");
+    const Keyframe& keyframe = keyframe_of(stored_, rows, rows.integer(0), "id");
     const PlaceMember member{keyframe.id, keyframe.T_place_keyframe, keyframe.scale};
     if (keyframe.id == place.anchor_keyframe)
       place.members.front() = member;
@@ -184,8 +132,8 @@ void MapReader::read_members() {
   }
   SqliteRows places(database_, "place", "id");
   while (places.next()) {
-    const Place& place = place_of(places, places.integer(0), "id");
-    const Keyframe& anchor = keyframe_of(places, place.anchor_keyframe, "anchor_keyframe");
+    const Place& place = place_of(stored_, places, places.integer(0), "id");
+    const Keyframe& anchor = keyframe_of(stored_, places, place.anchor_keyframe, "anchor_keyframe");
     if (anchor.place != place.id)
       places.refuse("anchor_keyframe " + std::to_string(anchor.id) + " hangs on place " +
                     std::to_string(anchor.place));
@@ -196,7 +144,7 @@ void MapReader::read_appearances() {
   SqliteRows rows(database_, "appearance", "place, words, data");
   while (rows.next()) {
     const auto count = static_cast<std::size_t>(rows.integer(1, 0, kMost));
-    place_of(rows, rows.integer(0), "place").appearance =
+    place_of(stored_, rows, rows.integer(0), "place").appearance =
         decoded(rows, rows.blob(2, count * kWordBytes), "data",
                 [&](BlobReader& reader) { return reader.words(count); });
   }
@@ -206,7 +154,7 @@ void MapReader::read_views() {
   SqliteRows rows(database_, "view", "keyframe, data");
   const PlaceView* first = nullptr;
   while (rows.next()) {
-    PlaceView& view = keyframe_of(rows, rows.integer(0), "keyframe").view;
+    PlaceView& view = keyframe_of(stored_, rows, rows.integer(0), "keyframe").view;
     view = decoded(rows, rows.blob(1), "data", [](BlobReader& reader) { return reader.view(); });
     if (view.empty() || view.coarse.empty()) rows.refuse("data: a view without cues");
     if (!first) first = &view;
@@ -228,8 +176,8 @@ void MapReader::read_edges() {
   std::optional<std::size_t> motion_bytes;
   while (rows.next()) {
     RelativePoseConstraint edge;
-    edge.from = place_of(rows, rows.integer(1), "from_place").id;
-    edge.to = place_of(rows, rows.integer(2), "to_place").id;
+    edge.from = place_of(stored_, rows, rows.integer(1), "from_place").id;
+    edge.to = place_of(stored_, rows, rows.integer(2), "to_place").id;
     edge.source = static_cast<ConstraintSource>(rows.integer(3, 0, 2));
     edge.kernel.kind = static_cast<RobustKernel::Kind>(rows.integer(4, 0, kernels - 1));
     edge.kernel.width = rows.positive(5);
@@ -239,10 +187,10 @@ void MapReader::read_edges() {
     motion_bytes = bytes;
     const bool scaled = bytes == kSimilarityBytes;
     if (scaled)
-      edge.T_from_to = similarity(rows, 6, "motion");
+      edge.T_from_to = similarity_column(rows, 6, "motion");
     else
-      edge.T_from_to = pose(rows, 6, "motion");
-    edge.information = symmetric(rows, 7, "information", scaled ? 7 : 6);
+      edge.T_from_to = pose_column(rows, 6, "motion");
+    edge.information = symmetric_column(rows, 7, "information", scaled ? 7 : 6);
     if (const char* fault = fault_of(edge.information)) rows.refuse(fault);
     stored_.map.place_graph.constraints.push_back(edge);
   }
@@ -261,8 +209,8 @@ void MapReader::read_frames() {
     record.keyframe = rows.integer(3, -1);
     record.inliers = static_cast<int>(rows.integer(5, 0, kMost));
     if (!rows.is_null(4)) {
-      record.T_keyframe_frame = pose(rows, 4, "T_keyframe_frame");
-      (void)keyframe_of(rows, record.keyframe, "keyframe");
+      record.T_keyframe_frame = pose_column(rows, 4, "T_keyframe_frame");
+      (void)keyframe_of(stored_, rows, record.keyframe, "keyframe");
     }
     if (!map.frames.empty() &&
         (record.frame <= map.frames.back().frame || record.stamp_ns <= map.frames.back().stamp_ns))
@@ -295,7 +243,7 @@ void MapReader::read_loops() {
     loop.query_frame = rows.integer(1, 0);
     loop.match_frame = rows.integer(2, 0);
     loop.inliers = static_cast<int>(rows.integer(3, 0, kMost));
-    loop.T_match_query = pose(rows, 6, "T_match_query");
+    loop.T_match_query = pose_column(rows, 6, "T_match_query");
     const auto model = loop_model(rows.text(7));
     if (!model) rows.refuse("model: none that loops are found by");
     loop.model = *model;
@@ -322,7 +270,7 @@ void MapReader::read_landmarks() {
     const auto more = decoded(rows, rows.blob(2, count * kLandmarkBytes), "data",
                               [&](BlobReader& reader) { return reader.landmarks(count); });
     for (const PointLandmark& landmark : more)
-      (void)keyframe_of(rows, landmark.keyframe, "keyframe");
+      (void)keyframe_of(stored_, rows, landmark.keyframe, "keyframe");
     landmarks.insert(landmarks.end(), more.begin(), more.end());
   }
 }

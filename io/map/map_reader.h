@@ -4,7 +4,6 @@
 #include <placegraph/io/map/stored_map.h>
 
 #include <limits>
-#include <set>
 
 namespace placegraph {
 
@@ -27,10 +26,7 @@ class MapReader {
     read_frames();
     read_loops();
     read_landmarks();
-    read_links();
-    read_parts();
-    read_history();
-    read_mergers();
+    read_history(database_, stored_);
     return std::move(stored_);
   }
   MapOrigin origin() {
@@ -51,26 +47,11 @@ class MapReader {
   void read_frames();
   void read_loops();
   void read_landmarks();
-  void read_links();
-  void read_parts();
-  void read_history();
-  void read_mergers();
-  template <class Read>
-  static auto decoded(const SqliteRows& rows, std::string_view bytes, const char* column,
-                      Read read);
-  static SE3 pose(const SqliteRows& rows, int column, const char* name);
-  static Sim3 similarity(const SqliteRows& rows, int column, const char* name);
-  static Information symmetric(const SqliteRows& rows, int column, const char* name, int size);
-  Keyframe& keyframe_of(const SqliteRows& rows, std::int64_t id, const char* column);
-  Place& place_of(const SqliteRows& rows, std::int64_t id, const char* column);
-  /// Rows that are counted from 0.
-  static void require_next(const SqliteRows& rows, std::size_t expected);
 
   static constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   SqliteDatabase database_;
   std::int64_t schema_ = 0;
   StoredMap stored_;
-  std::set<std::int64_t> parts_;
 };
 
 }  // namespace placegraph

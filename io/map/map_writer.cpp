@@ -151,7 +151,7 @@ void MapWriter::commit(const MapChanges& changes, bool finished) {
     put_frames(changes);
     put_constraints(changes);
     put_landmarks(changes);
-    put_history(changes.history);
+    history.put(changes.history);
     SqliteStatement origin(database,
                            "UPDATE origin SET metric = ?, median_depth_m = ?, founded = ?, "
                            "judged_loops = ?, finished = ?");

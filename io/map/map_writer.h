@@ -1,6 +1,7 @@
 #pragma once
 // Inside io only.
 #include <placegraph/io/map/map_blobs.h>
+#include <placegraph/io/map/map_history_writer.h>
 #include <placegraph/io/map/map_schema.h>
 #include <placegraph/io/map/map_table.h>
 #include <placegraph/io/map/stored_map.h>
@@ -25,19 +26,10 @@ struct MapWriter {
         online(database, "online", "number", 3),
         loops(database, "loop", "number", 11),
         landmarks(database, "landmarks", "number", 3),
-        links(database, "link", "keyframe", 9),
-        parts(database, "part", "anchor", 5),
-        motions(database, "motion", "number", 5),
-        revisits(database, "revisit", "number", 5),
-        runs(database, "run", "number", 2),
-        merged(database, "merged", "number", 2),
-        merged_parts(database, "merged_part", "number", 4),
-        parted(database, "parted", "number", 3),
+        history(database),
         put_edge(database, "INSERT OR REPLACE INTO edge VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"),
         erase_edge(database, "DELETE FROM edge WHERE kind = ? AND number = ?") {
     places.take_keys(database, "id place");
-    merged.take_keys(database, "number merged");
-    merged_parts.take_keys(database, "number merged_part");
     SqliteRows known(database, "keyframe", "id, frame, stamp_ns");
     while (known.next()) keyframe_times[known.integer(0)] = {known.integer(1), known.integer(2)};
   }
@@ -61,13 +53,11 @@ struct MapWriter {
   void put_frames(const MapChanges& changes);
   void put_constraints(const MapChanges& changes);
   void put_landmarks(const MapChanges& changes);
-  void put_history(const PlaceHistory& history);
-  void put_runs(const PlaceHistory& history);
-  void put_mergers(const PlaceHistory& history);
 
   SqliteDatabase database;
   MapTable places, labels, appearances, keyframes, features, views, frames, online, loops,
-      landmarks, links, parts, motions, revisits, runs, merged, merged_parts, parted;
+      landmarks;
+  MapHistoryWriter history;
   SqliteStatement put_edge, erase_edge;
   std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> keyframe_times;  // frame, stamp
   std::map<std::int64_t, std::vector<std::string>> written_labels;
