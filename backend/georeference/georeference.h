@@ -1,7 +1,6 @@
 #pragma once
 #include <placegraph/backend/georeference/fix_statistics.h>
-#include <placegraph/backend/georeference/gps_alignment.h>
-#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/backend/georeference/georeference_options.h>
 
 #include <optional>
 #include <vector>
@@ -18,26 +17,6 @@ struct GeoreferenceInput {
   double clock_offset_s = 0;                            ///< added to the stamps of the fixes
   std::optional<GeodeticPosition> origin;  ///< of the ENU frame; default: the median of the fixes
 };
-
-struct GeoreferenceOptions {
-  /// Of the position error in standard deviations; a fix far off must have no say.
-  RobustKernel kernel{RobustKernel::Kind::kTukey, 6.0};
-  double min_accuracy_m = 0.02;     ///< no receiver is taken for better
-  bool estimate_accuracy = true;    ///< take fixes for worse than stated where they scatter more
-  bool estimate_odometry = true;    ///< take edges for worse or better than stated if fixes show it
-  bool estimate_delay = true;       ///< of the map's poses against their stamps (map_latency.h)
-  double max_gap_s = 1.0;           ///< longer gaps of the motion are not bridged
-  double dropout_s = 1.0;           ///< a time without a fix that is longer is reported
-  bool estimate_lever_arm = false;  ///< about the given one
-  double lever_arm_sigma_m = 2.0;   ///< its prior
-  bool estimate_clock_offset = false;
-  double clock_offset_sigma_s = 0.2;  ///< its prior, and that of the map's delay
-  GpsAlignmentOptions alignment;
-  PoseGraphOptions solver;  ///< its start is of no account: the alignment is the start
-  std::uint64_t seed = 1;   ///< of the search for the alignment
-  void check() const;
-};
-void visit(OptionVisitor& field, GeoreferenceOptions& options);
 
 /// What became of one fix.
 struct FixReport {

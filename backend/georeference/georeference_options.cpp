@@ -1,4 +1,4 @@
-#include <placegraph/backend/georeference/georeference.h>
+#include <placegraph/backend/georeference/georeference_options.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {

@@ -1,25 +1,11 @@
 #pragma once
-#include <placegraph/backend/factors/pose_error.h>
-#include <placegraph/graph/core/options.h>
+#include <placegraph/backend/incremental/incremental_options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <vector>
 
 namespace placegraph {
-
-struct IncrementalOptions {
-  RotationError rotation_error = RotationError::kLog;
-  /// Iterate until the cost is predicted to lie above the minimum by no more than this share
-  /// (beginning somewhat earlier).
-  double excess = 5e-3;
-  double final_excess = 1e-8;  ///< the same of finish()
-  /// An edge is linearized anew when its Jacobian has changed by this share of its norm.
-  double relinearization = 0.2;
-  int max_iterations = 20;  ///< of a step, before the whole graph is solved from scratch
-  void check() const;
-};
-void visit(OptionVisitor& field, IncrementalOptions& options);
 
 /// What one step did. `outcome` is kNotConverged if the cost lies further above its minimum than
 /// was asked for, the poses being usable all the same; or if the normal equations cannot be

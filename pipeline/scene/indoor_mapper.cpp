@@ -3,223 +3,114 @@
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/scene/indoor_mapper.h>
+#include <placegraph/pipeline/scene/indoor_plan.h>
 #include <placegraph/pipeline/scene/map_keyframes.h>
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/core.hpp>
 #include <set>
 
 namespace placegraph {
 namespace {
 
-/// Sights laid out in one frame, and what comes of it.
-class Fusion {
- public:
-  Fusion(const IndoorMapperOptions& options, const Map& map) : options_(options), map_(map) {}
+/// Sights in the map's frame, by the poses of the map.
+struct SightsInMap {
+  std::vector<std::int64_t> keyframes;   // by sight
+  std::vector<SE3> T_map_cam;            // by sight
+  std::vector<SurfacePoint> points;      // by sight
+  std::vector<std::size_t> first_point;  // of the next sight
+};
 
-  void lay_out(const std::vector<SurfaceSight>& sights) {
-    const std::set<std::int64_t> connected = connected_keyframes(map_);
-    for (const SurfaceSight& sight : sights) {
-      if (!connected.count(sight.keyframe)) continue;
-      const SE3 T_map_cam = camera_pose(map_, sight.keyframe);
-      const Eigen::Matrix3f R = T_map_cam.rotation().matrix().cast<float>();
-      const Eigen::Vector3f t = T_map_cam.translation().cast<float>();
-      for (const SurfacePoint& p : sight.points)
-        points_.push_back({R * p.point + t, R * p.normal, p.sigma});
-      first_point_.push_back(points_.size());
-      poses_.push_back(T_map_cam);
-      keyframes_.push_back(sight.keyframe);
-    }
+SightsInMap lay_out(const std::vector<SurfaceSight>& sights, const Map& map) {
+  SightsInMap result;
+  const std::set<std::int64_t> connected = connected_keyframes(map);
+  for (const SurfaceSight& sight : sights) {
+    if (!connected.count(sight.keyframe)) continue;
+    const SE3 T_map_cam = camera_pose(map, sight.keyframe);
+    const Eigen::Matrix3f R = T_map_cam.rotation().matrix().cast<float>();
+    const Eigen::Vector3f t = T_map_cam.translation().cast<float>();
+    for (const SurfacePoint& p : sight.points)
+      result.points.push_back({R * p.point + t, R * p.normal, p.sigma});
+    result.first_point.push_back(result.points.size());
+    result.T_map_cam.push_back(T_map_cam);
+    result.keyframes.push_back(sight.keyframe);
   }
+  return result;
+}
 
-  IndoorMap fuse() {
-    IndoorMap plan;
-    if (points_.empty()) {
-      plan.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no surface is seen");
-      return plan;
+/// The mean of the directions that are up for the cameras, not normalized.
+Eigen::Vector3d up_of(const std::vector<SE3>& T_map_cam) {
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  for (const SE3& T : T_map_cam) up -= T.rotation().matrix().col(1);
+  return up;
+}
+
+PlacedSights to_walls(const SightsInMap& sights, const SE3& T_walls_map) {
+  PlacedSights placed;
+  placed.keyframes = sights.keyframes;
+  const Eigen::Matrix3f R = T_walls_map.rotation().matrix().cast<float>();
+  const Eigen::Vector3f t = T_walls_map.translation().cast<float>();
+  std::size_t i = 0;
+  for (std::size_t s = 0; s < sights.first_point.size(); ++s)
+    for (; i < sights.first_point[s]; ++i) {
+      const SurfacePoint& p = sights.points[i];
+      placed.points.push_back({R * p.point + t, R * p.normal, p.sigma, static_cast<int>(s)});
     }
-    Eigen::Vector3d up = Eigen::Vector3d::Zero();
-    for (const SE3& T : poses_) up -= T.rotation().matrix().col(1);
-    const BuildingAxes axes = find_building_axes(points_, up);
-    plan.outcome = axes.outcome;
-    if (!plan.outcome) return plan;
-    T_walls_map_ = axes.T_walls_map;
-    set_plan_frame(plan);
-    place_points();
-    const VoxelEvidence voxels = look();
-    constexpr double kShoulder_m = 0.45;
-    walls_ = cut_at_path(find_walls(placed_, voxels, options_.walls), path_, kShoulder_m,
-                         options_.walls.min_length_m);
-    if (walls_.empty()) {
-      plan.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no wall is seen");
-      return plan;
-    }
-    doors_ = find_doors(walls_, placed_, voxels, path_, options_.doors);
-    rooms_ = partition_rooms(voxels, walls_, doors_, path_, options_.rooms);
-    tell_walls(plan);
-    tell_rooms(voxels, plan);
-    tell_doors(voxels, plan);
-    tell_cells(voxels, plan);
+  for (const SE3& T : sights.T_map_cam) placed.path.push_back(T_walls_map * T.translation());
+  return placed;
+}
+
+VoxelEvidence evidence_of(const PlacedSights& sights, double cell_m, double layer_m) {
+  Eigen::Vector3d low = sights.path.front(), high = sights.path.front();
+  for (const PlacedPoint& p : sights.points) {
+    low = low.cwiseMin(p.point.cast<double>());
+    high = high.cwiseMax(p.point.cast<double>());
+  }
+  constexpr double kHighest_m = 12;
+  low[2] = 0, high[2] = std::min(high[2], kHighest_m);
+  const Eigen::Vector3d rim(0.3, 0.3, 0);
+  VoxelEvidence voxels(low - rim, high + rim, cell_m, layer_m);
+  for (const PlacedPoint& p : sights.points)
+    voxels.add_ray(sights.path[p.sight], p.point.cast<double>(), 0.1 + 3 * p.sigma, true);
+  return voxels;
+}
+
+IndoorMap fuse_sights(const std::vector<SurfaceSight>& all, const Map& map,
+                      const IndoorMapperOptions& options) {
+  IndoorMap plan;
+  const SightsInMap in_map = lay_out(all, map);
+  if (in_map.points.empty()) {
+    plan.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no surface is seen");
     return plan;
   }
+  const BuildingAxes axes = find_building_axes(in_map.points, up_of(in_map.T_map_cam));
+  plan.outcome = axes.outcome;
+  if (!plan.outcome) return plan;
+  const PlanFrame frame(axes.T_walls_map);
+  plan.R_plan_map = frame.R_plan_map();
+  plan.floor_y = frame.floor_y();
+  plan.yaw_rad = frame.yaw_rad();
 
- private:
-  /// The plan frame is the map's, turned as little as makes its y the building's vertical.
-  void set_plan_frame(IndoorMap& plan) {
-    const Eigen::Vector3d down = -T_walls_map_.rotation().matrix().row(2).transpose();
-    const Eigen::Quaterniond turn =
-        Eigen::Quaterniond::FromTwoVectors(down, Eigen::Vector3d::UnitY());
-    plan.R_plan_map = SO3(turn);
-    R_plan_walls_ = turn.toRotationMatrix() * T_walls_map_.rotation().matrix().transpose();
-    t_plan_walls_ = turn * T_walls_map_.inverse().translation();
-    plan.floor_y = t_plan_walls_[1];
-    plan.yaw_rad = std::atan2(R_plan_walls_(2, 0), R_plan_walls_(0, 0));
+  const PlacedSights sights = to_walls(in_map, axes.T_walls_map);
+  const VoxelEvidence voxels = evidence_of(sights, options.cell_m, options.layer_m);
+  constexpr double kShoulder_m = 0.45;
+  const std::vector<WallPiece> walls =
+      cut_at_path(find_walls(sights.points, voxels, options.walls), sights.path, kShoulder_m,
+                  options.walls.min_length_m);
+  if (walls.empty()) {
+    plan.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no wall is seen");
+    return plan;
   }
-
-  /// (x, z) of the plan of a point in the frame of the walls.
-  Eigen::Vector2d plan_of(const Eigen::Vector2d& p) const {
-    const Eigen::Vector3d q = R_plan_walls_ * Eigen::Vector3d(p[0], p[1], 0) + t_plan_walls_;
-    return {q[0], q[2]};
-  }
-  static Eigen::Vector2d on(int axis, double offset, double along) {
-    return axis == 0 ? Eigen::Vector2d(offset, along) : Eigen::Vector2d(along, offset);
-  }
-
-  void place_points() {
-    const Eigen::Matrix3f R = T_walls_map_.rotation().matrix().cast<float>();
-    const Eigen::Vector3f t = T_walls_map_.translation().cast<float>();
-    std::size_t i = 0;
-    for (std::size_t s = 0; s < first_point_.size(); ++s)
-      for (; i < first_point_[s]; ++i)
-        placed_.push_back({R * points_[i].point + t, R * points_[i].normal, points_[i].sigma,
-                           static_cast<int>(s)});
-    for (const SE3& T : poses_) path_.push_back(T_walls_map_ * T.translation());
-  }
-
-  VoxelEvidence look() const {
-    Eigen::Vector3d low = path_.front(), high = path_.front();
-    for (const PlacedPoint& p : placed_) {
-      low = low.cwiseMin(p.point.cast<double>());
-      high = high.cwiseMax(p.point.cast<double>());
-    }
-    constexpr double kHighest_m = 12;
-    low[2] = 0, high[2] = std::min(high[2], kHighest_m);
-    const Eigen::Vector3d rim(0.3, 0.3, 0);
-    VoxelEvidence voxels(low - rim, high + rim, options_.cell_m, options_.layer_m);
-    for (const PlacedPoint& p : placed_)
-      voxels.add_ray(path_[p.sight], p.point.cast<double>(), 0.1 + 3 * p.sigma, true);
-    return voxels;
-  }
-
-  void tell_walls(IndoorMap& plan) const {
-    for (const WallPiece& piece : walls_) {
-      IndoorWall wall;
-      wall.a = plan_of(on(piece.axis, piece.offset_at(piece.from_m), piece.from_m));
-      wall.b = plan_of(on(piece.axis, piece.offset_at(piece.to_m), piece.to_m));
-      const Eigen::Vector2d along = (wall.b - wall.a).normalized();
-      wall.normal = Eigen::Vector2d(-along[1], along[0]);
-      const Eigen::Vector2d side = plan_of(on(piece.axis, piece.sign, 0)) - plan_of({0, 0});
-      if (wall.normal.dot(side) < 0) wall.normal = -wall.normal;
-      wall.sigma_m = piece.sigma_m, wall.low_m = piece.low_m, wall.high_m = piece.high_m;
-      wall.sights = piece.count;
-      const Keyframe* keyframe = map_.find_keyframe(keyframes_[piece.sight]);
-      if (keyframe) wall.place = keyframe->place;
-      plan.walls.push_back(wall);
-    }
-  }
-
-  int room_at(const VoxelEvidence& voxels, const Eigen::Vector2d& p) const {
-    const int c = voxels.column_of(p[0]), r = voxels.row_of(p[1]);
-    return voxels.contains(c, r) ? rooms_.room_of_cell.at<int>(r, c) - 1 : -1;
-  }
-
-  void tell_rooms(const VoxelEvidence& voxels, IndoorMap& plan) const {
-    const auto polygon = [&](const std::vector<Eigen::Vector2d>& points) {
-      std::vector<Eigen::Vector2d> result;
-      for (const Eigen::Vector2d& p : points) result.push_back(plan_of(p));
-      return result;
-    };
-    int corridors = 0, others = 0;
-    for (const RoomPartition::Room& told : rooms_.rooms) {
-      IndoorRoom room;
-      room.outline = polygon(told.outline);
-      for (const auto& hole : told.holes) room.holes.push_back(polygon(hole));
-      room.area_m2 = told.area_m2;
-      // Several times as long as wide.
-      const bool corridor = told.area_m2 > 5 * told.width_m * told.width_m && told.width_m < 4;
-      room.label =
-          corridor ? "corridor " + std::to_string(++corridors) : "room " + std::to_string(++others);
-      plan.rooms.push_back(std::move(room));
-    }
-    for (const Eigen::Vector3d& p : path_)
-      if (const int room = room_at(voxels, p.head<2>()); room >= 0) plan.rooms[room].entered = true;
-    for (const Place& place : map_.place_graph.places) {
-      const int room = room_at(voxels, (T_walls_map_ * place.T_map_place.translation()).head<2>());
-      if (room >= 0) plan.rooms[room].places.push_back(place.id);
-    }
-    std::vector<std::vector<double>> ceilings(plan.rooms.size());
-    for (const PlacedPoint& p : placed_) {
-      if (p.normal[2] > -0.95F || p.point[2] < 1.8F) continue;
-      const int room = room_at(voxels, p.point.head<2>().cast<double>());
-      if (room >= 0) ceilings[room].push_back(p.point[2]);
-    }
-    for (std::size_t i = 0; i < ceilings.size(); ++i)
-      if (ceilings[i].size() >= 20) plan.rooms[i].ceiling_m = median_of(ceilings[i]);
-  }
-
-  void tell_doors(const VoxelEvidence& voxels, IndoorMap& plan) const {
-    for (const DoorPiece& piece : doors_) {
-      IndoorDoor door;
-      door.a = plan_of(on(piece.axis, piece.offset_m, piece.from_m));
-      door.b = plan_of(on(piece.axis, piece.offset_m, piece.to_m));
-      door.height_m = piece.head_m, door.closed = piece.closed;
-      const double middle = 0.5 * (piece.from_m + piece.to_m);
-      for (int side = 0; side < 2; ++side)
-        for (const double way : {0.1, 0.2, 0.35, 0.5}) {
-          const double at = piece.offset_m + piece.sign * (side ? -way - 0.1 : way);
-          if (door.rooms[side] < 0) door.rooms[side] = room_at(voxels, on(piece.axis, at, middle));
-        }
-      plan.doors.push_back(door);
-    }
-  }
-
-  /// What stands at any height, in cells of twice the size.
-  void tell_cells(const VoxelEvidence& voxels, IndoorMap& plan) const {
-    constexpr double kHit = 0.85, kPass = 0.4, kMost = 5;
-    IndoorMap::Cells& cells = plan.cells;
-    cells.size_m = 2 * voxels.cell_m();
-    cells.low = voxels.low().head<2>();
-    cells.columns = voxels.columns() / 2, cells.rows = voxels.rows() / 2;
-    cells.log_odds.assign(static_cast<std::size_t>(cells.columns) * cells.rows, 0.0F);
-    const int first = std::max(0, voxels.layer_of(0.2)), last = voxels.layer_of(2.0);
-    for (int r = 0; r < 2 * cells.rows; ++r)
-      for (int c = 0; c < 2 * cells.columns; ++c) {
-        double sum = 0;
-        for (int l = first; l <= std::min(last, voxels.layers() - 1); ++l)
-          sum += kHit * voxels.hits(c, r, l) - kPass * voxels.passes(c, r, l);
-        float& cell = cells.log_odds[static_cast<std::size_t>(r / 2) * cells.columns + c / 2];
-        cell = static_cast<float>(std::clamp(cell + sum, -kMost, kMost));
-      }
-  }
-
-  const IndoorMapperOptions& options_;
-  const Map& map_;
-  std::vector<SurfacePoint> points_;      // in the map's frame, by sight
-  std::vector<std::size_t> first_point_;  // of the next sight
-  std::vector<SE3> poses_;
-  std::vector<std::int64_t> keyframes_;
-  SE3 T_walls_map_;
-  Eigen::Matrix3d R_plan_walls_ = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d t_plan_walls_ = Eigen::Vector3d::Zero();
-  std::vector<PlacedPoint> placed_;
-  std::vector<Eigen::Vector3d> path_;
-  std::vector<WallPiece> walls_;
-  std::vector<DoorPiece> doors_;
-  RoomPartition rooms_;
-};
+  const std::vector<DoorPiece> doors =
+      find_doors(walls, sights.points, voxels, sights.path, options.doors);
+  const RoomPartition rooms = partition_rooms(voxels, walls, doors, sights.path, options.rooms);
+  plan.walls = plan_walls(walls, frame, sights, map);
+  plan.rooms = plan_rooms(rooms, voxels, frame, sights, map);
+  plan.doors = plan_doors(doors, rooms, voxels, frame);
+  plan.cells = plan_cells(voxels);
+  return plan;
+}
 
 }  // namespace
 
@@ -321,9 +212,7 @@ IndoorMap IndoorMapper::fuse(const Map& map) const {
   }
   IndoorMapperOptions options = options_;
   if (!calibration_.depth) options.walls.band_m = options.swept_band_m;
-  Fusion fusion(options, map);
-  fusion.lay_out(sights_);
-  return fusion.fuse();
+  return fuse_sights(sights_, map, options);
 }
 
 void label_places(const IndoorMap& plan, PlaceGraph& places) {

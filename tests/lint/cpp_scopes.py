@@ -10,6 +10,8 @@ from typing import NamedTuple
 from source_includes import without_comments
 
 CLASS = re.compile(r"\b(?:class|struct|union)\s+(?:\[\[[^\]]*\]\]\s*|alignas\([^)]*\)\s*)*((?:[A-Za-z_]\w*::)*[A-Za-z_]\w*)")
+# A member's initializer: "A::A() : a(1), b" before the brace of b's value.
+INITIALIZER = re.compile(r"\)\s*(?:noexcept\s*)?:(?!:).*[\w>]\s*$", re.S)
 NAMESPACE = re.compile(r"\bnamespace\b|\bextern\s+\"\"")
 QUALIFIED = re.compile(r"([A-Za-z_]\w*)\s*(?:<[^<>()]*>)?\s*::\s*(~?[A-Za-z_]\w*|operator\b[^(]*)\s*\($")
 PLAIN = re.compile(r"(~?[A-Za-z_]\w*|operator\b[^(]*)\s*\($")
@@ -77,6 +79,8 @@ def classify(head):
     if at < 0 or re.search(r"(?<![=!<>])=(?!=)", head[:at].replace("operator=", "")):
         return "other", "", ""
     before = head[:at + 1]
+    if INITIALIZER.search(head):
+        return "other", "", ""
     match = QUALIFIED.search(before)
     if match:
         return "function", match.group(2).strip(), match.group(1)
@@ -105,7 +109,7 @@ def scopes_of(text):
                 kind, name, owner, first, body, before, outer = open_scopes.pop()
                 if kind in ("class", "function"):
                     found.append(Scope(kind, name, owner, first, line, body))
-                head, head_line, parentheses = before, first if before else 0, outer
+                head, head_line, parentheses = before and before + "{}", first if before else 0, outer
         elif inside:
             continue
         elif character == ";" and not parentheses:

@@ -63,13 +63,14 @@ TEST(LinePrediction, LinesOfTheWindowTellThreeDepthsEach) {
 TEST(LinePrediction, ALineOfTheWindowIsExpectedWhereItIsSeenNext) {
   SlidingWindow window({}, line_camera());
   window.add_keyframe(0, SE3());
-  window.add_line(7, line_through(kTop, kBottom));
+  const Vector3d end = kBottom + Vector3d(0, 0, 2);
+  window.add_line(7, line_through(kTop, end));
   const std::map<std::int64_t, double> drift_px = {{7, 3}};  // does not count: its place is known
-  const auto expected = predict_segments(line_camera(), {track_of(7, SE3(), kTop, kBottom)}, window,
+  const auto expected = predict_segments(line_camera(), {track_of(7, SE3(), kTop, end)}, window,
                                          {SE3(), kMoved, 20, drift_px});
   ASSERT_EQ(expected.size(), 1u);
   EXPECT_NEAR((expected[0].start - project(kMoved, kTop)).norm(), 0, 1e-9);
-  EXPECT_NEAR((expected[0].end - project(kMoved, kBottom)).norm(), 0, 1e-9);
+  EXPECT_NEAR((expected[0].end - project(kMoved, end)).norm(), 0, 1e-9);
 }
 
 TEST(LinePrediction, OtherTracksLieAsDeepAsTheLinesBesideThem) {

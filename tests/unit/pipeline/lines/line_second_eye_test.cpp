@@ -62,13 +62,13 @@ TEST(LineSecondEye, WithoutASecondImageThereIsNoSecondEye) {
   EXPECT_FALSE(eyes[0]);
 }
 
-/// An upright line 5 m ahead, seen by keyframes along x that are 0.4 m apart.
-SlidingWindow window_with_line(int keyframes, bool right) {
+/// An upright line 5 m ahead, seen by keyframes along x that are `step_m` apart.
+SlidingWindow window_with_line(int keyframes, bool right, double step_m = 0.4) {
   SlidingWindow window({}, line_camera());
   window.add_line(7, Line3::from_direction(Vector3d(0.2, 0, 5), Vector3d::UnitY()));
   for (int k = 0; k < keyframes; ++k) {
-    window.add_keyframe(k, SE3(SO3(), Vector3d(0.4 * k, 0, 0)));
-    const double u = 320 + 500 * (0.2 - 0.4 * k) / 5;
+    window.add_keyframe(k, SE3(SO3(), Vector3d(step_m * k, 0, 0)));
+    const double u = 320 + 500 * (0.2 - step_m * k) / 5;
     LineObservation o{k, 7, {u, 140}, {u, 340}, 0.2, {}};
     const double disparity = 500 * 0.5 / 5 + 0.7;  // measured 0.7 px too large
     if (right)
@@ -98,6 +98,11 @@ TEST(LineSecondEye, ThereIsNoSampleWithoutASecondEyeOrWithTooLittleMotion) {
   calibration.baseline_m = 0.5;
   EXPECT_FALSE(disparity_of_line(window_with_line(5, false), 7, calibration, {}, {}));
   EXPECT_FALSE(disparity_of_line(window_with_line(1, true), 7, calibration, {}, {}));
+  LineTriangulationOptions options;
+  options.min_turn_deg = 0.5;
+  EXPECT_TRUE(disparity_of_line(window_with_line(3, true, 0.5), 7, calibration, {}, options));
+  // A tenth of the baseline of the cameras: motion knows the disparity ten times worse.
+  EXPECT_FALSE(disparity_of_line(window_with_line(3, true, 0.025), 7, calibration, {}, options));
 }
 
 }  // namespace

@@ -1,0 +1,20 @@
+#pragma once
+#include <placegraph/backend/factors/pose_error.h>
+#include <placegraph/graph/core/options.h>
+
+namespace placegraph {
+
+struct IncrementalOptions {
+  RotationError rotation_error = RotationError::kLog;
+  /// Iterate until the cost is predicted to lie above the minimum by no more than this share
+  /// (beginning somewhat earlier).
+  double excess = 5e-3;
+  double final_excess = 1e-8;  ///< the same of finish()
+  /// An edge is linearized anew when its Jacobian has changed by this share of its norm.
+  double relinearization = 0.2;
+  int max_iterations = 20;  ///< of a step, before the whole graph is solved from scratch
+  void check() const;
+};
+void visit(OptionVisitor& field, IncrementalOptions& options);
+
+}  // namespace placegraph
