@@ -1,0 +1,115 @@
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/odometry/first_frame_initializer.h>
+
+#include "tests/support/scenes/window_world.h"
+#include "tests/support/scripted_tracker.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+using Calls = std::vector<std::string>;
+
+struct Beginning {
+  StageTimes times;
+  Calibration calibration = with_baseline();
+  ScriptedTracker tracker;
+  LocalMapping mapping{{}, calibration, 1, {}, times};
+  LocalMap map{{}, calibration.camera, Scale::kMetric};
+  FirstFrameInitializer initializer{tracker, {}};
+  SE3 T_odom_start{SO3::exp({0, 0.4, 0}), Eigen::Vector3d(3, 1, -2)};
+
+  Beginning() {
+    initializer.restart(T_odom_start);
+    tracker.observation = [](const RectificationError&, LocalMap& of) {
+      of.window().add_landmark(of.newest(), {0, 0, 8});
+    };
+  }
+  static Calibration with_baseline() {
+    Calibration c;
+    c.camera = window_camera();
+    c.baseline_m = 0.5;
+    return c;
+  }
+  Initialization add(std::int64_t id, const std::optional<SE3>& T_odom_cam_known = {}) {
+    Frame frame;
+    frame.id = id;
+    return initializer.add(frame, T_odom_cam_known, map, mapping);
+  }
+};
+
+TEST(FirstFrameInitializer, BeginsWithItsFirstFrameWhereItWasToldTo) {
+  Beginning b;
+  const Initialization begun = b.add(5);
+  EXPECT_EQ(begun.state, TrackingState::kTracking);
+  ASSERT_EQ(begun.keyframes.size(), 1u);
+  EXPECT_EQ(begun.keyframes[0].id, 0);
+  EXPECT_EQ(begun.keyframes[0].frame.id, 5);
+  EXPECT_TRUE(begun.posed.empty());
+  EXPECT_FALSE(begun.T_last_cur);  // a single frame shows no velocity
+  EXPECT_LT((b.map.pose(0).inverse() * b.T_odom_start).log().norm(), 1e-12);
+  EXPECT_EQ(b.tracker.asked.front(), "see_first");
+}
+
+TEST(FirstFrameInitializer, NoViewEverWaitsForAnother) {
+  Beginning b;
+  EXPECT_FALSE(b.initializer.started());
+  b.tracker.shows_a_keyframe = false;
+  EXPECT_EQ(b.add(0).state, TrackingState::kWaiting);
+  EXPECT_FALSE(b.initializer.started());
+}
+
+TEST(FirstFrameInitializer, AFrameWithoutSurfacesLeavesTheMapEmpty) {
+  Beginning b;
+  b.tracker.shows_a_keyframe = false;
+  const Initialization waits = b.add(0);
+  EXPECT_EQ(waits.state, TrackingState::kWaiting);
+  EXPECT_EQ(waits.reason, "no surface to begin with");
+  EXPECT_FALSE(waits.is_reference);
+  EXPECT_TRUE(b.map.empty());
+  EXPECT_EQ(b.tracker.asked, (Calls{"see_first", "prepare", "reset"}));
+}
+
+TEST(FirstFrameInitializer, AKeyframeThatTheTrackerRefusesIsTakenBack) {
+  Beginning b;
+  b.map.restart(Scale::kMetric, 9);
+  b.tracker.begins = Outcome::failure(Outcome::Code::kTooFewData, "3 of 90 points");
+  const Initialization waits = b.add(0);
+  EXPECT_EQ(waits.state, TrackingState::kWaiting);
+  EXPECT_EQ(waits.reason, "3 of 90 points");
+  EXPECT_TRUE(waits.keyframes.empty());
+  EXPECT_TRUE(b.map.empty());
+  EXPECT_TRUE(b.map.window().landmarks().empty());
+  EXPECT_EQ(b.map.median_depth(), 9);  // not the depth that the refused keyframe saw
+  EXPECT_EQ(b.tracker.asked.back(), "reset");
+  b.tracker.begins = Outcome::ok();
+  const Initialization begun = b.add(1);
+  ASSERT_EQ(begun.state, TrackingState::kTracking);
+  EXPECT_EQ(begun.keyframes[0].id, 0);  // the refused one has left no gap
+}
+
+TEST(FirstFrameInitializer, AFrameThatIsRecognizedStillBeginsWhereItWasToldTo) {
+  Beginning b;
+  const SE3 T_known(SO3(), Eigen::Vector3d(50, 0, 0));
+  ASSERT_EQ(b.add(0, T_known).state, TrackingState::kTracking);
+  EXPECT_LT(distance_m(b.map.pose(0), b.T_odom_start), 1e-12);
+}
+
+TEST(Initialization, IsAnUpdateOfTheOdometry) {
+  Initialization waits = Initialization::waiting("too dark");
+  waits.is_reference = true;
+  waits.T_odom_reference = SE3(SO3(), Eigen::Vector3d(1, 2, 3));
+  waits.rotation = PureRotation{SO3::exp({0, 0.1, 0}), Eigen::Matrix3d::Identity()};
+  waits.posed = {{3, SE3()}};
+  const OdometryUpdate update = waits.update();
+  EXPECT_EQ(update.state, TrackingState::kWaiting);
+  EXPECT_EQ(update.reason, "too dark");
+  EXPECT_TRUE(update.reference);
+  EXPECT_EQ(update.T_odom_cam.translation(), Eigen::Vector3d(1, 2, 3));
+  ASSERT_TRUE(update.rotation);
+  EXPECT_NEAR(update.rotation->R_before_cam.log().y(), 0.1, 1e-12);
+  EXPECT_EQ(update.posed_again.size(), 1u);
+}
+
+}  // namespace
+}  // namespace placegraph

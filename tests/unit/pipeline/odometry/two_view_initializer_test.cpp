@@ -1,0 +1,200 @@
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/median.h>
+#include <placegraph/pipeline/odometry/two_view_initializer.h>
+
+#include "tests/support/scenes/street.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+constexpr int kStands = 4;  // frames of a camera that only rotates, before it moves
+
+SE3 forward(int i) { return street_T_world_cam(i); }
+/// Rotates in place, and drives on from there.
+SE3 rotates_first(int i) {
+  const SE3 T_rotated = pose({0, 0.03 * std::min(i, kStands), 0}, {0, -kStreetHeight_m, 0});
+  return i <= kStands ? T_rotated : T_rotated * pose({0, 0, 0}, {0, 0, 0.4 * (i - kStands)});
+}
+
+const StreetDataset& drive() {
+  static const StreetDataset dataset(6, 0, 0, false, forward);
+  return dataset;
+}
+const StreetDataset& turn() {
+  static const StreetDataset dataset(kStands + 7, 0, 0, false, rotates_first);
+  return dataset;
+}
+
+struct Beginning {
+  const StreetDataset& dataset;
+  StageTimes times;
+  Calibration calibration;
+  OdometryOptions options;
+  FeatureTracker tracker;
+  LocalMapping mapping;
+  LocalMap map;
+  TwoViewInitializer initializer;
+  SE3 T_odom_start = pose({0, 0.3, 0}, {2, 0, 1});
+
+  explicit Beginning(const StreetDataset& d, Scale scale = Scale::kArbitrary)
+      : dataset(d),
+        calibration(d.calibration(Sensor::kMono)),
+        options(by_points()),
+        tracker(options, calibration, 1, {}, times),
+        mapping(options, calibration, 1, {}, times),
+        map(options.window, calibration.camera, scale),
+        initializer(options, calibration, 1, tracker, {}, times) {
+    initializer.restart(T_odom_start);
+  }
+  static OdometryOptions by_points() {
+    OdometryOptions options;
+    options.cues = "points";
+    return options;
+  }
+  Initialization add(int i, const std::optional<SE3>& T_odom_cam_known = {}) {
+    return initializer.add(dataset.frame(i, Sensor::kMono), T_odom_cam_known, map, mapping);
+  }
+  Initialization add_dark(int i) {
+    Frame frame = dataset.frame(i, Sensor::kMono);
+    frame.image = Image(frame.image.size(), CV_8UC1, cv::Scalar(0));
+    return initializer.add(frame, {}, map, mapping);
+  }
+  SE3 motion() const { return map.pose(map.first()).inverse() * map.pose(map.newest()); }
+};
+
+TEST(TwoViewInitializer, TheFirstFrameIsTheReference) {
+  Beginning b(drive());
+  EXPECT_FALSE(b.initializer.started());
+  const Initialization first = b.add(0);
+  EXPECT_EQ(first.state, TrackingState::kWaiting);
+  EXPECT_TRUE(first.is_reference);
+  EXPECT_LT((first.T_odom_reference.inverse() * b.T_odom_start).log().norm(), 1e-12);
+  EXPECT_TRUE(b.initializer.started());
+  EXPECT_TRUE(b.map.empty());
+}
+
+TEST(TwoViewInitializer, TwoViewsWithParallaxBeginAMap) {
+  Beginning b(drive());
+  (void)b.add(0);
+  const Initialization begun = b.add(1);
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_EQ(begun.keyframes.size(), 2u);
+  EXPECT_EQ(begun.keyframes[0].frame.id, 0);
+  EXPECT_EQ(begun.keyframes[1].frame.id, 1);
+  EXPECT_LT(distance_m(b.map.pose(0), b.T_odom_start), 1e-9);
+  const SE3 truth = forward(0).inverse() * forward(1);
+  // Tracks of 0.25 px at 330 px, hundreds of them.
+  EXPECT_LT(angle_rad(b.motion(), truth), 0.003);
+  EXPECT_LT(angle_between(b.motion().translation(), truth.translation()), 0.05);
+  EXPECT_GT(begun.inliers, 50);
+  EXPECT_FALSE(b.initializer.started());
+}
+
+TEST(TwoViewInitializer, TheVelocityIsTheMotionOverOneFrame) {
+  Beginning b(turn());
+  Initialization begun;
+  int i = 0;
+  for (; i < kStands + 7 && begun.state != TrackingState::kTracking; ++i) begun = b.add(i);
+  ASSERT_EQ(begun.state, TrackingState::kTracking);
+  ASSERT_TRUE(begun.T_last_cur);
+  SE3 whole;
+  for (int step = 0; step < i - 1; ++step) whole = whole * *begun.T_last_cur;
+  EXPECT_LT((whole.inverse() * b.motion()).log().norm(), 1e-6);
+}
+
+TEST(TwoViewInitializer, AnArbitraryMapSeesThingsAtTheUnknownDepth) {
+  Beginning b(drive());
+  (void)b.add(0);
+  ASSERT_EQ(b.add(1).state, TrackingState::kTracking);
+  EXPECT_NEAR(b.map.median_depth(), LocalMap::kUnknownDepth, 0.25 * LocalMap::kUnknownDepth);
+}
+
+TEST(TwoViewInitializer, AGuessedScaleTakesThingsToBeAsFarAwayAsBefore) {
+  Beginning unknown(drive()), guessed(drive());
+  guessed.map.restart(Scale::kGuessed, 2.5);
+  for (Beginning* b : {&unknown, &guessed}) {
+    (void)b->add(0);
+    ASSERT_EQ(b->add(1).state, TrackingState::kTracking);
+  }
+  const double ratio =
+      guessed.motion().translation().norm() / unknown.motion().translation().norm();
+  EXPECT_NEAR(ratio, 2.5 / LocalMap::kUnknownDepth, 0.01 * ratio);
+}
+
+TEST(TwoViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
+  Beginning b(drive(), Scale::kFromMap);
+  (void)b.add(0);
+  const Initialization waits = b.add(1);
+  EXPECT_EQ(waits.state, TrackingState::kWaiting);
+  EXPECT_EQ(waits.reason, "nothing gives the map's unit");
+  EXPECT_TRUE(b.map.empty());
+  const SE3 T_known = b.T_odom_start * pose({0, 0, 0}, {0, 0, 4});
+  ASSERT_EQ(b.add(2, T_known).state, TrackingState::kTracking);
+  // The bundle adjustment leaves the length where it begins, but for what its priors pull.
+  EXPECT_NEAR(b.motion().translation().norm(), 4, 0.2);
+}
+
+TEST(TwoViewInitializer, ARotationIsNoBeginningButItsFramesArePosed) {
+  Beginning b(turn());
+  (void)b.add(0);
+  for (int i = 1; i <= kStands; ++i) {
+    const Initialization waits = b.add(i);
+    ASSERT_EQ(waits.state, TrackingState::kWaiting) << i;
+    ASSERT_TRUE(waits.rotation) << i;
+    const SO3 truth = rotates_first(0).rotation().inverse() * rotates_first(i).rotation();
+    EXPECT_LT((waits.rotation->R_before_cam.inverse() * truth).log().norm(), 0.003) << i;
+  }
+  Initialization begun;
+  int i = kStands + 1;
+  for (; i < kStands + 7 && begun.state != TrackingState::kTracking; ++i) begun = b.add(i);
+  ASSERT_EQ(begun.state, TrackingState::kTracking);
+  std::map<std::int64_t, SE3> posed;  // later ones are better
+  for (const PosedFrame& frame : begun.posed) posed[frame.first] = frame.second;
+  for (int k = 1; k <= kStands; ++k) {
+    ASSERT_TRUE(posed.contains(k)) << k;
+    const SO3 truth = rotates_first(0).rotation().inverse() * rotates_first(k).rotation();
+    const SE3 found = b.T_odom_start.inverse() * posed[k];
+    EXPECT_LT((found.rotation().inverse() * truth).log().norm(), 0.005) << k;
+    EXPECT_LT(found.translation().norm(), 0.05 * b.motion().translation().norm()) << k;
+  }
+}
+
+TEST(TwoViewInitializer, AnotherFrameTakesThePlaceOfAReferenceThatIsOutOfView) {
+  Beginning b(drive());
+  (void)b.add(0);
+  const Initialization dark = b.add_dark(1);
+  EXPECT_EQ(dark.state, TrackingState::kWaiting);
+  EXPECT_FALSE(dark.is_reference);  // a dark frame is nothing to begin with either
+  EXPECT_FALSE(b.initializer.started());
+  const Initialization anew = b.add(2);
+  EXPECT_TRUE(anew.is_reference);
+  EXPECT_LT(distance_m(anew.T_odom_reference, b.T_odom_start), 1e-12);
+  ASSERT_EQ(b.add(3).state, TrackingState::kTracking);
+  EXPECT_TRUE(b.map.pose(0).translation().isApprox(b.T_odom_start.translation(), 1e-9));
+}
+
+TEST(TwoViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
+  Beginning b(drive(), Scale::kFromMap);
+  (void)b.add(0);
+  const Initialization lost = b.add_dark(1);
+  EXPECT_EQ(lost.state, TrackingState::kLost);
+  EXPECT_NE(lost.reason.find("points of the first view are left"), std::string::npos);
+  EXPECT_TRUE(b.map.empty());
+}
+
+TEST(TwoViewInitializer, ARestartForgetsTheViewsAndMovesTheStart) {
+  Beginning b(drive());
+  (void)b.add(0);
+  const SE3 T_other = pose({0, 0, 0}, {-7, 0, 0});
+  b.initializer.restart(T_other);
+  b.tracker.reset();
+  EXPECT_FALSE(b.initializer.started());
+  const Initialization first = b.add(1);
+  EXPECT_TRUE(first.is_reference);
+  EXPECT_LT(distance_m(first.T_odom_reference, T_other), 1e-12);
+}
+
+}  // namespace
+}  // namespace placegraph
