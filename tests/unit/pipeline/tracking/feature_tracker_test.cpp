@@ -127,7 +127,7 @@ TEST(FeatureTracker, FramesSinceTheLastKeyframeArePosedOnceMore) {
 }
 
 TEST(FeatureTracker, AKeyframeIsDueWhereTheImageHasMoved) {
-  Tracking t(Sensor::kStereo, "points", 0.03);
+  Tracking t(Sensor::kStereo, "points", 0.01);
   (void)t.keyframe(0, street_T_world_cam(0));
   TrackedFrame tracked;
   int i = 1;
