@@ -1,0 +1,208 @@
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/odometry/line_view_initializer.h>
+
+#include "tests/support/scenes/boards.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+constexpr int kFrames = 16;
+
+SE3 way(int i) { return pose({0, 0.01 * i, 0}, {-0.08 * i, -0.04 * i, 0.1 * i}); }
+
+const std::vector<Frame>& drive() {
+  static const std::vector<Frame> frames = boards_frames(kFrames, way);
+  return frames;
+}
+
+struct Beginning {
+  StageTimes times;
+  Calibration calibration;
+  OdometryOptions options;
+  FeatureTracker tracker;
+  LocalMapping mapping;
+  LocalMap map;
+  LineViewInitializer initializer;
+  SE3 T_odom_start = pose({0, 0.3, 0}, {2, 0, 1});
+
+  explicit Beginning(Scale scale = Scale::kArbitrary, std::optional<double> height_m = {})
+      : calibration(of_boards(height_m)),
+        options(by_lines()),
+        tracker(options, calibration, 1, {}, times),
+        mapping(options, calibration, 1, {}, times),
+        map(options.window, calibration.camera, scale),
+        initializer(options, calibration, 1, tracker, {}) {
+    initializer.restart(T_odom_start);
+  }
+  static Calibration of_boards(std::optional<double> height_m) {
+    Calibration calibration;
+    calibration.camera = boards_camera();
+    calibration.camera_height_m = height_m;
+    return calibration;
+  }
+  static OdometryOptions by_lines() {
+    OdometryOptions options;
+    options.cues = "lines";
+    return options;
+  }
+  Initialization add(int i, const std::optional<SE3>& T_odom_cam_known = {}) {
+    return initializer.add(drive()[static_cast<std::size_t>(i)], T_odom_cam_known, map, mapping);
+  }
+  Initialization add_dark(int i) {
+    Frame frame = drive()[static_cast<std::size_t>(i)];
+    frame.image = Image(frame.image.size(), CV_8UC1, cv::Scalar(0));
+    return initializer.add(frame, {}, map, mapping);
+  }
+  /// Frames from `first` on until the map begins; the last one's number in `last`.
+  Initialization begin(int first, int* last = nullptr) {
+    Initialization begun;
+    for (int i = first; i < kFrames && begun.state != TrackingState::kTracking; ++i) {
+      begun = add(i);
+      if (last) *last = i;
+    }
+    return begun;
+  }
+};
+
+TEST(LineViewInitializer, TheFirstFrameIsTheReference) {
+  Beginning b;
+  EXPECT_FALSE(b.initializer.started());
+  const Initialization first = b.add(0);
+  EXPECT_EQ(first.state, TrackingState::kWaiting);
+  EXPECT_TRUE(first.is_reference);
+  EXPECT_LT((first.T_odom_reference.inverse() * b.T_odom_start).log().norm(), 1e-12);
+  EXPECT_TRUE(b.initializer.started());
+  EXPECT_TRUE(b.map.empty());
+}
+
+TEST(LineViewInitializer, AnEmptyFrameIsNothingToBeginWith) {
+  Beginning b;
+  const Initialization dark = b.add_dark(0);
+  EXPECT_EQ(dark.state, TrackingState::kWaiting);
+  EXPECT_FALSE(dark.is_reference);
+  EXPECT_NE(dark.reason.find("lines to follow"), std::string::npos);
+  EXPECT_FALSE(b.initializer.started());
+  EXPECT_TRUE(b.add(1).is_reference);
+}
+
+TEST(LineViewInitializer, SeveralViewsOfLinesBeginAMap) {
+  Beginning b;
+  int last = 0;
+  const Initialization begun = b.begin(0, &last);
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  EXPECT_GE(last, 7);  // eight views are the fewest
+  ASSERT_GE(begun.keyframes.size(), 3u);
+  EXPECT_EQ(begun.keyframes.front().frame.id, 0);
+  EXPECT_EQ(begun.keyframes.back().frame.id, last);
+  EXPECT_LT(distance_m(b.map.pose(0), b.T_odom_start), 1e-6);
+  EXPECT_GE(begun.inliers, 9);
+  EXPECT_FALSE(b.initializer.started());
+  // Every frame is posed: as a keyframe, or between keyframes; up to the scale as it was driven.
+  std::map<std::int64_t, SE3> posed(begun.posed.begin(), begun.posed.end());
+  for (const NewKeyframe& keyframe : begun.keyframes)
+    posed[keyframe.frame.id] = b.map.window().pose(keyframe.id);
+  ASSERT_EQ(posed.size(), static_cast<std::size_t>(last + 1));
+  const double scale =
+      (posed[last].translation() - posed[0].translation()).norm() / distance_m(way(last), way(0));
+  for (int i = 1; i <= last; ++i) {
+    const SE3 found = posed[0].inverse() * posed[i], truth = way(0).inverse() * way(i);
+    EXPECT_LT(angle_rad(found, truth), 0.01) << i;
+    // A tenth of the way: lines along it tell little of how far it goes.
+    EXPECT_LT((found.translation() / scale - truth.translation()).norm(),
+              0.1 * distance_m(way(last), way(0)))
+        << i;
+  }
+}
+
+TEST(LineViewInitializer, TheVelocityIsTheMotionOverOneFrame) {
+  Beginning b;
+  const Initialization begun = b.begin(0);
+  ASSERT_EQ(begun.state, TrackingState::kTracking);
+  ASSERT_TRUE(begun.T_last_cur);
+  const auto last = begun.keyframes.back(), before = begun.keyframes[begun.keyframes.size() - 2];
+  SE3 T_before_last;
+  for (std::int64_t i = before.frame.id; i < last.frame.id; ++i)
+    T_before_last = T_before_last * *begun.T_last_cur;
+  const SE3 truth = b.map.window().pose(before.id).inverse() * b.map.window().pose(last.id);
+  EXPECT_LT((T_before_last.inverse() * truth).log().norm(), 1e-6);
+}
+
+TEST(LineViewInitializer, AnArbitraryMapSeesLinesAtTheUnknownDepth) {
+  Beginning b;
+  ASSERT_EQ(b.begin(0).state, TrackingState::kTracking);
+  EXPECT_NEAR(b.map.median_depth(), LocalMap::kUnknownDepth, 0.4 * LocalMap::kUnknownDepth);
+  EXPECT_FALSE(b.map.metric());
+}
+
+TEST(LineViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
+  Beginning b(Scale::kFromMap);
+  Initialization waits;
+  int i = 0;
+  for (; i < kFrames && waits.reason != "nothing gives the map's unit"; ++i) {
+    waits = b.add(i);
+    ASSERT_NE(waits.state, TrackingState::kTracking) << i;
+  }
+  ASSERT_LT(i, kFrames);
+  constexpr double kUnit = 3;  // of the map, where the drive is one of metres
+  Initialization begun;
+  for (; i < kFrames && begun.state != TrackingState::kTracking; ++i)
+    begun = b.add(i, b.T_odom_start * (way(0).inverse() * way(i)).scaled(kUnit));
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  const double length = distance_m(b.map.pose(b.map.newest()), b.T_odom_start);
+  EXPECT_NEAR(length / distance_m(way(i - 1), way(0)), kUnit, 0.05 * kUnit);
+}
+
+TEST(LineViewInitializer, AFrameWithoutTheLinesOfTheFirstViewTakesItsPlace) {
+  Beginning b;
+  (void)b.add(0);
+  (void)b.add(1);
+  const Initialization dark = b.add_dark(2);
+  EXPECT_EQ(dark.state, TrackingState::kWaiting);
+  EXPECT_FALSE(dark.is_reference);  // it shows nothing itself
+  EXPECT_FALSE(b.initializer.started());
+  const Initialization anew = b.add(3);
+  EXPECT_TRUE(anew.is_reference);
+  EXPECT_LT(distance_m(anew.T_odom_reference, b.T_odom_start), 1e-12);
+}
+
+TEST(LineViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
+  Beginning b(Scale::kFromMap);
+  (void)b.add(0);
+  (void)b.add(1);
+  const Initialization lost = b.add_dark(2);
+  EXPECT_EQ(lost.state, TrackingState::kLost);
+  EXPECT_FALSE(lost.reason.empty());
+  EXPECT_TRUE(b.map.empty());
+}
+
+TEST(LineViewInitializer, ACameraThatStandsWaitsAndLeavesTheMapEmpty) {
+  Beginning b;
+  Frame still = drive()[0];
+  Initialization waits;
+  for (int i = 0; i < 12; ++i) {
+    still.id = i;
+    waits = b.initializer.add(still, {}, b.map, b.mapping);
+    ASSERT_EQ(waits.state, TrackingState::kWaiting);
+  }
+  EXPECT_FALSE(waits.reason.empty());
+  EXPECT_TRUE(b.map.empty());
+  EXPECT_TRUE(b.map.window().lines().empty());
+  EXPECT_EQ(b.map.median_depth(), LocalMap::kUnknownDepth);
+}
+
+TEST(LineViewInitializer, ARestartForgetsTheViewsAndMovesTheStart) {
+  Beginning b;
+  (void)b.add(0);
+  const SE3 T_other = pose({0, 0, 0}, {-7, 0, 0});
+  b.initializer.restart(T_other);
+  b.tracker.reset();
+  EXPECT_FALSE(b.initializer.started());
+  const Initialization first = b.add(1);
+  EXPECT_TRUE(first.is_reference);
+  EXPECT_LT(distance_m(first.T_odom_reference, T_other), 1e-12);
+}
+
+}  // namespace
+}  // namespace placegraph
