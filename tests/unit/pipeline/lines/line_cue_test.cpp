@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/lines/line_cue.h>
 
+#include "tests/support/scenes/boards.h"
 #include "tests/unit/pipeline/lines/line_scene.h"
 
 namespace placegraph {
@@ -65,6 +67,157 @@ TEST(LineCue, OnlyASecondEyeThatIsThereCanBeRevised) {
   EXPECT_THROW(pair.window.revise_second_eye(0, 99, eye), ArgumentError);
   EXPECT_THROW(pair.window.revise_second_eye(0, 0, {{0, 0, 0}, {1, 2}, {1, 9}, 0.2}),
                ArgumentError);
+}
+
+constexpr double kBoardsBaseline_m = 0.5;
+
+SE3 boards_way(int i) { return test::pose({0, 0.004 * i, 0}, {0.05 * i, -0.03 * i, 0.1 * i}); }
+
+const std::vector<Frame>& boards_drive() {
+  static const std::vector<Frame> frames = test::boards_frames(5, boards_way, kBoardsBaseline_m);
+  return frames;
+}
+
+/// A camera on its way through a corridor of boards.
+struct Corridor {
+  Calibration calibration;
+  LineCue cue;
+  SlidingWindow window;
+  Random random{1};
+
+  explicit Corridor(bool stereo = true)
+      : calibration(of_boards(stereo)), cue({}, calibration, {}), window({}, calibration.camera) {}
+  static Calibration of_boards(bool stereo) {
+    Calibration calibration;
+    calibration.camera = test::boards_camera();
+    if (stereo) calibration.baseline_m = kBoardsBaseline_m;
+    return calibration;
+  }
+  static const Frame& frame(int i) { return boards_drive()[static_cast<std::size_t>(i)]; }
+  void keyframe(int i) {
+    window.add_keyframe(i, boards_way(i));
+    if (i > 0) {
+      cue.track(frame(i).image, window, boards_way(i), 5);
+      cue.accept(window, boards_way(i));
+    }
+    cue.observe(i, frame(i), {}, 5, window);
+  }
+  /// By what angle the lines of the window miss the nearest axis of the corridor; their median.
+  double off_the_axes_rad() const {
+    std::vector<double> off;
+    for (const std::int64_t id : window.lines())
+      off.push_back(std::acos(std::min(1.0, window.line(id)->direction().cwiseAbs().maxCoeff())));
+    return median_of(off);
+  }
+};
+
+TEST(LineCue, DisparitiesPlaceLinesWithTheFirstKeyframe) {
+  Corridor c;
+  c.keyframe(0);
+  ASSERT_GT(c.window.lines().size(), 15u);
+  EXPECT_LT(c.off_the_axes_rad(), 0.02);
+  for (const double depth : c.cue.depths(c.window)) {
+    EXPECT_GT(depth, 1);
+    EXPECT_LT(depth, 13);
+  }
+  EXPECT_EQ(c.cue.placed(c.window).size(), c.cue.depths(c.window).size());
+  EXPECT_EQ(c.cue.followed(c.window), static_cast<int>(c.window.lines().size()));
+}
+
+TEST(LineCue, MotionPlacesTheLinesOfASingleCamera) {
+  Corridor c(false);
+  c.keyframe(0);
+  EXPECT_TRUE(c.window.lines().empty());  // one view of a line shows no depth
+  for (int i = 1; i < 5; ++i) c.keyframe(i);
+  ASSERT_GT(c.window.lines().size(), 8u);
+  EXPECT_LT(c.off_the_axes_rad(), 0.05);
+  // What was seen before a line was placed counts, too.
+  for (const std::int64_t id : c.window.lines())
+    EXPECT_GE(c.window.line_observations(id).size(), 2u);
+}
+
+TEST(LineCue, PosesAFrameByTheLinesThatItFollows) {
+  Corridor c;
+  c.keyframe(0);
+  c.cue.track(Corridor::frame(1).image, c.window, boards_way(0), 5);
+  const PoseGuess guess{boards_way(0), Matrix6d::Identity()};
+  const PoseFromLines found = c.cue.pose(c.window, guess, c.random);
+  ASSERT_TRUE(found.outcome) << found.outcome.reason;
+  EXPECT_LT((found.T_ref_cam.inverse() * boards_way(1)).log().norm(), 0.02);
+}
+
+TEST(LineCue, LinesThatContradictThePoseAreNoLongerFollowed) {
+  Corridor right, wrong;
+  for (Corridor* c : {&right, &wrong}) {
+    c->keyframe(0);
+    c->cue.track(Corridor::frame(1).image, c->window, boards_way(1), 5);
+  }
+  right.cue.accept(right.window, boards_way(1));
+  wrong.cue.accept(wrong.window, boards_way(1) * test::pose({0, 0.1, 0}, {0, 0, 0}));
+  EXPECT_GT(right.cue.followed(right.window), 10);
+  EXPECT_LT(wrong.cue.followed(wrong.window), right.cue.followed(right.window) / 2);
+}
+
+TEST(LineCue, LinesThatTheNewestKeyframeContradictsAreDropped) {
+  Corridor c;
+  c.keyframe(0);
+  const std::size_t all = c.window.lines().size();
+  c.cue.prune(c.window);
+  EXPECT_EQ(c.window.lines().size(), all);
+  const std::int64_t moved = c.window.lines().front();
+  const Line3 line = *c.window.line(moved);
+  c.window.remove_line(moved);
+  c.window.add_line(moved, Line3::from_direction(line.nearest_point() + Eigen::Vector3d(1, 1, 1),
+                                                 line.direction()));
+  c.window.add_line_observation({0, moved, {100, 100}, {100, 200}, 0.2, {}});
+  c.cue.prune(c.window);
+  EXPECT_FALSE(c.window.line(moved));
+  EXPECT_EQ(c.window.lines().size(), all - 1);
+}
+
+TEST(LineCue, TellsHowFarLinesHaveMovedSinceTheKeyframe) {
+  Corridor c;
+  c.keyframe(0);
+  for (const double px : c.cue.flow_px()) EXPECT_LT(px, 1e-9);
+  c.cue.track(Corridor::frame(2).image, c.window, boards_way(2), 5);
+  const std::vector<double> flow = c.cue.flow_px();
+  ASSERT_GT(flow.size(), 10u);
+  // A decimetre sideways at five metres is seven pixels.
+  EXPECT_GT(median_of(flow), 1);
+  EXPECT_LT(median_of(flow), 20);
+}
+
+TEST(LineCue, ItsViewShowsWhereLinesOfTheWindowAreProjected) {
+  Corridor c;
+  c.keyframe(0);
+  int judged = 0;
+  for (const FrameView::Line& line : c.cue.view(c.window, boards_way(0)))
+    if (line.off_px) {
+      ++judged;
+      EXPECT_LT(*line.off_px, 1);
+    }
+  EXPECT_EQ(judged, c.cue.followed(c.window));
+  // Features carry the line in the camera: it lies at the depth that it is seen at.
+  const SE3 T_other = test::pose({0, 0.5, 0}, {3, 0, 0});
+  const auto here = c.cue.features(c.window, boards_way(0)),
+             there = c.cue.features(c.window, T_other);
+  ASSERT_EQ(here.size(), there.size());
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    ASSERT_EQ(here[i].line_cam.has_value(), there[i].line_cam.has_value());
+    if (!here[i].line_cam) continue;
+    const Eigen::Vector3d in_world = T_other.rotation() * there[i].line_cam->direction();
+    EXPECT_LT(in_world.cross(here[i].line_cam->direction()).norm(), 1e-9);
+  }
+}
+
+TEST(LineCue, AResetForgetsEverything) {
+  Corridor c;
+  c.keyframe(0);
+  c.cue.reset();
+  EXPECT_TRUE(c.cue.seen().empty());
+  EXPECT_EQ(c.cue.followed(c.window), 0);
+  EXPECT_TRUE(c.cue.flow_px().empty());
+  EXPECT_TRUE(c.cue.placed(c.window).empty());
 }
 
 }  // namespace
