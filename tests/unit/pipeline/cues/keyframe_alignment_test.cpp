@@ -71,6 +71,16 @@ TEST(KeyframeAlignment, ASegmentBeginsWithoutMotion) {
             (std::vector{keyframe_variable(1), keyframe_variable(2)}));
 }
 
+TEST(KeyframeAlignment, WhatWasAlignedBeforeANewSegmentIsNotShownOn) {
+  Alignment a;
+  a.add(0, SE3(), std::nullopt, Sensor::kStereo);
+  a.add(1, true_step(), 0, Sensor::kStereo);
+  ASSERT_FALSE(a.alignment.view().empty());
+  a.add(2, street_T_world_cam(0).inverse() * street_T_world_cam(2), std::nullopt, Sensor::kStereo);
+  EXPECT_TRUE(a.alignment.view().empty());
+  EXPECT_EQ(a.window.factors().size(), 1u);
+}
+
 TEST(KeyframeAlignment, AResetForgetsTheReference) {
   Alignment a;
   a.add(0, SE3(), std::nullopt, Sensor::kStereo);

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 
+#include "tests/support/scenes/boards.h"
 #include "tests/support/scenes/corridor_view.h"
 
 namespace placegraph {
@@ -69,6 +71,169 @@ TEST(ManhattanCueGround, IsForgottenWithItsKeyframe) {
   keyframe.see(keyframe.corridor.segments);
   keyframe.cue.reset();
   EXPECT_TRUE(keyframe.cue.ground(keyframe.lane(2)).mask.empty());
+}
+
+SE3 boards_way(int k) { return test::pose({0.01, 0.02 * k, 0}, {0.05 * k, -0.02 * k, 0.15 * k}); }
+const Image& boards_view(int k) {
+  static const std::vector<Frame> frames = test::boards_frames(5, boards_way);
+  return frames[static_cast<std::size_t>(k)].image;
+}
+constexpr int kBegins = 3;  // views that a Manhattan frame begins with
+
+/// Keyframes on a way through a corridor of boards, whose edges run along three axes.
+struct Walk {
+  SlidingWindow window{SlidingWindowOptions{}, test::boards_camera()};
+  ManhattanCue cue{{}, test::boards_camera(), 1, {}};
+
+  explicit Walk(int keyframes) {
+    for (int k = 0; k < keyframes; ++k) see(k);
+  }
+  void see(int k) {
+    window.add_keyframe(k, boards_way(k));
+    cue.observe(k, boards_view(k), std::nullopt, window);
+    if (k > 0) {
+      const SE3 T = boards_way(k - 1).inverse() * boards_way(k);
+      add_motion(window, {k - 1, k, T, 1e6 * Matrix6d::Identity()});
+      EXPECT_TRUE(window.optimize().outcome);
+    }
+    cue.settle(window);
+  }
+  std::optional<ManhattanCue::Heading> heading(int frame, const SO3& R_odom_cam) const {
+    return cue.heading(boards_view(frame), R_odom_cam, window, window.keyframes().back());
+  }
+};
+
+TEST(ManhattanCue, EdgesOfSeveralKeyframesBeginAManhattanFrame) {
+  Walk walk(1);
+  EXPECT_TRUE(walk.window.worlds().empty());
+  for (int k = 1; k < kBegins; ++k) walk.see(k);
+  ASSERT_FALSE(walk.window.worlds().empty());
+  const SO3 R = *walk.window.world(walk.window.worlds().back());
+  // The corridor's axes are those of the odometry, up to their names.
+  EXPECT_LT((R.matrix() - R.matrix().array().round().matrix()).norm(), 0.02);
+  int along[3] = {0, 0, 0};
+  for (const FrameView::DirectedLine& line : walk.cue.view())
+    if (line.axis >= 0) ++along[line.axis];
+  EXPECT_GE(std::min({along[0] + along[1], along[1] + along[2], along[0] + along[2]}), 10);
+}
+
+TEST(ManhattanCue, AFrameIsTurnedToWhereItsEdgesPoint) {
+  const Walk walk(4);
+  const SO3 truth = boards_way(4).rotation();
+  for (const Eigen::Vector3d& off : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.005, -0.01, 0)}) {
+    const auto heading = walk.heading(4, truth * SO3::exp(off));
+    ASSERT_TRUE(heading);
+    const SO3 R_odom_cam = *walk.window.world(heading->world) * heading->R_cam_world.inverse();
+    EXPECT_LT((R_odom_cam.inverse() * truth).log().norm(), deg_to_rad(0.3));
+    // A deviation between a hundredth of a degree and one degree about each axis.
+    const Eigen::Vector3d sigma = heading->information.inverse().diagonal().cwiseSqrt();
+    EXPECT_GT(sigma.minCoeff(), deg_to_rad(0.01));
+    EXPECT_LT(sigma.maxCoeff(), deg_to_rad(1));
+  }
+}
+
+TEST(ManhattanCue, WithoutAManhattanFrameThereIsNoHeading) {
+  EXPECT_FALSE(Walk(1).heading(1, boards_way(1).rotation()));
+  Walk walk(4);
+  // So far from where it is expected it is no sighting of it.
+  EXPECT_FALSE(walk.heading(4, boards_way(4).rotation() * SO3::exp({0.2, 0, 0.3})));
+  walk.cue.reset();
+  EXPECT_FALSE(walk.heading(4, boards_way(4).rotation()));
+  EXPECT_TRUE(walk.cue.view().empty());
+}
+
+TEST(ManhattanCue, WideImagesAreHalvedAndTheirEdgesAreNot) {
+  ManhattanCueOptions options;
+  options.max_width_px = 300;
+  ManhattanCue halved(options, test::boards_camera(), 1, {});
+  SlidingWindow window({}, test::boards_camera());
+  window.add_keyframe(0, boards_way(0));
+  halved.observe(0, boards_view(0), std::nullopt, window);
+  const Walk whole(1);
+  // Most edges of the halved image lie on one of the whole image.
+  int found = 0;
+  for (const FrameView::DirectedLine& line : halved.view())
+    for (const FrameView::DirectedLine& other : whole.cue.view()) {
+      const bool parallel =
+          std::abs(line.segment.direction().dot(other.segment.direction())) > 0.999;
+      if (parallel && std::abs(other.segment.offset_of(line.segment.middle())) < 0.5) {
+        ++found;
+        break;
+      }
+    }
+  ASSERT_GT(halved.view().size(), 20u);
+  EXPECT_GT(found, 0.7 * static_cast<double>(halved.view().size()));
+}
+
+TEST(ManhattanCue, RefusesFaultyOptions) {
+  ManhattanCueOptions options;
+  options.max_sigma_deg = 0;
+  EXPECT_THROW(ManhattanCue(options, test::boards_camera(), 1, {}), ArgumentError);
+}
+
+/// A pose and a heading that disagrees with it by `off` in the camera's axes.
+struct Turned {
+  SlidingWindow window{SlidingWindowOptions{}, test::boards_camera()};
+  SE3 T_odom_cam = test::pose({0.1, 0.4, -0.2}, {1, 2, 3});
+  ManhattanCue::Heading heading;
+
+  explicit Turned(const Eigen::Vector3d& off, double information) {
+    window.add_keyframe(0, SE3());
+    const SO3 R_odom_world = SO3::exp({0, 0.3, 0});
+    window.add_world(7, R_odom_world);
+    heading.world = 7;
+    heading.R_cam_world = (T_odom_cam.rotation() * SO3::exp(off)).inverse() * R_odom_world;
+    heading.information = information * Eigen::Matrix3d::Identity();
+  }
+};
+
+TEST(WithHeading, APoseGoesAsFarAsItsInformationLetsIt) {
+  const Eigen::Vector3d off(0.01, -0.02, 0.005);
+  const Turned turned(off, 300);
+  const SE3 T =
+      with_heading(turned.T_odom_cam, 100 * Matrix6d::Identity(), turned.heading, turned.window);
+  // Three parts of four towards the heading; the position has no reason to move.
+  const Eigen::Vector3d step = (turned.T_odom_cam.rotation().inverse() * T.rotation()).log();
+  EXPECT_LT((step - 0.75 * off).norm(), 1e-4);
+  EXPECT_LT((T.translation() - turned.T_odom_cam.translation()).norm(), 1e-9);
+}
+
+TEST(WithHeading, ThePositionFollowsTheRotation) {
+  const Turned turned({0, 0.01, 0}, 1e9);
+  // x and the turn about y are known as their sum alone: what one gains the other loses.
+  Matrix6d information = 1e-3 * Matrix6d::Identity();
+  Vector6d sum = Vector6d::Zero();
+  sum[0] = 1, sum[4] = 2;
+  information += 100 * sum * sum.transpose();
+  const SE3 T = with_heading(turned.T_odom_cam, information, turned.heading, turned.window);
+  const Eigen::Vector3d moved =
+      turned.T_odom_cam.rotation().inverse() * (T.translation() - turned.T_odom_cam.translation());
+  EXPECT_NEAR(moved.x(), -0.02, 1e-4);
+}
+
+TEST(WithHeading, HeadingsKnownAboutOneAxisTurnAboutThatAlone) {
+  const Eigen::Vector3d off(0.01, 0.01, 0.01);
+  Turned turned(off, 0);
+  // In the Manhattan frame's axes; the camera's y is what it knows.
+  const Eigen::Vector3d y = turned.heading.R_cam_world.inverse() * Eigen::Vector3d::UnitY();
+  turned.heading.information = 1e9 * y * y.transpose();
+  const SE3 T =
+      with_heading(turned.T_odom_cam, Matrix6d::Identity(), turned.heading, turned.window);
+  const Eigen::Vector3d step = (turned.T_odom_cam.rotation().inverse() * T.rotation()).log();
+  EXPECT_LT((step - Eigen::Vector3d(0, 0.01, 0)).norm(), 2e-4);
+}
+
+TEST(WithHeading, WithoutAHeadingOrItsManhattanFrameAPoseStays) {
+  Turned turned({0, 0.1, 0}, 1e6);
+  const Matrix6d information = Matrix6d::Identity();
+  const auto moved = [&](const std::optional<ManhattanCue::Heading>& heading) {
+    const SE3 T = with_heading(turned.T_odom_cam, information, heading, turned.window);
+    return (turned.T_odom_cam.inverse() * T).log().norm();
+  };
+  EXPECT_GT(moved(turned.heading), 0.05);
+  EXPECT_EQ(moved(std::nullopt), 0);
+  turned.heading.world = 8;
+  EXPECT_EQ(moved(turned.heading), 0);
 }
 
 }  // namespace

@@ -145,7 +145,7 @@ TEST(SceneEdges, OfAWideImageAreThoseOfAHalvedOneWithItsCamera) {
   for (const LineSegment& segment : segments) {
     // The ray of the edge is the same in both.
     const double x = (segment.middle().x() - halved.cx) / halved.fx;
-    EXPECT_NEAR(x, (499.5 - camera.cx) / camera.fx, 0.3 / halved.fx);
+    EXPECT_NEAR(x, (499.5 - camera.cx) / camera.fx, 0.1 / halved.fx);
   }
 }
 
