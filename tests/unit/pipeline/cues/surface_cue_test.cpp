@@ -82,5 +82,127 @@ TEST(SurfaceCue, WithoutASurfaceThereIsNoReferenceAndNoMotion) {
   EXPECT_EQ(cue.align({SE3()}).outcome.code, Code::kTooFewData);
 }
 
+TEST(SurfaceCue, ASingleCameraOfKnownHeightAlignsByTheGround) {
+  Random random(1);
+  Calibration calibration = street_frames().calibration(Sensor::kMono);
+  calibration.camera_height_m = kStreetHeight_m;
+  SurfaceCue cue({}, calibration, {}, false);
+  cue.see(street_frames().frame(0, Sensor::kMono));
+  ASSERT_TRUE(cue.become_reference(SE3(), {}, {}, random));
+  cue.see(street_frames().frame(1, Sensor::kMono));
+  const DirectMotion motion = cue.align({SE3(SO3(), Eigen::Vector3d(0, 0, 0.3))});
+  ASSERT_TRUE(motion.outcome) << motion.outcome.reason;
+  EXPECT_LT((true_step().inverse() * motion.T_ref_cur).log().norm(), 0.03);
+  // Twice as high, the same images are those of twice the way.
+  calibration.camera_height_m = 2 * kStreetHeight_m;
+  SurfaceCue higher({}, calibration, {}, false);
+  higher.see(street_frames().frame(0, Sensor::kMono));
+  ASSERT_TRUE(higher.become_reference(SE3(), {}, {}, random));
+  higher.see(street_frames().frame(1, Sensor::kMono));
+  const DirectMotion longer = higher.align({SE3(SO3(), Eigen::Vector3d(0, 0, 0.6))});
+  ASSERT_TRUE(longer.outcome);
+  EXPECT_NEAR(longer.T_ref_cur.translation().norm() / motion.T_ref_cur.translation().norm(), 2,
+              0.01);
+}
+
+TEST(SurfaceCue, ASingleCameraLearnsHowItIsMounted) {
+  // It looks up by two degrees, which nothing has told it.
+  const double pitch_rad = 0.035;
+  const StreetDataset tilted(2, 0, 0, false, [&](int i) {
+    return street_T_world_cam(i) * pose({pitch_rad, 0, 0}, {0, 0, 0});
+  });
+  Calibration calibration = tilted.calibration(Sensor::kMono);
+  calibration.camera_height_m = kStreetHeight_m;
+  SurfaceCue cue({}, calibration, {}, false);
+  Random random(1);
+  // With a wrong normal of the ground the motion is off; each alignment tells more of the normal.
+  std::vector<double> off;
+  const SE3 truth = pose({pitch_rad, 0, 0}, {0, 0, 0}).inverse() * true_step() *
+                    pose({pitch_rad, 0, 0}, {0, 0, 0});
+  for (int round = 0; round < 4; ++round) {
+    cue.see(tilted.frame(0, Sensor::kMono));
+    ASSERT_TRUE(cue.become_reference(SE3(), {}, {}, random));
+    cue.see(tilted.frame(1, Sensor::kMono));
+    const DirectMotion motion = cue.align({SE3(SO3(), Eigen::Vector3d(0, 0, 0.3))});
+    ASSERT_TRUE(motion.outcome) << round << motion.outcome.reason;
+    off.push_back(std::abs(motion.T_ref_cur.translation().norm() - truth.translation().norm()));
+    cue.learn(motion);
+  }
+  EXPECT_LT(off.back(), 0.5 * off.front() + 0.002);
+}
+
+TEST(SurfaceCue, LandmarksShowASingleCameraOtherPlanes) {
+  Random random(1);
+  Calibration calibration = street_frames().calibration(Sensor::kMono);
+  calibration.camera_height_m = kStreetHeight_m;
+  SurfaceCue cue({}, calibration, {}, true);
+  cue.see(street_frames().frame(0, Sensor::kMono));
+  // Points on the wall at the end of the street, 32 m ahead.
+  std::vector<KnownPixel> landmarks;
+  const double depth = 32;
+  for (double x = -4; x <= 4; x += 0.5)
+    for (double y = -7; y < 0; y += 0.5) {
+      const Eigen::Vector3d p = street_T_world_cam(0).inverse() * Eigen::Vector3d(x, y, depth);
+      KnownPixel known;
+      known.px = street_camera().project(p)->cast<float>();
+      known.depth = {p / p.z(), 1 / p.z(), 0.03 / p.z()};
+      landmarks.push_back(known);
+    }
+  ASSERT_TRUE(cue.become_reference(SE3(), {}, landmarks, random));
+  cue.see(street_frames().frame(1, Sensor::kMono));
+  const DirectMotion motion = cue.align({SE3(SO3(), Eigen::Vector3d(0, 0, 0.3))});
+  ASSERT_TRUE(motion.outcome);
+  ASSERT_EQ(motion.planes.size(), 2u);
+  EXPECT_NEAR(1 / motion.planes[1].g_ref.norm(), depth, 0.1 * depth);
+}
+
+TEST(SurfaceCue, ASearchBeginsWhereNoGuessLeads) {
+  Random random(1);
+  SurfaceCue cue = cue_of(false);
+  cue.see(street_frames().frame(0, Sensor::kStereo));
+  ASSERT_TRUE(cue.become_reference(SE3(), {}, {}, random));
+  cue.see(street_frames().frame(1, Sensor::kStereo));
+  Vector6d sigmas;
+  sigmas << 0.1, 0.1, 0.5, 0.01, 0.02, 0.01;
+  MotionGuess guess{SE3()};
+  guess.information = sigmas.cwiseAbs2().cwiseInverse().asDiagonal();
+  const DirectMotion motion = cue.search(guess, sigmas);
+  ASSERT_TRUE(motion.outcome) << motion.outcome.reason;
+  EXPECT_LT((true_step().inverse() * motion.T_ref_cur).log().norm(), 0.05);
+}
+
+TEST(SurfaceCue, TheGroundIsOnlyWhereItsMaskAllowsIt) {
+  Random random(1);
+  Calibration calibration = street_frames().calibration(Sensor::kMono);
+  calibration.camera_height_m = kStreetHeight_m;
+  SurfaceCue cue({}, calibration, {}, false);
+  const Frame frame = street_frames().frame(0, Sensor::kMono);
+  Image left(frame.image.size(), CV_8UC1, cv::Scalar(0));
+  left.colRange(0, left.cols / 2).setTo(255);
+  cue.see(frame);
+  cue.restrict_ground(left);
+  ASSERT_TRUE(cue.become_reference(SE3(), {}, {}, random));
+  cue.see(frame);
+  const DirectMotion motion = cue.align({SE3()});
+  ASSERT_TRUE(motion.outcome) << motion.outcome.reason;
+  ASSERT_FALSE(motion.seen.empty());
+  for (const FrameView::SurfacePixel& pixel : cue.view(motion))
+    EXPECT_LT(pixel.px.x(), left.cols / 2.0 + 8);  // what lies near a pixel counts with it
+}
+
+TEST(SurfaceCue, AResetForgetsTheReference) {
+  Random random(1);
+  SurfaceCue cue = cue_of(false);
+  EXPECT_EQ(cue.median_depth_m(), 10);  // nothing is known
+  cue.see(street_frames().frame(0, Sensor::kStereo));
+  ASSERT_TRUE(cue.become_reference(SE3(), {}, {}, random));
+  EXPECT_TRUE(cue.has_reference());
+  cue.reset();
+  EXPECT_FALSE(cue.has_reference());
+  cue.see(street_frames().frame(1, Sensor::kStereo));
+  EXPECT_EQ(cue.align({SE3()}).outcome.code, Code::kTooFewData);
+  EXPECT_EQ(cue.search({SE3()}, Vector6d::Ones()).outcome.code, Code::kTooFewData);
+}
+
 }  // namespace
 }  // namespace placegraph

@@ -2,6 +2,8 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/scene/indoor_mapper.h>
 
+#include "tests/support/scenes/boards.h"
+
 namespace placegraph {
 namespace {
 
@@ -205,6 +207,105 @@ TEST(IndoorMapper, SweepsDepthForAnEyeThatHasMoved) {
   EXPECT_GT(flat, 0.8 * count);
   EXPECT_EQ(mapper.fuse(map_of({SE3()})).outcome.code, Outcome::Code::kDegenerate)
       << "a wall alone is no building, but one eye of unknown height may see one";
+}
+
+/// A depth image of a wall `ahead_m` before the camera, 0.3 m to the left of which there is none.
+Frame wall_in_depth(const Camera& camera, double ahead_m) {
+  Frame frame;
+  frame.image = Image(camera.height, camera.width, CV_8UC1, cv::Scalar(90));
+  frame.depth = Image(camera.height, camera.width, CV_32FC1, cv::Scalar(0));
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+      if (camera.unproject({u, v})->x() * ahead_m > -0.3)
+        frame.depth.at<float>(v, u) = static_cast<float>(ahead_m);
+  return frame;
+}
+
+TEST(IndoorMapper, TakesTheDepthsOfADepthCamera) {
+  const Camera camera{160, 120, 130, 130, 79.5, 59.5};
+  const SE3 T_cam_depth(SO3(), Eigen::Vector3d(0.05, 0, 0));
+  IndoorMapper mapper({}, Calibration{.camera = camera,
+                                      .baseline_m = 0,
+                                      .depth = DepthCamera{camera, T_cam_depth, 0.005},
+                                      .camera_height_m = {}});
+  mapper.add(3, wall_in_depth(camera, 2.5));
+  ASSERT_EQ(mapper.sights().size(), 1U);
+  EXPECT_EQ(mapper.sights()[0].keyframe, 3);
+  ASSERT_GT(mapper.sights()[0].points.size(), 30U);
+  float leftmost = 10;
+  for (const SurfacePoint& p : mapper.sights()[0].points) {
+    EXPECT_NEAR(p.point[2], 2.5, 1e-3);
+    leftmost = std::min(leftmost, p.point[0]);
+    if (p.normal.squaredNorm() > 0.5F) EXPECT_LT(p.normal[2], -0.99F);
+  }
+  // In the frame of the camera, not of its depth sensor.
+  EXPECT_NEAR(leftmost, -0.25, 0.1);
+  mapper.add(3, wall_in_depth(camera, 1.5));
+  ASSERT_EQ(mapper.sights().size(), 1U) << "what was told before is replaced";
+  EXPECT_NEAR(mapper.sights()[0].points[0].point[2], 1.5, 1e-3);
+}
+
+TEST(IndoorMapper, OneEyeOfKnownHeightSeesTheFloor) {
+  IndoorMapperOptions options;
+  Calibration calibration;
+  calibration.camera = test::boards_camera();
+  Frame frame;
+  frame.image = test::boards_image(SE3());
+  IndoorMapper blind(options, calibration);
+  blind.add(0, frame);
+  EXPECT_TRUE(blind.sights()[0].points.empty()) << "nothing gives lengths";
+  calibration.camera_height_m = test::kBoardsHeight_m;
+  IndoorMapper mapper(options, calibration);
+  mapper.add(0, frame);
+  ASSERT_GT(mapper.sights()[0].points.size(), 20U);
+  int floor = 0, on_floor = 0;
+  for (const SurfacePoint& p : mapper.sights()[0].points)
+    if (p.normal[1] < -0.9F) {
+      ++floor;
+      on_floor += std::abs(p.point[1] - test::kBoardsHeight_m) < 0.15;
+    }
+  ASSERT_GT(floor, 10);
+  EXPECT_GT(on_floor, 0.9 * floor);
+}
+
+TEST(IndoorMapper, AMapIsReadByItsKeyframesThatAreApart) {
+  const Camera camera{160, 120, 130, 130, 79.5, 59.5};
+  const Calibration calibration{.camera = camera,
+                                .baseline_m = 0,
+                                .depth = DepthCamera{camera, SE3(), 0.005},
+                                .camera_height_m = {}};
+  std::vector<SE3> poses;
+  for (int i = 0; i < 6; ++i) poses.push_back(SE3(SO3(), Eigen::Vector3d(0.1 * i, 0, 0)));
+  std::vector<std::int64_t> read;
+  const IndoorMap plan = map_indoors(map_of(poses), calibration, [&](const Keyframe& keyframe) {
+    read.push_back(keyframe.id);
+    return wall_in_depth(camera, 2);
+  });
+  EXPECT_EQ(read, (std::vector<std::int64_t>{0, 2, 4})) << "0.15 m apart";
+  EXPECT_EQ(plan.outcome.code, Outcome::Code::kDegenerate) << "a wall alone is no building";
+}
+
+TEST(IndoorMapper, RefusesOptionsThatCannotBe) {
+  IndoorMapperOptions options;
+  options.cell_m = 0;
+  EXPECT_THROW(IndoorMapper(options, {}), ArgumentError);
+  NearbyViewOptions views{0.5, 0.2, 20};
+  EXPECT_THROW(views.check(), ArgumentError);
+}
+
+TEST(IndoorMapper, LabelsPlacesOncePerRoom) {
+  IndoorMap plan;
+  plan.rooms.resize(2);
+  plan.rooms[0].label = "room 1", plan.rooms[0].places = {4};
+  plan.rooms[1].label = "corridor 1", plan.rooms[1].places = {4, 5};
+  PlaceGraph graph;
+  for (const std::int64_t id : {4, 5, 6}) graph.places.emplace_back().id = id;
+  graph.places[1].labels = {"kitchen"};
+  label_places(plan, graph);
+  label_places(plan, graph);
+  EXPECT_EQ(graph.places[0].labels, (std::vector<std::string>{"room 1", "corridor 1"}));
+  EXPECT_EQ(graph.places[1].labels, (std::vector<std::string>{"kitchen", "corridor 1"}));
+  EXPECT_TRUE(graph.places[2].labels.empty());
 }
 
 }  // namespace

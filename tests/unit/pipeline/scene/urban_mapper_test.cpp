@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/scene/urban_mapper.h>
 
+#include <numbers>
 #include <set>
 
 namespace placegraph {
@@ -141,6 +142,79 @@ TEST(UrbanMapper, SaysWhyThereIsNoMap) {
   EXPECT_EQ(mapper_of(0).fuse(map).outcome.reason, "two eyes are needed");
   map.metric = false;
   EXPECT_EQ(mapper_of().fuse(map).outcome.reason, "the map's unit is not the metre");
+}
+
+TEST(UrbanMapper, LaysItsCellsOutByTheVerticalThatItIsTold) {
+  UrbanMapper mapper = mapper_of();
+  mapper.add(sight_of_wall(0, SE3()));
+  // A map that stands on its head: down is -y of it.
+  const SE3 T_map_cam(SO3::exp({0, 0, std::numbers::pi}), Eigen::Vector3d::Zero());
+  const KeyframePoses poses = [&](std::int64_t) -> std::optional<SE3> { return T_map_cam; };
+  const SemanticMap as_seen = mapper.fuse(poses);
+  const SemanticMap told = mapper.fuse(poses, -Eigen::Vector3d::UnitY());
+  ASSERT_TRUE(as_seen.outcome && told.outcome);
+  EXPECT_EQ(as_seen.cells.size(), told.cells.size());
+  EXPECT_EQ(depths_of(as_seen), depths_of(told));
+}
+
+TEST(UrbanMapper, LeavesOutKeyframesWithoutAPose) {
+  UrbanMapper mapper = mapper_of();
+  mapper.add(sight_of_wall(0, SE3()));
+  mapper.add(sight_of_wall(1, SE3(SO3(), Eigen::Vector3d(0, 0, 3))));
+  const auto only_first = [](std::int64_t keyframe) {
+    return keyframe == 0 ? std::optional(SE3()) : std::nullopt;
+  };
+  EXPECT_EQ(depths_of(mapper.fuse(only_first)), std::set<int>{33});
+  const auto none = [](std::int64_t) { return std::optional<SE3>(); };
+  EXPECT_EQ(mapper.fuse(none).outcome.reason, "no keyframe of it has a pose");
+}
+
+TEST(UrbanMapper, OneEyeTellsNothing) {
+  UrbanMapper mapper = mapper_of();
+  Frame frame;
+  frame.image = Image(480, 640, CV_8UC1, cv::Scalar(90));
+  mapper.add(0, frame, SE3());  // without a right image
+  EXPECT_TRUE(mapper.sights().empty());
+}
+
+TEST(UrbanMapper, ReadsTheKeyframesOfAMapThatAreApartAndSaysHowFarItIs) {
+  std::vector<SE3> poses;
+  for (int i = 0; i < 6; ++i) poses.emplace_back(SO3(), Eigen::Vector3d(0, 0, 0.6 * i));
+  UrbanMapper mapper = mapper_of();
+  std::vector<std::int64_t> read;
+  std::vector<std::size_t> done;
+  add_keyframes(
+      mapper, map_of(poses), {},
+      [&](const Keyframe& keyframe) {
+        read.push_back(keyframe.id);
+        return Frame();
+      },
+      [&](std::size_t i, std::size_t all) {
+        done.push_back(i);
+        EXPECT_EQ(all, 3u);
+      });
+  EXPECT_EQ(read, (std::vector<std::int64_t>{0, 2, 4}));  // a metre apart
+  EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3}));
+}
+
+TEST(UrbanMapper, SharesOfClassesAreOfAllPointsOfAPlace) {
+  UrbanMapper mapper = mapper_of();
+  SemanticSight wall = sight_of_wall(0, SE3()), road = sight_of_wall(1, SE3());
+  road.shares = {0.7F, 0.3F};
+  road.points.resize(wall.points.size() / 3);
+  mapper.add(wall);
+  mapper.add(road);
+  Map map = map_of({SE3(), SE3()});
+  map.keyframes[1].place = 0;  // both are of one place
+  map.place_graph.places[0].members.push_back({1, SE3(), 1});
+  map.place_graph.places[1].members.clear();
+  const auto shares = class_shares(mapper, map);
+  ASSERT_EQ(shares.size(), 2U);
+  ASSERT_EQ(shares[0].size(), 2U);
+  // Three parts of 0.9 and one of 0.3.
+  EXPECT_NEAR(shares[0][1], 0.75, 0.01);
+  EXPECT_NEAR(shares[0][0] + shares[0][1], 1, 1e-5);
+  EXPECT_TRUE(shares[1].empty());
 }
 
 }  // namespace
