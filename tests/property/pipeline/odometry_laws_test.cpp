@@ -185,5 +185,20 @@ TEST(OdometryLaws, TheHeightOfASingleCameraGivesTheUnit) {
   }
 }
 
+TEST(OdometryLaws, SurfacesOfALargerWorldAreALongerWay) {
+  Random random = seeded_random(8);
+  Sequence sequence = drive(Way(random), Sensor::kStereo);
+  sequence.calibration.camera_height_m = kStreetHeight_m;
+  const SE3 truth = sequence.T_world_cam.front().inverse() * sequence.T_world_cam.back();
+  const SE3 as_it_is = motion(track(sequence, "plane"));
+  EXPECT_LT(distance_m(as_it_is, truth), 0.05 * truth.translation().norm());
+  for (const double s : {0.4, 2.5}) {
+    const SE3 longer = motion(track(enlarged(sequence, s), "plane"));
+    EXPECT_LT(angle_rad(as_it_is, longer), kAngleRad) << s;
+    EXPECT_LT(distance_m(as_it_is.scaled(s), longer), kShareOfWay * longer.translation().norm())
+        << s;
+  }
+}
+
 }  // namespace
 }  // namespace placegraph
