@@ -65,6 +65,18 @@ double size_of(const PlanarTemplate& planar_template) {
   return (planar_template.corners_px()[2] - planar_template.corners_px()[0]).norm();
 }
 
+/// Shortens a step from `warp` so that no corner of the template moves by more than a quarter of
+/// the template's diagonal. False if the corners do not move by a finite length.
+bool limit_step(const PlanarTemplate& planar_template, const PlanarWarp& warp,
+                PlanarWarp::Step& x) {
+  const double largest_px = 0.25 * size_of(planar_template);
+  const double moved_px =
+      (planar_template.corner_jacobian(warp) * x).reshaped(2, 4).colwise().norm().maxCoeff();
+  if (!std::isfinite(moved_px)) return false;
+  if (moved_px > largest_px) x *= largest_px / moved_px;
+  return true;
+}
+
 }  // namespace
 
 void GradientAlignmentOptions::check() const { check_ranges(*this); }
@@ -135,7 +147,6 @@ GradientAlignmentResult align_level(const PlanarTemplate& planar_template, const
   result.warp = start;
   SeenSamples seen;
   PhotometricFit fit;
-  const double largest_px = 0.25 * size_of(planar_template);
   const bool halve = options.similarity == Similarity::kMi;
   PlanarWarp before = start;
   PlanarWarp::Step x;
@@ -169,20 +180,13 @@ GradientAlignmentResult align_level(const PlanarTemplate& planar_template, const
     if (result.iterations >= options.iterations) return result;
     x = solve(accumulate(samples, seen, fit, options.similarity, gradients),
               template_generators(planar_template, result.warp), options.similarity);
-    if (x.size() == 0) {
+    if (x.size() == 0 || !limit_step(planar_template, result.warp, x)) {
       result.end = End::kSingular;
       return result;
     }
     before = result.warp;
     similarity_before = fit.similarity;
     halvings = 0;
-    const double moved_px =
-        (planar_template.corner_jacobian(before) * x).reshaped(2, 4).colwise().norm().maxCoeff();
-    if (!std::isfinite(moved_px)) {
-      result.end = End::kSingular;
-      return result;
-    }
-    if (moved_px > largest_px) x *= largest_px / moved_px;
     result.warp = before.plus(x);
     ++result.iterations;
   }

@@ -146,16 +146,39 @@ bool InterpolationFlow::sample(const Image& image, const Vector2d& centre, doubl
   return true;
 }
 
+/// Corrects the motion of a patch by one level's images until a step is shorter than `epsilon_px`;
+/// false where the patch leaves the padded image.
+bool InterpolationFlow::follow(const Patch& patch, const Image& image, const Vector2d& centre,
+                               bool rotates, double epsilon_px, PatchMotion& motion) const {
+  thread_local Eigen::VectorXf seen;
+  if (seen.size() != weights_.size()) seen.resize(weights_.size());
+  const Eigen::LDLT<Matrix4d> solver(patch.normal);
+  for (int i = 0; i < options_.iterations; ++i) {
+    // A turn so small is seen in the shape of the copies, and not worth sampling every pixel anew.
+    constexpr double kHardlyTurned = 0.01;
+    const double turn = std::abs(motion.rotation) < kHardlyTurned ? 0 : motion.rotation;
+    if (!sample(image, centre + motion.shift, turn, seen)) return false;
+    seen -= patch.grey;
+    const Vector4d b = (patch.weighted.transpose() * seen).cast<double>();
+    const float mean = weights_.dot(seen);
+    const double square = weights_.dot(seen.cwiseAbs2()) - mean * mean;
+    const Vector4d step = solver.solve(b);
+    motion.gain = 1 + step[3];
+    motion.residual = std::sqrt(std::max(0.0, square - step.dot(b)));
+    const double c = std::cos(turn), s = std::sin(turn);
+    motion.shift += Vector2d(c * step[0] - s * step[1], s * step[0] + c * step[1]);
+    if (rotates) motion.rotation = turn + step[2];
+    if (step.head<2>().norm() < epsilon_px) break;
+  }
+  return true;
+}
+
 std::optional<PatchMotion> InterpolationFlow::measure(const PaddedPyramid& from,
                                                       const PaddedPyramid& to,
                                                       const Vector2d& px) const {
   thread_local Patch patch(0);
-  thread_local Eigen::VectorXf seen;
-  if (seen.size() != weights_.size()) {
-    patch = Patch(weights_.size());
-    seen.resize(weights_.size());
-  }
-  constexpr double kCoarseEnough_px = 0.1;
+  if (patch.grey.size() != weights_.size()) patch = Patch(weights_.size());
+  constexpr double kCoarseEnough_px = 0.1;  // on coarse levels, for the next
   PatchMotion motion;
   for (int level = static_cast<int>(from.levels.size()) - 1; level >= 0; --level) {
     const double scale = std::ldexp(1.0, -level);
@@ -172,27 +195,9 @@ std::optional<PatchMotion> InterpolationFlow::measure(const PaddedPyramid& from,
       motion.shift *= 2;
       continue;
     }
-    const Eigen::LDLT<Matrix4d> solver(patch.normal);
-    const Vector2d centre(u + from.pad, v + from.pad);
-    for (int i = 0; i < options_.iterations; ++i) {
-      // A turn so small is seen in the shape of the copies, and not worth sampling every pixel
-      // anew.
-      constexpr double kHardlyTurned = 0.01;
-      const double turn = std::abs(motion.rotation) < kHardlyTurned ? 0 : motion.rotation;
-      if (!sample(to.levels[level], centre + motion.shift, turn, seen)) return std::nullopt;
-      seen -= patch.grey;
-      const Vector4d b = (patch.weighted.transpose() * seen).cast<double>();
-      const float mean = weights_.dot(seen);
-      const double square = weights_.dot(seen.cwiseAbs2()) - mean * mean;
-      const Vector4d step = solver.solve(b);
-      motion.gain = 1 + step[3];
-      motion.residual = std::sqrt(std::max(0.0, square - step.dot(b)));
-      const double c = std::cos(turn), s = std::sin(turn);
-      motion.shift += Vector2d(c * step[0] - s * step[1], s * step[0] + c * step[1]);
-      if (rotates) motion.rotation = turn + step[2];
-      // On coarse levels a tenth of a pixel is enough for the next.
-      if (step.head<2>().norm() < (level > 0 ? kCoarseEnough_px : options_.epsilon_px)) break;
-    }
+    if (!follow(patch, to.levels[level], Vector2d(u + from.pad, v + from.pad), rotates,
+                level > 0 ? kCoarseEnough_px : options_.epsilon_px, motion))
+      return std::nullopt;
     if (level > 0) motion.shift *= 2;
   }
   // Beyond what the references bracket on any level nothing can be interpolated.

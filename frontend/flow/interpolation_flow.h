@@ -61,6 +61,8 @@ class InterpolationFlow {
   void reference(const Image& image, int u, int v, bool rotates, Patch& patch) const;
   bool sample(const Image& image, const Eigen::Vector2d& centre, double rotation,
               Eigen::VectorXf& values) const;
+  bool follow(const Patch& patch, const Image& image, const Eigen::Vector2d& centre, bool rotates,
+              double epsilon_px, PatchMotion& motion) const;
 
   InterpolationFlowOptions options_;
   Eigen::VectorXf weights_;               // Psi, sum 1

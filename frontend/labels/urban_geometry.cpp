@@ -182,6 +182,51 @@ GroundProfile fit_ground(const std::vector<DepthSample>& samples,
 
 namespace {
 
+/// Disparity over the pixels of a region [px]: coefficients . (u - middle_u, v - middle_v, 1).
+struct DisparityPlane {
+  Eigen::Vector3d coefficients = Eigen::Vector3d::Zero();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< of the pixels, (u, v, 0)
+  Eigen::Matrix3d inverse;                           ///< of the normal equations' matrix
+  double sigma_px = 0;                               ///< of the disparities from the plane
+};
+
+/// Reweighted least squares (Tukey) over the samples of a region.
+DisparityPlane fit_disparity(const std::vector<const DepthSample*>& samples,
+                             const std::vector<double>& depths, double disparity_m_px,
+                             const UrbanGeometryOptions& options) {
+  DisparityPlane plane;
+  // About the middle, for the sake of the condition; inverse depth is linear on a plane.
+  for (const DepthSample* s : samples)
+    plane.middle += Eigen::Vector3d(s->u, s->v, 0) / static_cast<double>(samples.size());
+  const Eigen::Vector3d& middle = plane.middle;
+  std::vector<double> residuals(samples.size(), 0), weights(samples.size(), 1);
+  Eigen::Vector3d& s = plane.coefficients;
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  for (int round = 0; round < 4; ++round) {
+    A.setZero();
+    Eigen::Vector3d b = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Eigen::Vector3d row(static_cast<double>(samples[i]->u) - middle[0],
+                                static_cast<double>(samples[i]->v) - middle[1], 1);
+      A += weights[i] * row * row.transpose();
+      b += weights[i] * row * (disparity_m_px / depths[i]);
+    }
+    s = (A + 1e-6 * Eigen::Matrix3d::Identity()).ldlt().solve(b);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      residuals[i] =
+          std::abs(disparity_m_px / depths[i] -
+                   s.dot(Eigen::Vector3d(static_cast<double>(samples[i]->u) - middle[0],
+                                         static_cast<double>(samples[i]->v) - middle[1], 1)));
+    plane.sigma_px = std::max(options.disparity_sigma_px, 1.48 * median_of(residuals));
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const double x = residuals[i] / (3 * plane.sigma_px);
+      weights[i] = x < 1 ? std::pow(1 - x * x, 2) : 0;
+    }
+  }
+  plane.inverse = (A + 1e-6 * Eigen::Matrix3d::Identity()).inverse();
+  return plane;
+}
+
 /// One region's samples, robustly fitted.
 RegionPlace place_region(const std::vector<const DepthSample*>& samples, const Camera& camera,
                          double disparity_m_px, const GroundProfile& ground,
@@ -201,34 +246,9 @@ RegionPlace place_region(const std::vector<const DepthSample*>& samples, const C
                    heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 10),
                    heights.end());
   place.low_m = heights[heights.size() / 10];
-  // About the middle, for the sake of the condition; inverse depth is linear on a plane.
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const DepthSample* s : samples)
-    middle += Eigen::Vector3d(s->u, s->v, 0) / static_cast<double>(samples.size());
-  std::vector<double> residuals(samples.size(), 0), weights(samples.size(), 1);
-  Eigen::Vector3d s = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-  for (int round = 0; round < 4; ++round) {
-    A.setZero();
-    Eigen::Vector3d b = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      const Eigen::Vector3d row(static_cast<double>(samples[i]->u) - middle[0],
-                                static_cast<double>(samples[i]->v) - middle[1], 1);
-      A += weights[i] * row * row.transpose();
-      b += weights[i] * row * (disparity_m_px / depths[i]);
-    }
-    s = (A + 1e-6 * Eigen::Matrix3d::Identity()).ldlt().solve(b);
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      residuals[i] =
-          std::abs(disparity_m_px / depths[i] -
-                   s.dot(Eigen::Vector3d(static_cast<double>(samples[i]->u) - middle[0],
-                                         static_cast<double>(samples[i]->v) - middle[1], 1)));
-    place.disparity_sigma_px = std::max(options.disparity_sigma_px, 1.48 * median_of(residuals));
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      const double x = residuals[i] / (3 * place.disparity_sigma_px);
-      weights[i] = x < 1 ? std::pow(1 - x * x, 2) : 0;
-    }
-  }
+  const DisparityPlane fit = fit_disparity(samples, depths, disparity_m_px, options);
+  const Eigen::Vector3d &s = fit.coefficients, &middle = fit.middle;
+  place.disparity_sigma_px = fit.sigma_px;
   // disparity = a u + b v + c  =>  1/z = (a fx x + b fy y + c') / fB with x, y normalized.
   place.plane =
       Eigen::Vector3d(s[0] * camera.fx, s[1] * camera.fy,
@@ -239,9 +259,8 @@ RegionPlace place_region(const std::vector<const DepthSample*>& samples, const C
   place.upness = std::abs(place.plane.dot(ground.down)) / length;
   // Neighbouring disparities err together: of a block of the matcher's window there is one.
   constexpr double kTogether = 4;
-  const Eigen::Matrix3d inverse = (A + 1e-6 * Eigen::Matrix3d::Identity()).inverse();
   const double slope =
-      std::sqrt(kTogether * std::max(0.0, std::max(inverse(0, 0), inverse(1, 1)))) *
+      std::sqrt(kTogether * std::max(0.0, std::max(fit.inverse(0, 0), fit.inverse(1, 1)))) *
       place.disparity_sigma_px * camera.fx / disparity_m_px;
   place.upness_sigma = std::min(1.0, slope / length + 0.05);
   return place;

@@ -8,10 +8,9 @@
 #include <string>
 
 namespace placegraph {
-namespace {
 
 /// The lines of a view as evidence, and the ids of their tracks.
-struct Evidence {
+struct DirectionCompass::Evidence {
   std::vector<std::int64_t> ids;  ///< of the segments
   VanishingEvidence lines;
 
@@ -26,6 +25,8 @@ struct Evidence {
   }
   std::int64_t id(int i) const { return ids[static_cast<std::size_t>(lines.segment(i))]; }
 };
+
+namespace {
 
 /// No direction is known better than this: the edges of a family are not that parallel, and what
 /// is wrong with them is wrong in every view.
@@ -100,10 +101,11 @@ std::vector<DirectionCompass::Family> DirectionCompass::families() const {
   return families;
 }
 
-void DirectionCompass::learn(const Camera& camera, const LineView& view, const SO3& R_ref_cam,
-                             Random& random) {
-  constexpr double kJoinSigmas = 2.5, kLeaveSigmas = 5, kForget = 0.97;
-  const Evidence evidence = Evidence::of(camera, view, options_.noise);
+/// Gives every track of the view the direction that it points to; those that point to none of them
+/// and never did are returned.
+LineView DirectionCompass::assign(const Evidence& evidence, const LineView& view,
+                                  const SO3& R_ref_cam) {
+  constexpr double kJoinSigmas = 2.5, kLeaveSigmas = 5;
   std::map<std::int64_t, int> now;
   LineView left;
   for (int i = 0; i < evidence.lines.size(); ++i) {
@@ -130,18 +132,28 @@ void DirectionCompass::learn(const Camera& camera, const LineView& view, const S
     now[id] = direction;
   }
   direction_of_ = std::move(now);
-  // What is left over may point to something new.
-  if (static_cast<int>(left.size()) >= 2 * options_.min_segments) {
-    std::vector<LineSegment> segments;
-    std::vector<std::int64_t> ids;
-    for (const auto& [id, line] : left) segments.push_back(line.segment), ids.push_back(id);
-    const VanishingPoints found = find_vanishing_points(segments, camera, options_, random);
-    const int first = directions();
-    for (const VanishingPoint& point : found.points)
-      directions_.push_back({R_ref_cam * point.direction});
-    for (std::size_t i = 0; i < found.labels.size(); ++i)
-      if (found.labels[i] >= 0) direction_of_[ids[i]] = first + found.labels[i];
-  }
+  return left;
+}
+
+/// Adds the vanishing points of tracks without a direction as new directions.
+void DirectionCompass::find_new(const Camera& camera, const LineView& left, const SO3& R_ref_cam,
+                                Random& random) {
+  if (static_cast<int>(left.size()) < 2 * options_.min_segments) return;
+  std::vector<LineSegment> segments;
+  std::vector<std::int64_t> ids;
+  for (const auto& [id, line] : left) segments.push_back(line.segment), ids.push_back(id);
+  const VanishingPoints found = find_vanishing_points(segments, camera, options_, random);
+  const int first = directions();
+  for (const VanishingPoint& point : found.points)
+    directions_.push_back({R_ref_cam * point.direction});
+  for (std::size_t i = 0; i < found.labels.size(); ++i)
+    if (found.labels[i] >= 0) direction_of_[ids[i]] = first + found.labels[i];
+}
+
+/// Turns every direction to where the planes of its tracks meet, those of earlier views with a
+/// weight that fades.
+void DirectionCompass::refine(const Evidence& evidence, const SO3& R_ref_cam) {
+  constexpr double kForget = 0.97;
   for (Known& known : directions_) known.across *= kForget;
   for (int i = 0; i < evidence.lines.size(); ++i) {
     const int direction = direction_of_.at(evidence.id(i));
@@ -160,6 +172,13 @@ void DirectionCompass::learn(const Camera& camera, const LineView& view, const S
     if (std::abs(d.dot(known.d_ref)) > std::cos(0.05))
       known.d_ref = d.dot(known.d_ref) < 0 ? Eigen::Vector3d(-d) : d;
   }
+}
+
+void DirectionCompass::learn(const Camera& camera, const LineView& view, const SO3& R_ref_cam,
+                             Random& random) {
+  const Evidence evidence = Evidence::of(camera, view, options_.noise);
+  find_new(camera, assign(evidence, view, R_ref_cam), R_ref_cam, random);
+  refine(evidence, R_ref_cam);
 }
 
 }  // namespace placegraph

@@ -45,6 +45,11 @@ class DirectionCompass {
     Eigen::Vector3d d_ref;
     Eigen::Matrix3d across = Eigen::Matrix3d::Zero();  ///< sum of weighted n n^T of its planes
   };
+  struct Evidence;
+  LineView assign(const Evidence& evidence, const LineView& view, const SO3& R_ref_cam);
+  void find_new(const Camera& camera, const LineView& left, const SO3& R_ref_cam, Random& random);
+  void refine(const Evidence& evidence, const SO3& R_ref_cam);
+
   VanishingPointOptions options_;
   std::vector<Known> directions_;
   std::map<std::int64_t, int> direction_of_;  ///< -1: none

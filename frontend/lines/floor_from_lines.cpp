@@ -187,6 +187,49 @@ std::vector<Mark> lowest_level(const std::vector<Mark>& marks, const Eigen::Vect
   return best;
 }
 
+/// The plane n . p = h of a level, n = down + x e1 + y e2 with e1, e2 square to down and each
+/// other.
+struct FloorPlane {
+  Eigen::Vector3d n;
+  double h = 0;
+  Eigen::Matrix3d information;  ///< of (x, y, h)
+};
+
+/// Reweighted least squares (Huber) over the level's marks, n . p = h, over uprights, n x d = 0,
+/// and over level lines, n . d = 0.
+FloorPlane fit_plane(const std::vector<Mark>& level, const std::vector<SharedDirection>& directions,
+                     const Eigen::Vector3d& down, const FloorFromLinesOptions& options) {
+  const Eigen::Vector3d e1 = down.unitOrthogonal(), e2 = down.cross(e1);
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  // of n, and h
+  Eigen::Matrix3d H;
+  constexpr int kRounds = 6;
+  for (int round = 0; round < kRounds; ++round) {
+    H = 1e-9 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    const auto add = [&](const Eigen::Vector3d& row, double value, double sigma) {
+      const double r = (row.dot(x) - value) / sigma;
+      const double w = (round == 0 || std::abs(r) < 2 ? 1 : 2 / std::abs(r)) / (sigma * sigma);
+      H += w * row * row.transpose();
+      g += w * value * row;
+    };
+    for (const Mark& m : level)
+      add({e1.dot(m.point), e2.dot(m.point), -1}, -down.dot(m.point),
+          std::hypot(m.sigma, options.unevenness * down.dot(m.point)));
+    const double gate = std::sin(options.upright_deg * kRadPerDeg);
+    for (const auto& [d, sigma] : directions) {
+      if (d.cross(down).norm() < gate) {
+        const double sign = d.dot(down) < 0 ? -1 : 1;
+        add({1, 0, 0}, sign * e1.dot(d), sigma);
+        add({0, 1, 0}, sign * e2.dot(d), sigma);
+      } else if (std::abs(d.dot(down)) < gate) {
+        add({e1.dot(d), e2.dot(d), 0}, -down.dot(d), sigma);
+      }
+    }
+    x = H.ldlt().solve(g);
+  }
+  return {down + x[0] * e1 + x[1] * e2, x[2], H};
+}
+
 }  // namespace
 
 void visit(OptionVisitor& field, FloorFromLinesOptions& o) {
@@ -219,44 +262,15 @@ FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
         Outcome::failure(Outcome::Code::kNoConsensus, "no level below the camera is agreed on");
     return result;
   }
-  // Normal n = down + E x and height h: marks n^T p = h, uprights n x d = 0, level lines n^T d = 0.
-  const Eigen::Vector3d e1 = down->unitOrthogonal(), e2 = down->cross(e1);
-  Eigen::Vector3d x = Eigen::Vector3d::Zero();  // [x, h]
-  Eigen::Matrix3d H;
-  constexpr int kRounds = 6;
-  for (int round = 0; round < kRounds; ++round) {
-    H = 1e-9 * Eigen::Matrix3d::Identity();
-    Eigen::Vector3d g = Eigen::Vector3d::Zero();
-    const auto add = [&](const Eigen::Vector3d& row, double value, double sigma) {
-      const double r = (row.dot(x) - value) / sigma;
-      const double w = (round == 0 || std::abs(r) < 2 ? 1 : 2 / std::abs(r)) / (sigma * sigma);
-      H += w * row * row.transpose();
-      g += w * value * row;
-    };
-    for (const Mark& m : floor)
-      add({e1.dot(m.point), e2.dot(m.point), -1}, -down->dot(m.point),
-          std::hypot(m.sigma, options.unevenness * down->dot(m.point)));
-    const double gate = std::sin(options.upright_deg * kRadPerDeg);
-    for (const auto& [d, sigma] : directions) {
-      if (d.cross(*down).norm() < gate) {
-        const double sign = d.dot(*down) < 0 ? -1 : 1;
-        add({1, 0, 0}, sign * e1.dot(d), sigma);
-        add({0, 1, 0}, sign * e2.dot(d), sigma);
-      } else if (std::abs(d.dot(*down)) < gate) {
-        add({e1.dot(d), e2.dot(d), 0}, -down->dot(d), sigma);
-      }
-    }
-    x = H.ldlt().solve(g);
-  }
-  const Eigen::Vector3d n = *down + x[0] * e1 + x[1] * e2;
-  result.down_ref = n.normalized();
-  result.height = x[2] / n.norm();
-  result.sigma_height = std::sqrt(std::max(0.0, H.inverse()(2, 2)));
+  const FloorPlane plane = fit_plane(floor, directions, *down, options);
+  result.down_ref = plane.n.normalized();
+  result.height = plane.h / plane.n.norm();
+  result.sigma_height = std::sqrt(std::max(0.0, plane.information.inverse()(2, 2)));
   for (const Mark& m : floor) result.on_floor.push_back(m.id);
   std::sort(result.on_floor.begin(), result.on_floor.end());
   result.on_floor.erase(std::unique(result.on_floor.begin(), result.on_floor.end()),
                         result.on_floor.end());
-  result.outcome = x.allFinite() && result.height > 0
+  result.outcome = plane.n.allFinite() && std::isfinite(plane.h) && result.height > 0
                        ? Outcome::ok()
                        : Outcome::failure(Outcome::Code::kDegenerate, "no plane fits the level");
   return result;

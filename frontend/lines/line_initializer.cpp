@@ -94,6 +94,14 @@ RotationFromDirections rotation_between(const Camera& camera, const LineView& re
   return rotation_from_directions(pairs, guess);
 }
 
+/// The tracks of the first view that two others see too.
+Ids common_tracks(const LineView& first, const LineView& second, const LineView& third) {
+  Ids common;
+  for (const auto& [id, line] : first)
+    if (second.contains(id) && third.contains(id)) common.push_back(id);
+  return common;
+}
+
 /// Three views whose rotation is known, and the lines that moved in them.
 struct Three {
   const Camera& camera;
@@ -102,6 +110,17 @@ struct Three {
   Ids ids;
   std::vector<LineNormals> normals;
 
+  /// Takes the tracks whose planes turn from the first to the last view by `min_turn_rad` or more.
+  void take(const Ids& tracks, double min_turn_rad) {
+    for (const std::int64_t id : tracks) {
+      LineNormals m;
+      for (std::size_t k = 0; k < 3; ++k) m[k] = normal_of(camera, views[k]->at(id));
+      const double turn = m[0].cross(R_view_ref[2].inverse() * m[2]).norm();
+      if (turn < std::sin(min_turn_rad)) continue;
+      ids.push_back(id);
+      normals.push_back(m);
+    }
+  }
   std::vector<SE3> poses(const Eigen::Vector3d& t_21, const Eigen::Vector3d& t_31) const {
     return {SE3(), SE3(R_view_ref[1], t_21).inverse(), SE3(R_view_ref[2], t_31).inverse()};
   }
@@ -185,6 +204,25 @@ PoseFromLines pose_view(const Camera& camera, const LineView& view,
   return estimate_pose_from_lines(camera, seen, pose, random, &guess);
 }
 
+/// Where a view is expected on the way between two others, of constant velocity.
+SE3 expected_between(const SE3& T_ref_from, const SE3& T_ref_to, double share) {
+  return T_ref_from * SE3::exp(share * (T_ref_from.inverse() * T_ref_to).log());
+}
+
+/// Poses the views between two that are posed by the lines; a view that agrees with no pose stays
+/// without one.
+void pose_between(const Camera& camera, const std::vector<LineView>& views, std::size_t from,
+                  std::size_t to, const std::map<std::int64_t, Line3>& lines,
+                  const LineInitializerOptions& options, Random& random,
+                  std::vector<std::optional<SE3>>& T_ref_view) {
+  for (std::size_t k = from + 1; k < to; ++k) {
+    const double share = static_cast<double>(k - from) / static_cast<double>(to - from);
+    const SE3 expected = expected_between(*T_ref_view[from], *T_ref_view[to], share);
+    const auto pose = pose_view(camera, views[k], lines, expected, options, random);
+    if (pose.outcome) T_ref_view[k] = pose.T_ref_cam;
+  }
+}
+
 }  // namespace
 
 void LineInitializerOptions::check() const { check_ranges(*this); }
@@ -209,9 +247,7 @@ LineInitialization initialize_from_lines(const Camera& camera, const std::vector
   }
   const std::size_t middle = n / 2;
   Three three{camera, {&views[0], &views[middle], &views[n - 1]}, {}, {}, {}};
-  Ids common;
-  for (const auto& [id, line] : views.front())
-    if (views[middle].contains(id) && views.back().contains(id)) common.push_back(id);
+  const Ids common = common_tracks(views.front(), views[middle], views.back());
   if (static_cast<int>(common.size()) < options.min_lines) {
     result.outcome =
         failure(Outcome::Code::kTooFewData, std::to_string(common.size()) + " lines in all views");
@@ -227,14 +263,7 @@ LineInitialization initialize_from_lines(const Camera& camera, const std::vector
     }
     three.R_view_ref[k] = rotation.R_cur_ref;
   }
-  for (const std::int64_t id : common) {
-    LineNormals m;
-    for (std::size_t k = 0; k < 3; ++k) m[k] = normal_of(camera, three.views[k]->at(id));
-    const double turn = m[0].cross(three.R_view_ref[2].inverse() * m[2]).norm();
-    if (turn < std::sin(deg_to_rad(options.min_turn_deg))) continue;
-    three.ids.push_back(id);
-    three.normals.push_back(m);
-  }
+  three.take(common, deg_to_rad(options.min_turn_deg));
   result.candidates = static_cast<int>(three.ids.size());
   const auto found = translate(three, options, random);
   result.inliers = static_cast<int>(found.inliers.size());
@@ -248,22 +277,13 @@ LineInitialization initialize_from_lines(const Camera& camera, const std::vector
   T_ref_view[middle] = found.model[1].scaled(unit);
   T_ref_view[n - 1] = found.model[2].scaled(unit);
   result.lines = place_lines(camera, views, T_ref_view);
-  for (std::size_t k = 1; k + 1 < n; ++k) {
-    if (k == middle) continue;
-    const std::size_t from = k < middle ? 0 : middle, to = k < middle ? middle : n - 1;
-    const double share = static_cast<double>(k - from) / static_cast<double>(to - from);
-    const SE3 expected =
-        *T_ref_view[from] * SE3::exp(share * (T_ref_view[from]->inverse() * *T_ref_view[to]).log());
-    const auto pose = pose_view(camera, views[k], result.lines, expected, options, random);
-    if (pose.outcome) T_ref_view[k] = pose.T_ref_cam;
-    result.T_ref_view.push_back(expected);
-  }
+  pose_between(camera, views, 0, middle, result.lines, options, random, T_ref_view);
+  pose_between(camera, views, middle, n - 1, result.lines, options, random, T_ref_view);
   for (const auto& pose : T_ref_view)
     if (!pose) {
       result.outcome = failure(Outcome::Code::kInconsistent, "a view between agrees with no pose");
       return result;
     }
-  result.T_ref_view.clear();
   for (const auto& pose : T_ref_view) result.T_ref_view.push_back(*pose);
   result.lines = place_lines(camera, views, T_ref_view);
   result.outcome = Outcome::ok();

@@ -38,6 +38,35 @@ double turn_sigma_rad(const Camera& camera, const LineSighting& a, const LineSig
   return std::hypot(a.seen.sigma_px, b.seen.sigma_px) / std::min(camera.fx, camera.fy);
 }
 
+/// Gauss-Newton on the distances of the sightings' carriers from the projected line, from a line
+/// near by; sets the line, its covariance and the error of the worst sighting.
+void refine_line(const Camera& camera, const std::vector<LineSighting>& sightings,
+                 TriangulatedLine& result) {
+  Eigen::Matrix4d H;
+  constexpr int kIterations = 6;
+  for (int iteration = 0; iteration <= kIterations; ++iteration) {
+    H.setZero();
+    Eigen::Vector4d g = Eigen::Vector4d::Zero();
+    result.error_sigmas = 0;
+    for (const LineSighting& s : sightings) {
+      Eigen::Matrix<double, 2, 4> J;
+      const auto r = line_residual_px(camera, s.T_ref_cam, result.line_ref, s.seen.first,
+                                      s.seen.second, nullptr, &J);
+      if (!r) continue;
+      const double w = 1 / (s.seen.sigma_px * s.seen.sigma_px);
+      H += w * J.transpose() * J;
+      g += w * J.transpose() * *r;
+      result.error_sigmas =
+          std::max(result.error_sigmas, r->cwiseAbs().maxCoeff() / s.seen.sigma_px);
+    }
+    if (iteration == kIterations) break;
+    const Eigen::Vector4d step = -H.ldlt().solve(g);
+    if (!step.allFinite()) break;
+    result.line_ref = result.line_ref.plus(step);
+  }
+  result.covariance = H.ldlt().solve(Eigen::Matrix4d::Identity());
+}
+
 }  // namespace
 
 void visit(OptionVisitor& field, LineTriangulationOptions& o) {
@@ -117,29 +146,7 @@ TriangulatedLine triangulate_line(const Camera& camera, const std::vector<LineSi
     return result;
   }
   result.line_ref = *start;
-  Eigen::Matrix4d H;
-  constexpr int kIterations = 6;
-  for (int iteration = 0; iteration <= kIterations; ++iteration) {
-    H.setZero();
-    Eigen::Vector4d g = Eigen::Vector4d::Zero();
-    result.error_sigmas = 0;
-    for (const LineSighting& s : sightings) {
-      Eigen::Matrix<double, 2, 4> J;
-      const auto r = line_residual_px(camera, s.T_ref_cam, result.line_ref, s.seen.first,
-                                      s.seen.second, nullptr, &J);
-      if (!r) continue;
-      const double w = 1 / (s.seen.sigma_px * s.seen.sigma_px);
-      H += w * J.transpose() * J;
-      g += w * J.transpose() * *r;
-      result.error_sigmas =
-          std::max(result.error_sigmas, r->cwiseAbs().maxCoeff() / s.seen.sigma_px);
-    }
-    if (iteration == kIterations) break;
-    const Eigen::Vector4d step = -H.ldlt().solve(g);
-    if (!step.allFinite()) break;
-    result.line_ref = result.line_ref.plus(step);
-  }
-  result.covariance = H.ldlt().solve(Eigen::Matrix4d::Identity());
+  refine_line(camera, sightings, result);
   bool in_front = result.covariance.allFinite();
   for (const LineSighting& s : sightings) {
     const auto z =

@@ -223,6 +223,38 @@ std::vector<State> starts(const Views& views, const PlanarRegionsResult& regions
   return states;
 }
 
+/// The motions that explain the matches, likeliest first, with the matches in front of both
+/// cameras.
+struct Readings {
+  std::vector<PlanesReading> readings;
+  bool fixed = false;  ///< by the matches, wherever they lie
+};
+
+/// Every start refined; of those that meet in one motion the first counts.
+Readings readings_of(const Views& views, const PlanarRegionsResult& regions,
+                     const MotionFromPlanesOptions& options) {
+  Readings result;
+  for (State& state : starts(views, regions)) {
+    const MotionEquations normal = refine(views, state, options.max_iterations);
+    if (!std::isfinite(normal.cost)) continue;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(normal.expected, Eigen::EigenvaluesOnly);
+    if (!(eigen.eigenvalues()[0] > kMinMotionCondition * eigen.eigenvalues().tail<1>()[0]))
+      continue;
+    result.fixed = true;
+    if (!in_front(views, state)) continue;
+    PlanesReading reading = reading_of(state, normal, views.noise);
+    if (std::none_of(result.readings.begin(), result.readings.end(),
+                     [&](const PlanesReading& other) { return same(reading, other); }))
+      result.readings.push_back(std::move(reading));
+  }
+  std::sort(result.readings.begin(), result.readings.end(),
+            [](const PlanesReading& a, const PlanesReading& b) { return a.cost < b.cost; });
+  while (!result.readings.empty() &&
+         result.readings.back().cost > result.readings.front().cost + options.ambiguity_nats)
+    result.readings.pop_back();
+  return result;
+}
+
 }  // namespace
 
 void MotionFromPlanesOptions::check() const { check_ranges(*this); }
@@ -269,25 +301,8 @@ MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatch
     return result;
   }
 
-  bool fixed = false;
-  for (State& state : starts(views, regions)) {
-    const MotionEquations normal = refine(views, state, options.max_iterations);
-    if (!std::isfinite(normal.cost)) continue;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(normal.expected, Eigen::EigenvaluesOnly);
-    if (!(eigen.eigenvalues()[0] > kMinMotionCondition * eigen.eigenvalues().tail<1>()[0]))
-      continue;
-    fixed = true;
-    if (!in_front(views, state)) continue;
-    PlanesReading reading = reading_of(state, normal, views.noise);
-    if (std::none_of(result.readings.begin(), result.readings.end(),
-                     [&](const PlanesReading& other) { return same(reading, other); }))
-      result.readings.push_back(std::move(reading));
-  }
-  std::sort(result.readings.begin(), result.readings.end(),
-            [](const PlanesReading& a, const PlanesReading& b) { return a.cost < b.cost; });
-  while (!result.readings.empty() &&
-         result.readings.back().cost > result.readings.front().cost + options.ambiguity_nats)
-    result.readings.pop_back();
+  Readings found = readings_of(views, regions, options);
+  result.readings = std::move(found.readings);
   // One motion has five parameters and three a plane; eight a plane is what moves freely.
   const double tied = 5.0 * (static_cast<double>(regions.regions.size()) - 1);
   if (!result.readings.empty() &&
@@ -296,7 +311,7 @@ MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatch
                                       "the planes do not share one motion and this camera");
   else if (!result.readings.empty())
     result.outcome = Outcome::ok();
-  else if (fixed)
+  else if (found.fixed)
     result.outcome = Outcome::failure(Outcome::Code::kInconsistent,
                                       "no motion has the matches in front of both cameras");
   else

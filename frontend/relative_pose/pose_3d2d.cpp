@@ -64,6 +64,47 @@ Pose3d2dResult finish(const Camera& camera, const std::vector<Eigen::Vector3d>& 
   return result;
 }
 
+/// RANSAC over poses from three points each (Kneip et al. 2011).
+RansacResult<SE3> search_pose(const Camera& camera, const std::vector<Eigen::Vector3d>& points_ref,
+                              const std::vector<Eigen::Vector2d>& px,
+                              const Pose3d2dOptions& options, Random& random) {
+  const int n = static_cast<int>(px.size());
+  opengv::bearingVectors_t bearings(n);
+  opengv::points_t points(n);
+  for (int i = 0; i < n; ++i) {
+    const auto ray = camera.unproject(px[i]);
+    bearings[i] = ray ? ray->normalized() : Eigen::Vector3d::UnitZ();
+    points[i] = points_ref[i];
+  }
+  const opengv::absolute_pose::CentralAbsoluteAdapter adapter(bearings, points);
+  const auto solve = [&](const std::vector<int>& sample) {
+    std::vector<SE3> models;
+    for (const auto& T_ref_cam : opengv::absolute_pose::p3p_kneip(adapter, sample)) {
+      const Eigen::Matrix3d R = T_ref_cam.leftCols<3>();
+      if (!T_ref_cam.allFinite() || (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > 1e-3)
+        continue;
+      models.emplace_back(R, Eigen::Vector3d(T_ref_cam.col(3)));
+    }
+    return models;
+  };
+  // Points and inverse of the candidate are needed n times: keep the inverse of the last model.
+  SE3 last, last_inverse;
+  const auto error = [&](const SE3& T_ref_cam, int i) {
+    if (T_ref_cam.translation() != last.translation() ||
+        T_ref_cam.rotation().quaternion().coeffs() != last.rotation().quaternion().coeffs()) {
+      last = T_ref_cam;
+      last_inverse = T_ref_cam.inverse();
+    }
+    return squared_error_px(camera, last_inverse, points_ref[i], px[i]);
+  };
+  const auto refine = [&](const SE3& T_ref_cam, const std::vector<int>& inliers) {
+    return refine_pose_3d2d(camera, points_ref, px, inliers, T_ref_cam, options.threshold_px / 2,
+                            3);
+  };
+  return ransac<SE3>(n, 3, options.threshold_px * options.threshold_px, options.ransac, random,
+                     solve, error, refine);
+}
+
 }  // namespace
 
 void Pose3d2dOptions::check() const { check_ranges(*this); }
@@ -133,40 +174,7 @@ Pose3d2dResult estimate_pose_3d2d(const Camera& camera,
       return finish(camera, points_ref, px, options, T, std::move(inliers));
   }
 
-  opengv::bearingVectors_t bearings(n);
-  opengv::points_t points(n);
-  for (int i = 0; i < n; ++i) {
-    const auto ray = camera.unproject(px[i]);
-    bearings[i] = ray ? ray->normalized() : Eigen::Vector3d::UnitZ();
-    points[i] = points_ref[i];
-  }
-  const opengv::absolute_pose::CentralAbsoluteAdapter adapter(bearings, points);
-  const auto solve = [&](const std::vector<int>& sample) {
-    std::vector<SE3> models;
-    for (const auto& T_ref_cam : opengv::absolute_pose::p3p_kneip(adapter, sample)) {
-      const Eigen::Matrix3d R = T_ref_cam.leftCols<3>();
-      if (!T_ref_cam.allFinite() || (R.transpose() * R - Eigen::Matrix3d::Identity()).norm() > 1e-3)
-        continue;
-      models.emplace_back(R, Eigen::Vector3d(T_ref_cam.col(3)));
-    }
-    return models;
-  };
-  // Points and inverse of the candidate are needed n times: keep the inverse of the last model.
-  SE3 last, last_inverse;
-  const auto error = [&](const SE3& T_ref_cam, int i) {
-    if (T_ref_cam.translation() != last.translation() ||
-        T_ref_cam.rotation().quaternion().coeffs() != last.rotation().quaternion().coeffs()) {
-      last = T_ref_cam;
-      last_inverse = T_ref_cam.inverse();
-    }
-    return squared_error_px(camera, last_inverse, points_ref[i], px[i]);
-  };
-  const auto refine = [&](const SE3& T_ref_cam, const std::vector<int>& inliers) {
-    return refine_pose_3d2d(camera, points_ref, px, inliers, T_ref_cam, options.threshold_px / 2,
-                            3);
-  };
-  const auto consensus = ransac<SE3>(n, 3, options.threshold_px * options.threshold_px,
-                                     options.ransac, random, solve, error, refine);
+  const auto consensus = search_pose(camera, points_ref, px, options, random);
   if (!consensus.outcome) {
     Pose3d2dResult result;
     result.outcome = consensus.outcome;

@@ -52,6 +52,39 @@ WindowGrid window_grid(const Face& face, std::uint32_t look) {
   return g;
 }
 
+/// A place within the window grid's cell of one window or door.
+struct Bay {
+  float x, y;       ///< from the cell's lower left corner [m]
+  float field;      ///< share of the pixel that lies on the grid
+  float near;       ///< 1 where single windows tell apart, 0 far away
+  std::uint32_t h;  ///< seed of the cell
+};
+
+float shade_door(const WindowGrid& g, const Spot& spot, const Bay& bay, float value) {
+  const float x = bay.x, y = bay.y, field = bay.field, ws = spot.ws, wt = spot.wt;
+  const float leaf = pulse(x, g.left, g.left + 1.0F, ws) * pulse(y, 0.05F, 2.1F, wt);
+  const float frame = pulse(x, g.left - 0.1F, g.left + 1.1F, ws) * pulse(y, 0, 2.2F, wt);
+  const float pane = pulse(x, g.left + 0.3F, g.left + 0.7F, ws) * pulse(y, 1.2F, 1.8F, wt);
+  value = mix(value, 0.75F, frame * field);
+  value = mix(value, 0.14F + 0.4F * hash_unit(bay.h, 10), leaf * field);
+  return mix(value, 0.08F, pane * field);
+}
+
+/// Grey of a window's pane with its bars; curtains, blinds half drawn, reflections: each its own.
+float shade_pane(const WindowGrid& g, const Spot& spot, const Bay& bay, float frame_tone,
+                 float contrast) {
+  const float x = bay.x, y = bay.y, near = bay.near, ws = spot.ws, wt = spot.wt;
+  const std::uint32_t h = bay.h;
+  float glass = 0.10F + near * contrast * 0.22F * hash_unit(h, 12) * hash_unit(h, 13);
+  const float drawn = g.sill + (g.head - g.sill) * hash_unit(h, 14);
+  if (hash_unit(h, 15) < 0.45F) glass += near * 0.40F * pulse(y, drawn, g.head, wt);
+  glass += near * contrast * 0.07F * octave(spot, 0.7F, h);
+  const float mid = 0.5F * (g.left + g.right);
+  const float bars = clamp01(pulse(x, mid - 0.04F, mid + 0.04F, ws) +
+                             pulse(y, g.head - 0.42F, g.head - 0.36F, wt));
+  return mix(glass, frame_tone, near * bars);
+}
+
 }  // namespace
 
 float shade_facade(const Face& face, const Spot& spot, float contrast) {
@@ -82,27 +115,12 @@ float shade_facade(const Face& face, const Spot& spot, float contrast) {
   const float x = static_cast<float>(sx - column * static_cast<double>(g.spacing));
   const float y = static_cast<float>(spot.t - row * static_cast<double>(g.storey));
 
+  const Bay bay{x, y, field, near, h};
   const bool door = row == 0 && hash_unit(h, 9) < 0.22F;
-  if (door) {
-    const float leaf = pulse(x, g.left, g.left + 1.0F, ws) * pulse(y, 0.05F, 2.1F, wt);
-    const float frame = pulse(x, g.left - 0.1F, g.left + 1.1F, ws) * pulse(y, 0, 2.2F, wt);
-    const float pane = pulse(x, g.left + 0.3F, g.left + 0.7F, ws) * pulse(y, 1.2F, 1.8F, wt);
-    value = mix(value, 0.75F, frame * field);
-    value = mix(value, 0.14F + 0.4F * hash_unit(h, 10), leaf * field);
-    return mix(value, 0.08F, pane * field);
-  }
+  if (door) return shade_door(g, spot, bay, value);
   const float frame_tone = hash_unit(look, 11) < 0.7F ? 0.80F : 0.16F;
-  float glass = 0.10F + near * contrast * 0.22F * hash_unit(h, 12) * hash_unit(h, 13);
-  // Curtains, blinds half drawn, reflections: each window its own.
-  const float drawn = g.sill + (g.head - g.sill) * hash_unit(h, 14);
-  if (hash_unit(h, 15) < 0.45F) glass += near * 0.40F * pulse(y, drawn, g.head, wt);
-  glass += near * contrast * 0.07F * octave(spot, 0.7F, h);
-  const float mid = 0.5F * (g.left + g.right);
-  const float bars = clamp01(pulse(x, mid - 0.04F, mid + 0.04F, ws) +
-                             pulse(y, g.head - 0.42F, g.head - 0.36F, wt));
-  glass = mix(glass, frame_tone, near * bars);
   value = mix(value, frame_tone, opening(0.09F));
-  value = mix(value, glass, opening(0.0F));
+  value = mix(value, shade_pane(g, spot, bay, frame_tone, contrast), opening(0.0F));
   // Shutters beside, or a balcony's railing below.
   if (hash_unit(look, 16) < 0.4F) {
     const float shutters =

@@ -6,6 +6,56 @@
 #include <cmath>
 
 namespace placegraph::synthetic {
+namespace {
+
+/// Normal equations of weighted rows over the control heights, nx x nz of them.
+struct HeightEquations {
+  int nx, nz;
+  std::vector<Eigen::Triplet<double>> triplets{};  ///< the lower half
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(nx) * nz);
+
+  int id(int x, int z) const { return z * nx + x; }
+  void add_row(const int* ids, const double* w, int count, double weight, double rhs) {
+    for (int i = 0; i < count; ++i) {
+      b[ids[i]] += weight * w[i] * rhs;
+      for (int j = 0; j < count; ++j) {
+        if (ids[j] <= ids[i]) triplets.emplace_back(ids[i], ids[j], weight * w[i] * w[j]);
+      }
+    }
+  }
+  /// A thin plate that resists being bent and twisted.
+  void add_stiffness(double stiffness) {
+    const double second[3] = {1, -2, 1}, twist[4] = {1, -1, -1, 1};
+    for (int z = 0; z < nz; ++z) {
+      for (int x = 0; x < nx; ++x) {
+        if (x + 2 < nx) {
+          const int ids[3] = {id(x, z), id(x + 1, z), id(x + 2, z)};
+          add_row(ids, second, 3, stiffness, 0);
+        }
+        if (z + 2 < nz) {
+          const int ids[3] = {id(x, z), id(x, z + 1), id(x, z + 2)};
+          add_row(ids, second, 3, stiffness, 0);
+        }
+        if (x + 1 < nx && z + 1 < nz) {
+          const int ids[4] = {id(x, z), id(x + 1, z), id(x, z + 1), id(x + 1, z + 1)};
+          add_row(ids, twist, 4, 2 * stiffness, 0);
+        }
+        const int self = id(x, z);
+        const double one = 1;
+        add_row(&self, &one, 1, 1e-6, 0);  // level where nothing is known at all
+      }
+    }
+  }
+  Eigen::VectorXd solve() const {
+    Eigen::SparseMatrix<double> A(b.size(), b.size());
+    A.setFromTriplets(triplets.begin(), triplets.end());
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(A);
+    require(solver.info() == Eigen::Success, "height surface: the fit is singular");
+    return solver.solve(b);
+  }
+};
+
+}  // namespace
 
 HeightSurface::HeightSurface(const Eigen::Vector2d& low, const Eigen::Vector2d& high,
                              double spacing_m)
@@ -45,54 +95,20 @@ HeightSurface HeightSurface::fit(const std::vector<Eigen::Vector3d>& samples, do
   low.array() -= margin_m;
   high.array() += margin_m;
   HeightSurface out(low, high, spacing_m);
-  const int n = out.nx_ * out.nz_;
-  const auto id = [&](int x, int z) { return z * out.nx_ + x; };
-  std::vector<Eigen::Triplet<double>> triplets;
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
-  const auto add_row = [&](const int* ids, const double* w, int count, double weight, double rhs) {
-    for (int i = 0; i < count; ++i) {
-      b[ids[i]] += weight * w[i] * rhs;
-      for (int j = 0; j < count; ++j) {
-        if (ids[j] <= ids[i]) triplets.emplace_back(ids[i], ids[j], weight * w[i] * w[j]);
-      }
-    }
-  };
+  HeightEquations equations{out.nx_, out.nz_};
   for (const Eigen::Vector3d& p : samples) {
     const Stencil s = out.stencil(p[0], p[2]);
     int ids[9];
     double w[9];
     for (int k = 0; k < 9; ++k) {
-      ids[k] = id(s.x + k % 3, s.z + k / 3);
+      ids[k] = equations.id(s.x + k % 3, s.z + k / 3);
       w[k] = s.wx[k % 3] * s.wz[k / 3];
     }
-    add_row(ids, w, 9, 1, p[1] - mean);
+    equations.add_row(ids, w, 9, 1, p[1] - mean);
   }
-  const double second[3] = {1, -2, 1}, twist[4] = {1, -1, -1, 1};
-  for (int z = 0; z < out.nz_; ++z) {
-    for (int x = 0; x < out.nx_; ++x) {
-      if (x + 2 < out.nx_) {
-        const int ids[3] = {id(x, z), id(x + 1, z), id(x + 2, z)};
-        add_row(ids, second, 3, stiffness, 0);
-      }
-      if (z + 2 < out.nz_) {
-        const int ids[3] = {id(x, z), id(x, z + 1), id(x, z + 2)};
-        add_row(ids, second, 3, stiffness, 0);
-      }
-      if (x + 1 < out.nx_ && z + 1 < out.nz_) {
-        const int ids[4] = {id(x, z), id(x + 1, z), id(x, z + 1), id(x + 1, z + 1)};
-        add_row(ids, twist, 4, 2 * stiffness, 0);
-      }
-      const int self = id(x, z);
-      const double one = 1;
-      add_row(&self, &one, 1, 1e-6, 0);  // level where nothing is known at all
-    }
-  }
-  Eigen::SparseMatrix<double> A(n, n);
-  A.setFromTriplets(triplets.begin(), triplets.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(A);
-  require(solver.info() == Eigen::Success, "height surface: the fit is singular");
-  const Eigen::VectorXd h = solver.solve(b);
-  for (int i = 0; i < n; ++i) out.control_[i] = h[i] + mean;
+  equations.add_stiffness(stiffness);
+  const Eigen::VectorXd h = equations.solve();
+  for (Eigen::Index i = 0; i < h.size(); ++i) out.control_[i] = h[i] + mean;
   return out;
 }
 

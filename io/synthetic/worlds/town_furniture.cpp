@@ -220,6 +220,46 @@ void scatter(TownSite& site, const Roadway& roadway, int side) {
   }
 }
 
+/// A car's cabin: a frustum with slanted panes on the deck of the body, in the car's frame.
+struct Cabin {
+  double z0, z1;                          ///< its ends on the deck
+  double half_width, deck, roof;          ///< heights of deck and roof above the ground
+  double in = 0.16;                       ///< by which a side leans inwards up to the roof
+  double r0 = z0 + 0.35, r1 = z1 - 0.62;  ///< ends of the roof
+};
+
+/// The panes at both sides, in front and behind.
+void add_panes(Part& part, const Cabin& cabin, float paint, std::uint32_t seed) {
+  const auto& [z0, z1, hw, deck, roof, in, r0, r1] = cabin;
+  const double rise = roof - deck;
+  const auto finish = [&](Face& face) {
+    if (face.t_axis[1] > 0) face.t_axis = -face.t_axis;
+    face.height = static_cast<float>(rise);
+    face.style = paint;
+    face.light = outdoor_light(face.normal);
+    part.faces.push_back(face);
+  };
+  for (const double side : {-1.0, 1.0}) {
+    const Eigen::Vector3d a(side * hw, -deck, z0), b(side * hw, -deck, z1),
+        c(side * (hw - in), -roof, r1), d(side * (hw - in), -roof, r0);
+    Face face = make_quad(a, b - a, d - a, Material::kGlass, SurfaceClass::kCar, seed + 31U);
+    if (face.normal.dot(side * Eigen::Vector3d::UnitX()) < 0) face.normal = -face.normal;
+    face.corners = {a, b, c, d};
+    face.t_axis = -(face.s_axis.cross(face.normal));
+    finish(face);
+  }
+  for (const double end : {-1.0, 1.0}) {
+    const double zb = end < 0 ? z0 : z1, zr = end < 0 ? r0 : r1;
+    const Eigen::Vector3d a(-hw, -deck, zb), b(hw, -deck, zb), c(hw - in, -roof, zr),
+        d(-hw + in, -roof, zr);
+    Face face = make_quad(a, b - a, 0.5 * (c + d) - 0.5 * (a + b), Material::kGlass,
+                          SurfaceClass::kCar, seed + 37U);
+    if (face.normal.dot(Eigen::Vector3d(0, -0.3, end)) < 0) face.normal = -face.normal;
+    face.corners = {a, b, c, d};
+    finish(face);
+  }
+}
+
 }  // namespace
 
 Part make_car(std::uint32_t seed) {
@@ -247,38 +287,10 @@ Part make_car(std::uint32_t seed) {
     quad({-hw, 0, side * hl}, w * x, up, Material::kCarEnd, side * z);
   }
   quad({-hw, -deck, -hl}, w * x, l * z, Material::kCarTop, -Eigen::Vector3d::UnitY());
-  // The cabin: a frustum with slanted panes.
-  const double z0 = -hl + boot, z1 = hl - hood, slant_front = 0.62, slant_back = 0.35, in = 0.16;
-  const double r0 = z0 + slant_back, r1 = z1 - slant_front, rise = roof - deck;
-  for (const double side : {-1.0, 1.0}) {
-    const Eigen::Vector3d a(side * hw, -deck, z0), b(side * hw, -deck, z1),
-        c(side * (hw - in), -roof, r1), d(side * (hw - in), -roof, r0);
-    Face face = make_quad(a, b - a, d - a, Material::kGlass, SurfaceClass::kCar, seed + 31U);
-    if (face.normal.dot(side * x) < 0) face.normal = -face.normal;
-    face.corners = {a, b, c, d};
-    face.t_axis = -(face.s_axis.cross(face.normal));
-    if (face.t_axis[1] > 0) face.t_axis = -face.t_axis;
-    face.height = static_cast<float>(rise);
-    face.style = paint;
-    face.light = outdoor_light(face.normal);
-    part.faces.push_back(face);
-  }
-  for (const double end : {-1.0, 1.0}) {
-    const double zb = end < 0 ? z0 : z1, zr = end < 0 ? r0 : r1;
-    const Eigen::Vector3d a(-hw, -deck, zb), b(hw, -deck, zb), c(hw - in, -roof, zr),
-        d(-hw + in, -roof, zr);
-    Face face = make_quad(a, b - a, 0.5 * (c + d) - 0.5 * (a + b), Material::kGlass,
-                          SurfaceClass::kCar, seed + 37U);
-    if (face.normal.dot(Eigen::Vector3d(0, -0.3, end)) < 0) face.normal = -face.normal;
-    face.corners = {a, b, c, d};
-    if (face.t_axis[1] > 0) face.t_axis = -face.t_axis;
-    face.height = static_cast<float>(rise);
-    face.style = paint;
-    face.light = outdoor_light(face.normal);
-    part.faces.push_back(face);
-  }
-  quad({-hw + in, -roof, r0}, (w - 2 * in) * x, (r1 - r0) * z, Material::kCarTop,
-       -Eigen::Vector3d::UnitY());
+  const Cabin cabin{-hl + boot, hl - hood, hw, deck, roof};
+  add_panes(part, cabin, paint, seed);
+  quad({-hw + cabin.in, -roof, cabin.r0}, (w - 2 * cabin.in) * x, (cabin.r1 - cabin.r0) * z,
+       Material::kCarTop, -Eigen::Vector3d::UnitY());
   // Its shadow, two centimetres above the ground.
   Face shadow = make_quad({-hw - 0.05, -0.02, -hl}, (w + 0.1) * x, l * z, Material::kShadow,
                           SurfaceClass::kRoad, seed);
