@@ -1,19 +1,15 @@
 #pragma once
 #include <placegraph/backend/initialization/certificate_matrix.h>
-#include <placegraph/backend/initialization/isotropic_problem.h>
+#include <placegraph/backend/initialization/descent_effort.h>
+#include <placegraph/backend/initialization/lifted_problem.h>
 
 #include <Eigen/Core>
 #include <limits>
-#include <memory>
 
 namespace placegraph {
 
-/// The isotropic chordal problem lifted to r >= d dimensions (Rosen et al. 2019, problem 9; here
-/// with the translations kept): over X = [Y_1 p_1 ... Y_n p_n], r x (d+1)n, Y_i of the Stiefel
-/// manifold St(d, r), p_i of R^r
-///
-///   f(X) = tr(X Q X^T) = sum rotation_weight |Y_j - Y_i R_ij|_F^2
-///                            + translation_weight |p_j - p_i - Y_i t_ij|^2
+/// The semidefinite relaxation of the isotropic chordal problem, by its lifted forms of low rank
+/// (LiftedProblem; Rosen et al. 2019), whose cost is f.
 ///
 /// At r = d it is the problem itself (with reflections admitted). A first-order critical point of
 /// any r at which S = Q - Lambda(X) is positive semi-definite is a global minimum over all r, and
@@ -22,7 +18,6 @@ template <int dim>
 class ChordalRelaxation {
  public:
   explicit ChordalRelaxation(const IsotropicProblem<dim>& problem);
-  ~ChordalRelaxation();
 
   /// The lifted point of rank d.
   template <class Group>
@@ -40,8 +35,7 @@ class ChordalRelaxation {
   struct Descent {
     double cost = 0;
     int iterations = 0, products = 0;  ///< outer steps; Hessian products inside them
-    /// Operations as a multiple of those of one Gauss-Newton iteration on the pose graph itself.
-    double effort = 0;
+    double effort = 0;                 ///< see DescentEffort
     bool converged = false;
   };
   /// Down to a critical point near X, by a Riemannian trust-region method with truncated conjugate
@@ -49,7 +43,7 @@ class ChordalRelaxation {
   Descent minimize(Eigen::MatrixXd& X, const DescentOptions& options) const;
   Descent minimize(Eigen::MatrixXd& X) const { return minimize(X, DescentOptions{}); }
 
-  /// Of so many factorizations of S and solutions with it; see Descent.
+  /// Of so many factorizations of S and solutions with it; see DescentEffort.
   double certificate_effort(int factorizations, int solutions) const;
 
   /// S at X.
@@ -63,8 +57,10 @@ class ChordalRelaxation {
   Eigen::MatrixXd round(const Eigen::MatrixXd& X) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  using Lifted = LiftedProblem<dim>;
+
+  Lifted problem_;
+  DescentEffort effort_;
 };
 
 }  // namespace placegraph

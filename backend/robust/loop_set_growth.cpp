@@ -1,11 +1,10 @@
+#include <placegraph/backend/robust/loop_gate.h>
 #include <placegraph/backend/robust/loop_leverage.h>
 #include <placegraph/backend/robust/loop_set_growth.h>
 #include <placegraph/backend/solver/subset_solver.h>
-#include <placegraph/graph/core/chi_squared.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 
 namespace placegraph {
@@ -38,20 +37,6 @@ void reconnect(PackedGraph<Group>& graph, const std::vector<double>& chi2) {
   }
 }
 
-/// How much wider the gate of a loop is that says nearly the right thing.
-constexpr double kNearlyRightFactor = 20;
-
-/// Length of the diagonal of the box around all poses [m].
-template <class Group>
-double extent_of(const PackedGraph<Group>& graph) {
-  typename Group::Point low = graph.poses.front().translation(), high = low;
-  for (const Group& pose : graph.poses) {
-    low = low.cwiseMin(pose.translation());
-    high = high.cwiseMax(pose.translation());
-  }
-  return (high - low).norm();
-}
-
 /// A growth under way: the weights of the loops say what is taken.
 template <class Group>
 class Growth {
@@ -61,15 +46,12 @@ class Growth {
       : graph_(graph),
         clusters_(support.clusters),
         rough_(roughly(solver)),
-        options_(options),
+        max_rounds_(options.max_rounds),
         gnc_(gnc),
-        quantile_(chi_squared_quantile(probability, Group::kDof)),
-        scale_(support.noise_scale),
-        extent_(extent_of(graph)),
-        limit_(gate()),
+        gate_(graph, probability, support.noise_scale, options),
         rough_solver_(rough_) {}
 
-  double scale() const { return scale_; }
+  double noise_scale() const { return gate_.noise_scale(); }
 
   /// Steps 1 and 2: from the largest group to groups of two.
   void take_groups() {
@@ -91,15 +73,13 @@ class Growth {
   /// Step 3.
   void settle() {
     const std::vector<char> every(graph_.edges.size(), true);
-    for (int round = 0; round < options_.max_rounds; ++round) {
+    for (int round = 0; round < max_rounds_; ++round) {
       if (test(every) == 0 && take_lone() == 0) break;
       (void)rough_solver_.solve(graph_);
     }
   }
 
  private:
-  /// Squared error up to which a loop's error may be noise.
-  double gate() const { return options_.margin * quantile_ * scale_; }
   std::vector<double> chi2() const { return chi2_by_edge(graph_, rough_.rotation_error); }
 
   bool taken(const Cluster& cluster) const {
@@ -112,7 +92,9 @@ class Growth {
     if (candidates.empty()) return {};
     std::vector<int> middle;  // one loop stands for its group
     for (const int c : candidates) middle.push_back(clusters_[c][clusters_[c].size() / 2]);
-    const auto gate_of = [&](int c) { return static_cast<double>(clusters_[c].size()) * gate(); };
+    const auto gate_of = [&](int c) {
+      return static_cast<double>(clusters_[c].size()) * gate_.of_noise();
+    };
     const std::vector<double> cost =
         cost_of_adding(graph_, middle, rough_.rotation_error, gate_of(candidates.front()));
     std::vector<int> result;
@@ -124,7 +106,7 @@ class Growth {
   void take(const std::vector<int>& candidates) {
     for (const int c : candidates)
       for (const int edge : clusters_[c]) graph_.edges[edge].weight = 1;
-    (void)graduated_non_convexity(graph_, gate(), rough_, gnc_);
+    (void)graduated_non_convexity(graph_, gate_.of_noise(), rough_, gnc_);
     // Groups stand or fall as a whole; of those that stand every loop is looked at again, with the
     // noise as it shows now.
     std::vector<char> in_question(graph_.edges.size(), false);
@@ -144,22 +126,12 @@ class Growth {
   /// others; returns how many that changed.
   int test(const std::vector<char>& in_question) {
     const std::vector<double> error = chi2();
-    // Odometry that a false loop bends, or that is wrong, says nothing of the noise.
-    double sum = 0, worst = 0;
-    int loops = 0;
-    for (std::size_t i = 0; i < graph_.edges.size(); ++i) {
-      if (graph_.edges[i].weight <= 0 || graph_.edges[i].odometry) continue;
-      ++loops;
-      sum += error[i];
-      worst = std::max(worst, error[i]);
-    }
-    if (loops > 0) scale_ = std::max(scale_, sum / (Group::kDof * loops));
-    limit_ = std::max(gate(), options_.tail * std::min(worst, limit_));
+    gate_.learn(graph_, error);
     std::vector<double> before;
     for (const auto& edge : graph_.edges) before.push_back(edge.weight);
     for (std::size_t i = 0; i < graph_.edges.size(); ++i)
       if (in_question[i] && !graph_.edges[i].odometry)
-        graph_.edges[i].weight = error[i] <= limit_of(static_cast<int>(i)) ? 1 : 0;
+        graph_.edges[i].weight = error[i] <= gate_.of_loop(graph_, static_cast<int>(i)) ? 1 : 0;
     reconnect(graph_, error);
     int changed = 0;
     for (std::size_t i = 0; i < graph_.edges.size(); ++i)
@@ -173,41 +145,26 @@ class Growth {
     for (std::size_t i = 0; i < graph_.edges.size(); ++i)
       if (graph_.edges[i].weight == 0) left.push_back(static_cast<int>(i));
     const std::vector<double> cost =
-        cost_of_adding(graph_, left, rough_.rotation_error, kNearlyRightFactor * limit_);
+        cost_of_adding(graph_, left, rough_.rotation_error, gate_.widest());
     std::vector<std::size_t> order(cost.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](auto a, auto b) { return cost[a] < cost[b]; });
     int added = 0;
     for (const std::size_t i : order) {
-      if (cost[i] > limit_of(left[i])) continue;
-      if (cost[i] <= limit_) limit_ = std::max(limit_, options_.tail * cost[i]);
+      if (cost[i] > gate_.of_loop(graph_, left[i])) continue;
+      gate_.widen(cost[i]);
       graph_.edges[left[i]].weight = 1;
       ++added;
     }
     return added;
   }
 
-  double limit_of(int edge) const {
-    return nearly_right(edge) ? kNearlyRightFactor * limit_ : limit_;
-  }
-  bool nearly_right(int index) const {
-    const auto& edge = graph_.edges[index];
-    const typename Group::Tangent error =
-        (edge.T_to_from * (graph_.poses[edge.from].inverse() * graph_.poses[edge.to])).log();
-    constexpr int dim = Group::kDof == 3 ? 2 : 3;
-    return error.template head<dim>().norm() <= options_.nearly_right * extent_ &&
-           error.template tail<Group::kDof - dim>().norm() <=
-               options_.nearly_right * std::numbers::pi;
-  }
-
   PackedGraph<Group>& graph_;
   const std::vector<Cluster>& clusters_;
   LocalSolverOptions rough_;
-  LoopGrowthOptions options_;
+  int max_rounds_;
   GncOptions gnc_;
-  double quantile_, scale_;
-  double extent_;  ///< of the map [m]
-  double limit_;   ///< squared error up to which a loop is taken for true
+  LoopGate<Group> gate_;
   SubsetSolver<Group> rough_solver_;
 };
 
@@ -234,7 +191,7 @@ LoopGrowth finish(Growth<Group>& growth, PackedGraph<Group>& graph,
   growth.settle();
   LoopGrowth result;
   result.local = SubsetSolver<Group>(solver).solve(graph);
-  result.noise_scale = growth.scale();
+  result.noise_scale = growth.noise_scale();
   return result;
 }
 
