@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/floor_plan/wall_finder.h>
+#include <placegraph/frontend/floor_plan/wall_profile.h>
 
 namespace placegraph {
 
@@ -18,6 +18,15 @@ struct DoorPiece {
   double head_m = 0;  ///< 0: none was seen
   bool closed = false;
 };
+
+/// Doors of one wall's plane.
+struct ProfileDoors {
+  std::vector<DoorPiece> between_walls;  ///< with wall at both sides
+  std::vector<DoorPiece> half_seen;      ///< with one jamb, where the camera went through
+};
+/// Every stretch of the profile without wall at the height of doors is one, or none; see
+/// find_doors.
+[[nodiscard]] ProfileDoors doors_of(const WallProfile& profile, const DoorFinderOptions& options);
 
 /// Doors along each wall's surface, and what lies between walls of one plane. Open ones: below a
 /// head nothing stands and rays pass, or, without a head, the `path` (camera positions, in order)

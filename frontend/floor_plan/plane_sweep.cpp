@@ -1,8 +1,8 @@
+#include <placegraph/frontend/floor_plan/depth_agreement.h>
 #include <placegraph/frontend/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
@@ -12,14 +12,6 @@ namespace placegraph {
 namespace {
 
 constexpr std::uint8_t kMostCost = 60;
-constexpr double kBehind =
-    0.01;  // what has less depth in a view, of that in the image, is not seen
-
-struct Level {
-  double inverse_depth = 0;
-  double sum = 0;  ///< of the paths, of the pixel that has it
-  bool distinct = false;
-};
 
 /// An image and its camera at half the size, as often as it takes.
 void shrink(Image& image, Camera& camera, int max_width_px) {
@@ -62,75 +54,39 @@ Image normalized(const Image& image, double noise, const PlaneSweepOptions& opti
   return cv::max(result, 1);
 }
 
+/// The search: what every level of depth would cost each pixel, and the level it takes.
 class PlaneSweep {
  public:
   PlaneSweep(const Image& image, const Camera& camera, const std::vector<SweptView>& views,
              const PlaneSweepOptions& options)
-      : options_(options), camera_(camera) {
+      : options_(options) {
     Image small = image;
-    shrink(small, camera_, options.max_width_px);
+    Camera small_camera = camera;
+    shrink(small, small_camera, options.max_width_px);
     const double noise = std::max(1.0, options.noise_share * noise_of(small));
     reference_ = normalized(small, noise, options);
-    const Eigen::Matrix3d K = camera_.K(), K_inverse = K.inverse();
     for (const SweptView& view : views) {
       Image other = view.image;
       Camera same = camera;
       shrink(other, same, options.max_width_px);
-      views_.push_back({normalized(other, noise, options),
-                        K * view.T_view_cam.rotation().matrix() * K_inverse,
-                        K * view.T_view_cam.translation()});
+      views_.push_back(normalized(other, noise, options));
     }
-    kept_ = (views_.size() + 1) / 2;
-    choose_levels();
+    geometry_ = sweep_geometry(small_camera, views, options);
   }
 
   SweptDepth depth() const {
-    SweptDepth result{camera_, Image(reference_.size(), CV_32FC1, cv::Scalar(0)),
-                      Image(reference_.size(), CV_32FC1, cv::Scalar(0)),
-                      Image(reference_.size(), CV_8UC1, cv::Scalar(0))};
-    if (levels_ < 4) return result;
-    const CostVolume volume = costs();
-    const std::vector<Level> found = winners(volume, sum_over_paths(volume, options_.paths));
-    agree(found, result);
-    mark_certain(found, result);
-    return result;
+    std::vector<PixelDepth> found(reference_.total());
+    if (geometry_.levels >= 4) {
+      const CostVolume volume = costs();
+      found = winners(volume, sum_over_paths(volume, options_.paths));
+    }
+    return agreed_depth(found, geometry_, options_.sigma_px);
   }
 
  private:
-  struct View {
-    Image image;
-    Eigen::Matrix3d turn;  ///< pixels of the image to those of the view, of what is far away
-    Eigen::Vector3d move;  ///< change of them with inverse depth
-    Eigen::Vector3d at(double u, double v, double inverse_depth) const {
-      return turn * Eigen::Vector3d(u, v, 1) + inverse_depth * move;
-    }
-    /// Pixels that a change of inverse depth moves the point by.
-    double rate(double u, double v, double inverse_depth) const {
-      const Eigen::Vector3d p = at(u, v, inverse_depth);
-      return (move.head<2>() - p.head<2>() * (move[2] / p[2])).norm() / std::abs(p[2]);
-    }
-  };
-
-  double inverse_depth(double level) const { return 1 / options_.max_depth_m + level * step_; }
-
-  void choose_levels() {
-    const double low = 1 / options_.max_depth_m, high = 1 / options_.min_depth_m;
-    const double middle = 0.5 * (low + high);
-    double fastest = 0;
-    for (const View& view : views_)
-      for (const double across : {0.0, 0.5, 1.0})
-        for (const double down : {0.0, 0.5, 1.0}) {
-          const double u = across * (camera_.width - 1), v = down * (camera_.height - 1);
-          if (view.at(u, v, middle)[2] >= kBehind)
-            fastest = std::max(fastest, view.rate(u, v, middle));
-        }
-    levels_ = static_cast<int>(
-        std::clamp(fastest * (high - low) / options_.step_px, 0.0, 1.0 * options_.max_planes));
-    step_ = (high - low) / std::max(1, levels_ - 1);
-  }
-
   /// Takes out what lies behind a view, by the homography of a plane.
   static void hide_behind(const Eigen::Matrix3d& H, Image& warped) {
+    constexpr double kBehind = SweepGeometry::kBehind;
     const auto depth = [&](int u, int v) { return H(2, 0) * u + H(2, 1) * v + H(2, 2); };
     const int u = warped.cols - 1, v = warped.rows - 1;
     if (std::min({depth(0, 0), depth(u, 0), depth(0, v), depth(u, v)}) >= kBehind) return;
@@ -140,17 +96,17 @@ class PlaneSweep {
   }
 
   CostVolume costs() const {
-    CostVolume volume(camera_.width, camera_.height, levels_);
-    std::vector<Image> best(kept_);
+    const int levels = geometry_.levels;
+    CostVolume volume(reference_.cols, reference_.rows, levels);
+    std::vector<Image> best(geometry_.better_half());
     Image warped, cost, lower;
-    for (int level = 0; level < levels_; ++level) {
+    for (int level = 0; level < levels; ++level) {
       for (Image& b : best) b = Image(reference_.size(), CV_8UC1, cv::Scalar(kMostCost));
-      for (const View& view : views_) {
-        Eigen::Matrix3d H = view.turn;
-        H.col(2) += inverse_depth(level) * view.move;
+      for (std::size_t i = 0; i < views_.size(); ++i) {
+        const Eigen::Matrix3d H = geometry_.views[i].homography(geometry_.inverse_depth(level));
         const cv::Matx33d h(H(0, 0), H(0, 1), H(0, 2), H(1, 0), H(1, 1), H(1, 2), H(2, 0), H(2, 1),
                             H(2, 2));
-        cv::warpPerspective(view.image, warped, h, reference_.size(),
+        cv::warpPerspective(views_[i], warped, h, reference_.size(),
                             cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
         hide_behind(H, warped);
         cv::absdiff(reference_, warped, cost);
@@ -167,10 +123,10 @@ class PlaneSweep {
       Image sum(reference_.size(), CV_16UC1, cv::Scalar(0));
       for (const Image& b : best) cv::add(sum, b, sum, cv::noArray(), CV_16U);
       sum.convertTo(cost, CV_8U, 1.0 / static_cast<double>(best.size()));
-      for (int v = 0; v < camera_.height; ++v) {
+      for (int v = 0; v < reference_.rows; ++v) {
         const std::uint8_t* row = cost.ptr<std::uint8_t>(v);
         std::uint8_t* to = volume.costs.data() + volume.at(0, v) + level;
-        for (int u = 0; u < camera_.width; ++u, to += levels_) *to = row[u];
+        for (int u = 0; u < reference_.cols; ++u, to += levels) *to = row[u];
       }
     }
     return volume;
@@ -180,30 +136,30 @@ class PlaneSweep {
   double mean_where_seen(const std::uint8_t* cost) const {
     double sum = 0;
     int seen = 0;
-    for (int d = 0; d < levels_; ++d)
+    for (int d = 0; d < geometry_.levels; ++d)
       if (cost[d] < kMostCost) sum += cost[d], ++seen;
     return seen ? sum / seen : 0;
   }
 
   /// The level of each pixel, if no other is about as good; inverse depth 0 where there is none.
-  std::vector<Level> winners(const CostVolume& volume,
-                             const std::vector<std::uint16_t>& sums) const {
-    std::vector<Level> found(static_cast<std::size_t>(camera_.width) * camera_.height);
+  std::vector<PixelDepth> winners(const CostVolume& volume,
+                                  const std::vector<std::uint16_t>& sums) const {
+    std::vector<PixelDepth> found(static_cast<std::size_t>(reference_.cols) * reference_.rows);
     Image fine(reference_.size(), CV_16SC1, cv::Scalar(0));  // in sixteenths of a level
-    for (int v = 0; v < camera_.height; ++v)
-      for (int u = 0; u < camera_.width; ++u) {
+    for (int v = 0; v < reference_.rows; ++v)
+      for (int u = 0; u < reference_.cols; ++u) {
         const std::uint16_t* sum = sums.data() + volume.at(u, v);
-        const int best = static_cast<int>(std::min_element(sum, sum + levels_) - sum);
-        if (best == 0 || best == levels_ - 1) continue;
+        const int best = static_cast<int>(std::min_element(sum, sum + geometry_.levels) - sum);
+        if (best == 0 || best == geometry_.levels - 1) continue;
         int second = 1 << 16;
-        for (int d = 0; d < levels_; ++d)
+        for (int d = 0; d < geometry_.levels; ++d)
           if (std::abs(d - best) > 1) second = std::min<int>(second, sum[d]);
         if (second * (1 - options_.uniqueness) < sum[best]) continue;
         const double bend = sum[best - 1] + sum[best + 1] - 2.0 * sum[best];
         const double shift = bend > 0 ? 0.5 * (sum[best - 1] - sum[best + 1]) / bend : 0;
         const std::uint8_t* cost = volume.costs.data() + volume.at(u, v);
-        found[static_cast<std::size_t>(v) * camera_.width + u] = {
-            inverse_depth(best + shift), 1.0 * sum[best],
+        found[static_cast<std::size_t>(v) * reference_.cols + u] = {
+            geometry_.inverse_depth(best + shift), 1.0 * sum[best],
             cost[best] < options_.distinct * mean_where_seen(cost)};
         fine.at<std::int16_t>(v, u) = static_cast<std::int16_t>(std::lround(16 * (best + shift)));
       }
@@ -214,79 +170,10 @@ class PlaneSweep {
     return found;
   }
 
-  /// Keeps what the better half of the views agrees to: the pixel of a point there goes to the
-  /// point with the least costs of all that fall on it, and that is this one or has its depth.
-  void agree(const std::vector<Level>& found, SweptDepth& result) const {
-    std::vector<Image> told(views_.size());
-    const auto pixel_of = [&](const View& view, int u, int v, double inverse_depth) {
-      const Eigen::Vector3d p = view.at(u, v, inverse_depth);
-      return p[2] < kBehind ? cv::Point(-1, -1)
-                            : cv::Point(cvRound(p[0] / p[2]), cvRound(p[1] / p[2]));
-    };
-    const auto inside = [&](const cv::Point& p) {
-      return p.x >= 0 && p.y >= 0 && p.x < camera_.width && p.y < camera_.height;
-    };
-    const auto each = [&](const auto& look) {
-      for (int v = 0; v < camera_.height; ++v)
-        for (int u = 0; u < camera_.width; ++u)
-          if (const Level& level = found[static_cast<std::size_t>(v) * camera_.width + u];
-              level.inverse_depth > 0)
-            look(u, v, level);
-    };
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      told[i] = Image(reference_.size(), CV_32FC2, cv::Scalar(0, 1e9));
-      each([&](int u, int v, const Level& level) {
-        const cv::Point at = pixel_of(views_[i], u, v, level.inverse_depth);
-        if (!inside(at)) return;
-        cv::Vec2f& best = told[i].at<cv::Vec2f>(at);
-        if (level.sum < best[1])
-          best = {static_cast<float>(level.inverse_depth), static_cast<float>(level.sum)};
-      });
-    }
-    each([&](int u, int v, const Level& level) {
-      double information = 0;
-      std::size_t agreed = 0;
-      for (std::size_t i = 0; i < views_.size(); ++i) {
-        const cv::Point at = pixel_of(views_[i], u, v, level.inverse_depth);
-        if (!inside(at)) continue;
-        if (std::abs(told[i].at<cv::Vec2f>(at)[0] - level.inverse_depth) > 1.5 * step_) continue;
-        information += std::pow(views_[i].rate(u, v, level.inverse_depth) / options_.sigma_px, 2);
-        ++agreed;
-      }
-      // About the point that the camera moves to nothing tells a depth.
-      constexpr double kMostDeviation = 0.2;  // of a depth, as a share of it
-      const double sigma = 1 / std::sqrt(information);
-      if (agreed < kept_ || !(sigma < kMostDeviation * level.inverse_depth)) return;
-      result.depth_m.at<float>(v, u) = static_cast<float>(1 / level.inverse_depth);
-      result.sigma_inverse.at<float>(v, u) = static_cast<float>(sigma);
-    });
-  }
-
-  /// Pixels about which all tell their depth by themselves, and the same one.
-  void mark_certain(const std::vector<Level>& found, SweptDepth& result) const {
-    constexpr int kReach = 2;
-    const auto at = [&](int u, int v) -> const Level& {
-      return found[static_cast<std::size_t>(v) * camera_.width + u];
-    };
-    for (int v = kReach; v + kReach < camera_.height; ++v)
-      for (int u = kReach; u + kReach < camera_.width; ++u) {
-        const double depth = at(u, v).inverse_depth;
-        bool certain = result.depth_m.at<float>(v, u) > 0;
-        for (int y = v - kReach; certain && y <= v + kReach; ++y)
-          for (int x = u - kReach; certain && x <= u + kReach; ++x)
-            certain = at(x, y).distinct && result.depth_m.at<float>(y, x) > 0 &&
-                      std::abs(at(x, y).inverse_depth - depth) < 3 * step_;
-        if (certain) result.certain.at<std::uint8_t>(v, u) = 255;
-      }
-  }
-
   const PlaneSweepOptions& options_;
-  Camera camera_;
+  SweepGeometry geometry_;
   Image reference_;
-  std::vector<View> views_;
-  std::size_t kept_ = 1;
-  int levels_ = 0;
-  double step_ = 0;  ///< of inverse depth between levels
+  std::vector<Image> views_;  ///< as many as the geometry has
 };
 
 }  // namespace

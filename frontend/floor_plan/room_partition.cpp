@@ -1,16 +1,49 @@
+#include <placegraph/frontend/floor_plan/room_completion.h>
 #include <placegraph/frontend/floor_plan/room_partition.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
 namespace {
 
 constexpr double kBehind_m = 0.12;  ///< how thick a surface is taken to be, away from its viewer
-const std::array<cv::Point, 4> kAround{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+Image disc(int radius) {
+  return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
+}
+
+/// Breadth first from all kernels at once, through free cells only.
+void grow(const cv::Mat1b& space, cv::Mat1i& rooms) {
+  std::vector<cv::Point> front;
+  for (int r = 0; r < rooms.rows; ++r)
+    for (int c = 0; c < rooms.cols; ++c)
+      if (rooms(r, c)) front.emplace_back(c, r);
+  while (!front.empty()) {
+    std::vector<cv::Point> next;
+    for (const cv::Point& p : front)
+      for (const cv::Point& d : kSideBySide) {
+        const cv::Point q = p + d;
+        if (q.x < 0 || q.y < 0 || q.x >= rooms.cols || q.y >= rooms.rows) continue;
+        if (!space(q) || rooms(q)) continue;
+        rooms(q) = rooms(p);
+        next.push_back(q);
+      }
+    front.swap(next);
+  }
+}
+
+/// Whether the path leads through each label.
+std::vector<char> entered_of(const std::vector<cv::Point>& path, const cv::Mat1i& rooms,
+                             int count) {
+  std::vector<char> entered(static_cast<std::size_t>(count), 0);
+  for (const cv::Point& p : path)
+    if (p.x >= 0 && p.y >= 0 && p.x < rooms.cols && p.y < rooms.rows && rooms(p))
+      entered[rooms(p)] = 1;
+  return entered;
+}
 
 class Partitioner {
  public:
@@ -62,140 +95,24 @@ class Partitioner {
     cv::Mat1f distance;
     cv::distanceTransform(space, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
     const cv::Mat1b wide = distance > 0.5 * options_.neck_m / voxels_.cell_m();
-    cv::Mat1i kernels;
-    int count = cv::connectedComponents(wide, kernels, 4, CV_32S);
-    grow(space, kernels);
-    const std::vector<char> entered = entered_of(kernels, count);
+    RoomGrid grid;
+    const int count = cv::connectedComponents(wide, grid.rooms, 4, CV_32S);
+    grow(space, grid.rooms);
+    grid.blocked = blocked_;
+    grid.entered = entered_of(path_, grid.rooms, count);
+    const Image neck = disc(std::max(1, cells(0.5 * options_.neck_m)));
     for (int k = 1; k < count; ++k)
-      if (entered[k]) fill_shadows(kernels, k, entered);
-    complete(kernels, entered);
+      if (grid.entered[k]) fill_shadows(grid, k, neck, options_.walled_share);
+    fill_boxes(grid, cuts_, options_.completed_share);
     RoomPartition result;
     result.room_of_cell = Image(space.size(), CV_32SC1, cv::Scalar(0));
-    for (int k = 1; k < count; ++k) add_room(kernels == k, distance, result);
+    for (int k = 1; k < count; ++k) add_room(grid.rooms == k, distance, result);
     return result;
   }
 
  private:
   int cells(double metres) const {
     return static_cast<int>(std::lround(metres / voxels_.cell_m()));
-  }
-  static Image disc(int radius) {
-    return cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * radius + 1, 2 * radius + 1});
-  }
-
-  /// Breadth first from all kernels at once, through free cells only.
-  static void grow(const cv::Mat1b& space, cv::Mat1i& rooms) {
-    std::vector<cv::Point> front;
-    for (int r = 0; r < rooms.rows; ++r)
-      for (int c = 0; c < rooms.cols; ++c)
-        if (rooms(r, c)) front.emplace_back(c, r);
-    while (!front.empty()) {
-      std::vector<cv::Point> next;
-      for (const cv::Point& p : front)
-        for (const cv::Point& d : kAround) {
-          const cv::Point q = p + d;
-          if (q.x < 0 || q.y < 0 || q.x >= rooms.cols || q.y >= rooms.rows) continue;
-          if (!space(q) || rooms(q)) continue;
-          rooms(q) = rooms(p);
-          next.push_back(q);
-        }
-      front.swap(next);
-    }
-  }
-
-  /// Whether the path leads through each label.
-  std::vector<char> entered_of(const cv::Mat1i& rooms, int count) const {
-    std::vector<char> entered(static_cast<std::size_t>(count), 0);
-    for (const cv::Point& p : path_)
-      if (p.x >= 0 && p.y >= 0 && p.x < rooms.cols && p.y < rooms.rows && rooms(p))
-        entered[rooms(p)] = 1;
-    return entered;
-  }
-
-  /// A mask with all that lies between two of its cells along an axis, no barrier in between, and
-  /// is as wide as a neck.
-  cv::Mat1b span(const cv::Mat1b& own, const cv::Mat1b& barrier) const {
-    cv::Mat1b grown = own.clone();
-    const auto join = [&](cv::Mat1b& joined, cv::Point p, cv::Point step, int length) {
-      for (int i = 0, last = -1; i < length; ++i, p += step) {
-        if (barrier(p)) last = -1;
-        if (!grown(p)) continue;
-        if (last >= 0)
-          for (int k = last + 1; k < i; ++k) joined(p - (i - k) * step) = 255;
-        last = i;
-      }
-    };
-    const Image neck = disc(std::max(1, cells(0.5 * options_.neck_m)));
-    for (int before = -1, now = cv::countNonZero(grown); now != before;) {
-      cv::Mat1b joined = grown.clone();
-      for (int r = 0; r < own.rows; ++r) join(joined, {0, r}, {1, 0}, own.cols);
-      for (int c = 0; c < own.cols; ++c) join(joined, {c, 0}, {0, 1}, own.rows);
-      cv::morphologyEx(joined, joined, cv::MORPH_OPEN, neck);
-      grown |= joined;
-      before = now, now = cv::countNonZero(grown);
-    }
-    return grown;
-  }
-
-  /// What furniture hides of a room lies between cells of it that are seen and borders mostly on
-  /// such; what walls take much of the border of is another room's.
-  void fill_shadows(cv::Mat1i& rooms, int room, const std::vector<char>& entered) const {
-    const cv::Mat1b own = rooms == room;
-    cv::Mat1b barrier = blocked_.clone();
-    for (std::size_t k = 1; k < entered.size(); ++k)
-      if (entered[k] && static_cast<int>(k) != room)
-        barrier.setTo(255, rooms == static_cast<int>(k));
-    const cv::Mat1b shadows = span(own, barrier) & ~own;
-    cv::Mat1i parts;
-    const auto count = static_cast<std::size_t>(cv::connectedComponents(shadows, parts, 4, CV_32S));
-    std::vector<int> open(count, 0), wall(count, 0), unseen(count, 0);
-    for (int r = 1; r + 1 < rooms.rows; ++r)
-      for (int c = 1; c + 1 < rooms.cols; ++c)
-        if (const int part = parts(r, c))
-          for (const cv::Point& d : kAround) {
-            const cv::Point q = cv::Point(c, r) + d;
-            if (parts(q) != part) ++(blocked_(q) ? wall : own(q) ? open : unseen)[part];
-          }
-    for (int r = 0; r < rooms.rows; ++r)
-      for (int c = 0; c < rooms.cols; ++c)
-        if (const int part = parts(r, c);
-            part && open[part] > unseen[part] &&
-            wall[part] <= options_.walled_share * (wall[part] + open[part]))
-          rooms(r, c) = room;
-  }
-
-  /// Number of the strip between cuts of every column or row; -1 outside of all.
-  static std::vector<int> strips(std::vector<int> cuts, int size) {
-    std::sort(cuts.begin(), cuts.end());
-    std::vector<int> strip(static_cast<std::size_t>(size), -1);
-    for (int i = 0; i < size; ++i) {
-      const auto next = std::upper_bound(cuts.begin(), cuts.end(), i);
-      if (next != cuts.begin() && next != cuts.end())
-        strip[i] = static_cast<int>(next - cuts.begin());
-    }
-    return strip;
-  }
-
-  /// Boxes between the lines of walls that are mostly one entered room's become its own.
-  void complete(cv::Mat1i& rooms, const std::vector<char>& entered) const {
-    const std::vector<int> column = strips(cuts_[0], rooms.cols),
-                           row = strips(cuts_[1], rooms.rows);
-    std::map<std::pair<int, int>, std::map<int, int>> boxes;  // cells by room, -1: all
-    for (int r = 0; r < rooms.rows; ++r)
-      for (int c = 0; c < rooms.cols; ++c) {
-        if (column[c] < 0 || row[r] < 0 || blocked_(r, c)) continue;
-        auto& box = boxes[{column[c], row[r]}];
-        ++box[-1];
-        if (rooms(r, c) > 0) ++box[rooms(r, c)];
-      }
-    for (int r = 0; r < rooms.rows; ++r)
-      for (int c = 0; c < rooms.cols; ++c) {
-        if (column[c] < 0 || row[r] < 0 || blocked_(r, c) || rooms(r, c)) continue;
-        const auto& box = boxes[{column[c], row[r]}];
-        for (const auto& [room, cells] : box)
-          if (room > 0 && entered[room] && cells > options_.completed_share * box.at(-1))
-            rooms(r, c) = room;
-      }
   }
 
   /// Whether walls run along much of a hole's border.

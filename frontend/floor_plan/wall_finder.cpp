@@ -1,12 +1,10 @@
 #include <placegraph/frontend/floor_plan/wall_finder.h>
+#include <placegraph/frontend/floor_plan/wall_fit.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/graph/core/median.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <map>
 #include <optional>
 
 namespace placegraph {
@@ -51,7 +49,7 @@ class SideCoverage {
           if (used_[a]) wall_[static_cast<std::size_t>(o) * alongs_ + a] = 0;
       for (int a = 0; a < alongs_; ++a) wall_[static_cast<std::size_t>(best) * alongs_ + a] = 0;
     }
-    join(found);
+    join_walls(points_, options_, found);
     constexpr double kShort_m = 1.3;
     std::erase_if(found, [&](const WallPiece& piece) {
       return piece.to_m - piece.from_m < kShort_m && piece.high_m < options_.min_top_m;
@@ -141,89 +139,7 @@ class SideCoverage {
     piece.axis = axis_, piece.sign = sign_;
     piece.from_m = along_low_ + first * kAlong_m, piece.to_m = along_low_ + (last + 1) * kAlong_m;
     piece.offset_m = offset_low_ + (offset + 0.5) * kOffset_m;
-    if (fit(piece)) found.push_back(piece);
-  }
-
-  /// The line through the points near a piece, robustly, and what they tell of its extent.
-  bool fit(WallPiece& piece) const {
-    std::vector<const PlacedPoint*> near;
-    for (const PlacedPoint* p : points_) {
-      const double s = p->point[1 - axis_];
-      if (s < piece.from_m || s > piece.to_m) continue;
-      if (std::abs(p->point[axis_] - piece.offset_at(s)) < options_.band_m + options_.max_step_m)
-        near.push_back(p);
-    }
-    if (near.size() < 8) return false;
-    const double middle = 0.5 * (piece.from_m + piece.to_m);
-    const bool sloping = piece.to_m - piece.from_m > 1.5;
-    for (int round = 0; round < 8; ++round) {
-      Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
-      Eigen::Vector2d b = Eigen::Vector2d::Zero();
-      for (const PlacedPoint* p : near) {
-        const double s = p->point[1 - axis_] - middle;
-        const double r = (p->point[axis_] - piece.offset_at(s + middle)) / 0.02;
-        const double w = 1 / (1 + r * r) / (1e-4 + p->sigma * p->sigma);
-        const Eigen::Vector2d row(1, sloping ? s : 0);
-        A += w * row * row.transpose();
-        b += w * row * p->point[axis_];
-      }
-      if (!sloping) A(1, 1) = 1;
-      const Eigen::Vector2d x = A.inverse() * b;
-      piece.offset_m = x[0], piece.slope = x[1];
-    }
-    tell(near, piece);
-    return std::abs(piece.slope) < std::tan(deg_to_rad(options_.max_turn_deg));
-  }
-
-  void tell(const std::vector<const PlacedPoint*>& near, WallPiece& piece) const {
-    std::vector<double> deviations, heights, alongs;
-    std::map<int, int> votes;
-    for (const PlacedPoint* p : near) {
-      const double s = p->point[1 - axis_];
-      deviations.push_back(std::abs(p->point[axis_] - piece.offset_at(s)));
-      heights.push_back(p->point[2]), alongs.push_back(s);
-      ++votes[p->sight];
-    }
-    // Points of one sight share its pose's error: sights count, not points.
-    piece.sigma_m = std::hypot(
-        0.003, 1.4826 * median_of(deviations) / std::sqrt(static_cast<double>(votes.size())));
-    std::sort(heights.begin(), heights.end());
-    piece.low_m = std::max(0.0, heights[heights.size() / 50]);
-    piece.high_m = heights[heights.size() - 1 - heights.size() / 50];
-    const double offset_from = piece.offset_at(0);
-    piece.from_m = std::max(piece.from_m, *std::min_element(alongs.begin(), alongs.end()));
-    piece.to_m = std::min(piece.to_m, *std::max_element(alongs.begin(), alongs.end()));
-    piece.offset_m = offset_from + piece.slope * 0.5 * (piece.from_m + piece.to_m);
-    piece.count = static_cast<int>(near.size());
-    piece.sight = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
-                    return a.second < b.second;
-                  })->first;
-  }
-
-  /// Whether two pieces are one wall that poses of different rounds have put a little apart.
-  bool one_wall(const WallPiece& a, const WallPiece& b) const {
-    const double gap = std::max(a.from_m, b.from_m) - std::min(a.to_m, b.to_m);
-    if (gap > options_.max_gap_m) return false;
-    const double at = 0.5 * (std::max(a.from_m, b.from_m) + std::min(a.to_m, b.to_m));
-    return std::abs(a.offset_at(at) - b.offset_at(at)) < options_.max_step_m;
-  }
-
-  void join(std::vector<WallPiece>& pieces) const {
-    for (std::size_t i = 0; i < pieces.size(); ++i)
-      for (std::size_t j = i + 1; j < pieces.size(); ++j) {
-        if (!one_wall(pieces[i], pieces[j])) continue;
-        const WallPiece& longer =
-            pieces[i].to_m - pieces[i].from_m > pieces[j].to_m - pieces[j].from_m ? pieces[i]
-                                                                                  : pieces[j];
-        WallPiece whole = longer;
-        whole.from_m = std::min(pieces[i].from_m, pieces[j].from_m);
-        whole.to_m = std::max(pieces[i].to_m, pieces[j].to_m);
-        whole.offset_m = longer.offset_at(0.5 * (whole.from_m + whole.to_m));
-        if (!fit(whole)) continue;
-        pieces[i] = whole;
-        pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(j));
-        j = i;
-      }
+    if (fit_wall(points_, options_, piece)) found.push_back(piece);
   }
 
   const VoxelEvidence& voxels_;

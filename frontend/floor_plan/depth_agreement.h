@@ -1,0 +1,22 @@
+#pragma once
+#include <placegraph/frontend/floor_plan/sweep_geometry.h>
+
+#include <vector>
+
+namespace placegraph {
+
+/// What a pixel tells of its depth before other views are asked.
+struct PixelDepth {
+  double inverse_depth = 0;  ///< [1/m]; 0: nothing
+  double cost = 0;
+  bool distinct = false;  ///< the pixel tells it by itself
+};
+
+/// Keeps the depths that the better half of the views agrees to: where a view sees the point it
+/// sees, of all points that fall on that pixel, the one with the least cost, and that is this one
+/// or has its depth. A depth whose deviation is over a fifth of it is not kept. `found`: of the
+/// pixels of the geometry's camera, row by row; `sigma_px`: of where a surface is seen in a view.
+[[nodiscard]] SweptDepth agreed_depth(const std::vector<PixelDepth>& found,
+                                      const SweepGeometry& geometry, double sigma_px);
+
+}  // namespace placegraph
