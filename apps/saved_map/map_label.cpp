@@ -13,8 +13,8 @@
 #include <memory>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/support/image_range.h"
 #include "apps/results/map_file.h"
+#include "apps/support/image_range.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {

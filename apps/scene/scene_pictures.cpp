@@ -6,7 +6,6 @@
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
+#include <utility>
 
 #include "apps/support/image_folder_of.h"
 #include "apps/support/output.h"
@@ -30,13 +30,10 @@ std::vector<std::string> pictures_of(const std::string& input) {
   return {input};
 }
 
-struct Tally {
-  std::vector<std::int64_t> pixels;  ///< of each class, then unknown ones
-  double ms = 0;                     ///< of the processor
-};
-
-Tally label_picture(const std::string& path, const ScenePictureArguments& a, std::size_t classes,
-                    const std::function<SceneLabels(const SceneView&)>& label) {
+/// Pixels of each class, then unknown ones.
+std::vector<std::int64_t> label_picture(const std::string& path, const ScenePictureArguments& a,
+                                        std::size_t classes,
+                                        const std::function<SceneLabels(const SceneView&)>& label) {
   const GreyAndColour read = read_image(path);
   const Image picture = read.colour.empty() ? read.grey : read.colour;
   SceneLabels found;
@@ -45,9 +42,9 @@ Tally label_picture(const std::string& path, const ScenePictureArguments& a, std
   } catch (const ArgumentError& error) {
     throw FileError(path, error.what());
   }
-  Tally tally{std::vector<std::int64_t>(classes + 1, 0), 0};
+  std::vector<std::int64_t> pixels(classes + 1, 0);
   for (int v = 0; v < found.labels.rows; ++v)
-    for (int u = 0; u < found.labels.cols; ++u) ++tally.pixels[found.labels.at<std::uint8_t>(v, u)];
+    for (int u = 0; u < found.labels.cols; ++u) ++pixels[found.labels.at<std::uint8_t>(v, u)];
   const fs::path out = fs::path(a.out) / fs::path(path).stem();
   write_png(out.string() + ".png", found.labels);
   if (a.confidence) {
@@ -61,27 +58,18 @@ Tally label_picture(const std::string& path, const ScenePictureArguments& a, std
     write_png(out.string() + ".drawn.png",
               draw_labels(bgr, found.labels, static_cast<int>(classes)));
   }
-  return tally;
+  return pixels;
 }
 
-void print_tally(const Tally& all, const ScenePictureArguments& a,
-                 const std::vector<std::string>& classes, std::size_t pictures) {
+/// Of all pixels, by class, then of unknown ones.
+std::vector<std::pair<std::string, double>> shares_of(const ScenePictureResult& result) {
   double sum = 0;
-  for (const std::int64_t pixels : all.pixels) sum += static_cast<double>(pixels);
-  nlohmann::json report = {{"pictures", pictures},
-                           {"ms_per_picture", all.ms / static_cast<double>(pictures)}};
-  std::string text = fmt::format("{} pictures, {:.0f} ms of the processor each:", pictures,
-                                 all.ms / static_cast<double>(pictures));
-  for (std::size_t c = 0; c <= classes.size(); ++c) {
-    const std::string name = c < classes.size() ? classes[c] : "unknown";
-    const double share = static_cast<double>(all.pixels[c]) / sum;
-    report["shares"][name] = share;
-    if (all.pixels[c] > 0) text += fmt::format(" {} {:.3f}", name, share);
-  }
-  if (a.json)
-    fmt::print("{}\n", report.dump(2));
-  else
-    fmt::print("{}, written to {}\n", text, a.out);
+  for (const std::int64_t pixels : result.pixels) sum += static_cast<double>(pixels);
+  std::vector<std::pair<std::string, double>> shares;
+  for (std::size_t c = 0; c < result.pixels.size(); ++c)
+    shares.emplace_back(c < result.classes.size() ? result.classes[c] : "unknown",
+                        static_cast<double>(result.pixels[c]) / sum);
+  return shares;
 }
 
 }  // namespace
@@ -106,29 +94,9 @@ Image draw_labels(const Image& bgr, const Image& labels, int classes) {
   return drawn;
 }
 
-void add_scene_picture_options(CLI::App& command, ScenePictureArguments& a) {
-  command.add_option("INPUT", a.input, "an image, or a folder of them (or with them in images/)")
-      ->required();
-  command.add_option("--out", a.out, "folder for NAME.png, a class number a pixel")->required();
-  command.add_option("--model", a.model, "in place of the one that came with the program");
-  command
-      .add_option("--unknown-below", a.unknown_below,
-                  "less sure pixels get the number after the last class")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command.add_flag("--relations", a.relations,
-                   "let the table of what lies above and beside what count too");
-  command.add_flag("--confidence", a.confidence, "write NAME.confidence.png too, 255 = certain");
-  command.add_flag("--draw", a.draw, "write NAME.drawn.png too, the classes in colours");
-  command.add_option("--threads", a.threads, "pictures at a time")
-      ->check(CLI::Range(1, 64))
-      ->capture_default_str();
-  command.add_flag("--json", a.json, "a report for machines");
-  command.add_flag("--force", a.force, "write into a folder that is not empty");
-}
-
-void label_pictures(const ScenePictureArguments& a, const std::vector<std::string>& classes,
-                    const std::function<SceneLabels(const SceneView&)>& label) {
+ScenePictureResult label_pictures(const ScenePictureArguments& a,
+                                  const std::vector<std::string>& classes,
+                                  const std::function<SceneLabels(const SceneView&)>& label) {
   cv::setNumThreads(1);
   const std::vector<std::string> pictures = pictures_of(a.input);
   std::set<std::string> names;
@@ -138,22 +106,38 @@ void label_pictures(const ScenePictureArguments& a, const std::vector<std::strin
   require_free_folder(a.out, a.force);
   const OutputFolder folder(a.out);
   const Stopwatch watch;
-  std::vector<Tally> tallies(pictures.size());
+  std::vector<std::vector<std::int64_t>> pixels(pictures.size());
   Progress progress("labelling", static_cast<std::int64_t>(pictures.size()), "pictures");
   const auto part = static_cast<std::size_t>(4 * a.threads);
   for (std::size_t begin = 0; begin < pictures.size(); begin += part) {
     const std::size_t count = std::min(part, pictures.size() - begin);
     parallel_for(static_cast<int>(count), a.threads, [&](int k) {
       const std::size_t at = begin + static_cast<std::size_t>(k);
-      tallies[at] = label_picture(pictures[at], a, classes.size(), label);
+      pixels[at] = label_picture(pictures[at], a, classes.size(), label);
     });
     progress.update(static_cast<std::int64_t>(begin + count));
   }
-  Tally all{std::vector<std::int64_t>(classes.size() + 1, 0), 0};
-  for (const Tally& tally : tallies)
-    for (std::size_t c = 0; c < all.pixels.size(); ++c) all.pixels[c] += tally.pixels[c];
-  all.ms = watch.cpu_ms();
-  print_tally(all, a, classes, pictures.size());
+  ScenePictureResult result{a.out, classes, std::vector<std::int64_t>(classes.size() + 1, 0),
+                            pictures.size()};
+  for (const std::vector<std::int64_t>& of_picture : pixels)
+    for (std::size_t c = 0; c < of_picture.size(); ++c) result.pixels[c] += of_picture[c];
+  result.cpu_ms_a_picture = watch.cpu_ms() / static_cast<double>(pictures.size());
+  return result;
+}
+
+std::string to_text(const ScenePictureResult& result) {
+  std::string text = fmt::format("{} pictures, {:.0f} ms of the processor each:", result.pictures,
+                                 result.cpu_ms_a_picture);
+  for (const auto& [name, share] : shares_of(result))
+    if (share > 0) text += fmt::format(" {} {:.3f}", name, share);
+  return fmt::format("{}, written to {}\n", text, result.out);
+}
+
+std::string to_json(const ScenePictureResult& result) {
+  nlohmann::json report = {{"pictures", result.pictures},
+                           {"ms_per_picture", result.cpu_ms_a_picture}};
+  for (const auto& [name, share] : shares_of(result)) report["shares"][name] = share;
+  return report.dump(2) + "\n";
 }
 
 }  // namespace placegraph::apps

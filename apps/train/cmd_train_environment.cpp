@@ -1,252 +1,16 @@
 #include "apps/train/cmd_train_environment.h"
 
-#include <fmt/format.h>
-#include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/random.h>
-#include <placegraph/io/files/image_file.h>
-#include <placegraph/io/synthetic/render/renderer.h>
-#include <placegraph/io/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/synthetic/worlds/tours.h>
-#include <placegraph/pipeline/cues/surface_labels.h>
-
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <numbers>
-#include <opencv2/core.hpp>
 
-#include "apps/support/labelled_set.h"
 #include "apps/support/output.h"
-#include "apps/support/progress.h"
-#include "apps/support/scene_models.h"
+#include "apps/train/train_environment.h"
 
 namespace placegraph::apps {
-namespace {
-
-struct TrainEnvironmentArguments {
-  std::string data, out, model;
-  std::vector<std::uint64_t> seeds{11, 12}, left_out{14};
-  int frames = 14;
-  double penalty = 3e-3;
-  bool force = false, json = false;
-};
-
-using Samples = std::vector<EnvironmentSample>;
-
-/// Of a room by its name; nothing for shafts, which nobody enters.
-std::optional<Environment> kind_of_name(const std::string& name) {
-  if (name.starts_with("shaft")) return std::nullopt;
-  if (name.starts_with("corridor")) return Environment::kCorridor;
-  if (name.starts_with("hall")) return Environment::kHall;
-  return Environment::kRoom;
-}
-
-/// Of the room that a point of the plan lies in; nothing outside and in rooms of other names.
-std::optional<Environment> kind_of_room(const nlohmann::json& plan, const Eigen::Vector3d& p) {
-  for (const nlohmann::json& room : plan.at("rooms")) {
-    const auto low = room.at("low").get<std::vector<double>>();
-    const auto high = room.at("high").get<std::vector<double>>();
-    if (p.x() < low.at(0) || p.x() > high.at(0) || p.z() < low.at(1) || p.z() > high.at(1))
-      continue;
-    return kind_of_name(room.at("name").get<std::string>());
-  }
-  return std::nullopt;
-}
-
-/// Where corners of the picture are, in the camera's frame: points as a run would follow them.
-std::vector<Eigen::Vector3d> corner_points(const Frame& frame, const Camera& camera) {
-  constexpr float kFarthest_m = 150;  // beyond it no parallax shows them
-  PointTracker tracker{PointTrackerOptions{}};
-  tracker.track(frame.image);
-  tracker.detect();
-  std::vector<Eigen::Vector3d> points;
-  for (const PointTrack& track : tracker.tracks()) {
-    const auto u = static_cast<int>(std::lround(track.px.x()));
-    const auto v = static_cast<int>(std::lround(track.px.y()));
-    const float depth = frame.depth.at<float>(v, u);
-    const auto ray = camera.unproject(track.px.cast<double>());
-    if (depth > 0 && depth < kFarthest_m && ray)
-      points.push_back(static_cast<double>(depth) * *ray);
-  }
-  return points;
-}
-
-EnvironmentEvidence evidence_of(const Frame& frame, const Camera& camera, const SceneEye& eye,
-                                bool with_depth) {
-  EnvironmentEvidence evidence;
-  evidence.see(eye.look(frame, false).shares);
-  const auto [edges, of] = edges_of(frame.image, camera);
-  evidence.see(edges, of);
-  if (with_depth) evidence.see(corner_points(frame, camera), true);
-  return evidence;
-}
-
-/// A view from anywhere in a room of the plan, as somebody holds a camera; nothing if it is
-/// blocked.
-std::optional<Frame> handheld_view(const SyntheticWorld& world, const nlohmann::json& room,
-                                   double floor_y, Random& random) {
-  constexpr double kMargin_m = 0.7, kNearest_m = 0.5;
-  const auto low = room.at("low").get<std::vector<double>>();
-  const auto high = room.at("high").get<std::vector<double>>();
-  const auto inside = [&](std::size_t i) {
-    return low.at(i) + 2 * kMargin_m < high.at(i)
-               ? random.uniform(low.at(i) + kMargin_m, high.at(i) - kMargin_m)
-               : 0.5 * (low.at(i) + high.at(i));
-  };
-  const double x = inside(0), z = inside(1), height = random.uniform(1.1, 1.7);
-  const Eigen::Vector3d yaw(0, random.uniform(-std::numbers::pi, std::numbers::pi), 0);
-  const Eigen::Vector3d pitch(random.uniform(-0.7, 0.2), 0, 0),
-      roll(0, 0, random.uniform(-0.5, 0.5));
-  const Eigen::Vector3d origin = world.tour().T_scene_cam.front().translation();
-  const synthetic::View view{world.tour().camera,
-                             SE3(SO3::exp(yaw) * SO3::exp(pitch) * SO3::exp(roll),
-                                 origin + Eigen::Vector3d(x, floor_y - height, z)),
-                             0};
-  const synthetic::Rendering rendering = synthetic::render(world.tour().scene, view, 1, false, 1);
-  Frame frame;
-  frame.depth = synthetic::depth_image(rendering);
-  if (cv::countNonZero(frame.depth < kNearest_m) > 0.2 * static_cast<double>(frame.depth.total()))
-    return std::nullopt;
-  rendering.grey.convertTo(frame.image, CV_8UC1, 255);
-  for (int v = 0; v < frame.image.rows; ++v)
-    for (int u = 0; u < frame.image.cols; ++u)
-      frame.image.at<std::uint8_t>(v, u) =
-          cv::saturate_cast<std::uint8_t>(frame.image.at<std::uint8_t>(v, u) + random.normal(0, 2));
-  return frame;
-}
-
-/// `count` of such views, the kinds of rooms in turn.
-void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int count,
-                  const SceneEye& eye, Samples& samples) {
-  std::vector<std::vector<const nlohmann::json*>> rooms(kEnvironmentCount);
-  for (const nlohmann::json& room : plan.at("rooms"))
-    if (const auto kind = kind_of_name(room.at("name").get<std::string>()))
-      rooms[static_cast<std::size_t>(*kind)].push_back(&room);
-  Random random(world.options().seed, 5);
-  const double floor_y = plan.at("floor_y").get<double>();
-  for (int i = 0; i < count; ++i) {
-    const auto kind = static_cast<std::size_t>(i % kEnvironmentCount);
-    if (rooms[kind].empty()) continue;
-    const nlohmann::json& room =
-        *rooms[kind][static_cast<std::size_t>(random.index(static_cast<int>(rooms[kind].size())))];
-    if (const auto frame = handheld_view(world, room, floor_y, random))
-      samples.push_back({evidence_of(*frame, world.calibration().camera, eye, true),
-                         static_cast<Environment>(kind)});
-  }
-}
-
-void add_world(const std::string& name, std::uint64_t seed, int frames, const SceneEye& eye,
-               Samples& samples) {
-  SyntheticOptions options;
-  options.world = name;
-  options.seed = seed;
-  const SyntheticWorld world(options);
-  const Camera camera = world.calibration().camera;
-  const Trajectory truth = world.ground_truth();
-  nlohmann::json plan;
-  if (world.is_indoor()) plan = nlohmann::json::parse(world.floor_plan());
-  for (int i = 0; i < frames; ++i) {
-    const std::size_t at =
-        world.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(frames);
-    std::optional<Environment> kind = Environment::kStreet;
-    if (world.is_indoor()) kind = kind_of_room(plan, truth.poses[at].T_world_body->translation());
-    if (!kind) continue;
-    const SyntheticFrame seen = world.render(at, {.depth = true});
-    samples.push_back({evidence_of(seen.frame, camera, eye, true), *kind});
-  }
-  if (world.is_indoor()) add_handheld(world, plan, 2 * frames, eye, samples);
-}
-
-/// Pictures of a labelled set: a street where a tenth is buildings, a road where hardly any is;
-/// what lies between is neither. Depth is not known of them.
-void add_pictures(const std::string& data, const SceneEye& eye, Samples& samples) {
-  constexpr double kStreetShare = 0.12, kRoadShare = 0.03;
-  const LabelledSet set = read_labelled_set(data);
-  const auto building = std::find_if(set.classes.begin(), set.classes.end(),
-                                     [](const SceneClass& c) { return c.name == "Building"; });
-  require(building != set.classes.end(), data + ": has no class Building");
-  constexpr std::size_t kStep = 3;  // neighbours of a drive look alike
-  for (std::size_t i = 0; i < set.train.size(); i += kStep) {
-    Frame frame;
-    const Image labels = read_image_as_stored(set.train[i].labels);
-    const GreyAndColour picture = read_image(set.train[i].image);
-    frame.image = picture.grey;
-    frame.colour = picture.colour;
-    const double share = static_cast<double>(cv::countNonZero(labels == building->id)) /
-                         static_cast<double>(labels.total());
-    if (share > kRoadShare && share < kStreetShare) continue;
-    Camera camera;  // a lens of about 58 degrees
-    camera.width = frame.image.cols;
-    camera.height = frame.image.rows;
-    camera.fx = camera.fy = 0.9 * camera.width;
-    camera.cx = 0.5 * (camera.width - 1);
-    camera.cy = 0.5 * (camera.height - 1);
-    samples.push_back({evidence_of(frame, camera, eye, false),
-                       share < kRoadShare ? Environment::kRoad : Environment::kStreet});
-  }
-}
-
-/// Of each kind: how many there are, and how many are told right.
-nlohmann::ordered_json judge(const EnvironmentModel& model, const Samples& samples) {
-  std::array<int, kEnvironmentCount> count{}, right{};
-  for (const EnvironmentSample& sample : samples) {
-    const auto p = model.probabilities(sample.evidence);
-    const auto kind = static_cast<std::size_t>(sample.kind);
-    ++count[kind];
-    right[kind] += std::max_element(p.begin(), p.end()) - p.begin() == static_cast<int>(kind);
-  }
-  nlohmann::ordered_json json;
-  for (std::size_t k = 0; k < kEnvironmentCount; ++k)
-    if (count[k] > 0)
-      json[environment_name(static_cast<Environment>(k))] = {{"views", count[k]},
-                                                             {"right", right[k]}};
-  return json;
-}
-
-void train(const TrainEnvironmentArguments& arguments) {
-  require_free(arguments.out, arguments.force);
-  const SceneEye eye(std::make_shared<const SceneModel>(
-                         load_scene_model(SceneModel::Kind::kSurfaces, arguments.model)),
-                     {});
-  const std::vector<std::string> worlds{"town-loop", "corridor-loop", "warehouse"};
-  Samples lesson, test;
-  Progress progress("rendering",
-                    static_cast<std::int64_t>(worlds.size() *
-                                              (arguments.seeds.size() + arguments.left_out.size())),
-                    "worlds");
-  std::int64_t done = 0;
-  for (const std::string& world : worlds) {
-    for (const std::uint64_t seed : arguments.seeds) {
-      add_world(world, seed, arguments.frames, eye, lesson);
-      progress.update(++done);
-    }
-    for (const std::uint64_t seed : arguments.left_out) {
-      add_world(world, seed, arguments.frames, eye, test);
-      progress.update(++done);
-    }
-  }
-  if (!arguments.data.empty()) add_pictures(arguments.data, eye, lesson);
-  const EnvironmentModel model = train_environments(lesson, arguments.penalty);
-  write_file(arguments.out, to_text(model));
-  const nlohmann::ordered_json report = {
-      {"out", arguments.out}, {"lesson", judge(model, lesson)}, {"left_out", judge(model, test)}};
-  if (arguments.json) {
-    std::puts(report.dump(2).c_str());
-    return;
-  }
-  for (const char* set : {"lesson", "left_out"})
-    for (const auto& [kind, told] : report[set].items())
-      fmt::print("{:9} {:9} {:4} of {:4} told right\n", set, kind, told["right"].get<int>(),
-                 told["views"].get<int>());
-}
-
-}  // namespace
 
 void add_train_environment_command(CLI::App& train_command) {
   auto arguments = std::make_shared<TrainEnvironmentArguments>();
+  auto json = std::make_shared<bool>(false);
   TrainEnvironmentArguments& a = *arguments;
   CLI::App* command = train_command.add_subcommand(
       "environment", "What kind of surroundings a view shows: frontend/scene/environment.txt");
@@ -266,9 +30,12 @@ void add_train_environment_command(CLI::App& train_command) {
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
   command->add_option("--model", a.model, "of surfaces, in place of the one that came along");
-  command->add_flag("--json", a.json, "print JSON");
+  command->add_flag("--json", *json, "print JSON");
   command->add_flag("--force", a.force, "overwrite outputs");
-  command->callback([arguments] { train(*arguments); });
+  command->callback([arguments, json] {
+    const TrainEnvironmentResult result = train_environment(*arguments);
+    print(*json ? to_json(result) : to_text(result));
+  });
 }
 
 }  // namespace placegraph::apps

@@ -1,6 +1,6 @@
 #include "apps/train/cmd_train_urban.h"
 
-#include "apps/train/train_scene.h"
+#include "apps/train/cmd_train_scene.h"
 
 namespace placegraph::apps {
 

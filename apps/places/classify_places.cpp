@@ -1,0 +1,174 @@
+#include "apps/places/classify_places.h"
+
+#include <fmt/format.h>
+#include <placegraph/frontend/places/classifiers/place_classifier.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/measurements/label_file.h>
+#include <placegraph/io/measurements/loop_file.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "apps/support/choice.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+
+const std::vector<std::string>& place_machines() {
+  static const std::vector<std::string> names = {"kernel", "svm", "adaboost"};
+  return names;
+}
+
+const std::vector<std::string>& place_cues() {
+  static const std::vector<std::string> names = {"colours", "quarters", "edges", "tiny", "gabor"};
+  return names;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Halves {
+  std::set<std::int64_t> training, asked;
+};
+
+// The candidates of gt.txt are the training half, its queries the other.
+Halves halves_of(const ClassifyPlacesArguments& arguments, int images) {
+  Halves halves;
+  const std::string listed = (fs::path(arguments.folder) / "gt.txt").string();
+  if (arguments.train) {
+    require(*arguments.train < images,
+            fmt::format("--train {}: there are {} images", *arguments.train, images));
+    for (int i = 0; i < images; ++i)
+      (i < *arguments.train ? halves.training : halves.asked).insert(i);
+    return halves;
+  }
+  const LoopTruthFile file = read_loop_truth(listed);
+  if (file.format != LoopTruthFormat::kRanges)
+    throw FileError(listed, "lists no candidates (query first last ...): use --train");
+  for (const auto& [image, query] : file.truth.queries) {
+    if (image >= images || query.last >= images)
+      throw FileError(
+          listed, fmt::format("image {}, and there are {}", std::max(image, query.last), images));
+    halves.asked.insert(image);
+    for (std::int64_t i = query.first; i <= query.last; ++i) halves.training.insert(i);
+  }
+  for (const std::int64_t image : halves.asked)
+    require(!halves.training.contains(image),
+            fmt::format("{}: image {} is a query and a candidate", listed, image));
+  return halves;
+}
+
+bool counts(const std::vector<std::string>& cues, const std::string& name) {
+  return std::find(cues.begin(), cues.end(), name) != cues.end();
+}
+
+PlaceCueVectors read_view(const std::string& path, const std::vector<std::string>& cues) {
+  const GreyAndColour image = read_image(path);
+  PlaceCueVectors view = describe_for_classes(image.colour.empty() ? image.grey : image.colour);
+  for (std::size_t m = 0; m < view.size(); ++m)
+    if (!counts(cues, place_cues()[m])) view[m].resize(0);
+  return view;
+}
+
+void require_some_cue(const ClassifyPlacesArguments& arguments, const PlaceCueVectors& view) {
+  const auto known = [](const Eigen::VectorXf& cue) { return cue.size() > 0; };
+  require(std::any_of(view.begin(), view.end(), known),
+          arguments.folder + ": grey images, and --cues asks for colours alone");
+  const bool asked = counts(arguments.cues, "colours") || counts(arguments.cues, "quarters");
+  if (asked && !known(view[0]) && !known(view[1]))
+    warn(arguments.folder + ": grey images; places are told without the colour cues");
+}
+
+/// The training half, described.
+struct LabelledViews {
+  std::vector<PlaceCueVectors> views;
+  std::vector<int> labels;
+};
+
+LabelledViews read_lesson(const ClassifyPlacesArguments& arguments,
+                          const std::vector<std::string>& images,
+                          const std::set<std::int64_t>& training) {
+  const std::string label_path = (fs::path(arguments.folder) / "labels.txt").string();
+  const std::map<std::int64_t, int> all_labels = read_labels(label_path);
+  LabelledViews lesson;
+  for (const std::int64_t image : training) {
+    const auto label = all_labels.find(image);
+    if (label == all_labels.end())
+      throw FileError(label_path, fmt::format("no label for training image {}", image));
+    constexpr int kMostPlaces = 10000;
+    if (label->second >= kMostPlaces)
+      throw FileError(label_path,
+                      fmt::format("label {}: at most {} places", label->second, kMostPlaces));
+    lesson.labels.push_back(label->second);
+    lesson.views.push_back(read_view(images[static_cast<std::size_t>(image)], arguments.cues));
+  }
+  require_some_cue(arguments, lesson.views.front());
+  return lesson;
+}
+
+std::vector<ToldPlace> tell(const ClassifyPlacesArguments& arguments,
+                            const std::vector<std::string>& images,
+                            const std::set<std::int64_t>& asked, const PlaceClassifier& classifier,
+                            LabelFilter filter) {
+  std::vector<ToldPlace> told;
+  for (const std::int64_t image : asked) {
+    Eigen::VectorXd probabilities =
+        classifier.classify(read_view(images[static_cast<std::size_t>(image)], arguments.cues));
+    if (arguments.sequence) probabilities = filter.update(probabilities);
+    Eigen::Index best = 0;
+    const double probability = probabilities.maxCoeff(&best);
+    const bool accepted =
+        probability >= arguments.reject && entropy_share(probabilities) <= arguments.max_entropy;
+    told.push_back({image, accepted ? static_cast<int>(best) : -1, probability});
+  }
+  return told;
+}
+
+}  // namespace
+
+ClassifyPlacesResult classify_places(const ClassifyPlacesArguments& arguments) {
+  PlaceClassifierOptions options;
+  options.machine =
+      choice<PlaceMachineKind>("--classifier", place_machines(), arguments.classifier);
+  for (const std::string& cue : arguments.cues) (void)choice<int>("--cues", place_cues(), cue);
+  require_free(arguments.out, arguments.force);
+  const fs::path inside = fs::path(arguments.folder) / "images";
+  const std::vector<std::string> images =
+      list_images(fs::is_directory(inside) ? inside.string() : arguments.folder);
+  const Halves halves = halves_of(arguments, static_cast<int>(images.size()));
+  LabelledViews lesson = read_lesson(arguments, images, halves.training);
+  const PlaceClassifier classifier =
+      PlaceClassifier::train(std::move(lesson.views), lesson.labels, options);
+  ClassifyPlacesResult result;
+  result.out = arguments.out;
+  result.learned = lesson.labels.size();
+  result.told = tell(arguments, images, halves.asked, classifier, LabelFilter(lesson.labels));
+  std::string lines;
+  for (const ToldPlace& place : result.told) {
+    result.refused += place.label < 0;
+    lines += fmt::format("{} {} {:.6f}\n", place.image, place.label, place.probability);
+  }
+  write_file(arguments.out, lines);
+  result.weights = {classifier.weights().begin(), classifier.weights().end()};
+  result.accuracy = classifier.cross_validated_accuracy();
+  result.log_loss = classifier.cross_validated_log_loss();
+  return result;
+}
+
+std::string to_text(const ClassifyPlacesResult& result) {
+  std::string weights;
+  for (std::size_t m = 0; m < result.weights.size(); ++m)
+    weights += fmt::format("{}{} {:.2g}", m == 0 ? "" : ", ", place_cues()[m], result.weights[m]);
+  return fmt::format(
+      "{} views learned, {} told, {} refused; weights of {}; on left out parts accuracy {:.3f}, "
+      "log loss {:.3f}; written to {}\n",
+      result.learned, result.told.size(), result.refused, weights, result.accuracy, result.log_loss,
+      result.out);
+}
+
+}  // namespace placegraph::apps

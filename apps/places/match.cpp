@@ -1,0 +1,222 @@
+#include "apps/places/match.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/files/image_file.h>
+#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/models/vocabulary_file.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <opencv2/core/utility.hpp>
+
+#include "apps/support/choice.h"
+#include "apps/support/image_folder_of.h"
+#include "apps/support/output.h"
+#include "apps/support/progress.h"
+#include "apps/support/usage.h"
+
+namespace placegraph::apps {
+
+void visit(OptionVisitor& field, MatchOptions& options) {
+  field.group("recognizer", options.recognizer, "likeness of two views");
+  field.group("codes", options.codes, "visual words");
+  field.group("sequence", options.sequence, "evidence of past images");
+}
+
+void MatchOptions::check() const { check_ranges(*this); }
+
+const std::vector<std::string>& match_cues() {
+  static const std::vector<std::string> names = {"tiny", "colour", "gradients", "gabor", "corners"};
+  return names;
+}
+
+const std::vector<std::string>& match_codes() {
+  static const std::vector<std::string> names = {"cues", "bow", "bow_float", "llc", "landmarks"};
+  return names;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An image and the older ones it is compared with.
+struct MatchQuery {
+  int image = 0, first = 0, last = 0;
+};
+
+// Of the ground truth only who is compared with whom is taken.
+std::vector<MatchQuery> listed_queries(const std::string& path, int images) {
+  const LoopTruthFile file = read_loop_truth(path);
+  if (file.format != LoopTruthFormat::kRanges)
+    throw FileError(path, "lists no candidates (query first last ...): use --min-age");
+  std::vector<MatchQuery> queries;
+  for (const auto& [image, query] : file.truth.queries) {
+    if (image >= images || query.last >= images)
+      throw FileError(
+          path, fmt::format("image {}, and there are {}", std::max(image, query.last), images));
+    queries.push_back(
+        {static_cast<int>(image), static_cast<int>(query.first), static_cast<int>(query.last)});
+  }
+  return queries;
+}
+
+std::vector<MatchQuery> queries_of(const MatchArguments& arguments, int images) {
+  const std::string listed = (fs::path(arguments.folder) / "gt.txt").string();
+  if (!arguments.min_age && fs::exists(listed)) return listed_queries(listed, images);
+  constexpr int kMinAge = 300;
+  const int min_age = arguments.min_age.value_or(kMinAge);
+  std::vector<MatchQuery> queries;
+  for (int image = min_age; image < images; ++image) queries.push_back({image, 0, image - min_age});
+  require(!queries.empty(), fmt::format("{}: {} images, and none is {} older than another "
+                                        "(see --min-age)",
+                                        arguments.folder, images, min_age));
+  return queries;
+}
+
+// Views are compared in colour only where all have it: the first says which it is to be.
+Image compared_view(const std::string& path, bool colour) {
+  const GreyAndColour image = read_image(path);
+  if (!colour) return image.grey;
+  if (image.colour.empty()) throw FileError(path, "is grey, and the images before it have colour");
+  return image.colour;
+}
+
+/// Answers which stored views an image resembles (the views `among`, if any), and stores it.
+using LookUp =
+    std::function<std::vector<PlaceLikeness>(const Image&, const std::optional<ViewRange>& among)>;
+
+LookUp by_cues(const PlaceRecognizerOptions& options) {
+  auto recognizer = std::make_shared<PlaceRecognizer>(options);
+  return [recognizer](const Image& image, const std::optional<ViewRange>& among) {
+    PlaceView view = describe_place(image, recognizer->options().cues, among.has_value());
+    std::vector<PlaceLikeness> list;
+    if (among) list = recognizer->query(view, among->first, among->last);
+    recognizer->add(std::move(view));
+    return list;
+  };
+}
+
+LookUp by_words(const MatchArguments& arguments, PlaceCode code) {
+  std::optional<WordTree> words;
+  if (!arguments.vocabulary.empty()) words = read_vocabulary(arguments.vocabulary);
+  require(words || code == PlaceCode::kBow,
+          fmt::format("--codes {} needs a --vocabulary of --kind float", arguments.codes));
+  const bool binary = code == PlaceCode::kBow;
+  require(!words || (words->kind == WordTree::Kind::kBinary) == binary,
+          fmt::format("{}: --codes {} needs a vocabulary of --kind {}", arguments.vocabulary,
+                      arguments.codes, binary ? "binary" : "float"));
+  constexpr std::uint64_t kSeed = 1;
+  const std::shared_ptr<CodeMemory> memory =
+      make_code_memory(code, arguments.options.codes, std::move(words), kSeed);
+  return [memory](const Image& image, const std::optional<ViewRange>& among) {
+    return memory->look_up_and_add(image, among);
+  };
+}
+
+/// The first of each short list; if asked, after the evidence of the images just before.
+class BestMatch {
+ public:
+  BestMatch(const SequenceFilterOptions& options, bool sequence)
+      : filter_(options), sequence_(sequence) {}
+
+  std::optional<PlaceLikeness> of(const MatchQuery& query, const std::vector<PlaceLikeness>& list) {
+    std::optional<PlaceLikeness> answer;
+    if (!list.empty()) answer = list.front();
+    if (!sequence_) return answer;
+    if (query.image != before_ + 1) filter_.restart();
+    const auto paths = filter_.update(list, query.first, std::min(query.last, query.image - 1));
+    if (answer) {
+      answer = paths.front();
+      answer->score = filter_.confidence(*answer, list);
+    }
+    before_ = query.image;
+    return answer;
+  }
+
+ private:
+  SequenceFilter filter_;
+  bool sequence_;
+  int before_ = -1;
+};
+
+std::vector<LoopPrediction> matches_of(const MatchArguments& arguments,
+                                       const std::vector<std::string>& images,
+                                       const std::vector<MatchQuery>& queries, bool colour,
+                                       const LookUp& look_up) {
+  BestMatch best(arguments.options.sequence, arguments.sequence);
+  std::vector<LoopPrediction> found;
+  Progress progress("matching", static_cast<std::int64_t>(images.size()), "images");
+  auto query = queries.begin();
+  for (int i = 0; i < static_cast<int>(images.size()); ++i) {
+    std::optional<ViewRange> among;
+    if (query != queries.end() && query->image == i) among = {query->first, query->last};
+    const std::vector<PlaceLikeness> list =
+        look_up(compared_view(images[static_cast<std::size_t>(i)], colour), among);
+    if (among) {
+      if (const auto answer = best.of(*query, list))
+        found.push_back({i, answer->view, answer->score, {}, 0});
+      ++query;
+    }
+    progress.update(i + 1);
+  }
+  return found;
+}
+
+PlaceRecognizerOptions with_cues(PlaceRecognizerOptions options,
+                                 const std::vector<std::string>& cues) {
+  for (const std::string& cue : cues) (void)choice<int>("--cues", match_cues(), cue);
+  const auto keep = [&](const char* name, double& weight) {
+    if (std::find(cues.begin(), cues.end(), name) == cues.end()) weight = 0;
+  };
+  keep("tiny", options.cues.tiny);
+  keep("colour", options.cues.colour);
+  keep("gradients", options.cues.gradients);
+  keep("gabor", options.cues.gabor);
+  keep("corners", options.cues.corners);
+  return options;
+}
+
+}  // namespace
+
+MatchResult match(const MatchArguments& asked) {
+  MatchArguments arguments = asked;
+  require_free(arguments.out, arguments.force);
+  for (const std::string& setting : arguments.settings) set_option(arguments.options, setting);
+  arguments.options.check();
+  const PlaceRecognizerOptions recognizer = with_cues(arguments.options.recognizer, arguments.cues);
+  const int code = choice<int>("--codes", match_codes(), arguments.codes);
+  const bool words = code > 0;
+  cv::setNumThreads(1);
+  const std::vector<std::string> images = list_images(image_folder_of(arguments.folder));
+  const std::vector<MatchQuery> queries = queries_of(arguments, static_cast<int>(images.size()));
+  const bool colour = !words && !read_image(images.front()).colour.empty();
+  const LookUp look_up =
+      words ? by_words(arguments, static_cast<PlaceCode>(code - 1)) : by_cues(recognizer);
+  if (!colour && !words)
+    warn(arguments.folder + ": grey images; places are told without the colour cue");
+  const Stopwatch watch;
+  MatchResult result{arguments.out, images.size(), queries.size(),
+                     matches_of(arguments, images, queries, colour, look_up)};
+  const std::size_t found = result.found.size();
+  if (found == 0)
+    throw NoAnswer(arguments.folder + (words ? ": no image has a word in common with an older one"
+                                             : ": no image has an older one to compare with"));
+  write_loop_predictions(arguments.out, result.found);
+  if (found < queries.size())
+    warn(fmt::format("{}: {} of {} queries have no answer, and no line", arguments.folder,
+                     queries.size() - found, queries.size()));
+  result.cpu_ms_an_image = watch.cpu_ms() / static_cast<double>(images.size());
+  return result;
+}
+
+std::string to_text(const MatchResult& result) {
+  return fmt::format("{} images, {} queries, {:.1f} ms CPU an image, written to {}\n",
+                     result.images, result.found.size(), result.cpu_ms_an_image, result.out);
+}
+
+}  // namespace placegraph::apps

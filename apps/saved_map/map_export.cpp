@@ -1,0 +1,101 @@
+#include "apps/saved_map/map_export.h"
+
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/map_revisits.h>
+#include <placegraph/graph/place_transitions.h>
+#include <placegraph/graph/pose_graph/rigid_graph.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/graphs/place_graph_export.h>
+#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "apps/results/map_file.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+namespace {
+
+/// A form with its writer: another one is another line here.
+struct WrittenForm {
+  MapExportForm form;
+  bool needs_poses = false;  ///< refused for a map without a camera
+  std::function<void(const std::string& path, const StoredMap& stored)> write;
+};
+
+std::vector<WrittenForm> written_forms() {
+  return {{{"--g2o", "the place graph"},
+           true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_g2o(path, stored.map.place_graph.pose_graph());
+           }},
+          {{"--g2o-se3", "the same without the scales of places, for programs that know none"},
+           true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_g2o(path, rigid_graph(stored.map.place_graph.pose_graph()));
+           }},
+          {{"--places", "places, members, edges and loops as JSON"},
+           false,
+           [](const std::string& path, const StoredMap& stored) {
+             write_file(path, places_json(stored.map));
+           }},
+          {{"--tum", "the optimized trajectory, TUM's form"},
+           true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_trajectory(path, stored.map.trajectory_optimized(), TrajectoryFormat::kTum);
+           }},
+          {{"--kitti", "the optimized trajectory, KITTI's form"},
+           true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_trajectory(path, stored.map.trajectory_optimized(), TrajectoryFormat::kKitti);
+           }},
+          {{"--graphml", "the topological map: places, transitions, loops; GraphML"},
+           true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_file(path, to_graphml(stored.map.place_graph, place_transitions(stored.map)));
+           }},
+          {{"--dot", "the same for Graphviz"},
+           true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_file(path, to_dot(stored.map.place_graph, place_transitions(stored.map)));
+           }},
+          {{"--revisits", "which older frame every frame is nearest to, for placegraph loops"},
+           true,
+           [](const std::string& path, const StoredMap& stored) {
+             write_loop_predictions(path, map_revisits(stored.map));
+           }}};
+}
+
+}  // namespace
+
+std::vector<MapExportForm> map_export_forms() {
+  std::vector<MapExportForm> forms;
+  for (const WrittenForm& written : written_forms()) forms.push_back(written.form);
+  return forms;
+}
+
+MapExportResult map_export(const MapExportArguments& arguments) {
+  const std::vector<WrittenForm> forms = written_forms();
+  require(arguments.paths.size() == forms.size(), "map export: one path for each form is needed");
+  require(std::any_of(arguments.paths.begin(), arguments.paths.end(),
+                      [](const std::string& path) { return !path.empty(); }),
+          "map export: nothing to write; see --help for the forms");
+  for (const std::string& path : arguments.paths)
+    if (!path.empty()) require_free(path, arguments.force);
+  const StoredMap stored = read_stored_map(arguments.map);
+  MapExportResult result;
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    if (arguments.paths[i].empty()) continue;
+    if (forms[i].needs_poses && !stored.origin.calibration)
+      throw NoAnswer(arguments.map +
+                     ": a map of images without a camera has no poses to write to " +
+                     arguments.paths[i]);
+    forms[i].write(arguments.paths[i], stored);
+    result.written.push_back(arguments.paths[i]);
+  }
+  return result;
+}
+
+}  // namespace placegraph::apps

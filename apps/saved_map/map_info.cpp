@@ -1,0 +1,94 @@
+#include "apps/saved_map/map_info.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "apps/results/map_file.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+
+double path_length(const Trajectory& trajectory) {
+  double length = 0;
+  const StampedPose* before = nullptr;
+  for (const StampedPose& pose : trajectory.poses) {
+    if (pose.T_world_body && before)
+      length += (pose.T_world_body->translation() - before->T_world_body->translation()).norm();
+    if (pose.T_world_body) before = &pose;
+  }
+  return length;
+}
+
+json describe_map(const std::string& path, const StoredMap& stored) {
+  const Map& map = stored.map;
+  const MapSizes sizes = map_sizes(path);
+  const Trajectory optimized = map.trajectory_optimized();
+  std::set<int> components;
+  for (const Place& place : map.place_graph.places) components.insert(place.component);
+  std::int64_t features = 0, views = 0;
+  for (const Keyframe& keyframe : map.keyframes) {
+    features += static_cast<std::int64_t>(keyframe.features.size());
+    views += !keyframe.view.empty();
+  }
+  json info = {{"file", path},
+               {"schema", sizes.schema},
+               {"finished", stored.finished},
+               {"sequence", stored.origin.sequence},
+               {"sensor", stored.origin.calibration ? to_string(stored.origin.sensor) : "images"},
+               {"places", map.place_graph.places.size()},
+               {"components", components.size()},
+               {"keyframes", map.keyframes.size()},
+               {"views", views},
+               {"features", features},
+               {"landmarks", map.landmarks.size()},
+               {"constraints", map.place_graph.constraints.size()},
+               {"loops_accepted", std::count_if(map.loops.begin(), map.loops.end(),
+                                                [](const auto& loop) { return loop.accepted(); })},
+               {"frames", map.frames.size()},
+               {"posed", optimized.posed()},
+               {"metric", map.metric},
+               {"path_length", path_length(optimized)},
+               {"file_bytes", sizes.file_bytes},
+               {"features_bytes", sizes.features_bytes},
+               {"views_bytes", sizes.views_bytes},
+               {"landmarks_bytes", sizes.landmarks_bytes}};
+  if (const auto& calibration = stored.origin.calibration) {
+    info["image"] = {{"width", calibration->camera.width}, {"height", calibration->camera.height}};
+    info["baseline_m"] = calibration->baseline_m;
+  }
+  return info;
+}
+
+}  // namespace
+
+MapInfoResult map_info(const MapInfoArguments& arguments) {
+  return {describe_map(map_path_of(arguments.map), read_stored_map(arguments.map))};
+}
+
+std::string to_text(const MapInfoResult& result) {
+  const json& told = result.told;
+  const auto count = [&](const char* key) { return told[key].get<std::int64_t>(); };
+  const auto megabytes = [&](const char* key) { return 1e-6 * told[key].get<double>(); };
+  return fmt::format("{}: schema {}, {}\n", told["file"].get<std::string>(), count("schema"),
+                     told["finished"].get<bool>() ? "finished" : "broken off") +
+         fmt::format("  from     {} ({})\n", told["sequence"].get<std::string>(),
+                     told["sensor"].get<std::string>()) +
+         fmt::format("  places   {} in {} components, {} constraints, {} loops\n", count("places"),
+                     count("components"), count("constraints"), count("loops_accepted")) +
+         fmt::format("  frames   {}, {} posed, {} keyframes, path {:.1f} {}\n", count("frames"),
+                     count("posed"), count("keyframes"), told["path_length"].get<double>(),
+                     told["metric"].get<bool>() ? "m" : "units") +
+         fmt::format("  content  {} features, {} views, {} landmarks\n", count("features"),
+                     count("views"), count("landmarks")) +
+         fmt::format("  size     {:.1f} MB: features {:.1f}, views {:.1f}, landmarks {:.1f}\n",
+                     megabytes("file_bytes"), megabytes("features_bytes"), megabytes("views_bytes"),
+                     megabytes("landmarks_bytes"));
+}
+
+std::string to_json(const MapInfoResult& result) { return result.told.dump(1) + "\n"; }
+
+}  // namespace placegraph::apps

@@ -1,0 +1,64 @@
+#include "apps/saved_map/map_validate.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/places/place_mapper.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "apps/results/map_file.h"
+
+namespace placegraph::apps {
+namespace {
+
+/// Keyframes and loops name frames of the map.
+void require_frames(const std::string& path, const Map& map) {
+  std::set<std::int64_t> frames;
+  for (const FrameRecord& record : map.frames) frames.insert(record.frame);
+  for (const Keyframe& keyframe : map.keyframes)
+    if (!frames.count(keyframe.frame))
+      throw FileError(path, fmt::format("table keyframe, row {}: frame {} is no frame of the map",
+                                        keyframe.id, keyframe.frame));
+  for (std::size_t i = 0; i < map.loops.size(); ++i)
+    if (!frames.count(map.loops[i].query_frame) || !frames.count(map.loops[i].match_frame))
+      throw FileError(path, fmt::format("table loop, row {}: frames {} and {} are not both of the "
+                                        "map",
+                                        i, map.loops[i].query_frame, map.loops[i].match_frame));
+}
+
+}  // namespace
+
+MapValidateResult map_validate(const MapValidateArguments& arguments) {
+  const std::string path = map_path_of(arguments.map);
+  if (const std::string found = check_map_file(path); found != "ok")
+    throw FileError(path, "is damaged: " + found);
+  const StoredMap stored = read_map(path);
+  const Map& map = stored.map;
+  require_frames(path, map);
+  (void)map.trajectory_optimized();
+  if (!stored.history.keyframes.empty()) {
+    try {
+      (void)PlaceMapper(PlaceOptions(), IncrementalOptions(), map.place_graph.places,
+                        stored.history);
+    } catch (const ArgumentError& error) {
+      throw FileError(path, std::string("tables link, part, place: ") + error.what());
+    }
+  }
+  return {path, stored.finished, map.place_graph.places.size(), map.frames.size()};
+}
+
+std::string to_text(const MapValidateResult& result) {
+  return fmt::format("{}: valid, {}, {} places, {} frames\n", result.map,
+                     result.finished ? "finished" : "broken off", result.places, result.frames);
+}
+
+std::string to_json(const MapValidateResult& result) {
+  const nlohmann::json json = {{"valid", true},
+                               {"finished", result.finished},
+                               {"places", result.places},
+                               {"frames", result.frames}};
+  return json.dump(1) + "\n";
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,232 @@
+#include "apps/scene/scene_orientation.h"
+
+#include <fmt/format.h>
+#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/io/files/atomic_file.h>
+#include <placegraph/io/files/image_file.h>
+#include <placegraph/io/measurements/plane_truth.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/support/output.h"
+#include "apps/support/read_calib.h"
+#include "apps/support/usage.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+struct SeenOrientation {
+  std::vector<LineSegment> segments;
+  std::vector<int> axis;
+  SO3 R_cam_manhattan;
+  OrientationMap map;
+};
+
+SeenOrientation see(const Image& image, const Camera& camera,
+                    const SceneOrientationArguments& arguments) {
+  SeenOrientation seen;
+  seen.segments = segments_of(detect_segments(image, {}));
+  Random random(arguments.seed);
+  const SceneDirections scene = find_scene_directions(seen.segments, camera, {}, random);
+  if (scene.frames.empty()) {
+    seen.map.outcome = scene.vanishing.outcome
+                           ? Outcome::failure(Outcome::Code::kNoConsensus, "no rectangular world")
+                           : scene.vanishing.outcome;
+    return seen;
+  }
+  seen.axis = scene.frames[0].axis;
+  seen.R_cam_manhattan = scene.frames[0].R_cam_manhattan;
+  seen.map = compute_orientation_map(seen.segments, seen.axis, camera, seen.R_cam_manhattan,
+                                     arguments.options);
+  return seen;
+}
+
+/// The labels in pale red, green and blue by their axis (the vertical one green), the edges in full
+/// colour: nothing of the photograph.
+Image draw(const SeenOrientation& seen, const Camera& camera) {
+  const int vertical = seen.map.vertical_axis;
+  cv::Mat3b picture(camera.height, camera.width, cv::Vec3b(255, 255, 255));
+  const auto colour = [&](int axis, int full, int rest) {
+    const int channel = axis == vertical ? 1 : axis == (vertical + 1) % 3 ? 2 : 0;
+    cv::Vec3b c(static_cast<uchar>(rest), static_cast<uchar>(rest), static_cast<uchar>(rest));
+    c[channel] = static_cast<uchar>(full);
+    return c;
+  };
+  for (int v = 0; v < picture.rows; ++v)
+    for (int u = 0; u < picture.cols; ++u)
+      if (const int label = seen.map.labels.at<uchar>(v, u))
+        picture(v, u) = colour(label - 1, 255, 190);
+  for (std::size_t i = 0; i < seen.segments.size(); ++i) {
+    const LineSegment& s = seen.segments[i];
+    const cv::Vec3b c = seen.axis[i] < 0 ? cv::Vec3b(170, 170, 170) : colour(seen.axis[i], 200, 0);
+    cv::line(picture, cv::Point(cvRound(s.start[0]), cvRound(s.start[1])),
+             cv::Point(cvRound(s.end[0]), cvRound(s.end[1])), cv::Scalar(c[0], c[1], c[2]), 1,
+             cv::LINE_AA);
+  }
+  return picture;
+}
+
+void write_map_image(const std::string& path, const Image& image) {
+  AtomicFile file(path);
+  if (!cv::imwrite(file.temporary_path(), image)) throw FileError(path, "cannot be written");
+  file.commit();
+}
+
+SceneOrientationResult orientation_of_image(const SceneOrientationArguments& arguments) {
+  require(!arguments.camera.empty(), "--calib: an image needs its camera");
+  for (const std::string& path : {arguments.out, arguments.drawing})
+    if (!path.empty()) require_free(path, arguments.force);
+  const Camera camera = read_calib_without_distortion(arguments.camera, "orientation maps need");
+  const Image image = read_image(arguments.in).grey;
+  require_size(arguments.in, image, camera.width, camera.height);
+  const Stopwatch watch;
+  const SeenOrientation seen = see(image, camera, arguments);
+  const double cpu_ms = watch.cpu_ms();
+  if (!seen.map.outcome) throw NoAnswer(arguments.in + ": " + seen.map.outcome.reason);
+  const Image surfaces = indoor_surfaces(seen.map, camera, seen.R_cam_manhattan);
+  if (!arguments.out.empty()) write_map_image(arguments.out, seen.map.labels);
+  if (!arguments.drawing.empty()) write_map_image(arguments.drawing, draw(seen, camera));
+  const auto share = [&](IndoorSurface surface) {
+    return cv::countNonZero(surfaces == static_cast<int>(surface)) /
+           static_cast<double>(surfaces.total());
+  };
+  const ImageOrientation found{
+      seen.map.coverage,           share(IndoorSurface::kFloor), share(IndoorSurface::kCeiling),
+      share(IndoorSurface::kWall), seen.map.vertical_axis,       seen.R_cam_manhattan.matrix()};
+  return {arguments.in, found, cpu_ms, {}};
+}
+
+/// Exact surfaces of a rendered sequence, as far as its folder holds them.
+class RenderedSurfaces {
+ public:
+  RenderedSurfaces(const std::string& folder, const Dataset& dataset)
+      : folder_(folder), dataset_(dataset) {
+    const fs::path planes = fs::path(folder) / "planes.txt";
+    known_ = fs::exists(planes) && dataset.ground_truth();
+    if (!known_) return;
+    for (const Eigen::Vector4d& plane : read_planes(planes.string()))
+      normals_.emplace_back(plane.head<3>());
+  }
+  bool known() const { return known_; }
+  void check(std::size_t frame, const SeenOrientation& seen, OrientationCheck& check) const {
+    const auto& T_world_cam = dataset_.ground_truth()->poses.at(frame).T_world_body;
+    if (!T_world_cam) return;
+    const std::string path =
+        (fs::path(folder_) / "planes_0" / fmt::format("{:06d}.png", frame)).string();
+    const Image planes = read_image_as_stored(path);
+    if (planes.type() != CV_16UC1 || planes.size() != seen.map.labels.size())
+      throw FileError(path, "is no 16-bit image of the sequence's size");
+    check_orientation(seen.map.labels, seen.R_cam_manhattan.matrix(), planes, normals_,
+                      T_world_cam->rotation().matrix().transpose(), check);
+  }
+
+ private:
+  std::string folder_;
+  const Dataset& dataset_;
+  bool known_ = false;
+  std::vector<Eigen::Vector3d> normals_;
+};
+
+SceneOrientationResult orientation_of_sequence(const SceneOrientationArguments& arguments) {
+  const auto dataset = open_dataset(arguments.in);
+  for (const std::string& path : {arguments.out, arguments.drawing})
+    if (!path.empty()) require_free_folder(path, arguments.force);
+  for (const std::string& path : {arguments.out, arguments.drawing})
+    if (!path.empty()) make_output_folder(path);
+  const Camera camera = arguments.camera.empty() ? dataset->calibration(Sensor::kMono).camera
+                                                 : read_calib_without_distortion(
+                                                       arguments.camera, "orientation maps need");
+  const RenderedSurfaces truth(arguments.in, *dataset);
+  OrientationCheck check;
+  SequenceOrientation found;
+  double cpu_ms = 0;
+  for (std::size_t i = 0; i < dataset->size(); i += static_cast<std::size_t>(arguments.every)) {
+    const Frame frame = dataset->frame(i, Sensor::kMono);
+    const Stopwatch watch;
+    SeenOrientation seen = see(frame.image, camera, arguments);
+    cpu_ms += watch.cpu_ms();
+    ++found.images;
+    if (!seen.map.outcome) seen.map.labels = Image(frame.image.size(), CV_8UC1, cv::Scalar(0));
+    found.told += static_cast<bool>(seen.map.outcome);
+    found.coverage += seen.map.coverage;
+    const std::string name = fmt::format("{:06d}.png", i);
+    if (!arguments.out.empty())
+      write_map_image((fs::path(arguments.out) / name).string(), seen.map.labels);
+    if (!arguments.drawing.empty() && seen.map.outcome)
+      write_map_image((fs::path(arguments.drawing) / name).string(), draw(seen, camera));
+    if (truth.known()) truth.check(i, seen, check);
+  }
+  found.coverage /= std::max(1, found.images);
+  if (truth.known()) found.check = check;
+  SceneOrientationResult result{arguments.in, found, cpu_ms / std::max(1, found.images), {}};
+  if (found.told == 0) result.no_answer = arguments.in + ": no image shows a rectangular world";
+  return result;
+}
+
+ordered_json described(const ImageOrientation& found) {
+  ordered_json report = {{"coverage", found.coverage},
+                         {to_string(IndoorSurface::kFloor), found.floor},
+                         {to_string(IndoorSurface::kCeiling), found.ceiling},
+                         {to_string(IndoorSurface::kWall), found.wall},
+                         {"vertical_axis", found.vertical_axis},
+                         {"R_cam_manhattan", ordered_json::array()}};
+  const Eigen::Matrix3d& R = found.R_cam_manhattan;
+  for (int i = 0; i < 3; ++i) report["R_cam_manhattan"].push_back({R(i, 0), R(i, 1), R(i, 2)});
+  return report;
+}
+
+ordered_json described(const SequenceOrientation& found) {
+  return {{"images", found.images}, {"told", found.told}, {"coverage", found.coverage}};
+}
+
+std::string said(const ImageOrientation& found) {
+  return fmt::format("{:.0f} % told: floor {:.0f}, ceiling {:.0f}, walls {:.0f} %",
+                     100 * found.coverage, 100 * found.floor, 100 * found.ceiling,
+                     100 * found.wall);
+}
+
+std::string said(const SequenceOrientation& found) {
+  return fmt::format(
+      "{} of {} images told, {:.1f} % of their pixels{}", found.told, found.images,
+      100 * found.coverage,
+      found.check ? fmt::format(", {:.1f} % of those rightly", 100 * found.check->accuracy()) : "");
+}
+
+}  // namespace
+
+SceneOrientationResult scene_orientation(const SceneOrientationArguments& arguments) {
+  arguments.options.check();
+  require(arguments.every >= 1, "--every: must be at least 1");
+  return fs::is_directory(arguments.in) ? orientation_of_sequence(arguments)
+                                        : orientation_of_image(arguments);
+}
+
+std::string to_json(const SceneOrientationResult& result) {
+  ordered_json report = {{"in", result.in}};
+  report.update(std::visit([](const auto& found) { return described(found); }, result.found));
+  report["cpu_ms"] = result.cpu_ms;
+  const auto* sequence = std::get_if<SequenceOrientation>(&result.found);
+  if (sequence && sequence->check)
+    report["check"] = {{"pixels", sequence->check->judged},
+                       {"coverage", sequence->check->coverage()},
+                       {"accuracy", sequence->check->accuracy()}};
+  return report.dump(2) + "\n";
+}
+
+std::string to_text(const SceneOrientationResult& result) {
+  const bool sequence = std::holds_alternative<SequenceOrientation>(result.found);
+  return fmt::format("{}: {}; {:.0f} ms CPU{}\n", result.in,
+                     std::visit([](const auto& found) { return said(found); }, result.found),
+                     result.cpu_ms, sequence ? " an image" : "");
+}
+
+}  // namespace placegraph::apps

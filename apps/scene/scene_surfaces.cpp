@@ -1,0 +1,18 @@
+#include "apps/scene/scene_surfaces.h"
+
+#include <placegraph/frontend/labels/surface_classifier.h>
+
+#include "apps/support/scene_models.h"
+
+namespace placegraph::apps {
+
+ScenePictureResult scene_surfaces(const ScenePictureArguments& a) {
+  const SceneModel model = load_scene_model(SceneModel::Kind::kSurfaces, a.model);
+  LabellerOptions options;
+  options.relations = a.relations;
+  return label_pictures(a, model.classes, [&](const SceneView& view) {
+    return classify_surfaces(model, view, a.unknown_below, options).surfaces;
+  });
+}
+
+}  // namespace placegraph::apps

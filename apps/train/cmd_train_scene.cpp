@@ -1,0 +1,81 @@
+#include "apps/train/cmd_train_scene.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+
+#include "apps/support/output.h"
+#include "apps/support/scene_models.h"
+#include "apps/train/train_scene.h"
+
+namespace placegraph::apps {
+
+void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, const char* about) {
+  const std::string name = name_of(kind);
+  CLI::App* command = train_command.add_subcommand(name, about);
+  command->footer("placegraph train " + name + " camvid --out " + name +
+                  ".pgscene --holdout 0001TP");
+  auto arguments = std::make_shared<TrainSceneArguments>();
+  auto json = std::make_shared<bool>(false);
+  TrainSceneArguments& a = *arguments;
+  command
+      ->add_option(
+          "DATA", a.data,
+          "folder with CLASSES.txt and train/ of images/ and labels/, val/ beside it judges")
+      ->required()
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--out", a.out, "write the model, and its card beside it")->required();
+  command->add_option("--holdout", a.holdout,
+                      "a sequence (names up to the first '_') that judges instead of teaching");
+  command->add_option("--update", a.update,
+                      "a model to add these data to, with classes it does not know yet");
+  command
+      ->add_option("--variants", a.options.training.variants,
+                   "of each picture, as another day might show it")
+      ->capture_default_str();
+  command->add_option("--trees", a.options.training.forest.trees, "of each forest")
+      ->capture_default_str();
+  command
+      ->add_option("--min-leaf", a.options.training.forest.min_leaf,
+                   "superpixels a leaf holds at least")
+      ->capture_default_str();
+  command->add_option("--tries", a.options.training.forest.tries, "features looked at for a split")
+      ->capture_default_str();
+  command
+      ->add_option("--share-rows", a.options.training.forest.share_rows,
+                   "of the superpixels, taken by a tree")
+      ->capture_default_str();
+  command
+      ->add_option("--class-power", a.options.training.class_power,
+                   "rare classes weigh as share^-power")
+      ->capture_default_str();
+  command
+      ->add_option("--rendered", a.options.rendered,
+                   "seeds of rendered towns to learn from too, joined by commas, whose classes are "
+                   "known exactly; those of even seeds have traffic and bad light")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--rendered-frames", a.options.rendered_frames, "views of each")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--every", a.options.every, "learn from every n-th photograph only")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seed", a.options.training.forest.seed, "of what is drawn")
+      ->capture_default_str();
+  command->add_option("--threads", a.options.threads, "do not change the result")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command->add_flag("--ablation", a.ablation, "judge each part of the model too");
+  command->add_flag("--json", *json, "a report for machines");
+  command->add_flag("--force", a.force, "overwrite files");
+  command->callback([arguments, json, kind] {
+    const LogSink sink = [](LogLevel, const std::string& message) {
+      std::fprintf(stderr, "%s\n", message.c_str());
+    };
+    const TrainSceneResult result = train_scene(*arguments, kind, sink);
+    print(*json ? to_json(result) : to_text(result));
+  });
+}
+
+}  // namespace placegraph::apps

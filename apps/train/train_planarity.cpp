@@ -1,0 +1,141 @@
+#include "apps/train/train_planarity.h"
+
+#include <fmt/format.h>
+#include <placegraph/frontend/cloud_planes/cloud_planes.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/measurements/point_cloud_file.h>
+#include <placegraph/io/synthetic/worlds/cloud_scene.h>
+#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/support/output.h"
+#include "apps/support/progress.h"
+
+namespace placegraph::apps {
+namespace {
+
+using synthetic::LabelledCloud;
+
+struct CloudLesson {
+  std::vector<PlanaritySample> samples;
+  int clouds = 0;
+};
+
+/// Segments whose points are nearly all of one plane, and those that are mostly something else;
+/// what is in between teaches nothing.
+void add_samples(const LabelledCloud& labelled, const CloudPlanesOptions& options,
+                 CloudLesson& lesson) {
+  constexpr double kPlane = 0.9, kNoPlane = 0.6;
+  const JudgedSegments judged = segments_to_judge(labelled.cloud, options);
+  ++lesson.clouds;
+  for (std::size_t k = 0; k < judged.segments.size(); ++k) {
+    std::map<int, int> share;
+    for (const int c : judged.segments[k].cells)
+      for (int i = judged.cloud.cells[c].begin; i < judged.cloud.cells[c].end; ++i)
+        ++share[labelled.labels[judged.points.source[judged.cloud.order[i]]]];
+    int most = 0;
+    for (const auto& [label, count] : share)
+      if (label > 0) most = std::max(most, count);
+    const double purity = most / judged.segments[k].sums.count();
+    if (purity < kPlane && purity > kNoPlane) continue;
+    lesson.samples.push_back({judged.features[k], purity >= kPlane});
+  }
+}
+
+/// Frames of a rendered world with the noise of a depth camera or of stereo.
+void add_clouds_of_world(const std::string& name, const TrainPlanarityArguments& arguments,
+                         Random& random, CloudLesson& lesson) {
+  SyntheticOptions world_options;
+  world_options.world = name;
+  world_options.seed = arguments.seed;
+  world_options.width = 320, world_options.height = 240;
+  if (arguments.frames == 0) return;
+  const SyntheticWorld world(world_options);
+  const Camera camera = world.calibration().camera;
+  for (int i = 0; i < arguments.frames; ++i) {
+    const std::size_t frame =
+        world.size() * static_cast<std::size_t>(i) / static_cast<std::size_t>(arguments.frames);
+    const SyntheticFrame seen = world.render(frame, {.depth = true, .planes = true});
+    LabelledCloud labelled{cloud_of_depth(seen.frame.depth, camera, 0), {}};
+    const double share = i % 3 == 0 ? 0 : 2e-4 * std::pow(30, random.uniform());
+    for (std::size_t k = 0; k < labelled.cloud.points.size(); ++k) {
+      const int x = static_cast<int>(k) % camera.width, y = static_cast<int>(k) / camera.width;
+      Eigen::Vector3d& p = labelled.cloud.points[k];
+      labelled.labels.push_back(seen.planes.at<std::uint16_t>(y, x));
+      if (p.allFinite()) p *= std::max(0.1, 1 + random.normal(0, share * p.z()));
+    }
+    add_samples(labelled, {}, lesson);
+  }
+}
+
+PlanarityScore score_of(const PlanarityModel& model, const CloudLesson& lesson) {
+  PlanarityScore score;
+  score.clouds = lesson.clouds;
+  score.segments = static_cast<int>(lesson.samples.size());
+  for (const PlanaritySample& sample : lesson.samples) {
+    const bool kept = model.probability(sample.features) >= CloudPlanesOptions{}.min_probability;
+    score.right += kept == sample.planar;
+    (sample.planar ? score.planes : score.others) += 1;
+    (sample.planar ? score.planes_kept : score.others_kept) += kept;
+  }
+  return score;
+}
+
+double share(int part, int of) { return of > 0 ? 1.0 * part / of : 0.0; }
+
+}  // namespace
+
+TrainPlanarityResult train_planarity(const TrainPlanarityArguments& arguments) {
+  require(arguments.clouds >= 10, "--clouds: fewer than 10");
+  require_free(arguments.out, arguments.force);
+  // Every fourth cloud is left out of training and judged.
+  constexpr int kFold = 4;
+  CloudLesson lesson, test;
+  Progress progress("taking clouds", arguments.clouds, "clouds");
+  for (int i = 0; i < arguments.clouds; ++i) {
+    Random random(arguments.seed, static_cast<std::uint64_t>(i) + 1);
+    add_samples(synthetic::random_cloud(random), {}, i % kFold == 0 ? test : lesson);
+    progress.update(i + 1);
+  }
+  Random random(arguments.seed);
+  for (const std::string& world : arguments.worlds)
+    add_clouds_of_world(world, arguments, random, lesson);
+  const PlanarityModel model = placegraph::train_planarity(lesson.samples, arguments.rounds);
+  write_file(arguments.out, to_text(model));
+  return {arguments.out, score_of(model, lesson), score_of(model, test)};
+}
+
+std::string to_json(const TrainPlanarityResult& result) {
+  const PlanarityScore &seen = result.trained, &score = result.left_out;
+  nlohmann::ordered_json json;
+  json["out"] = result.out;
+  json["clouds"] = seen.clouds;
+  json["segments"] = seen.segments;
+  json["planes"] = seen.planes;
+  json["right_trained"] = share(seen.right, seen.segments);
+  json["left_out"] = {{"clouds", score.clouds},
+                      {"segments", score.segments},
+                      {"right", share(score.right, score.segments)},
+                      {"planes_kept", share(score.planes_kept, score.planes)},
+                      {"others_kept", share(score.others_kept, score.others)}};
+  return json.dump(2) + "\n";
+}
+
+std::string to_text(const TrainPlanarityResult& result) {
+  const PlanarityScore &seen = result.trained, &score = result.left_out;
+  return fmt::format("{} segments of {} clouds, {} of them planes, {:.1f} % told right\n",
+                     seen.segments, seen.clouds, seen.planes,
+                     100 * share(seen.right, seen.segments)) +
+         fmt::format(
+             "left out: {} segments of {} clouds, {:.1f} % told right; kept: {:.1f} % of the "
+             "planes, {:.1f} % of the others\n",
+             score.segments, score.clouds, 100 * share(score.right, score.segments),
+             100 * share(score.planes_kept, score.planes),
+             100 * share(score.others_kept, score.others));
+}
+
+}  // namespace placegraph::apps
