@@ -1,0 +1,73 @@
+#include "apps/scene/scene_label.h"
+
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/image_file.h>
+
+#include "apps/scene/scene_surfaces.h"
+#include "tests/support/message_of.h"
+#include "tests/unit/apps/scene/drawn_set.h"
+
+namespace placegraph::apps {
+namespace {
+
+using test::message_of;
+using testing::HasSubstr;
+
+/// Models of drawn streets, and a street that they have not seen.
+class SceneLabelCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { models = new test::DrawnModels; }
+  static void TearDownTestSuite() { delete models; }
+  SceneLabelCommand() {
+    test::write_image(folder, "street.png", street.bgr);
+    arguments.input = folder / "street.png";
+    arguments.out = folder / "out";
+    arguments.model = models->folder / "urban.pgscene";
+    arguments.surfaces_model = models->folder / "surfaces.pgscene";
+  }
+  Image labels() const { return read_image_as_stored(folder / "out/street.png"); }
+  static test::DrawnModels* models;
+  test::TemporaryFolder folder;
+  test::DrawnStreet street = test::draw_street(77);
+  ScenePictureArguments arguments;
+};
+test::DrawnModels* SceneLabelCommand::models = nullptr;
+
+TEST_F(SceneLabelCommand, TellsTheClassesOfAStreet) {
+  const ScenePictureResult result = scene_label(arguments);
+  EXPECT_EQ(result.classes, (std::vector<std::string>{"Sky", "Road", "Wall", "Car"}));
+  EXPECT_EQ(result.pixels.back(), 0);
+  EXPECT_GT(test::agreement(labels(), street.labels), 0.9);
+}
+
+TEST_F(SceneLabelCommand, TellsTheSurfacesOfAStreet) {
+  arguments.model = models->folder / "surfaces.pgscene";
+  const ScenePictureResult result = scene_surfaces(arguments);
+  EXPECT_EQ(result.classes, (std::vector<std::string>{"sky", "ground", "vertical", "object"}));
+  EXPECT_GT(test::agreement(labels(), street.labels), 0.9);
+}
+
+TEST_F(SceneLabelCommand, WhatIsNotCertainIsUnknown) {
+  arguments.unknown_below = 1;
+  EXPECT_GT(scene_label(arguments).pixels.back(), 0);
+  arguments.model = models->folder / "surfaces.pgscene";
+  arguments.force = true;
+  EXPECT_GT(scene_surfaces(arguments).pixels.back(), 0);
+}
+
+TEST_F(SceneLabelCommand, RefusesAModelOfTheOtherKindAndOneThatIsMissing) {
+  std::swap(arguments.model, arguments.surfaces_model);
+  EXPECT_THAT(message_of([&] { scene_label(arguments); }),
+              HasSubstr("surfaces.pgscene: a model of kind surfaces, and urban is needed"));
+  arguments.model = models->folder / "urban.pgscene";
+  EXPECT_THAT(message_of([&] { scene_surfaces(arguments); }),
+              HasSubstr("urban.pgscene: a model of kind urban, and surfaces is needed"));
+  arguments.model = folder / "none.pgscene";
+  EXPECT_THAT(message_of([&] { scene_surfaces(arguments); }),
+              HasSubstr("none.pgscene: no such model; `placegraph train surfaces DATA"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+}  // namespace
+}  // namespace placegraph::apps

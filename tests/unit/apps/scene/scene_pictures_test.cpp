@@ -1,0 +1,99 @@
+#include "apps/scene/scene_pictures.h"
+
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/image_file.h>
+
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+#include "tests/support/message_of.h"
+#include "tests/unit/io/datasets/tiny_images.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using test::message_of;
+using testing::HasSubstr;
+
+/// The left half is of the first class, of the right half a quarter unknown and the rest of the
+/// second; all a fifth certain.
+SceneLabels by_columns(const SceneView& view) {
+  SceneLabels found{Image(view.rows, view.cols, CV_8UC1, cv::Scalar(0)),
+                    Image(view.rows, view.cols, CV_32FC1, cv::Scalar(0.2))};
+  found.labels.colRange(view.cols / 2, view.cols).setTo(1);
+  found.labels.colRange(view.cols * 7 / 8, view.cols).setTo(2);
+  return found;
+}
+
+class LabelPictures : public testing::Test {
+ protected:
+  LabelPictures() {
+    test::write_image(folder, "street/images/a.png", test::tiny_grey(64, 48, 1));
+    test::write_image(folder, "street/images/b.png", test::tiny_grey(64, 48, 2));
+    arguments.input = folder / "street";
+    arguments.out = folder / "out";
+  }
+  ScenePictureResult label() { return label_pictures(arguments, {"Sky", "Road"}, by_columns); }
+  test::TemporaryFolder folder;
+  ScenePictureArguments arguments;
+};
+
+TEST_F(LabelPictures, CountsThePixelsOfEveryClassOverAllPictures) {
+  const ScenePictureResult result = label();
+  EXPECT_EQ(result.pictures, 2u);
+  EXPECT_EQ(result.pixels, (std::vector<std::int64_t>{2 * 32 * 48, 2 * 24 * 48, 2 * 8 * 48}));
+  const auto json = nlohmann::json::parse(to_json(result));
+  EXPECT_EQ(json["shares"], nlohmann::json({{"Sky", 0.5}, {"Road", 0.375}, {"unknown", 0.125}}));
+  arguments.out = folder / "again";
+  arguments.threads = 2;
+  EXPECT_EQ(label().pixels, result.pixels);
+}
+
+TEST_F(LabelPictures, WritesTheLabelsAndWhatElseIsAskedFor) {
+  label();
+  const Image labels = read_image_as_stored(folder / "out/b.png");
+  EXPECT_EQ(labels.at<std::uint8_t>(10, 31), 0);
+  EXPECT_EQ(labels.at<std::uint8_t>(10, 32), 1);
+  EXPECT_EQ(labels.at<std::uint8_t>(10, 63), 2);
+  EXPECT_FALSE(fs::exists(folder / "out/b.confidence.png"));
+  EXPECT_FALSE(fs::exists(folder / "out/b.drawn.png"));
+  arguments.confidence = arguments.draw = arguments.force = true;
+  label();
+  EXPECT_EQ(read_image_as_stored(folder / "out/b.confidence.png").at<std::uint8_t>(0, 0), 51);
+  const Image drawn = read_image_as_stored(folder / "out/b.drawn.png");
+  EXPECT_EQ(drawn.size(), labels.size());
+  // What is unknown is the picture, half as bright.
+  const Image picture = test::tiny_grey(64, 48, 2);
+  EXPECT_NEAR(drawn.at<cv::Vec3b>(10, 63)[1], picture.at<std::uint8_t>(10, 63) / 2.0, 1);
+}
+
+TEST_F(LabelPictures, TakesOnePicture) {
+  arguments.input = folder / "street/images/a.png";
+  EXPECT_EQ(label().pictures, 1u);
+  EXPECT_FALSE(fs::exists(folder / "out/b.png"));
+}
+
+TEST_F(LabelPictures, RefusesTwoPicturesOfOneName) {
+  test::write_image(folder, "street/images/a.jpg", test::tiny_grey(64, 48, 1));
+  EXPECT_THAT(message_of([&] { label(); }), HasSubstr("a.png: is the same frame as a.jpg"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(LabelPictures, NamesThePictureThatCannotBeLabelled) {
+  test::write_image(folder, "street/images/c.png", test::tiny_grey(20, 20, 1));
+  EXPECT_THAT(message_of([&] { label(); }), HasSubstr("c.png"));
+  folder.write("out/mine.txt", "mine");
+  EXPECT_THAT(message_of<ArgumentError>([&] { label(); }),
+              HasSubstr("out: is not empty; --force writes into it"));
+}
+
+TEST(ScenePictureText, LeavesOutClassesThatAreNowhere) {
+  const ScenePictureResult result{"out", {"Sky", "Road"}, {30, 0, 10}, 4, 12.4};
+  EXPECT_EQ(to_text(result),
+            "4 pictures, 12 ms of the processor each: Sky 0.750 unknown 0.250, written to out\n");
+}
+
+}  // namespace
+}  // namespace placegraph::apps
