@@ -6,6 +6,7 @@
 #   OpenCV in headers only through graph/core/image.h, in graph and backend not at all
 #   GeographicLib only in graph/geometry/geodesy.cpp
 #   libraries neither print nor end the process
+#   in apps only the command line (cmd_*, main.cpp, help.*) includes CLI11 and prints: include_directions.py
 set -eu
 lint=$(cd "$(dirname "$0")" && pwd)
 cd "$1"

@@ -164,4 +164,24 @@ for line in 'std::exit(1);' '  exit(1);' 'if (x) abort();' 'std::terminate();' '
   plant pipeline/slam.cpp "$line" 'a library ends the process'
 done
 
+# Commands are functions: the command line alone knows the option parser and prints.
+plant apps/run.h '#include <CLI/App.hpp>' 'only cmd_* may include CLI/App.hpp'
+plant apps/recmd_run.cpp '#include <CLI/CLI.hpp>' 'only cmd_* may include CLI/CLI.hpp'
+for line in 'std::cout << 1;' 'x(); std::cerr<<1;' 'std::printf("a");' '  std::fprintf(stderr, "a");' \
+  'std::puts("a");' 'fmt::print("a");' 'fputs("a", stdout);'; do
+  plant apps/run.cpp "$line" 'only cmd_* may print'
+done
+clean_tree
+mkdir apps/support
+sed 's/^apps: /apps\/support: graph\/core\n&apps\/support /' $table > edited
+mv edited $table
+echo '#include <placegraph/graph/core/image.h>' > apps/support/output.h
+echo '#include <apps/support/output.h>' >> apps/main.cpp
+for file in apps/cmd_run.cpp apps/help.h apps/support/cmd_option.h; do
+  printf '#include <CLI/CLI.hpp>\nvoid f() { std::puts("a"); }\n' > $file
+done
+printf 'void f() { std::fwrite(0, 1, 1, stdout); }\n' > apps/support/output.cpp
+printf 'int snprintf(char*);  // never printf()\nconst char* s = "std::puts(1);";\nvoid print();\n' > apps/run.cpp
+sh "$lint" "$work/tree" || { echo "a command line that prints is refused"; failures=$((failures + 1)); }
+
 [ $failures = 0 ] || { echo "$failures failures"; exit 1; }

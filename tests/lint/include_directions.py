@@ -6,15 +6,25 @@ ROOT/tests/lint/include_directions.txt, see include_table.py. Refused are
   a folder of sources that has no line in the table, a line without a folder,
   a permission that no include uses,
   a folder of more than 30 sources,
-  a table with an arrow that points up.
+  a table with an arrow that points up,
+  a source of apps that includes the option parser or prints and is no part of the command line
+  (cmd_*, main.cpp, help.*): a command is a function, arguments in and result out.
 """
 import collections
+import os
+import re
 import sys
 
 from include_table import TABLE, read_table
-from source_includes import folder_of, includes_of, source_files
+from source_includes import folder_of, includes_of, layer_of, source_files, without_comments
 
 MOST_FILES = 30
+COMMAND_LINE = re.compile(r"apps/(.*/)?cmd_[^/]*|apps/(main\.cpp|help\.(h|cpp))")
+PARSES = {"apps/support/calib_option.h", "apps/support/calib_option.cpp"}  # an option of many commands
+PRINTS = {"apps/support/output.cpp", "apps/support/progress.cpp"}  # what the others print through
+STRING = re.compile(r'"(?:\\.|[^"\\\n])*"')
+PRINT = re.compile(r"std::(cout|cerr|clog)\b|fmt::print(ln)?\s*\("
+                   r"|(?<![A-Za-z0-9_])(v?f?printf|puts|fputs|putchar|fputc|perror|fwrite)\s*\(")
 
 
 def check_folders(table, files):
@@ -51,6 +61,24 @@ def check_includes(root, table, files):
     return found, arrows
 
 
+def check_commands(root, files):
+    """Sources of apps beside the command line that know the option parser, or print."""
+    found = []
+    for file in files:
+        if layer_of(file) != "apps" or COMMAND_LINE.fullmatch(file):
+            continue
+        if file not in PARSES:
+            found += [f"{file}:{include.line}: only cmd_* may include {include.text}"
+                      for include in includes_of(root, file) if include.text.startswith("CLI/")]
+        if file in PRINTS:
+            continue
+        with open(os.path.join(root, file), encoding="utf-8", errors="replace") as source:
+            lines = without_comments(source.read()).split("\n")
+        found += [f"{file}:{number}: only cmd_* may print"
+                  for number, line in enumerate(lines, 1) if PRINT.search(STRING.sub('""', line))]
+    return found
+
+
 def check(root):
     files = source_files(root)
     if not files:
@@ -60,6 +88,7 @@ def check(root):
     found += check_folders(table, files)
     violations, arrows = check_includes(root, table, files)
     found += violations
+    found += check_commands(root, files)
     for folder, permissions in table.allowed.items():
         found += [f"{TABLE}:{line}: no include uses the permission {folder} -> {there}"
                   for there, line in permissions.items() if (folder, there) not in arrows]
