@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "apps/support/output.h"
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"
-#include "tests/support/temporary_folder.h"
+#include "tests/support/scenes/street_files.h"
 
 namespace placegraph::apps {
 namespace {
@@ -13,6 +15,107 @@ namespace {
 using nlohmann::json;
 using test::message_of;
 using testing::HasSubstr;
+
+/// Two places a metre apart along z, of a camera 1.65 m above the ground; frame 2 is half a metre
+/// beyond the second, frame 3 is lost; of two loops one was refused.
+StoredMap two_places() {
+  StoredMap stored;
+  stored.origin.sequence = "/nowhere/street";
+  Calibration& calibration = stored.origin.calibration.emplace();
+  calibration.camera = {448, 280, 330, 330, 223.5, 139.5, Distortion::kNone, {}};
+  calibration.camera_height_m = 1.65;
+  Map& map = stored.map;
+  map.metric = true;
+  const auto at_z = [](double z) { return SE3(SO3(), Eigen::Vector3d(0, 0, z)); };
+  for (int k = 0; k < 2; ++k) {
+    Keyframe keyframe;
+    keyframe.id = keyframe.frame = keyframe.place = k;
+    keyframe.stamp_ns = 100 * k;
+    keyframe.features.resize(5);
+    map.keyframes.push_back(keyframe);
+    Place place;
+    place.id = place.anchor_keyframe = k;
+    place.T_map_place = at_z(k);
+    place.members = {{k, SE3(), 1}};
+    if (k == 1) place.labels = {"corridor", "environment:corridor"};
+    map.place_graph.places.push_back(place);
+  }
+  RelativePoseConstraint edge;
+  edge.from = 0, edge.to = 1;
+  edge.T_from_to = at_z(1);
+  edge.information = 100 * Matrix6d::Identity();
+  map.place_graph.constraints.push_back(edge);
+  map.frames = {{0, 0, 0, SE3(), 20},
+                {1, 100, 1, SE3(), 30},
+                {2, 1'500'000'000, 1, at_z(0.5), 40},
+                {3, 2'000'000'000, -1, std::nullopt, 0}};
+  for (const FrameRecord& frame : map.frames)
+    map.trajectory_online.poses.push_back({frame.stamp_ns, std::nullopt});
+  LoopRecord accepted, refused;
+  accepted.query_frame = 1, accepted.match_frame = 0, accepted.inliers = 33;
+  accepted.stage = LoopStage::kAccepted;
+  refused.query_frame = 1, refused.match_frame = 0, refused.stage = LoopStage::kGeometry;
+  map.loops = {accepted, refused};
+  return stored;
+}
+
+class ExplainTwoPlaces : public testing::Test {
+ protected:
+  json told(std::int64_t frame) {
+    write_map(folder / "map.db", stored);
+    return explain({folder.path(), frame}).told;
+  }
+  test::TemporaryFolder folder;
+  StoredMap stored = two_places();
+};
+
+TEST_F(ExplainTwoPlaces, SaysWhereAFrameIsAndHowThatIsKnown) {
+  const json frame = told(2);
+  EXPECT_EQ(frame["stamp_s"], 1.5);
+  const json& where = frame["where"];
+  EXPECT_EQ(where["place"], 1);
+  EXPECT_EQ(where["unit"], "m");
+  EXPECT_NEAR(where["position"][2].get<double>(), 1.5, 1e-12);
+  EXPECT_NEAR(where["way_to_keyframe"].get<double>(), 0.5, 1e-12);
+  // An edge of 0.1 in every direction; half a metre ahead its turn moves the frame sideways too:
+  // 0.01 each, and twice 0.5^2 0.01.
+  EXPECT_NEAR(where["sigma_position"].get<double>(), std::sqrt(0.03 + 0.005), 1e-9);
+  EXPECT_EQ(frame["known_by"]["inliers"], 40);
+  EXPECT_EQ(frame["known_by"]["features"], 5);
+  EXPECT_EQ(frame["known_by"]["constraints"], json({{"odometry", 1}}));
+  ASSERT_EQ(frame["known_by"]["loops"].size(), 1u);
+  EXPECT_EQ(frame["known_by"]["loops"][0]["inliers"], 33);
+  ASSERT_EQ(frame["refused"].size(), 1u);
+  EXPECT_EQ(frame["refused"][0]["stage"], to_string(LoopStage::kGeometry));
+}
+
+TEST_F(ExplainTwoPlaces, SaysWhatWasTakenForGranted) {
+  const json assumed = told(2)["assumed"];
+  EXPECT_EQ(assumed["sensor"], "one eye");
+  EXPECT_EQ(assumed["ground_below_camera_m"], 1.65);
+  EXPECT_EQ(assumed["environment"]["kind"], "corridor");
+  EXPECT_FALSE(told(0)["assumed"].contains("environment"));
+  stored.origin.calibration->baseline_m = 0.5;
+  EXPECT_EQ(told(2)["assumed"]["sensor"], "depths measured");
+}
+
+TEST_F(ExplainTwoPlaces, ALostFrameHasNoPlace) {
+  EXPECT_EQ(told(3)["where"], json({{"posed", false}}));
+}
+
+TEST_F(ExplainTwoPlaces, SaysWhatThePictureShowsWhereThatIsStillThere) {
+  EXPECT_EQ(told(1)["sees"],
+            json({{"unknown", "the pictures are not where they were: /nowhere/street"}}));
+  test::StreetFiles(folder, 2).write_kitti(false);
+  stored.origin.sequence = folder / "s";
+  const json sees = told(1)["sees"];
+  for (const char* kind : {"surfaces", "classes"}) {
+    double sum = 0;
+    for (const auto& [name, share] : sees[kind].items()) sum += share.get<double>();
+    EXPECT_NEAR(sum, 1, 1e-9) << kind;
+  }
+  EXPECT_EQ(told(2)["sees"]["unknown"], (folder / "s") + " has 2 frames now");
+}
 
 TEST(ExplainCommand, RefusesAFrameThatTheMapDoesNotHave) {
   const test::TemporaryFolder folder;

@@ -1,0 +1,146 @@
+#include "apps/map/georeference.h"
+
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/trajectories/trajectory_file.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <sstream>
+
+#include "apps/support/output.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::json;
+using test::message_of;
+using testing::HasSubstr;
+
+constexpr int kNodes = 100;
+constexpr double kRadius_m = 20, kAngle_rad = 0.05;  ///< between neighbours
+/// Radii of WGS84 at latitude 49 deg, height 115 m: of curvature along the meridian, and of the
+/// circle of latitude.
+constexpr double kMeridian_m = 6371963.6, kParallel_m = 4192510.4;
+
+/// A drive around a circle in the plane, one pose a tenth of a second, and the fixes along it: the
+/// first pose is 100 m east of 49 N 8.4 E and looks north.
+class GeoreferenceCommand : public testing::Test {
+ protected:
+  GeoreferenceCommand() {
+    std::ostringstream graph, times;
+    graph.precision(12);
+    const double chord_m = 2 * kRadius_m * std::sin(kAngle_rad / 2);
+    for (int i = 0; i < kNodes; ++i) {
+      graph << "VERTEX_SE2 " << i << ' ' << kRadius_m * std::sin(i * kAngle_rad) << ' '
+            << kRadius_m * (1 - std::cos(i * kAngle_rad)) << ' ' << i * kAngle_rad << '\n';
+      times << 0.1 * i << '\n';
+    }
+    for (int i = 1; i < kNodes; ++i)
+      graph << "EDGE_SE2 " << i - 1 << ' ' << i << ' ' << chord_m * std::cos(kAngle_rad / 2) << ' '
+            << chord_m * std::sin(kAngle_rad / 2) << ' ' << kAngle_rad << " 1e4 0 0 1e4 0 1e6\n";
+    arguments.graph = folder.write("graph.g2o", graph.str());
+    arguments.times = folder.write("times.txt", times.str());
+    arguments.gps = folder / "oxts.txt";
+    folder.write("times_oxts.txt", times.str());
+    arguments.out = folder / "out";
+    arguments.origin = "49,8.4,115";
+    write_fixes();
+  }
+  /// Of an antenna on a circle about the same middle. Those numbered in [off_begin, off_end) are
+  /// 50 m off to the east.
+  void write_fixes(double radius_m = kRadius_m, int off_begin = 0, int off_end = 0) const {
+    std::ostringstream out;
+    out.precision(15);
+    for (int i = 0; i < kNodes; ++i) {
+      const double off_m = i >= off_begin && i < off_end ? 50 : 0;
+      const double east_m = 100 - kRadius_m + radius_m * std::cos(i * kAngle_rad) + off_m,
+                   north_m = radius_m * std::sin(i * kAngle_rad);
+      out << 49 + rad_to_deg(north_m / kMeridian_m) << ' ' << 8.4 + rad_to_deg(east_m / kParallel_m)
+          << " 115 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0.1 0 4 8 -1 -1 -1\n";
+    }
+    folder.write("oxts.txt", out.str());
+  }
+  template <class Exception>
+  void expect_nothing_written(const std::string& message) {
+    EXPECT_THAT(message_of<Exception>([&] { georeference(arguments); }), HasSubstr(message));
+    EXPECT_FALSE(std::filesystem::exists(arguments.out));
+  }
+  test::TemporaryFolder folder;
+  GeoreferenceArguments arguments;
+};
+
+TEST_F(GeoreferenceCommand, PutsTheMapOntoTheEarth) {
+  const GeoreferenceReport report = georeference(arguments);
+  EXPECT_EQ(report.result.fixes_used, kNodes);
+  EXPECT_EQ(report.result.fixes_rejected, 0);
+  EXPECT_LT(report.result.residual_rms_m, 0.01);
+  EXPECT_EQ(report.summary["origin"]["height_m"], 115.0);
+  EXPECT_EQ(json::parse(test::read_file(folder / "out/georeference.json")), json(report.summary));
+  const Trajectory written = read_trajectory(folder / "out/trajectory_enu.tum");
+  ASSERT_EQ(written.size(), static_cast<std::size_t>(kNodes));
+  const Eigen::Isometry3d first = *written.poses[0].T_world_body;
+  EXPECT_LT((first.translation() - Eigen::Vector3d(100, 0, 0)).norm(), 0.02);
+  // Ahead is the map's x: north.
+  EXPECT_LT((first.linear().col(0) - Eigen::Vector3d::UnitY()).norm(), 1e-3);
+  EXPECT_EQ(read_g2o(folder / "out/graph_enu.g2o").nodes.size(), static_cast<std::size_t>(kNodes));
+  for (const char* name : {"map.geojson", "map.kml", "fixes.csv"})
+    EXPECT_TRUE(std::filesystem::exists(folder / ("out/" + std::string(name)))) << name;
+}
+
+TEST_F(GeoreferenceCommand, AnAntennaBesideTheCameraIsHeeded) {
+  write_fixes(kRadius_m - 5);  // to the left of the drive, towards the circle's middle
+  expect_nothing_written<NoAnswer>("fixes agree on a place of the map");
+  arguments.lever_arm = "0,5,0";
+  const GeoreferenceReport report = georeference(arguments);
+  EXPECT_LT(report.result.residual_rms_m, 0.01);
+  const Eigen::Vector3d first = report.result.trajectory.poses[0].T_world_body->translation();
+  EXPECT_LT((first - Eigen::Vector3d(100, 0, 0)).norm(), 0.02);
+}
+
+TEST_F(GeoreferenceCommand, FixesThatAreFarOffAreRejected) {
+  write_fixes(kRadius_m, 40, 45);
+  const GeoreferenceReport report = georeference(arguments);
+  EXPECT_EQ(report.result.fixes_rejected, 5);
+  EXPECT_EQ(report.result.fixes_used, kNodes - 5);
+  EXPECT_THAT(to_text(report), HasSubstr("fixes        95 used, 5 rejected, 0 beside the map's"));
+  EXPECT_THAT(to_text(report), HasSubstr("origin       49.000000000, 8.400000000, 115.000 m"));
+}
+
+TEST_F(GeoreferenceCommand, NamesTheArgumentThatIsWrong) {
+  arguments.lever_arm = "1,2";
+  expect_nothing_written<ArgumentError>("--lever-arm: '1,2' is not three numbers x,y,z");
+  arguments.lever_arm = "1,2,x";
+  expect_nothing_written<ArgumentError>("--lever-arm: 'x' is not a number");
+  arguments.lever_arm.clear();
+  arguments.origin = "95,8,0";
+  expect_nothing_written<ArgumentError>("--origin: latitude");
+  arguments.origin.clear();
+  arguments.clock_offset = "soon";
+  expect_nothing_written<ArgumentError>("--clock-offset: 'soon' is not a number of seconds");
+  arguments.clock_offset.clear();
+  arguments.times.clear();
+  expect_nothing_written<ArgumentError>("--times: needed with a file of a graph");
+}
+
+TEST_F(GeoreferenceCommand, NamesTheFileAndTheLineThatAreWrong) {
+  folder.write("times.txt", "0\n1\n2\n");
+  expect_nothing_written<FileError>("times.txt: holds 3 times, none for node 3");
+  folder.write("graph.g2o", "VERTEX_SE2 0 0 0 x\n");
+  expect_nothing_written<FileError>("graph.g2o:1");
+}
+
+TEST_F(GeoreferenceCommand, WritesNothingWhereTheFixesAreOfAnotherTime) {
+  std::ostringstream times;
+  for (int i = 0; i < kNodes; ++i) times << 1000 + 0.1 * i << '\n';
+  folder.write("times_oxts.txt", times.str());
+  expect_nothing_written<NoAnswer>("no time in common");
+}
+
+}  // namespace
+}  // namespace placegraph::apps

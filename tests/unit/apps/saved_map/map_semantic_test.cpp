@@ -1,0 +1,91 @@
+#include "apps/saved_map/map_semantic.h"
+
+#include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
+
+#include <filesystem>
+
+#include "apps/support/output.h"
+#include "tests/support/message_of.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/unit/apps/saved_map/posed_map.h"
+
+namespace placegraph::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::message_of;
+using testing::HasSubstr;
+
+/// A short drive through a rendered town with two eyes, made once, and its map at true poses.
+class MapSemanticCommand : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    made = new test::TemporaryFolder;
+    SyntheticOptions options;
+    options.world = "town-loop";
+    options.difficulty = synthetic::Difficulty::kClean;
+    options.frames = 4;
+    options.width = 620, options.height = 188;
+    const SyntheticWorld world(options);
+    SequenceWriterOptions writing;
+    writing.contents.right = true;
+    write_sequence(world, *made / "town", writing);
+    write_map(*made / "map.db", test::posed_map(world, *made / "town", Sensor::kStereo, 1));
+  }
+  static void TearDownTestSuite() { delete made; }
+  MapSemanticCommand() {
+    arguments.map = *made / "map.db";
+    arguments.out = folder / "street";
+    arguments.settings = {"min_step_m=0.1", "sight.step_px=3"};
+  }
+  static test::TemporaryFolder* made;
+  test::TemporaryFolder folder;
+  MapSemanticArguments arguments;
+};
+test::TemporaryFolder* MapSemanticCommand::made = nullptr;
+
+TEST_F(MapSemanticCommand, SaysWhatIsWhereInAStreet) {
+  const MapSemanticResult result = map_semantic(arguments);
+  EXPECT_EQ(result.summary["outcome"], "ok");
+  EXPECT_EQ(result.summary["keyframes"], 4);
+  EXPECT_GT(result.summary["cells"].get<int>(), 100);
+  const json written = json::parse(test::read_file(folder / "street/semantic_map.json"));
+  EXPECT_FALSE(written["classes"].empty());
+  EXPECT_THAT(test::read_file(folder / "street/semantic_map.ply"), testing::StartsWith("ply\n"));
+}
+
+TEST_F(MapSemanticCommand, SettingsAreHeeded) {
+  arguments.settings = {"min_step_m=100", "sight.step_px=3"};
+  EXPECT_EQ(map_semantic(arguments).summary["keyframes"], 1);
+}
+
+TEST_F(MapSemanticCommand, WritesNothingWhereNothingHasAPose) {
+  StoredMap stored = read_map(arguments.map);
+  stored.origin.calibration.reset();
+  write_map(folder / "images.db", stored);
+  arguments.map = folder / "images.db";
+  EXPECT_THAT(message_of<NoAnswer>([&] { map_semantic(arguments); }),
+              HasSubstr("images.db: nothing in it has a pose"));
+  EXPECT_FALSE(fs::exists(arguments.out));
+}
+
+TEST_F(MapSemanticCommand, NamesWhatIsMissing) {
+  arguments.models.urban = folder / "none.pgscene";
+  EXPECT_THAT(message_of([&] { map_semantic(arguments); }),
+              HasSubstr("none.pgscene: no such model; "));
+  arguments.models.urban.clear();
+  arguments.georeference = folder / "earth";
+  EXPECT_THAT(message_of([&] { map_semantic(arguments); }), HasSubstr("earth"));
+  EXPECT_FALSE(fs::exists(arguments.out));
+}
+
+TEST(MapSemanticText, IsOneLine) {
+  const MapSemanticResult result{"m.db", "street", {{"cells", 1000}, {"keyframes", 9}}};
+  EXPECT_EQ(to_text(result), "m.db: 1000 cells of 9 keyframes; results in street\n");
+  EXPECT_EQ(json::parse(to_json(result)), result.summary);
+}
+
+}  // namespace
+}  // namespace placegraph::apps
