@@ -5,20 +5,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/views/rows_json.h"
+
 namespace placegraph::apps {
 namespace {
 
 using nlohmann::ordered_json;
-
-template <class Matrix>
-ordered_json rows_of(const Matrix& matrix) {
-  ordered_json rows = ordered_json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(ordered_json::array());
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows.back().push_back(matrix(i, j));
-  }
-  return rows;
-}
 
 ordered_json list_of(const Eigen::VectorXd& vector) {
   ordered_json list = ordered_json::array();
@@ -36,8 +28,8 @@ ordered_json affine_json(const AffineFlow& flow) {
           {"divergence", flow.divergence()},
           {"divergence_variance", flow.divergence_variance()},
           {"centre", list_of(flow.centre)},
-          {"gradient", rows_of(flow.gradient)},
-          {"covariance", rows_of(flow.covariance)}};
+          {"gradient", rows_json(flow.gradient)},
+          {"covariance", rows_json(flow.covariance)}};
 }
 
 ordered_json balance_json(const LateralBalance& balance) {
@@ -53,7 +45,7 @@ ordered_json ventral_json(const VentralMotion& motion, double dt) {
   if (!motion.outcome) return refused(motion.outcome);
   return {{"outcome", "ok"},
           {"speed_over_distance", list_of(motion.over_distance / dt)},
-          {"covariance", rows_of(Eigen::Matrix3d(motion.covariance / (dt * dt)))},
+          {"covariance", rows_json(Eigen::Matrix3d(motion.covariance / (dt * dt)))},
           {"agreeing", motion.inliers},
           {"chi2_per_dof", motion.chi2_per_dof}};
 }

@@ -1,0 +1,238 @@
+#include "apps/views/planes_cloud.h"
+
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/image_file.h>
+#include <placegraph/io/measurements/point_cloud_file.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "apps/support/choice.h"
+#include "apps/support/output.h"
+#include "apps/support/read_calib.h"
+#include "apps/support/usage.h"
+#include "apps/views/planarity_file.h"
+
+namespace placegraph::apps {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr int kMostLabels = 255;  ///< of an 8-bit image
+
+bool is_image(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension == ".png" || extension == ".pgm" || extension == ".tif" || extension == ".tiff";
+}
+
+PointCloud read_depth_cloud(const PlanesCloudArguments& arguments) {
+  require(!arguments.calib.empty(), "--calib: a depth image needs its camera");
+  require(std::isfinite(arguments.depth_scale) && arguments.depth_scale > 0,
+          "--depth-scale: " + std::to_string(arguments.depth_scale) + " is not above 0");
+  // A step of a metre or more is none that a sensor has: then it is steps a metre.
+  const double step_m =
+      arguments.depth_scale < 1 ? arguments.depth_scale : 1 / arguments.depth_scale;
+  const Camera camera =
+      read_calib_without_distortion(arguments.calib, "planes need a depth image and");
+  const Image depth = read_depth(arguments.in, step_m);
+  require_size(arguments.in, depth, camera.width, camera.height);
+  return cloud_of_depth(depth, camera, step_m);
+}
+
+std::vector<int> read_truth(const PlanesCloudArguments& arguments, std::size_t points) {
+  std::vector<int> labels;
+  if (is_image(arguments.truth)) {
+    const Image image = read_image_as_stored(arguments.truth);
+    if (image.type() != CV_8UC1) throw FileError(arguments.truth, "not an 8-bit grey image");
+    labels.assign(image.begin<unsigned char>(), image.end<unsigned char>());
+  } else {
+    labels = read_point_labels(arguments.truth);
+  }
+  if (labels.size() != points)
+    throw FileError(arguments.truth, std::to_string(labels.size()) + " labels for " +
+                                         std::to_string(points) + " points");
+  for (const std::string& pair : arguments.same) {
+    int a = 0, b = 0;
+    char sign = 0, rest = 0;
+    require(std::sscanf(pair.c_str(), "%d%c%d%c", &a, &sign, &b, &rest) == 3 && sign == '=',
+            "--gt-same: " + pair + " is not of the form 14=5");
+    std::replace(labels.begin(), labels.end(), a, b);
+  }
+  for (const int label : arguments.none) std::replace(labels.begin(), labels.end(), label, 0);
+  return labels;
+}
+
+void write_labels(const PlanesCloudArguments& arguments, const PointCloud& cloud,
+                  const std::vector<int>& labels) {
+  if (!cloud.organised()) {
+    std::string text;
+    for (const int label : labels) text += std::to_string(label) + '\n';
+    write_file(arguments.out, text);
+    return;
+  }
+  Image image(cloud.height, cloud.width, CV_8UC1);
+  std::transform(labels.begin(), labels.end(), image.begin<unsigned char>(), [](int label) {
+    return static_cast<unsigned char>(label <= kMostLabels ? label : 0);
+  });
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", image, bytes);
+  write_file(arguments.out, std::string(bytes.begin(), bytes.end()));
+}
+
+ordered_json plane_json(int id, const CloudPlane& plane) {
+  const Eigen::Vector3d& n = plane.plane.normal;
+  ordered_json json;
+  json["id"] = id;
+  json["points"] = plane.points;
+  json["normal"] = {n[0], n[1], n[2]};
+  json["offset_m"] = plane.plane.distance_m;
+  json["probability"] = plane.probability;
+  json["chi2_per_dof"] = plane.chi2_per_dof;
+  json["covariance"] = ordered_json::array();
+  for (int row = 0; row < 3; ++row)
+    for (int k = 0; k < 3; ++k) json["covariance"].push_back(plane.covariance(row, k));
+  return json;
+}
+
+/// Boxes and rooms: middle and axes in the sensor's frame, sides, and the plane that each side is.
+ordered_json cuboids_json(const std::vector<Cuboid>& cuboids) {
+  ordered_json list = ordered_json::array();
+  for (const Cuboid& cuboid : cuboids) {
+    const Eigen::Vector3d& middle = cuboid.T_sensor_cuboid.translation();
+    const Eigen::Matrix3d R = cuboid.T_sensor_cuboid.rotation().matrix();
+    ordered_json one;
+    one["kind"] = cuboid.kind == CuboidKind::kBox ? "box" : "room";
+    one["middle_m"] = {middle[0], middle[1], middle[2]};
+    one["size_m"] = {2 * cuboid.half[0], 2 * cuboid.half[1], 2 * cuboid.half[2]};
+    one["R_sensor_cuboid"] = ordered_json::array();
+    for (int row = 0; row < 3; ++row)
+      one["R_sensor_cuboid"].push_back({R(row, 0), R(row, 1), R(row, 2)});
+    constexpr const char* kSides[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+    for (std::size_t side = 0; side < cuboid.faces.size(); ++side)
+      if (cuboid.faces[side] >= 0) one["faces"][kSides[side]] = cuboid.faces[side] + 1;
+    one["points"] = cuboid.points;
+    list.push_back(one);
+  }
+  return list;
+}
+
+ordered_json check_json(const PlaneCheck& check) {
+  return {{"planes", check.truth},
+          {"correct", check.correct},
+          {"correct_share", check.correct_share()},
+          {"over_segmented", check.over_segmented},
+          {"under_segmented", check.under_segmented},
+          {"missed", check.missed},
+          {"false", check.noise},
+          {"extra_pieces", check.extra_pieces}};
+}
+
+/// The options with their method, when all that can be refused beforehand is in order.
+CloudPlanesOptions checked_options(const PlanesCloudArguments& arguments) {
+  require(!arguments.in.empty(), "planes: CLOUD or a subcommand is required");
+  require(!arguments.out.empty(), "planes: --out is required");
+  CloudPlanesOptions options = arguments.options;
+  options.method =
+      choice<CloudPlanesMethod>("--method", cloud_planes_method_names(), arguments.method);
+  options.check();
+  arguments.cuboid_options.check();
+  require_free(arguments.out, arguments.force);
+  if (!arguments.cuboids.empty()) {
+    require(arguments.cuboids != arguments.out, "--cuboids: the same file as --out");
+    require_free(arguments.cuboids, arguments.force);
+  }
+  return options;
+}
+
+std::vector<Cuboid> cuboids_of(const PlanesCloudArguments& arguments, const PointCloud& cloud,
+                               const CloudPlanesResult& found) {
+  if (!found.from_origin)
+    throw FileError(arguments.in,
+                    "--cuboids: not taken from the origin, which side of a plane "
+                    "is seen is not known");
+  return find_cuboids(cloud, found, arguments.cuboid_options);
+}
+
+}  // namespace
+
+const std::vector<std::string>& cloud_planes_method_names() {
+  static const std::vector<std::string> names = {"cuts", "ransac", "growing"};
+  return names;
+}
+
+PlanesCloudResult planes_cloud(const PlanesCloudArguments& arguments) {
+  const CloudPlanesOptions options = checked_options(arguments);
+  const PlanarityModel planarity =
+      arguments.model.empty() ? built_in_planarity() : read_planarity(arguments.model);
+  const PointCloud cloud =
+      is_image(arguments.in) ? read_depth_cloud(arguments) : read_point_cloud(arguments.in);
+  std::vector<int> truth;
+  if (!arguments.truth.empty()) truth = read_truth(arguments, cloud.points.size());
+
+  PlanesCloudResult result;
+  result.in = arguments.in;
+  result.method = arguments.method;
+  const Stopwatch watch;
+  result.found = find_cloud_planes(cloud, options, planarity);
+  result.cpu_ms = watch.cpu_ms();
+  const CloudPlanesResult& found = result.found;
+  if (!found.outcome) throw FileError(arguments.in, found.outcome.reason);
+  if (cloud.organised() && found.planes.size() > kMostLabels)
+    warn(fmt::format("{} planes: an 8-bit image tells {} apart, the others are 0",
+                     found.planes.size(), kMostLabels));
+  result.points = std::count_if(cloud.points.begin(), cloud.points.end(),
+                                [](const Eigen::Vector3d& p) { return p.allFinite(); });
+  result.on_planes =
+      std::count_if(found.labels.begin(), found.labels.end(), [](int label) { return label > 0; });
+  if (!truth.empty()) result.check = check_planes(truth, found.labels, arguments.check);
+  if (!arguments.cuboids.empty()) result.cuboids = cuboids_of(arguments, cloud, found);
+  write_labels(arguments, cloud, found.labels);
+  if (result.cuboids) write_file(arguments.cuboids, cuboids_json(*result.cuboids).dump(2) + '\n');
+  return result;
+}
+
+std::string to_text(const PlanesCloudResult& result) {
+  const std::vector<CloudPlane>& planes = result.found.planes;
+  std::string text = fmt::format("{}: {} points, {} planes, {} points on none\n", result.in,
+                                 result.points, planes.size(), result.points - result.on_planes);
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const Eigen::Vector3d& n = planes[k].plane.normal;
+    text += fmt::format("  plane {}: {} points, normal ({:.3f}, {:.3f}, {:.3f}), offset {:.4g} m\n",
+                        k + 1, planes[k].points, n[0], n[1], n[2], planes[k].plane.distance_m);
+  }
+  if (const auto& check = result.check)
+    text += fmt::format("  of {} true planes: {} found, {} in pieces, {} missed; {} false\n",
+                        check->truth, check->correct, check->over_segmented, check->missed,
+                        check->noise);
+  if (result.cuboids) text += fmt::format("  {} boxes and rooms\n", result.cuboids->size());
+  return text + fmt::format("  {:.1f} ms CPU\n", result.cpu_ms);
+}
+
+std::string to_json(const PlanesCloudResult& result) {
+  const CloudPlanesResult& found = result.found;
+  ordered_json json;
+  json["in"] = result.in;
+  json["method"] = result.method;
+  json["points"] = result.points;
+  json["on_planes"] = result.on_planes;
+  json["noise"] = {{"at_1m_m", found.noise.at_1m},
+                   {"power_of_depth", found.noise.power},
+                   {"least_m", found.noise.least_m},
+                   {"shared", found.noise.shared}};
+  json["planes"] = ordered_json::array();
+  for (std::size_t k = 0; k < found.planes.size(); ++k)
+    json["planes"].push_back(plane_json(static_cast<int>(k) + 1, found.planes[k]));
+  if (result.check) json["check"] = check_json(*result.check);
+  if (result.cuboids) json["cuboids"] = cuboids_json(*result.cuboids);
+  json["cpu_ms"] = result.cpu_ms;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace placegraph::apps
