@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/views/rows_json.h"
+#include "apps/support/rows_json.h"
 
 namespace placegraph::apps {
 namespace {

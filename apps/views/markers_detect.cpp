@@ -14,9 +14,9 @@
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
+#include "apps/support/rows_json.h"
 #include "apps/support/usage.h"
 #include "apps/views/draw_markers.h"
-#include "apps/views/rows_json.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/views/planes_cloud.h"
+#include "apps/planes/planes_cloud.h"
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
@@ -12,11 +12,11 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "apps/planes/planarity_file.h"
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"
-#include "apps/views/planarity_file.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/views/vanishing.h"
+#include "apps/lines/vanishing.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

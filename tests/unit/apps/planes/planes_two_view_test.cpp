@@ -1,4 +1,4 @@
-#include "apps/views/planes_two_view.h"
+#include "apps/planes/planes_two_view.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

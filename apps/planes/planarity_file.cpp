@@ -1,4 +1,4 @@
-#include "apps/views/planarity_file.h"
+#include "apps/planes/planarity_file.h"
 
 #include <placegraph/io/files/text_file.h>
 

@@ -1,4 +1,4 @@
-#include "apps/views/lines_match.h"
+#include "apps/lines/lines_match.h"
 
 #include <placegraph/io/measurements/segment_file.h>
 

@@ -1,11 +1,11 @@
-#include "apps/views/cmd_vanishing.h"
+#include "apps/lines/cmd_vanishing.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/lines/vanishing.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/output.h"
-#include "apps/views/vanishing.h"
 
 namespace placegraph::apps {
 

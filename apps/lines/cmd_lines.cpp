@@ -1,14 +1,14 @@
-#include "apps/views/cmd_lines.h"
+#include "apps/lines/cmd_lines.h"
 
 #include <placegraph/graph/core/error.h>
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/lines/cmd_lines_track.h"
+#include "apps/lines/lines_detect.h"
+#include "apps/lines/lines_match.h"
 #include "apps/support/output.h"
-#include "apps/views/cmd_lines_track.h"
-#include "apps/views/lines_detect.h"
-#include "apps/views/lines_match.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,11 +1,11 @@
-#include "apps/views/cmd_planes_cloud.h"
+#include "apps/planes/cmd_planes_cloud.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/planes/planes_cloud.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/output.h"
-#include "apps/views/planes_cloud.h"
 
 namespace placegraph::apps {
 

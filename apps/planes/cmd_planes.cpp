@@ -1,12 +1,12 @@
-#include "apps/views/cmd_planes.h"
+#include "apps/planes/cmd_planes.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/planes/cmd_planes_cloud.h"
+#include "apps/planes/planes_two_view.h"
 #include "apps/support/calib_option.h"
 #include "apps/support/output.h"
-#include "apps/views/cmd_planes_cloud.h"
-#include "apps/views/planes_two_view.h"
 
 namespace placegraph::apps {
 

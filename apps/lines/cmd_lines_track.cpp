@@ -1,10 +1,10 @@
-#include "apps/views/cmd_lines_track.h"
+#include "apps/lines/cmd_lines_track.h"
 
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/lines/lines_track.h"
 #include "apps/support/output.h"
-#include "apps/views/lines_track.h"
 
 namespace placegraph::apps {
 

@@ -1,4 +1,4 @@
-#include "apps/views/plane_track_files.h"
+#include "apps/planes/plane_track_files.h"
 #include "apps/support/json_file.h"
 
 #include <fmt/format.h>

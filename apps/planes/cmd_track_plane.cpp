@@ -1,11 +1,11 @@
-#include "apps/views/cmd_track_plane.h"
+#include "apps/planes/cmd_track_plane.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 
+#include "apps/planes/track_plane.h"
 #include "apps/support/output.h"
-#include "apps/views/track_plane.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/views/lines_track.h"
+#include "apps/lines/lines_track.h"
 
 #include <placegraph/io/synthetic/writers/sequence_writer.h>
 

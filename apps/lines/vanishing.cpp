@@ -1,4 +1,4 @@
-#include "apps/views/vanishing.h"
+#include "apps/lines/vanishing.h"
 
 #include <fmt/format.h>
 #include <placegraph/io/measurements/segment_file.h>
@@ -8,8 +8,8 @@
 
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
+#include "apps/support/rows_json.h"
 #include "apps/support/usage.h"
-#include "apps/views/rows_json.h"
 
 namespace placegraph::apps {
 namespace {

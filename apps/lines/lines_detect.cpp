@@ -1,4 +1,4 @@
-#include "apps/views/lines_detect.h"
+#include "apps/lines/lines_detect.h"
 
 #include <fmt/format.h>
 #include <placegraph/io/files/image_file.h>

@@ -1,4 +1,4 @@
-#include "apps/views/lines_detect.h"
+#include "apps/lines/lines_detect.h"
 
 #include <placegraph/io/measurements/segment_file.h>
 

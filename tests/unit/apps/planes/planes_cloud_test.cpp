@@ -1,4 +1,4 @@
-#include "apps/views/planes_cloud.h"
+#include "apps/planes/planes_cloud.h"
 
 #include <placegraph/io/files/image_file.h>
 
