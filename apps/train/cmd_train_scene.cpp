@@ -10,6 +10,28 @@
 
 namespace placegraph::apps {
 
+namespace {
+
+/// What the forests are grown with.
+void add_forest_options(CLI::App& command, SceneTrainingOptions& training) {
+  command
+      .add_option("--variants", training.variants, "of each picture, as another day might show it")
+      ->capture_default_str();
+  command.add_option("--trees", training.forest.trees, "of each forest")->capture_default_str();
+  command.add_option("--min-leaf", training.forest.min_leaf, "superpixels a leaf holds at least")
+      ->capture_default_str();
+  command.add_option("--tries", training.forest.tries, "features looked at for a split")
+      ->capture_default_str();
+  command
+      .add_option("--share-rows", training.forest.share_rows, "of the superpixels, taken by a tree")
+      ->capture_default_str();
+  command.add_option("--class-power", training.class_power, "rare classes weigh as share^-power")
+      ->capture_default_str();
+  command.add_option("--seed", training.forest.seed, "of what is drawn")->capture_default_str();
+}
+
+}  // namespace
+
 void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, const char* about) {
   const std::string name = name_of(kind);
   CLI::App* command = train_command.add_subcommand(name, about);
@@ -29,26 +51,7 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
                       "a sequence (names up to the first '_') that judges instead of teaching");
   command->add_option("--update", a.update,
                       "a model to add these data to, with classes it does not know yet");
-  command
-      ->add_option("--variants", a.options.training.variants,
-                   "of each picture, as another day might show it")
-      ->capture_default_str();
-  command->add_option("--trees", a.options.training.forest.trees, "of each forest")
-      ->capture_default_str();
-  command
-      ->add_option("--min-leaf", a.options.training.forest.min_leaf,
-                   "superpixels a leaf holds at least")
-      ->capture_default_str();
-  command->add_option("--tries", a.options.training.forest.tries, "features looked at for a split")
-      ->capture_default_str();
-  command
-      ->add_option("--share-rows", a.options.training.forest.share_rows,
-                   "of the superpixels, taken by a tree")
-      ->capture_default_str();
-  command
-      ->add_option("--class-power", a.options.training.class_power,
-                   "rare classes weigh as share^-power")
-      ->capture_default_str();
+  add_forest_options(*command, a.options.training);
   command
       ->add_option("--rendered", a.options.rendered,
                    "seeds of rendered towns to learn from too, joined by commas, whose classes are "
@@ -60,8 +63,6 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
       ->capture_default_str();
   command->add_option("--every", a.options.every, "learn from every n-th photograph only")
       ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--seed", a.options.training.forest.seed, "of what is drawn")
       ->capture_default_str();
   command->add_option("--threads", a.options.threads, "do not change the result")
       ->check(CLI::Range(1, 64))
