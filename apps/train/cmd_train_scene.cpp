@@ -9,6 +9,26 @@
 #include "apps/train/train_scene.h"
 
 namespace placegraph::apps {
+namespace {
+
+/// How the forests are learned.
+void add_forest_options(CLI::App& command, SceneTrainingOptions& training) {
+  command
+      .add_option("--variants", training.variants, "of each picture, as another day might show it")
+      ->capture_default_str();
+  command.add_option("--trees", training.forest.trees, "of each forest")->capture_default_str();
+  command.add_option("--min-leaf", training.forest.min_leaf, "superpixels a leaf holds at least")
+      ->capture_default_str();
+  command.add_option("--tries", training.forest.tries, "features looked at for a split")
+      ->capture_default_str();
+  command
+      .add_option("--share-rows", training.forest.share_rows, "of the superpixels, taken by a tree")
+      ->capture_default_str();
+  command.add_option("--class-power", training.class_power, "rare classes weigh as share^-power")
+      ->capture_default_str();
+}
+
+}  // namespace
 
 namespace {
 
