@@ -77,7 +77,13 @@ TEST_F(PlanesCloudCommand, TakesDepthInStepsAMetreAsWell) {
   const PlanesCloudResult metres = planes_cloud(arguments);
   arguments.depth_scale = 1000;
   arguments.force = true;
-  EXPECT_EQ(planes_cloud(arguments).found.labels, metres.found.labels);
+  const PlanesCloudResult steps = planes_cloud(arguments);
+  EXPECT_EQ(steps.found.labels, metres.found.labels);
+  ASSERT_EQ(steps.found.planes.size(), 3u);
+  // Labels are the same at any scale, distances are not.
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(steps.found.planes[k].plane.distance_m, metres.found.planes[k].plane.distance_m,
+                1e-9);
 }
 
 TEST_F(PlanesCloudCommand, FindsTheRoomThatPlanesMake) {
