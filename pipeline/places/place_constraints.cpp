@@ -1,70 +1,24 @@
-#include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/places/bounded_covariance.h>
+#include <placegraph/pipeline/places/place_constraints.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 
 namespace placegraph {
 namespace {
 
-/// Inverse of a positive semi-definite matrix; eigenvalues below `floor` or 1e-12 of the largest
-/// count as that much.
-template <class Matrix>
-Matrix inverse_of(const Matrix& matrix, double floor) {
-  const Eigen::LLT<Matrix> factor(matrix);
-  if (factor.info() == Eigen::Success && factor.rcond() > 1e-10) {
-    const Matrix inverse = factor.solve(Matrix::Identity());
-    // Its trace is above all its eigenvalues, so that none of the matrix is below the floor.
-    if (inverse.trace() * floor < 1) return 0.5 * (inverse + inverse.transpose());
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(0.5 * (matrix + matrix.transpose()));
-  const double least = std::max(floor, 1e-12 * eigen.eigenvalues().maxCoeff());
-  const Matrix result = eigen.eigenvectors() *
-                        eigen.eigenvalues().cwiseMax(least).cwiseInverse().asDiagonal() *
-                        eigen.eigenvectors().transpose();
-  return 0.5 * (result + result.transpose());
-}
+/// No scale is held better than this (variance of its logarithm), even where it is measured.
+constexpr double kScaleVariance = 1e-6;
 
-/// Unknown directions get a large, finite variance.
-template <class Matrix>
-Matrix bounded_covariance(const Matrix& information) {
-  return inverse_of(information, 1e-6);
-}
-
-/// No unit of length is held better than this (variance of the log scale), though measured.
-constexpr double kUnitVariance = 1e-6;
-
+/// Covariance of a tangent vector in another frame: Ad C Ad^T.
 Matrix7d transported(const Matrix7d& adjoint, const Matrix7d& covariance) {
   return adjoint * covariance * adjoint.transpose();
 }
 
-}  // namespace
-
-Matrix7d PlaceMapper::covariance_of(const Link& link) {
-  Matrix7d covariance = Matrix7d::Zero();
-  covariance.topLeftCorner<6, 6>() = bounded_covariance(link.information);
-  covariance(6, 6) = link.sigma_log_scale * link.sigma_log_scale;
-  return covariance;
-}
-
-void PlaceMapper::inform_anchor(std::int64_t anchor, const Matrix6d& information) {
-  require(previous_anchor(anchor).has_value(),
-          "PlaceMapper::inform_anchor: no anchor, or the first of its run");
-  parts_.at(anchor).motion_covariance = bounded_covariance(information);
-  changed(anchor);
-}
-
-PlaceMapper::Edge PlaceMapper::odometry_edge(std::int64_t anchor, std::int64_t previous,
-                                             const Matrix7d& chained) const {
-  const SE3 T_previous_anchor =
-      nodes_.at(previous).T_run_keyframe.inverse() * nodes_.at(anchor).T_run_keyframe;
-  Edge edge{{PlaceConstraint::Kind::kLink, anchor},
-            previous,
-            anchor,
-            Sim3(T_previous_anchor),
-            chained,
-            ConstraintSource::kOdometry};
-  if (const auto& covariance = parts_.at(anchor).motion_covariance) {
+PlaceEdge odometry_edge(const KeyframeChain& chain, const PlacePartition& partition,
+                        std::int64_t previous, std::int64_t anchor, const Matrix7d& chained) {
+  PlaceEdge edge{{PlaceConstraint::Kind::kLink, anchor}, previous, anchor,
+                 Sim3(chain.T_a_b(previous, anchor)),    chained,  ConstraintSource::kOdometry};
+  if (const auto& covariance = partition.parts().at(anchor).motion_covariance) {
     edge.covariance.setZero();
     edge.covariance.topLeftCorner<6, 6>() = *covariance;
     edge.covariance(6, 6) = chained(6, 6);
@@ -72,94 +26,87 @@ PlaceMapper::Edge PlaceMapper::odometry_edge(std::int64_t anchor, std::int64_t p
   return edge;
 }
 
-PlaceMapper::Edge PlaceMapper::loop_edge(std::size_t number) const {
-  const Loop& loop = loops_[number];
-  const Node &match = nodes_.at(loop.match), &query = nodes_.at(loop.query);
-  const Sim3 S_part_query(T_part_keyframe(query));
-  Edge edge{{PlaceConstraint::Kind::kLoop, static_cast<std::int64_t>(number)},
-            match.part,
-            query.part,
-            Sim3(T_part_keyframe(match)) * loop.S_match_query() * S_part_query.inverse(),
-            Matrix7d::Zero(),
-            ConstraintSource::kLoop,
-            options_.loop_kernel};
-  if (loop.information(6, 6) > 0 && free_units()) {
-    edge.covariance = bounded_covariance(loop.information);
-  } else {
-    edge.covariance.topLeftCorner<6, 6>() =
-        bounded_covariance<Matrix6d>(loop.information.topLeftCorner<6, 6>());
-    edge.covariance(6, 6) = kUnitVariance;
-  }
-  edge.covariance = transported(S_part_query.adjoint(), edge.covariance);
-  return edge;
+RobustKernel kernel_of(const PlaceEdge& edge, const PlaceOptions& options) {
+  if (edge.key.first == PlaceConstraint::Kind::kMotion) return options.motion_kernel;
+  return edge.source == ConstraintSource::kOdometry ? RobustKernel() : options.loop_kernel;
 }
 
-/// Along the runs of tracking: covariances of the links add up between anchors.
-std::vector<PlaceMapper::Edge> PlaceMapper::link_edges(std::int64_t since) const {
-  std::vector<Edge> result;
-  auto node = nodes_.lower_bound(since);
-  if (node == nodes_.end()) return result;
-  // Chains begin at anchors.
-  std::int64_t begin = node->second.part;
-  if (begin == node->first) begin = previous_anchor(begin).value_or(begin);
+}  // namespace
+
+std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartition& partition,
+                                  std::int64_t since) {
+  std::vector<PlaceEdge> result;
+  auto at = chain.keyframes().lower_bound(since);
+  if (at == chain.keyframes().end()) return result;
+  // Covariances add up from an anchor on.
+  std::int64_t begin = partition.part_of(at->first);
+  if (begin == at->first) begin = partition.previous_anchor(chain, begin).value_or(begin);
   Matrix7d chained = Matrix7d::Zero();
-  for (node = nodes_.find(begin); node != nodes_.end(); ++node) {
-    const auto& [id, at] = *node;
+  for (at = chain.keyframes().find(begin); at != chain.keyframes().end(); ++at) {
+    const auto& [id, keyframe] = *at;
     if (id == begin && id < since) continue;
-    if (!at.link) {
+    if (!keyframe.link) {
       chained.setZero();
       continue;
     }
-    const Node& from = nodes_.at(at.link->from);
-    const SE3& T_from_this = at.link->T_from_this;
-    const Sim3 S_from_this(T_from_this.rotation(), T_from_this.translation(), at.link->scale);
-    if (at.link->source != ConstraintSource::kOdometry) {
+    const KeyframeLink& link = *keyframe.link;
+    const Sim3 S_from_this(link.T_from_this.rotation(), link.T_from_this.translation(), link.scale);
+    if (link.source != ConstraintSource::kOdometry) {
       result.push_back({{PlaceConstraint::Kind::kLink, id},
-                        from.part,
+                        partition.part_of(link.from),
                         id,
-                        Sim3(T_part_keyframe(from)) * S_from_this,
-                        at.covariance,
-                        at.link->source,
-                        options_.loop_kernel});
+                        Sim3(partition.T_part_keyframe(chain, link.from)) * S_from_this,
+                        keyframe.link_covariance,
+                        link.source});
       chained.setZero();
       continue;
     }
-    chained = transported(S_from_this.inverse().adjoint(), chained) + at.covariance;
-    if (at.part != id) continue;
-    result.push_back(odometry_edge(id, from.part, chained));
+    chained = transported(S_from_this.inverse().adjoint(), chained) + keyframe.link_covariance;
+    if (!partition.is_anchor(id)) continue;
+    result.push_back(odometry_edge(chain, partition, partition.part_of(link.from), id, chained));
     chained.setZero();
   }
   return result;
 }
 
-/// Between the anchors of parts, as they were measured: those that hang on keyframes from `since`
-/// on.
-std::vector<PlaceMapper::Edge> PlaceMapper::edges(std::int64_t since) const {
-  std::vector<Edge> result = link_edges(since);
-  for (std::size_t i = 0; i < loops_.size(); ++i)
-    if (std::max(loops_[i].match, loops_[i].query) >= since) result.push_back(loop_edge(i));
-  for (const Edge& motion : motions_) {
-    // Metres say nothing where the unit is not the metre.
-    if (motion.to_part < since || units_differ(motion.from_part, motion.to_part)) continue;
-    result.push_back(motion);
-    result.back().covariance(6, 6) = kUnitVariance;
+PlaceEdge loop_edge(const KeyframeChain& chain, const PlacePartition& partition, const Loop& loop,
+                    std::size_t number) {
+  const Sim3 S_part_match(partition.T_part_keyframe(chain, loop.match)),
+      S_part_query(partition.T_part_keyframe(chain, loop.query));
+  Matrix7d covariance = Matrix7d::Zero();
+  if (loop.information(6, 6) > 0 && !chain.all_scales_known()) {
+    covariance = bounded_covariance(loop.information);
+  } else {
+    covariance.topLeftCorner<6, 6>() =
+        bounded_covariance(Matrix6d(loop.information.topLeftCorner<6, 6>()));
+    covariance(6, 6) = kScaleVariance;
   }
-  return result;
+  return {{PlaceConstraint::Kind::kLoop, static_cast<std::int64_t>(number)},
+          partition.part_of(loop.match),
+          partition.part_of(loop.query),
+          S_part_match * loop.S_match_query() * S_part_query.inverse(),
+          transported(S_part_query.adjoint(), covariance),
+          ConstraintSource::kLoop};
 }
 
-std::vector<PlaceConstraint> PlaceMapper::constraints(std::int64_t since) const {
-  std::vector<PlaceConstraint> result;
-  for (const Edge& edge : edges(since)) {
-    const bool inside = parts_.at(edge.from_part).place == parts_.at(edge.to_part).place;
-    result.push_back({edge.key, inside ? std::nullopt : std::optional(constraint_of(edge))});
-  }
-  return result;
+std::optional<PlaceEdge> motion_edge(const KeyframeChain& chain, const PlaceHistory::Motion& motion,
+                                     std::size_t number) {
+  if (!chain.scale_known(motion.from) || !chain.scale_known(motion.to)) return std::nullopt;
+  PlaceEdge edge{{PlaceConstraint::Kind::kMotion, static_cast<std::int64_t>(number)},
+                 motion.from,
+                 motion.to,
+                 Sim3(motion.T_from_to),
+                 Matrix7d::Zero(),
+                 ConstraintSource::kOther};
+  edge.covariance.topLeftCorner<6, 6>() = motion.covariance;
+  edge.covariance(6, 6) = kScaleVariance;
+  return edge;
 }
 
-/// Between places: S_A_B = S_A_a S_a_b S_B_b^-1 of parts a and b, with the covariances of all
-/// three.
-RelativePoseConstraint PlaceMapper::constraint_of(const Edge& edge) const {
-  const Part &from = parts_.at(edge.from_part), &to = parts_.at(edge.to_part);
+RelativePoseConstraint constraint_between_places(const PlacePartition& partition,
+                                                 const PlaceEdge& edge, bool all_scales_known) {
+  const PlacePartition::Part &from = partition.parts().at(edge.from_part),
+                             &to = partition.parts().at(edge.to_part);
   const Sim3 S_from_to = from.S_place_part * edge.S_from_to * to.S_place_part.inverse();
   Matrix7d covariance = transported(edge.S_from_to.inverse().adjoint(), from.covariance) +
                         edge.covariance + to.covariance;
@@ -169,17 +116,44 @@ RelativePoseConstraint PlaceMapper::constraint_of(const Edge& edge) const {
   constraint.from = from.place;
   constraint.to = to.place;
   constraint.source = edge.source;
-  constraint.kernel = edge.kernel;
   constexpr double kLeastVariance = 1e-18;
-  if (free_units()) {
-    covariance(6, 6) += kUnitVariance;
-    constraint.T_from_to = S_from_to;
-    constraint.information = inverse_of(covariance, kLeastVariance);
+  if (all_scales_known) {
+    constraint.T_from_to = rigid_part(S_from_to);
+    constraint.information =
+        bounded_inverse(Matrix6d(covariance.topLeftCorner<6, 6>()), kLeastVariance);
   } else {
-    constraint.T_from_to = SE3(S_from_to.rotation(), S_from_to.translation());
-    constraint.information = inverse_of<Matrix6d>(covariance.topLeftCorner<6, 6>(), kLeastVariance);
+    covariance(6, 6) += kScaleVariance;
+    constraint.T_from_to = S_from_to;
+    constraint.information = bounded_inverse(covariance, kLeastVariance);
   }
   return constraint;
+}
+
+std::vector<PlaceConstraint> place_constraints(const KeyframeChain& chain,
+                                               const PlacePartition& partition,
+                                               const std::vector<Loop>& loops,
+                                               const std::vector<PlaceHistory::Motion>& motions,
+                                               const PlaceOptions& options, std::int64_t since) {
+  std::vector<PlaceEdge> edges = link_edges(chain, partition, since);
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    if (std::max(loops[i].match, loops[i].query) >= since)
+      edges.push_back(loop_edge(chain, partition, loops[i], i));
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    if (motions[i].to < since) continue;
+    if (const auto edge = motion_edge(chain, motions[i], i)) edges.push_back(*edge);
+  }
+
+  std::vector<PlaceConstraint> result;
+  const bool all_scales_known = chain.all_scales_known();
+  for (const PlaceEdge& edge : edges) {
+    result.push_back({edge.key, std::nullopt});
+    if (partition.parts().at(edge.from_part).place == partition.parts().at(edge.to_part).place)
+      continue;
+    auto& measured = result.back().measured;
+    measured = constraint_between_places(partition, edge, all_scales_known);
+    measured->kernel = kernel_of(edge, options);
+  }
+  return result;
 }
 
 }  // namespace placegraph

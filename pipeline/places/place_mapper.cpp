@@ -1,196 +1,109 @@
-#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/places/bounded_covariance.h>
+#include <placegraph/pipeline/places/place_components.h>
+#include <placegraph/pipeline/places/place_constraints.h>
 #include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/places/place_merging.h>
+#include <placegraph/pipeline/places/place_reach.h>
+#include <placegraph/pipeline/places/rescaled_loop.h>
+#include <placegraph/pipeline/places/shortest_path.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace placegraph {
-namespace {
-
-/// Information of the same motion when its unit of length shrinks by `factor`; covariance when it
-/// grows.
-template <int N>
-Eigen::Matrix<double, N, N> scaled(Eigen::Matrix<double, N, N> information, double factor) {
-  information.template topRows<3>() /= factor;
-  information.template leftCols<3>() /= factor;
-  return information;
-}
-
-}  // namespace
-
-void PlaceOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, PlaceOptions& o) {
-  field("max_distance", o.max_distance,
-        "of a keyframe from its place's anchor, as a share of the median depth", {0, 100});
-  field("max_angle_deg", o.max_angle_deg, "between a keyframe and its place's anchor", {0, 180});
-  field.choice("loop_kernel", o.loop_kernel.kind, robust_kernel_names(), "robust kernel of loops");
-  field("loop_kernel_width", o.loop_kernel.width, "its width in standard deviations", {0.01, 1000});
-  field.choice("motion_kernel", o.motion_kernel.kind, robust_kernel_names(),
-               "robust kernel of motion that other sensors measured");
-  field("motion_kernel_width", o.motion_kernel.width, "its width in standard deviations",
-        {0.01, 1000});
-  field("merge", o.merge, "places that a loop shows to be one become one");
-  field("merge_sigma", o.merge_sigma,
-        "standard deviation of their distance, share of the reach, above which they do not",
-        {0, 100});
-}
 
 PlaceMapper::PlaceMapper(const PlaceOptions& options, const IncrementalOptions& optimizer)
     : options_(options), optimizer_(optimizer) {
   options_.check();
 }
 
-SE3 PlaceMapper::T_part_keyframe(const Node& node) const {
-  return nodes_.at(node.part).T_run_keyframe.inverse() * node.T_run_keyframe;
+PlaceMapper::PlaceMapper(const PlaceOptions& options, const IncrementalOptions& optimizer,
+                         const std::vector<Place>& places, const PlaceHistory& history)
+    : PlaceMapper(options, optimizer) {
+  partition_ = PlacePartition(places, history);
+  chain_ = KeyframeChain(history.keyframes, history.unit_measured);
+  for (const PlaceHistory::Motion& motion : history.motions)
+    add_motion(motion.from, motion.to, motion.T_from_to, motion.covariance);
+  for (const Loop& loop : history.loops)
+    require(chain_.contains(loop.match) && chain_.contains(loop.query),
+            "PlaceMapper: a loop between unknown keyframes");
+  loops_ = history.loops;
+  judged_loops_ = history.judged_loops;
 }
 
-Sim3 PlaceMapper::S_place_keyframe(const Node& node) const {
-  return parts_.at(node.part).S_place_part * Sim3(T_part_keyframe(node));
+PlaceHistory PlaceMapper::history() const {
+  PlaceHistory history;
+  for (const auto& [id, keyframe] : chain_.keyframes())
+    history.keyframes.push_back({id, partition_.part_of(id), keyframe.run, keyframe.link});
+  partition_.save(history);
+  history.motions = motions_;
+  history.loops = loops_;
+  history.judged_loops = judged_loops_;
+  history.unit_measured = chain_.scale_known();
+  return history;
 }
 
-const PlaceMapper::PlaceState& PlaceMapper::place_at(std::int64_t keyframe) const {
-  return places_.at(place_of(keyframe));
-}
-
-PlaceMapper::PlaceState& PlaceMapper::place_at(std::int64_t keyframe) {
-  return places_.at(place_of(keyframe));
-}
-
-Sim3 PlaceMapper::S_map_keyframe(std::int64_t id) const {
-  return place_at(id).S_map_place * S_place_keyframe(nodes_.at(id));
-}
-
-SE3 PlaceMapper::T_map_keyframe(std::int64_t id) const {
-  const Sim3 S_map_keyframe = this->S_map_keyframe(id);
-  return SE3(S_map_keyframe.rotation(), S_map_keyframe.translation());
-}
-
-std::int64_t PlaceMapper::place_of(std::int64_t keyframe) const {
-  return parts_.at(nodes_.at(keyframe).part).place;
-}
-
-int PlaceMapper::component_of(std::int64_t keyframe) const { return place_at(keyframe).component; }
-
-bool PlaceMapper::free_units() const {
-  return !std::all_of(scale_known_.begin(), scale_known_.end(), [](bool known) { return known; });
-}
-
-bool PlaceMapper::units_differ(std::int64_t a, std::int64_t b) const {
-  return !scale_known_[nodes_.at(a).run] || !scale_known_[nodes_.at(b).run];
-}
-
-bool PlaceMapper::metric() const {
-  return std::any_of(nodes_.begin(), nodes_.end(), [&](const auto& entry) {
-    return scale_known_[entry.second.run] &&
-           places_.at(parts_.at(entry.second.part).place).component == 0;
-  });
-}
-
-std::optional<TrackedMotion> PlaceMapper::odometry(std::int64_t from, std::int64_t to) const {
-  const auto a = nodes_.find(from), b = nodes_.find(to);
-  if (a == nodes_.end() || b == nodes_.end() || a->second.run != b->second.run) return std::nullopt;
-  return TrackedMotion{a->second.T_run_keyframe.inverse() * b->second.T_run_keyframe,
-                       std::abs(b->second.way - a->second.way)};
+void PlaceMapper::changed(std::int64_t keyframe) {
+  unoptimized_from_ = std::min(unoptimized_from_, keyframe);
+  unpublished_from_ = std::min(unpublished_from_, keyframe);
 }
 
 void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
                                const SE3& T_map_guess, double median_depth_m, bool scale_known) {
-  require(!nodes_.count(id), "PlaceMapper: keyframe id used twice");
+  const bool were_known = chain_.all_scales_known();
+  chain_.add(id, link, scale_known);
   changed(id);
-  Node node{id, link, link ? covariance_of(*link) : Matrix7d(Matrix7d::Zero()), SE3(), 0, 0};
-  if (link && link->source == ConstraintSource::kOdometry) {
-    const Node& previous = nodes_.at(link->from);
-    node.run = previous.run;
-    node.T_run_keyframe = previous.T_run_keyframe * link->T_from_this;
-    node.way = previous.way + link->T_from_this.translation().norm();
-    node.part = previous.part;
-    const Sim3 S_place_this = S_place_keyframe(node);
-    if (S_place_this.translation().norm() <
-            options_.max_distance * median_depth_m * S_place_this.scale() &&
-        S_place_this.rotation().log().norm() < deg_to_rad(options_.max_angle_deg) &&
-        same_known_ground(node, S_place_this)) {
-      nodes_[id] = node;
-      place_at(id).last_keyframe = id;
-      return;
-    }
-    node.part = id;
-  } else {
-    node.run = static_cast<int>(scale_known_.size());
-    scale_known_.push_back(scale_known);
+  if (chain_.all_scales_known() != were_known) unpublished_from_ = kAll;  // now over Sim(3)
+  if (chain_.has_odometry(id) &&
+      in_reach_of_part(chain_, partition_, loops_, options_, id, median_depth_m)) {
+    partition_.join(id, partition_.part_of(link->from));
+    return;
   }
-  PlaceState place{id, Sim3(T_map_guess), 0, options_.max_distance * median_depth_m, id};
+  Sim3 S_map_place(T_map_guess);
+  int component = 0;
   if (link) {
-    const Sim3 S_from_this(link->T_from_this.rotation(), link->T_from_this.translation(),
-                           link->scale);
-    place.S_map_place = S_map_keyframe(link->from) * S_from_this;
-    place.component = component_of(link->from);
+    S_map_place = S_map_keyframe(link->from) *
+                  Sim3(link->T_from_this.rotation(), link->T_from_this.translation(), link->scale);
+    component = component_of(link->from);
   } else {
-    for (const auto& [number, other] : places_)
-      place.component = std::max(place.component, other.component + 1);
+    for (const auto& [number, place] : partition_.places())
+      component = std::max(component, place.component + 1);
   }
-  const std::int64_t number = founded_++;
-  nodes_[id] = node;
-  parts_[id] = {number, Sim3()};
-  places_[number] = place;
-}
-
-void PlaceMapper::follow_links(std::int64_t first) {
-  changed(first);
-  for (auto node = nodes_.lower_bound(first); node != nodes_.end(); ++node) {
-    const auto& link = node->second.link;
-    if (!link || link->source != ConstraintSource::kOdometry) continue;
-    const Node& from = nodes_.at(link->from);
-    node->second.T_run_keyframe = from.T_run_keyframe * link->T_from_this;
-    node->second.way = from.way + link->T_from_this.translation().norm();
-  }
+  partition_.found(id, S_map_place, component, options_.max_distance * median_depth_m);
 }
 
 void PlaceMapper::update_link(std::int64_t id, const SE3& T_from_this) {
-  Node& node = nodes_.at(id);
-  require(node.link.has_value(), "PlaceMapper::update_link: the keyframe has no link");
   // What moved is the newest part of the track, so an anchor follows its predecessor, unless its
   // place is an older one that it was merged into.
-  node.link->T_from_this = T_from_this;
-  follow_links(id);
-  PlaceState& place = places_.at(place_of(id));
-  if (place.anchor_keyframe == id)
-    place.S_map_place = S_map_keyframe(node.link->from) * Sim3(T_from_this);
+  chain_.update_link(id, T_from_this);
+  changed(id);
+  if (partition_.state_of(id).anchor_keyframe == id)
+    partition_.set_pose(place_of(id), S_map_keyframe(chain_.at(id).link->from) * Sim3(T_from_this));
 }
 
 void PlaceMapper::inform_link(std::int64_t id, const Matrix6d& information,
                               double sigma_log_scale) {
-  Node& node = nodes_.at(id);
-  require(node.link.has_value(), "PlaceMapper::inform_link: the keyframe has no link");
-  node.link->information = information;
-  node.link->sigma_log_scale = sigma_log_scale;
-  node.covariance = covariance_of(*node.link);
+  chain_.inform_link(id, information, sigma_log_scale);
   changed(id);
 }
 
 std::optional<std::int64_t> PlaceMapper::previous_anchor(std::int64_t anchor) const {
-  const auto node = nodes_.find(anchor);
-  if (node == nodes_.end() || node->second.part != anchor || !node->second.link ||
-      node->second.link->source != ConstraintSource::kOdometry)
-    return std::nullopt;
-  return nodes_.at(node->second.link->from).part;
+  return partition_.previous_anchor(chain_, anchor);
+}
+
+void PlaceMapper::inform_anchor(std::int64_t anchor, const Matrix6d& information) {
+  require(previous_anchor(anchor).has_value(),
+          "PlaceMapper::inform_anchor: no anchor, or the first of its run");
+  partition_.set_motion_covariance(anchor, bounded_covariance(information));
+  changed(anchor);
 }
 
 void PlaceMapper::add_motion(std::int64_t previous, std::int64_t anchor,
                              const SE3& T_previous_anchor, const Matrix6d& covariance) {
-  require(parts_.count(previous) && parts_.count(anchor) && previous != anchor,
+  require(is_anchor(previous) && is_anchor(anchor) && previous != anchor,
           "PlaceMapper::add_motion: two anchors needed");
+  motions_.push_back({previous, anchor, T_previous_anchor, covariance});
   changed(anchor);
-  Edge edge{{PlaceConstraint::Kind::kMotion, static_cast<std::int64_t>(motions_.size())},
-            previous,
-            anchor,
-            Sim3(T_previous_anchor),
-            Matrix7d::Zero(),
-            ConstraintSource::kOther,
-            options_.motion_kernel};
-  edge.covariance.topLeftCorner<6, 6>() = covariance;
-  motions_.push_back(edge);
 }
 
 void PlaceMapper::add_loop(const Loop& loop) {
@@ -199,86 +112,138 @@ void PlaceMapper::add_loop(const Loop& loop) {
 }
 
 void PlaceMapper::rescale(std::int64_t first, double factor) {
-  const int run = nodes_.at(first).run;
-  const int component = component_of(first);
-  scale_known_[run] = true;
-  const auto in_run = [&](std::int64_t keyframe) { return nodes_.at(keyframe).run == run; };
-  const Eigen::Vector3d centre = T_map_keyframe(first).translation();
-  bool alone = true;
-  for (const auto& [id, node] : nodes_) alone &= node.run == run || component_of(id) != component;
-  for (auto& [id, node] : nodes_) {
-    if (!node.link) continue;
-    Link& link = *node.link;
-    const bool odometry = link.source == ConstraintSource::kOdometry;
-    if (in_run(link.from)) link.T_from_this = link.T_from_this.scaled(factor);
-    if (in_run(id)) link.information = scaled<6>(link.information, factor);
-    if (odometry && in_run(id)) link.sigma_log_scale = 0;
-    if (!odometry) link.scale *= (in_run(link.from) ? factor : 1) / (in_run(id) ? factor : 1);
-    node.covariance = covariance_of(link);
-  }
-  for (Loop& loop : loops_) {
-    if (in_run(loop.match)) {
-      loop.T_match_query = loop.T_match_query.scaled(factor);
-      loop.scale_match_query *= factor;
-    }
-    if (in_run(loop.query)) {
-      loop.information = scaled<7>(loop.information, factor);
-      loop.scale_match_query /= factor;
-    }
-  }
-  for (auto& [anchor, part] : parts_) {
-    const Sim3& S = part.S_place_part;
-    const bool place_grows = in_run(places_.at(part.place).anchor_keyframe);
-    if (in_run(anchor)) part.covariance = scaled<7>(part.covariance, 1 / factor);
-    if (in_run(anchor) && part.motion_covariance)
-      part.motion_covariance = scaled<6>(*part.motion_covariance, 1 / factor);
-    part.S_place_part =
-        Sim3(S.rotation(), (place_grows ? factor : 1) * S.translation(),
-             S.scale() * (place_grows ? factor : 1) / (in_run(anchor) ? factor : 1));
-  }
-  for (Merged& merged : merged_)
-    for (auto& [anchor, covariance] : merged.covariance_of_part)
-      if (in_run(anchor)) covariance = scaled<7>(covariance, 1 / factor);
-  for (auto& [number, place] : places_) {
-    if (!in_run(place.anchor_keyframe)) continue;
-    place.reach *= factor;
-    Sim3& S = place.S_map_place;
-    S = alone ? Sim3(S.rotation(), centre + factor * (S.translation() - centre), S.scale())
-              : Sim3(S.rotation(), S.translation(), S.scale() / factor);
-  }
-  follow_links(first);
-  untold_since_ = kFirst;
-  begin_anew_ = true;
+  partition_.rescale(chain_, first, factor);
+  chain_.rescale(first, factor);
+  const int run = chain_.at(first).run;
+  for (Loop& loop : loops_)
+    loop = rescaled_loop(loop, chain_.at(loop.match).run == run, chain_.at(loop.query).run == run,
+                         factor);
+  optimizer_.reset();  // its lengths are of another scale
+  unpublished_from_ = kAll;
 }
 
-std::vector<Place> PlaceMapper::places() const {
-  std::vector<Place> places;
-  std::map<std::int64_t, std::size_t> index;
-  for (const auto& [number, state] : places_) {
-    index[number] = places.size();
-    Place place;
-    place.id = number;
-    place.anchor_keyframe = state.anchor_keyframe;
-    place.T_map_place = SE3(state.S_map_place.rotation(), state.S_map_place.translation());
-    place.scale = state.S_map_place.scale();
-    place.component = state.component;
-    places.push_back(std::move(place));
-  }
-  // An anchor is older than all that came to its place later.
-  for (const auto& [id, node] : nodes_) {
-    const Sim3 S = S_place_keyframe(node);
-    places[index.at(place_of(id))].members.push_back(
-        {id, SE3(S.rotation(), S.translation()), S.scale()});
-  }
-  return places;
+std::vector<PlaceConstraint> PlaceMapper::constraints(std::int64_t since) const {
+  return place_constraints(chain_, partition_, loops_, motions_, options_, since);
 }
+
+/// Hands the optimizer what has changed.
+IncrementalStep PlaceMapper::update_optimizer() {
+  const PoseKind kind = chain_.all_scales_known() ? PoseKind::kSE3 : PoseKind::kSim3;
+  if (kind == PoseKind::kSE3) partition_.drop_scales();
+  join_components(chain_, loops_, partition_);
+  const bool begin = optimizer_.kind() != kind;
+  std::vector<PoseNode> nodes;
+  for (const auto& [number, place] : partition_.places()) {
+    if (!begin && optimizer_.knows(number)) continue;
+    const Sim3& S = place.S_map_place;
+    nodes.push_back({number, kind == PoseKind::kSim3 ? Pose(S) : Pose(rigid_part(S)), false});
+  }
+  const IncrementalStep step = begin ? optimizer_.begin(nodes, constraints(kAll))
+                                     : optimizer_.follow(nodes, constraints(unoptimized_from_));
+  unoptimized_from_ = kNone;
+  return step;
+}
+
+void PlaceMapper::take_poses() {
+  for (const auto& [number, place] : partition_.places())
+    partition_.set_pose(number, optimizer_.S_map_place(number));
+}
+
+/// Merges places that are one; whether there were any.
+bool PlaceMapper::merge(std::int64_t first_open) {
+  if (!options_.merge) return false;
+  const auto covariance = [&](std::int64_t from, std::int64_t to) {
+    return optimizer_.relative_covariance(from, to);
+  };
+  const auto mergers = find_mergers(chain_, partition_, loops_, options_, covariance, first_open);
+  for (const PlaceMerger& merger : mergers)
+    changed(partition_.merge(merger.older, merger.younger, merger.covariance));
+  return !mergers.empty();
+}
+
+/// Undoes mergers that odometry contradicts; they are not made again. Whether there were any.
+bool PlaceMapper::separate_contradicted() {
+  judged_loops_ = loops_.size();
+  std::vector<std::size_t> contradicted = contradicted_mergers(chain_, partition_);
+  // The last first: an earlier one may have brought the place that a later one came to.
+  std::reverse(contradicted.begin(), contradicted.end());
+  for (const std::size_t number : contradicted) changed(partition_.separate(number));
+  return !contradicted.empty();
+}
+
+IncrementalStep PlaceMapper::optimize(std::int64_t first_open) {
+  const IncrementalStep step = update_optimizer();
+  take_poses();
+  if (judged_loops_ == loops_.size() || !separate_contradicted()) merge(first_open);
+  normalize_scales(chain_, partition_);
+  return step;
+}
+
+IncrementalStep PlaceMapper::finish() {
+  const auto settle = [&] {
+    (void)update_optimizer();
+    const IncrementalStep step = optimizer_.finish();
+    take_poses();
+    return step;
+  };
+  IncrementalStep step = settle();
+  // A place joins one other at a time, and every merger changes the map a little.
+  constexpr int kRounds = 4;
+  for (int round = 0; round < kRounds; ++round) {
+    const bool separated = separate_contradicted();
+    if (separated) step = settle();
+    const bool merged = merge(kNoneOpen);
+    if (merged) step = settle();
+    if (!separated && !merged) break;
+  }
+  normalize_scales(chain_, partition_);
+  return step;
+}
+
+bool PlaceMapper::units_differ(std::int64_t a, std::int64_t b) const {
+  return !chain_.scale_known(a) || !chain_.scale_known(b);
+}
+
+bool PlaceMapper::metric() const {
+  return std::any_of(chain_.keyframes().begin(), chain_.keyframes().end(), [&](const auto& entry) {
+    return chain_.scale_known(entry.first) && component_of(entry.first) == 0;
+  });
+}
+
+std::optional<TrackedMotion> PlaceMapper::odometry(std::int64_t from, std::int64_t to) const {
+  return chain_.odometry(from, to);
+}
+
+std::optional<PredictedMotion> PlaceMapper::predicted(std::int64_t from, std::int64_t to) const {
+  const std::int64_t a = place_of(from), b = place_of(to);
+  if (component_of(from) != component_of(to) || !optimizer_.knows(a) || !optimizer_.knows(b))
+    return std::nullopt;
+  const Sim3 S_map_to = S_map_keyframe(to);
+  PredictedMotion motion{S_map_keyframe(from).inverse() * S_map_to};
+  if (a == b) return motion;
+  motion.path_length = shortest_path(chain_, partition_, loops_, a, b) / S_map_to.scale();
+  const Matrix7d adjoint = partition_.S_place_keyframe(chain_, to).inverse().adjoint();
+  motion.covariance = adjoint * optimizer_.relative_covariance(a, b) * adjoint.transpose();
+  return motion;
+}
+
+std::vector<Place> PlaceMapper::places() const { return partition_.graph_places(chain_); }
 
 PlaceGraph PlaceMapper::place_graph() const {
   PlaceGraph graph;
   graph.places = places();
-  for (const PlaceConstraint& constraint : constraints(0))
+  for (const PlaceConstraint& constraint : constraints(kAll))
     if (constraint.measured) graph.constraints.push_back(*constraint.measured);
   return graph;
+}
+
+std::vector<MapChanges::ConstraintChange> PlaceMapper::take_constraint_changes() {
+  std::vector<MapChanges::ConstraintChange> changes;
+  for (const PlaceConstraint& constraint : constraints(unpublished_from_))
+    changes.push_back(
+        {static_cast<int>(constraint.key.first), constraint.key.second, constraint.measured});
+  unpublished_from_ = kNone;
+  return changes;
 }
 
 }  // namespace placegraph

@@ -8,6 +8,11 @@ PlaceOptimizer::PlaceOptimizer(const IncrementalOptions& options)
 
 std::optional<PoseKind> PlaceOptimizer::kind() const { return optimizer_.kind(); }
 
+void PlaceOptimizer::reset() {
+  optimizer_ = IncrementalOptimizer(options_);
+  tracked_.clear();
+}
+
 IncrementalStep PlaceOptimizer::begin(const std::vector<PoseNode>& places,
                                       const std::vector<PlaceConstraint>& constraints) {
   PoseGraph graph;

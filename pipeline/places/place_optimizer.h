@@ -23,7 +23,9 @@ class PlaceOptimizer {
   bool knows(std::int64_t place) const { return optimizer_.pose(place).has_value(); }
   /// Kind of its poses; nothing before there is one.
   std::optional<PoseKind> kind() const;
-  /// Begins anew with these places where they are.
+  /// Forgets all places and constraints.
+  void reset();
+  /// Begins with these places where they are; what was known before is forgotten.
   IncrementalStep begin(const std::vector<PoseNode>& places,
                         const std::vector<PlaceConstraint>& constraints);
   /// New places, and all constraints that are new or have changed.
