@@ -1,11 +1,9 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/places/bounded_covariance.h>
-#include <placegraph/pipeline/places/place_components.h>
 #include <placegraph/pipeline/places/place_constraints.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 #include <placegraph/pipeline/places/place_merging.h>
-#include <placegraph/pipeline/places/place_reach.h>
-#include <placegraph/pipeline/places/rescaled_loop.h>
+#include <placegraph/pipeline/places/rescaling.h>
 #include <placegraph/pipeline/places/shortest_path.h>
 
 #include <algorithm>

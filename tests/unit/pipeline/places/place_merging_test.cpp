@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/places/place_merging.h>
 
 #include "tests/support/place_links.h"
 
@@ -76,6 +77,88 @@ TEST(PlaceMerging, LeavesTrueOnesTogetherWhenTheWayIsKnownBetter) {
   ASSERT_EQ(optimized(mapper).places.size(), 4u);
   for (int i = 1; i < 8; ++i) mapper.inform_link(i, information_of(0.01, 0.001));
   EXPECT_EQ(optimized(mapper).places.size(), 4u);
+}
+
+/// Five keyframes 5 m apart, each a place; the last is back at the first, off by `error_m`.
+struct ClosedRow {
+  KeyframeChain chain;
+  PlacePartition partition;
+  std::vector<Loop> loops{loop(4, 0, SE3(), 0.1, 0.01)};
+
+  explicit ClosedRow(const SE3& T_0_4 = {}) {
+    for (int i = 0; i <= 4; ++i) {
+      chain.add(i, i == 0 ? std::nullopt : std::optional(link(i - 1, pose({0, 0, 0}, {0, 0, 5}))));
+      partition.found(i, Sim3(i == 4 ? T_0_4 : pose({0, 0, 0}, {0, 0, 5.0 * i})), 0, 3);
+    }
+  }
+  std::size_t mergers(double sigma_m = 0.1, std::int64_t first_open = kNoneOpen) const {
+    const auto covariance = [&](std::int64_t from, std::int64_t to) {
+      EXPECT_LT(from, to);
+      Matrix7d result = Matrix7d::Zero();
+      result(1, 1) = sigma_m * sigma_m;
+      return result;
+    };
+    return find_mergers(chain, partition, loops, {}, covariance, first_open).size();
+  }
+};
+
+TEST(PlaceMerging, TwoPlacesAreOneIfALoopAgreesAndTheyAreInReachAndKnownWellEnough) {
+  EXPECT_EQ(ClosedRow().mergers(), 1u);
+  EXPECT_EQ(ClosedRow().mergers(0.29), 1u);  // a tenth of the reach of 3 m is 0.3 m
+  EXPECT_EQ(ClosedRow().mergers(0.31), 0u);
+  ClosedRow far(pose({0, 0, 0}, {3.1, 0, 0})), near(pose({0, 0, 0}, {2.9, 0, 0}));
+  far.loops = {loop(4, 0, pose({0, 0, 0}, {3.1, 0, 0}), 0.1, 0.01)};
+  near.loops = {loop(4, 0, pose({0, 0, 0}, {2.9, 0, 0}), 0.1, 0.01)};
+  EXPECT_EQ(far.mergers(), 0u);
+  EXPECT_EQ(near.mergers(), 1u);
+  const SE3 turned = pose({0, 0.36, 0}, {0, 0, 0});  // 20.6 deg
+  ClosedRow other_way(turned);
+  other_way.loops = {loop(4, 0, turned, 0.1, 0.01)};
+  EXPECT_EQ(other_way.mergers(), 0u);
+}
+
+TEST(PlaceMerging, PlacesThatAreBeingRefinedWait) {
+  EXPECT_EQ(ClosedRow().mergers(0.1, 4), 0u);
+  EXPECT_EQ(ClosedRow().mergers(0.1, 5), 1u);
+}
+
+TEST(PlaceMerging, ALoopThatTheMapContradictsShowsNothing) {
+  // The map itself shows that two places meet 1 m apart only along a long path between them.
+  ClosedRow row(pose({0, 0, 0}, {1, 0, 0}));
+  row.partition = {};
+  for (int i = 0; i <= 4; ++i)
+    row.partition.found(i, Sim3(pose({0, 0, 0}, {i == 4 ? 1.0 : 0, 0, i == 4 ? 0 : 5.0 * i})), 0,
+                        10.5);
+  EXPECT_EQ(row.mergers(), 0u);  // 10 sigma, 20 m of path
+  row.loops = {loop(4, 0, pose({0, 0, 0}, {1.1, 0, 0}), 0.1, 0.01)};
+  EXPECT_EQ(row.mergers(), 1u);
+}
+
+TEST(PlaceMerging, APlaceTakesPartInOneMergerAtATime) {
+  ClosedRow row;
+  row.chain.add(5, link(4, pose({0, 0, 0}, {0, 0, 5})));
+  row.partition.found(5, Sim3(pose({0, 0, 0}, {0.1, 0, 0})), 0, 3);
+  row.loops.push_back(loop(5, 0, pose({0, 0, 0}, {0.1, 0, 0}), 0.1, 0.01));
+  EXPECT_EQ(row.mergers(), 1u);
+}
+
+TEST(PlaceMerging, PlacesThatWereSeparatedAreNotMergedAgain) {
+  ClosedRow row;
+  row.partition.merge(0, 4, Matrix7d::Zero());
+  row.partition.separate(0);
+  EXPECT_EQ(row.mergers(), 0u);
+}
+
+TEST(PlaceMerging, OdometryContradictsAMergerThatItsEdgesCannotReach) {
+  // Sides of 5 m, known to 5 cm, on a straight line: 4 is 20 m from 0. Where the map has merged
+  // them all the same, the edge 3 to 4 is off by 20 m.
+  ClosedRow row;
+  EXPECT_TRUE(contradicted_mergers(row.chain, row.partition).empty());
+  row.partition.merge(0, 4, 0.01 * Matrix7d::Identity());
+  EXPECT_EQ(contradicted_mergers(row.chain, row.partition), std::vector<std::size_t>{0});
+  // The same where odometry knows nothing of that side.
+  row.chain.inform_link(4, information_of(20, 1), 0);
+  EXPECT_TRUE(contradicted_mergers(row.chain, row.partition).empty());
 }
 
 }  // namespace

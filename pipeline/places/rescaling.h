@@ -1,5 +1,5 @@
 #pragma once
-#include <Eigen/Core>
+#include <placegraph/graph/loop.h>
 
 namespace placegraph {
 
@@ -18,6 +18,19 @@ template <int N>
 Eigen::Matrix<double, N, N> rescaled_covariance(const Eigen::Matrix<double, N, N>& covariance,
                                                 double factor) {
   return rescaled_information<N>(covariance, 1 / factor);
+}
+
+/// A loop when the lengths at its match, its query or both are multiplied by `factor`.
+inline Loop rescaled_loop(Loop loop, bool at_match, bool at_query, double factor) {
+  if (at_match) {
+    loop.T_match_query = loop.T_match_query.scaled(factor);
+    loop.scale_match_query *= factor;
+  }
+  if (at_query) {
+    loop.information = rescaled_information<7>(loop.information, factor);
+    loop.scale_match_query /= factor;
+  }
+  return loop;
 }
 
 }  // namespace placegraph
