@@ -30,28 +30,6 @@ void add_forest_options(CLI::App& command, SceneTrainingOptions& training) {
 
 }  // namespace
 
-namespace {
-
-/// What the forests are grown with.
-void add_forest_options(CLI::App& command, SceneTrainingOptions& training) {
-  command
-      .add_option("--variants", training.variants, "of each picture, as another day might show it")
-      ->capture_default_str();
-  command.add_option("--trees", training.forest.trees, "of each forest")->capture_default_str();
-  command.add_option("--min-leaf", training.forest.min_leaf, "superpixels a leaf holds at least")
-      ->capture_default_str();
-  command.add_option("--tries", training.forest.tries, "features looked at for a split")
-      ->capture_default_str();
-  command
-      .add_option("--share-rows", training.forest.share_rows, "of the superpixels, taken by a tree")
-      ->capture_default_str();
-  command.add_option("--class-power", training.class_power, "rare classes weigh as share^-power")
-      ->capture_default_str();
-  command.add_option("--seed", training.forest.seed, "of what is drawn")->capture_default_str();
-}
-
-}  // namespace
-
 void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, const char* about) {
   const std::string name = name_of(kind);
   CLI::App* command = train_command.add_subcommand(name, about);
@@ -83,6 +61,8 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
       ->capture_default_str();
   command->add_option("--every", a.options.every, "learn from every n-th photograph only")
       ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seed", a.options.training.forest.seed, "of what is drawn")
       ->capture_default_str();
   command->add_option("--threads", a.options.threads, "do not change the result")
       ->check(CLI::Range(1, 64))
