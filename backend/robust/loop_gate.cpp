@@ -25,8 +25,8 @@ double extent_of(const PackedGraph<Group>& graph) {
 
 template <class Group>
 LoopGate<Group>::LoopGate(const PackedGraph<Group>& graph, double probability, double noise_scale,
-                          const LoopGrowthOptions& options)
-    : options_(options),
+                          const LoopGateWidth& width)
+    : width_(width),
       quantile_(chi_squared_quantile(probability, Group::kDof)),
       scale_(noise_scale),
       extent_(extent_of(graph)),
@@ -53,12 +53,12 @@ void LoopGate<Group>::learn(const PackedGraph<Group>& graph, const std::vector<d
     worst = std::max(worst, chi2[i]);
   }
   if (loops > 0) scale_ = std::max(scale_, sum / (Group::kDof * loops));
-  limit_ = std::max(of_noise(), options_.tail * std::min(worst, limit_));
+  limit_ = std::max(of_noise(), width_.tail * std::min(worst, limit_));
 }
 
 template <class Group>
 void LoopGate<Group>::widen(double chi2) {
-  if (chi2 <= limit_) limit_ = std::max(limit_, options_.tail * chi2);
+  if (chi2 <= limit_) limit_ = std::max(limit_, width_.tail * chi2);
 }
 
 template <class Group>
@@ -67,9 +67,8 @@ bool LoopGate<Group>::nearly_right(const PackedGraph<Group>& graph, int index) c
   const typename Group::Tangent error =
       (edge.T_to_from * (graph.poses[edge.from].inverse() * graph.poses[edge.to])).log();
   constexpr int dim = Group::kDof == 3 ? 2 : 3;
-  return error.template head<dim>().norm() <= options_.nearly_right * extent_ &&
-         error.template tail<Group::kDof - dim>().norm() <=
-             options_.nearly_right * std::numbers::pi;
+  return error.template head<dim>().norm() <= width_.nearly_right * extent_ &&
+         error.template tail<Group::kDof - dim>().norm() <= width_.nearly_right * std::numbers::pi;
 }
 
 template class LoopGate<SE2>;

@@ -1,9 +1,16 @@
 #pragma once
-#include <placegraph/backend/robust/loop_set_growth.h>
+#include <placegraph/backend/solver/packed_graph.h>
 
 #include <vector>
 
 namespace placegraph {
+
+/// How much wider than Gaussian noise the gate of a loop is.
+struct LoopGateWidth {
+  double margin;        ///< of the gate over the chi-squared quantile
+  double tail;          ///< times the largest error of true loops that another one may have
+  double nearly_right;  ///< share of the map's extent, and of half a turn
+};
 
 /// Up to which squared error, in units of what the information claims, a loop is taken for true.
 /// It is calibrated to the noise of the graph: of the rings of neighbouring loops at first, of the
@@ -12,16 +19,17 @@ template <class Group>
 class LoopGate {
  public:
   /// `probability`: share of true loops within it, were noise Gaussian with a variance of
-  /// `noise_scale`. The extent of `graph` says what is nearly right (LoopGrowthOptions).
+  /// `noise_scale` and the margin one.
   LoopGate(const PackedGraph<Group>& graph, double probability, double noise_scale,
-           const LoopGrowthOptions& options);
+           const LoopGateWidth& width);
 
   /// Variance of the noise in units of what the information claims.
   double noise_scale() const { return scale_; }
   /// Squared error that may be noise.
-  double of_noise() const { return options_.margin * quantile_ * scale_; }
+  double of_noise() const { return width_.margin * quantile_ * scale_; }
   /// Squared error up to which loop `edge` of `graph` is taken for true at its present poses: wider
-  /// where it says nearly the right thing.
+  /// where it says nearly the right thing, off by a small share of the extent of the graph that the
+  /// gate was made for.
   double of_loop(const PackedGraph<Group>& graph, int edge) const;
   /// Squared error beyond which no loop is taken.
   double widest() const;
@@ -36,7 +44,7 @@ class LoopGate {
  private:
   bool nearly_right(const PackedGraph<Group>& graph, int edge) const;
 
-  LoopGrowthOptions options_;
+  LoopGateWidth width_;
   double quantile_, scale_;
   double extent_;  ///< of the map [m]
   double limit_;

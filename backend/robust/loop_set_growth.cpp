@@ -48,7 +48,8 @@ class Growth {
         rough_(roughly(solver)),
         max_rounds_(options.max_rounds),
         gnc_(gnc),
-        gate_(graph, probability, support.noise_scale, options),
+        gate_(graph, probability, support.noise_scale,
+              {options.margin, options.tail, options.nearly_right}),
         rough_solver_(rough_) {}
 
   double noise_scale() const { return gate_.noise_scale(); }

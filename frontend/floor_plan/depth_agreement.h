@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/sweep_geometry.h>
+#include <placegraph/graph/core/image.h>
 
 #include <vector>
 
@@ -10,6 +11,14 @@ struct PixelDepth {
   double inverse_depth = 0;  ///< [1/m]; 0: nothing
   double cost = 0;
   bool distinct = false;  ///< the pixel tells it by itself
+};
+
+/// The depth of an image's pixels, and how well it is known.
+struct SweptDepth {
+  Camera camera;
+  Image depth_m;        ///< CV_32FC1, 0 = none
+  Image sigma_inverse;  ///< CV_32FC1, of 1 / depth [1/m], where there is a depth
+  Image certain;        ///< CV_8UC1, 255 where each pixel about it tells that depth by itself
 };
 
 /// Keeps the depths that the better half of the views agrees to: where a view sees the point it

@@ -140,10 +140,11 @@ std::vector<DoorPiece> find_doors(const std::vector<WallPiece>& walls,
                                   const std::vector<Eigen::Vector3d>& path,
                                   const DoorFinderOptions& options) {
   options.check();
+  const DoorShape shape{options.max_width_m, options.min_head_m, options.min_recess_m,
+                        options.max_recess_m};
   std::vector<DoorPiece> doors, half_seen, once;
   for (const WallPlane& plane : planes_of(walls, options.max_width_m)) {
-    const ProfileDoors found =
-        doors_of(profile_wall(plane, points, voxels, path, options), options);
+    const ProfileDoors found = doors_of(profile_wall(plane, points, voxels, path, shape), options);
     doors.insert(doors.end(), found.between_walls.begin(), found.between_walls.end());
     half_seen.insert(half_seen.end(), found.half_seen.begin(), found.half_seen.end());
   }

@@ -1,5 +1,9 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/wall_finder.h>
 #include <placegraph/frontend/floor_plan/wall_profile.h>
+#include <placegraph/graph/core/options.h>
+
+#include <vector>
 
 namespace placegraph {
 

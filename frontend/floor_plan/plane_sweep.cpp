@@ -1,4 +1,3 @@
-#include <placegraph/frontend/floor_plan/depth_agreement.h>
 #include <placegraph/frontend/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/median.h>
@@ -65,13 +64,17 @@ class PlaneSweep {
     shrink(small, small_camera, options.max_width_px);
     const double noise = std::max(1.0, options.noise_share * noise_of(small));
     reference_ = normalized(small, noise, options);
+    std::vector<SE3> T_view_cam;
     for (const SweptView& view : views) {
+      T_view_cam.push_back(view.T_view_cam);
       Image other = view.image;
       Camera same = camera;
       shrink(other, same, options.max_width_px);
       views_.push_back(normalized(other, noise, options));
     }
-    geometry_ = sweep_geometry(small_camera, views, options);
+    geometry_ = sweep_geometry(
+        small_camera, T_view_cam,
+        {options.min_depth_m, options.max_depth_m, options.step_px, options.max_planes});
   }
 
   SweptDepth depth() const {

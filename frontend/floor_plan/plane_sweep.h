@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/depth_agreement.h>
 #include <placegraph/frontend/floor_plan/semi_global.h>
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
@@ -30,21 +31,13 @@ struct SweptView {
   SE3 T_view_cam;  ///< from the camera of the image whose depth is asked for
 };
 
-/// Of the size that was worked at: the camera's, halved until it is narrow enough.
-struct SweptDepth {
-  Camera camera;
-  Image depth_m;        ///< CV_32FC1, 0 = none
-  Image sigma_inverse;  ///< CV_32FC1, of 1 / depth [1/m], where there is a depth
-  Image certain;        ///< CV_8UC1, 255 where each pixel about it tells that depth by itself
-};
-
 /// Depth of the pixels of an image from views of known motion: planes are swept through space, what
 /// they would show is compared with the image (Collins 1996), the better half of the views counts,
 /// as the others may not see the surface (Kang, Szeliski & Chai 2001), and neighbouring pixels have
 /// neighbouring depths (sum_over_paths). Kept is what no other depth explains as well, what the
 /// better half of the views agrees to, and what they tell to a fifth of it. All depths are 0 where
-/// no view has moved. Throws ArgumentError for images of another size or type, and cameras with
-/// distortion.
+/// no view has moved. The size is the camera's, halved until it is narrow enough. Throws
+/// ArgumentError for images of another size or type, and cameras with distortion.
 [[nodiscard]] SweptDepth sweep_planes(const Image& image, const Camera& camera,
                                       const std::vector<SweptView>& views,
                                       const PlaneSweepOptions& options = {});

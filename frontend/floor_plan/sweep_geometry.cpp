@@ -5,14 +5,13 @@
 
 namespace placegraph {
 
-SweepGeometry sweep_geometry(const Camera& camera, const std::vector<SweptView>& views,
-                             const PlaneSweepOptions& options) {
+SweepGeometry sweep_geometry(const Camera& camera, const std::vector<SE3>& T_view_cam,
+                             const SweepRange& range) {
   SweepGeometry geometry{camera};
   const Eigen::Matrix3d K = camera.K(), K_inverse = K.inverse();
-  for (const SweptView& view : views)
-    geometry.views.push_back(
-        {K * view.T_view_cam.rotation().matrix() * K_inverse, K * view.T_view_cam.translation()});
-  const double low = 1 / options.max_depth_m, high = 1 / options.min_depth_m;
+  for (const SE3& T : T_view_cam)
+    geometry.views.push_back({K * T.rotation().matrix() * K_inverse, K * T.translation()});
+  const double low = 1 / range.max_depth_m, high = 1 / range.min_depth_m;
   const double middle = 0.5 * (low + high);
   double fastest = 0;
   for (const SweepGeometry::View& view : geometry.views)
@@ -23,7 +22,7 @@ SweepGeometry sweep_geometry(const Camera& camera, const std::vector<SweptView>&
           fastest = std::max(fastest, view.rate(u, v, middle));
       }
   geometry.levels = static_cast<int>(
-      std::clamp(fastest * (high - low) / options.step_px, 0.0, 1.0 * options.max_planes));
+      std::clamp(fastest * (high - low) / range.step_px, 0.0, 1.0 * range.max_levels));
   geometry.step = (high - low) / std::max(1, geometry.levels - 1);
   geometry.farthest = low;
   return geometry;

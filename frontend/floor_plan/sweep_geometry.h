@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/floor_plan/plane_sweep.h>
+#include <placegraph/graph/geometry/camera.h>
 
 #include <Eigen/Core>
 #include <cmath>
@@ -45,10 +45,16 @@ struct SweepGeometry {
   std::size_t better_half() const { return (views.size() + 1) / 2; }
 };
 
-/// Levels are so far apart that no view moves by more than `step_px` between two of them where it
-/// moves most, as long as they are not too many.
-[[nodiscard]] SweepGeometry sweep_geometry(const Camera& camera,
-                                           const std::vector<SweptView>& views,
-                                           const PlaneSweepOptions& options);
+/// Which depths are tried.
+struct SweepRange {
+  double min_depth_m, max_depth_m;
+  double step_px;  ///< between two levels, where a view moves most
+  int max_levels;  ///< farther apart where more would be needed
+};
+
+/// Of views from `T_view_cam`. Levels are so far apart that no view moves by more than `step_px`
+/// between two of them where it moves most, as long as they are not too many.
+[[nodiscard]] SweepGeometry sweep_geometry(const Camera& camera, const std::vector<SE3>& T_view_cam,
+                                           const SweepRange& range);
 
 }  // namespace placegraph

@@ -49,7 +49,7 @@ class SideCoverage {
           if (used_[a]) wall_[static_cast<std::size_t>(o) * alongs_ + a] = 0;
       for (int a = 0; a < alongs_; ++a) wall_[static_cast<std::size_t>(best) * alongs_ + a] = 0;
     }
-    join_walls(points_, options_, found);
+    join_walls(points_, tolerance(), found);
     constexpr double kShort_m = 1.3;
     std::erase_if(found, [&](const WallPiece& piece) {
       return piece.to_m - piece.from_m < kShort_m && piece.high_m < options_.min_top_m;
@@ -58,6 +58,9 @@ class SideCoverage {
   }
 
  private:
+  WallTolerance tolerance() const {
+    return {options_.band_m, options_.max_turn_deg, options_.max_gap_m, options_.max_step_m};
+  }
   std::uint64_t layer_bit(double z) const {
     const int layer = voxels_.layer_of(z);
     return layer < 0 || layer >= std::min(kMostLayers, voxels_.layers()) ? 0 : 1ULL << layer;
@@ -139,7 +142,7 @@ class SideCoverage {
     piece.axis = axis_, piece.sign = sign_;
     piece.from_m = along_low_ + first * kAlong_m, piece.to_m = along_low_ + (last + 1) * kAlong_m;
     piece.offset_m = offset_low_ + (offset + 0.5) * kOffset_m;
-    if (fit_wall(points_, options_, piece)) found.push_back(piece);
+    if (fit_wall(points_, tolerance(), piece)) found.push_back(piece);
   }
 
   const VoxelEvidence& voxels_;

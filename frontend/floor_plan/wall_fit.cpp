@@ -37,22 +37,23 @@ void tell(const std::vector<const PlacedPoint*>& near, WallPiece& piece) {
 }
 
 /// Whether two pieces are one wall that poses of different rounds have put a little apart.
-bool one_wall(const WallPiece& a, const WallPiece& b, const WallFinderOptions& options) {
+bool one_wall(const WallPiece& a, const WallPiece& b, const WallTolerance& tolerance) {
   const double gap = std::max(a.from_m, b.from_m) - std::min(a.to_m, b.to_m);
-  if (gap > options.max_gap_m) return false;
+  if (gap > tolerance.max_gap_m) return false;
   const double at = 0.5 * (std::max(a.from_m, b.from_m) + std::min(a.to_m, b.to_m));
-  return std::abs(a.offset_at(at) - b.offset_at(at)) < options.max_step_m;
+  return std::abs(a.offset_at(at) - b.offset_at(at)) < tolerance.max_step_m;
 }
 
 }  // namespace
 
-bool fit_wall(const std::vector<const PlacedPoint*>& points, const WallFinderOptions& options,
+bool fit_wall(const std::vector<const PlacedPoint*>& points, const WallTolerance& tolerance,
               WallPiece& piece) {
   std::vector<const PlacedPoint*> near;
   for (const PlacedPoint* p : points) {
     const double s = p->point[1 - piece.axis];
     if (s < piece.from_m || s > piece.to_m) continue;
-    if (std::abs(p->point[piece.axis] - piece.offset_at(s)) < options.band_m + options.max_step_m)
+    if (std::abs(p->point[piece.axis] - piece.offset_at(s)) <
+        tolerance.band_m + tolerance.max_step_m)
       near.push_back(p);
   }
   if (near.size() < 8) return false;
@@ -74,14 +75,14 @@ bool fit_wall(const std::vector<const PlacedPoint*>& points, const WallFinderOpt
     piece.offset_m = x[0], piece.slope = x[1];
   }
   tell(near, piece);
-  return std::abs(piece.slope) < std::tan(deg_to_rad(options.max_turn_deg));
+  return std::abs(piece.slope) < std::tan(deg_to_rad(tolerance.max_turn_deg));
 }
 
-void join_walls(const std::vector<const PlacedPoint*>& points, const WallFinderOptions& options,
+void join_walls(const std::vector<const PlacedPoint*>& points, const WallTolerance& tolerance,
                 std::vector<WallPiece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i)
     for (std::size_t j = i + 1; j < pieces.size(); ++j) {
-      if (!one_wall(pieces[i], pieces[j], options)) continue;
+      if (!one_wall(pieces[i], pieces[j], tolerance)) continue;
       const WallPiece& longer =
           pieces[i].to_m - pieces[i].from_m > pieces[j].to_m - pieces[j].from_m ? pieces[i]
                                                                                 : pieces[j];
@@ -89,7 +90,7 @@ void join_walls(const std::vector<const PlacedPoint*>& points, const WallFinderO
       whole.from_m = std::min(pieces[i].from_m, pieces[j].from_m);
       whole.to_m = std::max(pieces[i].to_m, pieces[j].to_m);
       whole.offset_m = longer.offset_at(0.5 * (whole.from_m + whole.to_m));
-      if (!fit_wall(points, options, whole)) continue;
+      if (!fit_wall(points, tolerance, whole)) continue;
       pieces[i] = whole;
       pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(j));
       j = i;

@@ -1,4 +1,3 @@
-#include <placegraph/frontend/floor_plan/door_finder.h>
 #include <placegraph/frontend/floor_plan/wall_profile.h>
 #include <placegraph/graph/core/median.h>
 
@@ -41,7 +40,7 @@ void find_surface(const std::vector<PlacedPoint>& points, WallProfile& profile) 
   }
 }
 
-void take_points(const std::vector<PlacedPoint>& points, const DoorFinderOptions& options,
+void take_points(const std::vector<PlacedPoint>& points, const DoorShape& door,
                  WallProfile& profile) {
   const WallPlane& plane = profile.plane;
   std::vector<WallStep>& steps = profile.steps;
@@ -52,17 +51,17 @@ void take_points(const std::vector<PlacedPoint>& points, const DoorFinderOptions
     if (step < 0 || step >= static_cast<int>(steps.size())) continue;
     const double behind =
         plane.sign * (plane.offset_m - p.point[plane.axis]) - steps[step].behind_m;
-    if (behind < -0.06 || behind > options.max_recess_m) continue;
-    if (p.point[2] > 0.25F && p.point[2] < options.min_head_m - 0.1)
+    if (behind < -0.06 || behind > door.max_recess_m) continue;
+    if (p.point[2] > 0.25F && p.point[2] < door.min_head_m - 0.1)
       for (int k = std::max(0, step - 1); k <= step + 1 && k < static_cast<int>(low.size()); ++k)
         low[k].push_back(behind), sigmas[k].push_back(p.sigma);
-    if (p.point[2] > options.min_head_m && behind < 0.5 * options.min_recess_m + 0.01)
+    if (p.point[2] > door.min_head_m && behind < 0.5 * door.min_recess_m + 0.01)
       for (int k = std::max(0, step - 2); k <= step + 2 && k < static_cast<int>(low.size()); ++k)
         heads[k].push_back(p.point[2]);
   }
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (low[i].size() >= 3) {
-      const double least = options.min_recess_m + kRecessSigmas * median_of(sigmas[i]);
+      const double least = door.min_recess_m + kRecessSigmas * median_of(sigmas[i]);
       steps[i].wall = median_of(low[i]) < least;
       steps[i].recess = !steps[i].wall;
     }
@@ -80,8 +79,7 @@ int layers_passed(const VoxelEvidence& voxels, int c, int r, int first, int last
   return passed;
 }
 
-void take_voxels(const VoxelEvidence& voxels, const DoorFinderOptions& options,
-                 WallProfile& profile) {
+void take_voxels(const VoxelEvidence& voxels, const DoorShape& door, WallProfile& profile) {
   const WallPlane& plane = profile.plane;
   const auto cell_at = [&](double along, double offset) {
     double at[2];
@@ -89,7 +87,7 @@ void take_voxels(const VoxelEvidence& voxels, const DoorFinderOptions& options,
     return std::pair(voxels.column_of(at[0]), voxels.row_of(at[1]));
   };
   const int first = std::max(0, voxels.layer_of(0.5)),
-            last = std::min(voxels.layers() - 1, voxels.layer_of(options.min_head_m - 0.2));
+            last = std::min(voxels.layers() - 1, voxels.layer_of(door.min_head_m - 0.2));
   for (std::size_t i = 0; i < profile.steps.size(); ++i) {
     WallStep& step = profile.steps[i];
     const double along = profile.from_m + (static_cast<double>(i) + 0.5) * WallProfile::kStep_m;
@@ -99,7 +97,7 @@ void take_voxels(const VoxelEvidence& voxels, const DoorFinderOptions& options,
     const int passed = layers_passed(voxels, c, r, first, last);
     const auto [front_c, front_r] = cell_at(along, surface + plane.sign * 0.3);
     step.faced = layers_passed(voxels, front_c, front_r, first, last) >= 2;
-    for (int l = voxels.layer_of(options.min_head_m) + 2; l < voxels.layers(); ++l)
+    for (int l = voxels.layer_of(door.min_head_m) + 2; l < voxels.layers(); ++l)
       step.over |= voxels.passes(c, r, l) >= 2;
     step.open = passed >= 2 && 2 * passed >= last - first + 1;
     if (step.open && !step.recess) step.wall = false;
@@ -151,13 +149,13 @@ bool WallProfile::crossed(std::size_t begin, std::size_t end) const {
 
 WallProfile profile_wall(const WallPlane& plane, const std::vector<PlacedPoint>& points,
                          const VoxelEvidence& voxels, const std::vector<Eigen::Vector3d>& path,
-                         const DoorFinderOptions& options) {
-  WallProfile profile{plane, plane.from_m - options.max_width_m};
-  const double length = plane.to_m - plane.from_m + 2 * options.max_width_m;
+                         const DoorShape& door) {
+  WallProfile profile{plane, plane.from_m - door.max_width_m};
+  const double length = plane.to_m - plane.from_m + 2 * door.max_width_m;
   profile.steps.resize(static_cast<int>(length / WallProfile::kStep_m) + 1);
   find_surface(points, profile);
-  take_points(points, options, profile);
-  take_voxels(voxels, options, profile);
+  take_points(points, door, profile);
+  take_voxels(voxels, door, profile);
   take_path(path, profile);
   return profile;
 }

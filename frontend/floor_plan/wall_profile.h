@@ -1,12 +1,11 @@
 #pragma once
-#include <placegraph/frontend/floor_plan/wall_finder.h>
+#include <placegraph/frontend/floor_plan/voxel_evidence.h>
+#include <placegraph/frontend/floor_plan/wall_piece.h>
 
 #include <optional>
 #include <vector>
 
 namespace placegraph {
-
-struct DoorFinderOptions;
 
 /// A plane that pieces of wall lie in, in the frame of the walls: one side, offsets that agree.
 struct WallPlane {
@@ -43,11 +42,18 @@ struct WallProfile {
   bool crossed(std::size_t begin, std::size_t end) const;
 };
 
+/// What doors may look like.
+struct DoorShape {
+  double max_width_m;
+  double min_head_m;                  ///< of an opening's head above the floor
+  double min_recess_m, max_recess_m;  ///< of a leaf behind its wall's surface
+};
+
 /// What points and rays tell of a plane, and the `path` (camera positions, in order).
 [[nodiscard]] WallProfile profile_wall(const WallPlane& plane,
                                        const std::vector<PlacedPoint>& points,
                                        const VoxelEvidence& voxels,
                                        const std::vector<Eigen::Vector3d>& path,
-                                       const DoorFinderOptions& options);
+                                       const DoorShape& door);
 
 }  // namespace placegraph

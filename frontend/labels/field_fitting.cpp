@@ -1,5 +1,6 @@
 #include <placegraph/frontend/labels/field_fitting.h>
 #include <placegraph/frontend/labels/label_field.h>
+#include <placegraph/frontend/labels/scene_labeller.h>
 
 #include <algorithm>
 #include <array>
@@ -82,10 +83,6 @@ class FieldTrial {
 };
 
 }  // namespace
-
-bool judges_field(std::size_t example, std::size_t examples) {
-  return example % (examples / 120 + 1) == 0;
-}
 
 RelationTable learn_relations(const std::vector<SceneExample>& examples,
                               const SceneLesson& lesson) {

@@ -5,10 +5,6 @@
 
 namespace placegraph {
 
-/// Whether the random field's weights are chosen by this example of so many: some hundred are
-/// enough.
-[[nodiscard]] bool judges_field(std::size_t example, std::size_t examples);
-
 /// How often which classes lie above, below and beside each other in the examples.
 [[nodiscard]] RelationTable learn_relations(const std::vector<SceneExample>& examples,
                                             const SceneLesson& lesson);

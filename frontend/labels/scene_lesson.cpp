@@ -1,9 +1,9 @@
-#include <placegraph/frontend/labels/field_fitting.h>
 #include <placegraph/frontend/labels/scene_lesson.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 namespace placegraph {
 namespace {
@@ -15,6 +15,38 @@ int class_of(const int* pixels, int classes, int area) {
 }
 
 }  // namespace
+
+Image fit_labels(const Image& labels, const Image& picture) {
+  if (labels.size() == picture.size()) return labels;
+  Image fitted;
+  cv::resize(labels, fitted, picture.size(), 0, 0, cv::INTER_NEAREST);
+  return fitted;
+}
+
+SceneExample make_example(const Image& picture, const Image& labels, int classes, int block) {
+  require(labels.type() == CV_8UC1 && labels.size() == picture.size(),
+          "make_example: labels of another size");
+  SceneView view = view_scene(picture);
+  SceneExample example;
+  example.block = block;
+  example.features = std::move(view.features);
+  example.superpixels = std::move(view.superpixels);
+  const Image& index = example.superpixels.index;
+  const Image fitted = fit_labels(labels, index);
+  example.pixels.assign(static_cast<std::size_t>(example.superpixels.count * classes), 0);
+  for (int v = 0; v < index.rows; ++v)
+    for (int u = 0; u < index.cols; ++u) {
+      const int label = fitted.at<std::uint8_t>(v, u);
+      if (label < classes)
+        ++example.pixels[static_cast<std::size_t>(index.at<int>(v, u) * classes + label)];
+    }
+  example.superpixels.index = Image();
+  return example;
+}
+
+bool judges_field(std::size_t example, std::size_t examples) {
+  return example % (examples / 120 + 1) == 0;
+}
 
 SceneLesson make_lesson(std::vector<SceneExample>& examples, int classes, double class_power) {
   SceneLesson result;

@@ -1,9 +1,30 @@
 #pragma once
-#include <placegraph/frontend/labels/scene_training.h>
+#include <placegraph/frontend/labels/forest_training.h>
+#include <placegraph/frontend/labels/scene_labeller.h>
 
 #include <vector>
 
 namespace placegraph {
+
+/// A picture to learn from, cut up: its features, and which classes the pixels of each superpixel
+/// have.
+struct SceneExample {
+  Superpixels superpixels;  ///< without the index
+  ByteFeatures features;
+  std::vector<int> pixels;  ///< count x classes; void ones in none
+  int block = 0;            ///< examples of one are alike
+};
+
+/// Labels at the size of a picture, by their nearest pixels.
+Image fit_labels(const Image& labels, const Image& picture);
+
+/// `labels` CV_8UC1 of the picture's size, void from `classes` on. Throws ArgumentError if the
+/// sizes do not agree.
+SceneExample make_example(const Image& picture, const Image& labels, int classes, int block);
+
+/// Whether the random field's weights are chosen by this example of so many: some hundred are
+/// enough.
+[[nodiscard]] bool judges_field(std::size_t example, std::size_t examples);
 
 /// What the superpixels of all examples teach, one row each, example by example.
 struct SceneLesson {
@@ -18,7 +39,7 @@ struct SceneLesson {
 };
 
 /// A row's label is the class that half of its superpixel's pixels or more have, else void; it
-/// weighs as many pixels as have it, rare classes more (SceneTrainingOptions::class_power).
+/// weighs as many pixels as have it, rare classes more, as their share to the power -class_power.
 /// Features are kept feature by feature: those of examples that do not judge the random field
 /// (judges_field) are let go of. Throws ArgumentError if no pixel is labelled.
 [[nodiscard]] SceneLesson make_lesson(std::vector<SceneExample>& examples, int classes,

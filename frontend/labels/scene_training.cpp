@@ -3,7 +3,7 @@
 #include <placegraph/frontend/labels/scene_training.h>
 #include <placegraph/graph/core/error.h>
 
-#include <opencv2/imgproc.hpp>
+#include <utility>
 
 namespace placegraph {
 
@@ -15,34 +15,6 @@ void visit(OptionVisitor& field, SceneTrainingOptions& o) {
         {1, 50});
   field("class_power", o.class_power, "rare classes weigh as share^-power", {0, 1});
   field("block", o.block, "pictures of a drive one after the other that are alike", {1, 10000});
-}
-
-Image fit_labels(const Image& labels, const Image& picture) {
-  if (labels.size() == picture.size()) return labels;
-  Image fitted;
-  cv::resize(labels, fitted, picture.size(), 0, 0, cv::INTER_NEAREST);
-  return fitted;
-}
-
-SceneExample make_example(const Image& picture, const Image& labels, int classes, int block) {
-  require(labels.type() == CV_8UC1 && labels.size() == picture.size(),
-          "make_example: labels of another size");
-  SceneView view = view_scene(picture);
-  SceneExample example;
-  example.block = block;
-  example.features = std::move(view.features);
-  example.superpixels = std::move(view.superpixels);
-  const Image& index = example.superpixels.index;
-  const Image fitted = fit_labels(labels, index);
-  example.pixels.assign(static_cast<std::size_t>(example.superpixels.count * classes), 0);
-  for (int v = 0; v < index.rows; ++v)
-    for (int u = 0; u < index.cols; ++u) {
-      const int label = fitted.at<std::uint8_t>(v, u);
-      if (label < classes)
-        ++example.pixels[static_cast<std::size_t>(index.at<int>(v, u) * classes + label)];
-    }
-  example.superpixels.index = Image();
-  return example;
 }
 
 SceneModel train_scene_model(SceneModel model, std::vector<SceneExample> examples,

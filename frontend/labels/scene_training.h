@@ -1,6 +1,5 @@
 #pragma once
-#include <placegraph/frontend/labels/forest_training.h>
-#include <placegraph/frontend/labels/scene_labeller.h>
+#include <placegraph/frontend/labels/scene_lesson.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/scene/scene_model.h>
 
@@ -18,22 +17,6 @@ struct SceneTrainingOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, SceneTrainingOptions& options);
-
-/// A picture to learn from, cut up: its features, and which classes the pixels of each superpixel
-/// have.
-struct SceneExample {
-  Superpixels superpixels;  ///< without the index
-  ByteFeatures features;
-  std::vector<int> pixels;  ///< count x classes; void ones in none
-  int block = 0;            ///< examples of one are alike
-};
-
-/// Labels at the size of a picture, by their nearest pixels.
-Image fit_labels(const Image& labels, const Image& picture);
-
-/// `labels` CV_8UC1 of the picture's size, void from `classes` on. Throws ArgumentError if the
-/// sizes do not agree.
-SceneExample make_example(const Image& picture, const Image& labels, int classes, int block);
 
 /// Learns a model of the classes in it (`kind`, `classes`, `surfaces` and `origin` are taken from
 /// `model`); `base`: one whose trees are kept beside the new ones, classes of the same names

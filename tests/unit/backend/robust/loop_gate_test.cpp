@@ -6,7 +6,7 @@ namespace placegraph {
 namespace {
 
 constexpr double kProbability = 0.99;
-const LoopGrowthOptions kOptions{.margin = 1.5, .tail = 3, .nearly_right = 0.01};
+constexpr LoopGateWidth kWidth{.margin = 1.5, .tail = 3, .nearly_right = 0.01};
 
 /// Three poses at corners of a square of ten metres; loops from the first to the last.
 PackedGraph<SE2> graph_of_loops(int loops) {
@@ -22,11 +22,11 @@ PackedGraph<SE2> graph_of_loops(int loops) {
 }
 
 /// A gate for noise of the variance that the information claims.
-LoopGate<SE2> gate_of(const PackedGraph<SE2>& graph) { return {graph, kProbability, 1, kOptions}; }
+LoopGate<SE2> gate_of(const PackedGraph<SE2>& graph) { return {graph, kProbability, 1, kWidth}; }
 const double kOfNoise = 1.5 * chi_squared_quantile(kProbability, 3);
 
 TEST(LoopGate, BeginsWithTheNoiseThatIsKnown) {
-  const LoopGate<SE2> gate(graph_of_loops(1), kProbability, 4, kOptions);
+  const LoopGate<SE2> gate(graph_of_loops(1), kProbability, 4, kWidth);
   EXPECT_DOUBLE_EQ(gate.noise_scale(), 4);
   EXPECT_NEAR(gate.of_noise(), 4 * kOfNoise, 1e-9);
   EXPECT_NEAR(gate.widest(), 20 * 4 * kOfNoise, 1e-8);

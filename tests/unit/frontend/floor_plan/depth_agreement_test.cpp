@@ -13,9 +13,8 @@ constexpr double kFocal_px = 50, kSigma_px = 0.3;
 SE3 sideways(double metres) { return {SO3(), Eigen::Vector3d(-metres, 0, 0)}; }
 
 SweepGeometry geometry_of(const std::vector<SE3>& T_view_cam) {
-  std::vector<SweptView> views;
-  for (const SE3& T : T_view_cam) views.push_back({Image(), T});
-  return sweep_geometry({kWidth, kHeight, kFocal_px, kFocal_px, 19.5, 14.5}, views, {});
+  return sweep_geometry({kWidth, kHeight, kFocal_px, kFocal_px, 19.5, 14.5}, T_view_cam,
+                        {.min_depth_m = 0.7, .max_depth_m = 15, .step_px = 1, .max_levels = 192});
 }
 
 /// A wall two metres away that every pixel tells.

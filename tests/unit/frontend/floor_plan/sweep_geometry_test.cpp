@@ -10,11 +10,10 @@ namespace {
 Camera test_camera() { return {160, 120, 130, 120, 79.5, 59.5}; }
 const SE3 kMoved(SO3::exp({0.05, -0.1, 0.02}), Eigen::Vector3d(-0.3, 0.1, -0.2));
 
-SweepGeometry geometry_of(const std::vector<SE3>& T_view_cam,
-                          const PlaneSweepOptions& options = {}) {
-  std::vector<SweptView> views;
-  for (const SE3& T : T_view_cam) views.push_back({Image(), T});
-  return sweep_geometry(test_camera(), views, options);
+constexpr SweepRange kRange{.min_depth_m = 0.7, .max_depth_m = 15, .step_px = 1, .max_levels = 192};
+
+SweepGeometry geometry_of(const std::vector<SE3>& T_view_cam, const SweepRange& range = kRange) {
+  return sweep_geometry(test_camera(), T_view_cam, range);
 }
 
 TEST(SweepGeometry, SaysWhereAViewSeesAPixelOfADepth) {
@@ -43,26 +42,26 @@ TEST(SweepGeometry, TheRateIsTheDerivativeByInverseDepth) {
 }
 
 TEST(SweepGeometry, SweepsFromTheFarthestToTheNearestDepth) {
-  PlaneSweepOptions options;
-  options.min_depth_m = 0.5, options.max_depth_m = 20;
-  const SweepGeometry geometry = geometry_of({kMoved}, options);
+  SweepRange range = kRange;
+  range.min_depth_m = 0.5, range.max_depth_m = 20;
+  const SweepGeometry geometry = geometry_of({kMoved}, range);
   ASSERT_GT(geometry.levels, 4);
   EXPECT_NEAR(geometry.inverse_depth(0), 1.0 / 20, 1e-12);
   EXPECT_NEAR(geometry.inverse_depth(geometry.levels - 1), 1 / 0.5, 1e-12);
 }
 
 TEST(SweepGeometry, LevelsAreAStepApartForTheViewThatMovesMost) {
-  PlaneSweepOptions options;
-  options.step_px = 2;
-  options.max_planes = 1000;
+  SweepRange range = kRange;
+  range.step_px = 2;
+  range.max_levels = 1000;
   const SE3 little(SO3(), Eigen::Vector3d(0.05, 0, 0)), much(SO3(), Eigen::Vector3d(0.3, 0, 0));
-  const SweepGeometry geometry = geometry_of({little, much}, options);
+  const SweepGeometry geometry = geometry_of({little, much}, range);
   // Sideways all depths move by f t.
   EXPECT_NEAR(geometry.step * 130 * 0.3, 2, 2 * 2.0 / (geometry.levels - 1));
-  EXPECT_EQ(geometry_of({much}, options).levels, geometry.levels);
-  EXPECT_LT(geometry_of({little}, options).levels, geometry.levels / 5);
-  options.max_planes = 20;
-  EXPECT_EQ(geometry_of({much}, options).levels, 20);
+  EXPECT_EQ(geometry_of({much}, range).levels, geometry.levels);
+  EXPECT_LT(geometry_of({little}, range).levels, geometry.levels / 5);
+  range.max_levels = 20;
+  EXPECT_EQ(geometry_of({much}, range).levels, 20);
 }
 
 TEST(SweepGeometry, HasNoLevelsWhereNothingMoves) {

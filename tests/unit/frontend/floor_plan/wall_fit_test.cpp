@@ -8,6 +8,8 @@ namespace placegraph {
 namespace {
 
 constexpr double kNoise_m = 0.01;
+constexpr WallTolerance kTolerance{
+    .band_m = 0.05, .max_turn_deg = 15, .max_gap_m = 0.3, .max_step_m = 0.07};
 
 /// Points of a wall of one side.
 struct WallPoints {
@@ -49,7 +51,7 @@ TEST_P(FitWallOfAxis, FindsTheLineOfAWallAmongWhatStandsBeforeIt) {
   wall.add(0, 4, 2, 0.01);
   wall.add(1, 2, 2.08, 0);  // a shelf before a quarter of it
   WallPiece piece = wall.piece(0, 4, 2.01);
-  ASSERT_TRUE(fit_wall(wall.all(), {}, piece));
+  ASSERT_TRUE(fit_wall(wall.all(), kTolerance, piece));
   // Five thousand points of 0.01 m say where it is to less than a millimetre; the shelf pulls a
   // little.
   EXPECT_NEAR(piece.offset_at(2), 2, 0.006);
@@ -60,7 +62,7 @@ TEST_P(FitWallOfAxis, TellsItsExtentHeightAndNumberOfPoints) {
   WallPoints wall{GetParam()};
   wall.add(0.5, 3.5, 2, 0.02, 0.001);
   WallPiece piece = wall.piece(0, 6, 2);
-  ASSERT_TRUE(fit_wall(wall.all(), {}, piece));
+  ASSERT_TRUE(fit_wall(wall.all(), kTolerance, piece));
   EXPECT_NEAR(piece.from_m, 0.5, 0.01);
   EXPECT_NEAR(piece.to_m, 3.5, 0.03);
   EXPECT_NEAR(piece.offset_m, 2, 0.001);  // of the middle of what is seen
@@ -73,10 +75,10 @@ TEST(FitWall, OfSightsThatAgreeIsBetterKnown) {
   WallPoints wall;
   wall.add(0, 4, 2, 0);
   WallPiece one = wall.piece(0, 4, 2), sixteen = one;
-  ASSERT_TRUE(fit_wall(wall.all(), {}, one));
+  ASSERT_TRUE(fit_wall(wall.all(), kTolerance, one));
   for (std::size_t i = 0; i < wall.points.size(); ++i)
     wall.points[i].sight = i % 2 == 0 ? 7 : static_cast<int>(i % 32);
-  ASSERT_TRUE(fit_wall(wall.all(), {}, sixteen));
+  ASSERT_TRUE(fit_wall(wall.all(), kTolerance, sixteen));
   EXPECT_NEAR(one.sigma_m, std::hypot(0.003, kNoise_m), 0.001);
   // Sixteen odd numbers, 7 among them.
   EXPECT_NEAR(sixteen.sigma_m, std::hypot(0.003, kNoise_m / 4), 0.0005);
@@ -87,7 +89,7 @@ TEST(FitWall, OfAShortPieceDoesNotSlope) {
   WallPoints wall;
   wall.add(0, 1.4, 2, 0.05);
   WallPiece piece = wall.piece(0, 1.4, 2);
-  ASSERT_TRUE(fit_wall(wall.all(), {}, piece));
+  ASSERT_TRUE(fit_wall(wall.all(), kTolerance, piece));
   EXPECT_EQ(piece.slope, 0);
 }
 
@@ -95,14 +97,14 @@ TEST(FitWall, FailsWithoutPointsOrWithAWallThatTurns) {
   WallPoints wall;
   wall.add(0, 4, 2, 0);
   WallPiece elsewhere = wall.piece(0, 4, 2.5);
-  EXPECT_FALSE(fit_wall(wall.all(), {}, elsewhere));
+  EXPECT_FALSE(fit_wall(wall.all(), kTolerance, elsewhere));
   for (const auto& [turn_deg, fits] : {std::pair(12.0, true), {18.0, false}}) {
     WallPoints turned;
     const double slope = std::tan(turn_deg * M_PI / 180);
     turned.add(0, 4, 2, slope);
     WallPiece piece = turned.piece(0, 4, 2);
     piece.slope = slope;
-    EXPECT_EQ(fit_wall(turned.all(), {}, piece), fits) << turn_deg;
+    EXPECT_EQ(fit_wall(turned.all(), kTolerance, piece), fits) << turn_deg;
   }
 }
 
@@ -113,7 +115,7 @@ TEST(JoinWalls, JoinsPiecesThatDriftHasPutApart) {
     wall.add(2 + gap_m, 3 + gap_m, 2 + step_m, 0);
     std::vector<WallPiece> pieces{wall.piece(0, 2, 2),
                                   wall.piece(2 + gap_m, 3 + gap_m, 2 + step_m)};
-    join_walls(wall.all(), {}, pieces);
+    join_walls(wall.all(), kTolerance, pieces);
     return pieces;
   };
   const auto one = joined(0.2, 0.04);

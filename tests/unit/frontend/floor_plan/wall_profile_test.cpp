@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/floor_plan/door_finder.h>
 #include <placegraph/frontend/floor_plan/wall_profile.h>
 
 #include <algorithm>
@@ -7,6 +6,8 @@
 namespace placegraph {
 namespace {
 
+constexpr DoorShape kDoor{
+    .max_width_m = 2.2, .min_head_m = 1.8, .min_recess_m = 0.025, .max_recess_m = 0.16};
 constexpr double kOffset_m = 3, kDoorFrom_m = 2.5, kDoorTo_m = 3.4, kHead_m = 2.05;
 
 /// A wall from 1 to 5 m along one of the four sides, with a doorway in it. `behind_m`: of the
@@ -49,7 +50,7 @@ struct Wall {
     return voxels;
   }
   WallProfile profile(const std::vector<Eigen::Vector3d>& path = {}) const {
-    return profile_wall(plane(), points(), voxels(), path, DoorFinderOptions{});
+    return profile_wall(plane(), points(), voxels(), path, kDoor);
   }
 };
 
@@ -126,8 +127,8 @@ TEST_P(WallProfileOfSide, TellsLeavesFromASurfaceThatDriftHasBent) {
 
 TEST_P(WallProfileOfSide, KnowsNothingBeyondItsEnds) {
   const WallProfile profile = wall().profile();
-  EXPECT_NEAR(profile.at_m(0), 1 - DoorFinderOptions{}.max_width_m, 1e-12);
-  EXPECT_GE(profile.at_m(profile.steps.size()), 5 + DoorFinderOptions{}.max_width_m - 1e-9);
+  EXPECT_NEAR(profile.at_m(0), 1 - kDoor.max_width_m, 1e-12);
+  EXPECT_GE(profile.at_m(profile.steps.size()), 5 + kDoor.max_width_m - 1e-9);
   for (const auto& [from, to] : {std::pair(-5.0, 0.8), {5.2, 20.0}})
     for (const WallStep& step : between(profile, from, to))
       EXPECT_FALSE(step.wall || step.recess || step.open || step.faced || step.head);

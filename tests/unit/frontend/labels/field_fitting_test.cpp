@@ -44,17 +44,6 @@ struct Lesson {
   }
 };
 
-TEST(JudgesField, TakesEvenlyAboutAHundredExamples) {
-  for (const std::size_t examples : {1U, 50U, 119U, 120U, 1000U}) {
-    std::size_t judges = 0;
-    for (std::size_t e = 0; e < examples; ++e) judges += judges_field(e, examples);
-    EXPECT_EQ(judges,
-              examples < 120 ? examples : (examples + examples / 120) / (examples / 120 + 1));
-    EXPECT_LE(judges, 120U);
-    EXPECT_TRUE(judges_field(0, examples));
-  }
-}
-
 TEST(LearnRelations, CountsWhatLiesAboveWhat) {
   // Class 0 always above class 1; a stripe without a class teaches nothing.
   SceneExample one = stripes({0, 0, 0, 1, 1, 1});
