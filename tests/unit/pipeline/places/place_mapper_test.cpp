@@ -212,5 +212,35 @@ TEST(PlaceMapper, ABridgeTellsTheRatioOfUnitsWhenOneOfThemIsMeasured) {
   }
 }
 
+TEST(PlaceMapper, ARunOfUnknownScalePublishesAllConstraintsAgain) {
+  PlaceMapper mapper = square();
+  EXPECT_EQ(mapper.take_constraint_changes().size(), 4u);
+  mapper.add_keyframe(6, std::nullopt, pose({0, 0, 0}, {50, 0, 0}), kDepth_m);
+  EXPECT_TRUE(mapper.take_constraint_changes().empty());
+  mapper.add_keyframe(7, std::nullopt, pose({0, 0, 0}, {90, 0, 0}), kDepth_m, false);
+  const auto changes = mapper.take_constraint_changes();
+  ASSERT_EQ(changes.size(), 4u);
+  for (const auto& change : changes)
+    EXPECT_EQ(kind_of(change.constraint->T_from_to), PoseKind::kSim3);
+  mapper.add_keyframe(8, std::nullopt, pose({0, 0, 0}, {130, 0, 0}), kDepth_m, false);
+  EXPECT_TRUE(mapper.take_constraint_changes().empty());
+}
+
+TEST(PlaceMapper, ARescaledMapIsOptimizedAndPublishedAsAWhole) {
+  PlaceMapper mapper({});
+  mapper.add_keyframe(0, std::nullopt, {}, kDepth_m, false);
+  mapper.add_keyframe(1, link(0, kLong), {}, kDepth_m);
+  mapper.add_keyframe(2, link(1, kLong), {}, kDepth_m);
+  (void)mapper.optimize();
+  ASSERT_TRUE(mapper.predicted(0, 2));
+  (void)mapper.take_constraint_changes();
+  mapper.rescale(0, 2);
+  EXPECT_FALSE(mapper.predicted(0, 2));  // the optimizer's lengths were others
+  EXPECT_EQ(mapper.take_constraint_changes().size(), 2u);
+  (void)mapper.optimize();
+  EXPECT_LT(distance_m(mapper.T_map_keyframe(2), (kLong * kLong).scaled(2)), 1e-6);
+  EXPECT_NEAR(mapper.predicted(0, 2)->path_length, 4 * kLong.translation().norm(), 1e-6);
+}
+
 }  // namespace
 }  // namespace placegraph
