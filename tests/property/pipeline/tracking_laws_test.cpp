@@ -169,8 +169,9 @@ TEST(LensEstimatorLaws, TheOrderOfWindowsDoesNotMatter) {
     for (const LensEvidence& window : windows) backwards.add(window);
     EXPECT_NEAR(forwards.k1(), backwards.k1(), 1e-12);
     EXPECT_NEAR(forwards.effect(), backwards.effect(), 1e-12);
-    if (std::isfinite(forwards.sigma_k1()))
+    if (std::isfinite(forwards.sigma_k1())) {
       EXPECT_NEAR(forwards.sigma_k1(), backwards.sigma_k1(), 1e-12);
+    }
   }
 }
 

@@ -73,7 +73,7 @@ TEST(ManhattanCueGround, IsForgottenWithItsKeyframe) {
   EXPECT_TRUE(keyframe.cue.ground(keyframe.lane(2)).mask.empty());
 }
 
-SE3 boards_way(int k) { return test::pose({0.01, 0.02 * k, 0}, {0.05 * k, -0.02 * k, 0.15 * k}); }
+SE3 boards_way(int k) { return test::pose({0.01, 0.05 * k, 0}, {0.05 * k, -0.02 * k, 0.15 * k}); }
 const Image& boards_view(int k) {
   static const std::vector<Frame> frames = test::boards_frames(5, boards_way);
   return frames[static_cast<std::size_t>(k)].image;

@@ -61,6 +61,7 @@ TEST(PlaceLabeller, GivesEachPlaceWhatItsViewsSay) {
   EXPECT_EQ(labels[0].label, 0);
   EXPECT_EQ(labels[0].views, 5);
   EXPECT_GT(labels[0].probability, 0.8);
+  EXPECT_EQ(labels[1].place, 10);
   EXPECT_EQ(labels[1].label, 1);
   EXPECT_EQ(labels[2].label, -1);  // without views
   EXPECT_EQ(labels[2].views, 0);

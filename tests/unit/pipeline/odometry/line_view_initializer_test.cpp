@@ -98,6 +98,9 @@ TEST(LineViewInitializer, SeveralViewsOfLinesBeginAMap) {
   EXPECT_EQ(begun.keyframes.back().frame.id, last);
   EXPECT_LT(distance_m(b.map.pose(0), b.T_odom_start), 1e-6);
   EXPECT_GE(begun.inliers, 9);
+  // A map begins only where the ratio of the lengths of its two halves is known.
+  const std::int64_t middle = static_cast<std::int64_t>(begun.keyframes.size() / 2);
+  EXPECT_LT(sigma_log_length_ratio(b.map.window(), 0, middle, b.map.newest()), 0.021);
   EXPECT_FALSE(b.initializer.started());
   // Every frame is posed: as a keyframe, or between keyframes; up to the scale as it was driven.
   std::map<std::int64_t, SE3> posed(begun.posed.begin(), begun.posed.end());

@@ -161,6 +161,36 @@ TEST(TwoViewInitializer, ARotationIsNoBeginningButItsFramesArePosed) {
   }
 }
 
+TEST(TwoViewInitializer, FramesFromBeforeAReferenceThatRotatedOutOfViewArePosed) {
+  // It looks from along the street to a house front, and then drives on.
+  static constexpr int kRotates = 9, kAll = 14;
+  const auto way = [](int i) {
+    return pose({0, 0.1 * std::min(i, kRotates), 0},
+                {0, -kStreetHeight_m, 0.3 * std::max(0, i - kRotates)});
+  };
+  const StreetDataset looks_aside(kAll, 0, 0, false, way);
+  Beginning b(looks_aside);
+  Initialization begun = b.add(0);
+  std::int64_t reference = 0;
+  for (int i = 1; i < kAll && begun.state != TrackingState::kTracking; ++i) {
+    begun = b.add(i);
+    if (begun.is_reference) {
+      reference = i;
+      EXPECT_TRUE(begun.rotation) << i;
+    }
+  }
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_GT(reference, 1);
+  std::map<std::int64_t, SE3> posed;  // later ones are better
+  for (const PosedFrame& frame : begun.posed) posed[frame.first] = frame.second;
+  for (std::int64_t k = 1; k < reference; ++k) {
+    ASSERT_TRUE(posed.contains(k)) << k << " of " << reference;
+    const SO3 truth = way(0).rotation().inverse() * way(static_cast<int>(k)).rotation();
+    const SE3 found = b.T_odom_start.inverse() * posed[k];
+    EXPECT_LT((found.rotation().inverse() * truth).log().norm(), 0.01) << k;
+  }
+}
+
 TEST(TwoViewInitializer, AnotherFrameTakesThePlaceOfAReferenceThatIsOutOfView) {
   Beginning b(drive());
   (void)b.add(0);

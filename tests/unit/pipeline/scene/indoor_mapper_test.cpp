@@ -223,7 +223,7 @@ Frame wall_in_depth(const Camera& camera, double ahead_m) {
 
 TEST(IndoorMapper, TakesTheDepthsOfADepthCamera) {
   const Camera camera{160, 120, 130, 130, 79.5, 59.5};
-  const SE3 T_cam_depth(SO3(), Eigen::Vector3d(0.05, 0, 0));
+  const SE3 T_cam_depth(SO3(), Eigen::Vector3d(0.5, 0, 0));
   IndoorMapper mapper({}, Calibration{.camera = camera,
                                       .baseline_m = 0,
                                       .depth = DepthCamera{camera, T_cam_depth, 0.005},
@@ -236,10 +236,12 @@ TEST(IndoorMapper, TakesTheDepthsOfADepthCamera) {
   for (const SurfacePoint& p : mapper.sights()[0].points) {
     EXPECT_NEAR(p.point[2], 2.5, 1e-3);
     leftmost = std::min(leftmost, p.point[0]);
-    if (p.normal.squaredNorm() > 0.5F) EXPECT_LT(p.normal[2], -0.99F);
+    if (p.normal.squaredNorm() > 0.5F) {
+      EXPECT_LT(p.normal[2], -0.99F);
+    }
   }
   // In the frame of the camera, not of its depth sensor.
-  EXPECT_NEAR(leftmost, -0.25, 0.1);
+  EXPECT_NEAR(leftmost, 0.2, 0.1);
   mapper.add(3, wall_in_depth(camera, 1.5));
   ASSERT_EQ(mapper.sights().size(), 1U) << "what was told before is replaced";
   EXPECT_NEAR(mapper.sights()[0].points[0].point[2], 1.5, 1e-3);

@@ -110,7 +110,9 @@ TEST(DirectTracker, AFrameThatIsFarFromTheKeyframeIsDueAsOne) {
     tracked = t.track(i);
     ASSERT_TRUE(tracked.outcome) << i;
     const double way = distance_m(tracked.T_odom_cam, t.map.pose(0));
-    if (way > 0.3 * t.map.median_depth()) EXPECT_TRUE(tracked.keyframe_due) << i;
+    if (way > 0.3 * t.map.median_depth()) {
+      EXPECT_TRUE(tracked.keyframe_due) << i;
+    }
   }
 }
 
