@@ -36,4 +36,20 @@ std::optional<double> DepthSensor::disparity_px(const Eigen::Vector3d& point_cam
          rectification.at(point_cam.head<2>() / point_cam.z());
 }
 
+std::vector<std::optional<double>> DepthSensor::disparities_px(
+    const std::vector<Eigen::Vector2f>& px, const std::vector<double>& inverse_depths,
+    const RectificationError& rectification) const {
+  std::vector<std::optional<double>> result;
+  if (calibration_.baseline_m <= 0) return result;
+  const double px_per_inverse = calibration_.camera.fx * calibration_.baseline_m;
+  for (std::size_t i = 0; i < inverse_depths.size(); ++i) {
+    const auto ray = calibration_.camera.unproject(px[i].cast<double>());
+    if (ray)
+      result.push_back(inverse_depths[i] * px_per_inverse + rectification.at(ray->head<2>()));
+    else
+      result.push_back(std::nullopt);
+  }
+  return result;
+}
+
 }  // namespace placegraph

@@ -28,6 +28,11 @@ class DepthSensor {
   /// camera; nothing behind it or without a baseline.
   std::optional<double> disparity_px(const Eigen::Vector3d& point_cam,
                                      const RectificationError& rectification) const;
+  /// The same for pixels of which an inverse depth [1/m] is expected, one per pixel of `px`; it may
+  /// be negative. Empty without a baseline, and if `inverse_depths` is.
+  std::vector<std::optional<double>> disparities_px(const std::vector<Eigen::Vector2f>& px,
+                                                    const std::vector<double>& inverse_depths,
+                                                    const RectificationError& rectification) const;
 
  private:
   Calibration calibration_;

@@ -1,5 +1,4 @@
 #include <placegraph/frontend/align/grey_pyramid.h>
-#include <placegraph/frontend/features/depth_lookup.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/cues/surface_cue.h>
@@ -39,32 +38,6 @@ DirectMotion no_reference() {
 }
 
 }  // namespace
-
-std::vector<std::optional<InverseDepth>> DepthSense::operator()(
-    const Frame& frame, const RectificationError& rectification,
-    const std::vector<Eigen::Vector2f>& px, const std::vector<double>& expected) const {
-  const Camera& camera = calibration_.camera;
-  std::vector<std::optional<InverseDepth>> result(px.size());
-  std::vector<Eigen::Vector3d> rays;
-  for (const Eigen::Vector2f& p : px)
-    rays.push_back(camera.unproject(p.cast<double>()).value_or(Eigen::Vector3d::UnitZ()));
-  if (calibration_.baseline_m > 0 && !frame.right.empty()) {
-    const double px_per_inverse = camera.fx * calibration_.baseline_m;
-    std::vector<std::optional<double>> disparities(expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      disparities[i] = expected[i] * px_per_inverse + rectification.at(rays[i].head<2>());
-    const auto found = match_stereo(frame.image, frame.right, px, stereo_, disparities);
-    for (std::size_t i = 0; i < px.size(); ++i)
-      if (found[i])
-        result[i] = {rays[i], (*found[i] - rectification.at(rays[i].head<2>())) / px_per_inverse,
-                     stereo_.sigma_disparity_px / px_per_inverse};
-  } else if (calibration_.depth && !frame.depth.empty()) {
-    const auto depths = lookup_depth(frame.depth, camera, *calibration_.depth, px);
-    for (std::size_t i = 0; i < px.size(); ++i)
-      if (depths[i]) result[i] = {rays[i], 1 / *depths[i], calibration_.depth->sigma_at_1m};
-  }
-  return result;
-}
 
 SurfaceCue::SurfaceCue(const SurfaceCueOptions& options, const Calibration& calibration,
                        const StereoMatcherOptions& stereo, bool several)
@@ -153,7 +126,7 @@ void SurfaceCue::find_ground(const RectificationError& rectification, Random& ra
         std::abs(p.x() - camera.cx) < 0.35 * camera.width)
       px.push_back(p);
   std::vector<InverseDepth> known;
-  for (const auto& depth : depth_(frame_, rectification, px, {}))
+  for (const auto& depth : depth_.measure(frame_, rectification, px))
     if (depth) known.push_back(*depth);
   const InverseDepthPlane plane = fit_inverse_depth_plane(known, options_.planes, random);
   if (!plane.outcome || 3 * plane.inliers.size() < known.size() ||
@@ -185,7 +158,8 @@ std::vector<SurfacePatch> SurfaceCue::ground(const SE3& T_last_cur,
   }
   SurfaceLook look = ground_->look(
       [&](const std::vector<Vector2f>& px, const std::vector<double>& expected) {
-        return depth_(frame_, rectification, px, expected);
+        return depth_.measure(frame_, rectification, px,
+                              depth_.disparities_px(px, expected, rectification));
       },
       T_last_cur.inverse(), mask_of_ground(), random);
   if (!look.outcome) return {};
@@ -205,7 +179,7 @@ std::vector<SurfacePatch> SurfaceCue::ground(const SE3& T_last_cur,
 /// Depths over the whole image.
 std::vector<KnownPixel> SurfaceCue::look_around(const RectificationError& rectification) const {
   const std::vector<Vector2f> px = grid(options_.depths);
-  const auto depths = depth_(frame_, rectification, px, {});
+  const auto depths = depth_.measure(frame_, rectification, px);
   std::vector<KnownPixel> known;
   for (std::size_t i = 0; i < px.size(); ++i)
     if (depths[i]) known.push_back({px[i], *depths[i]});

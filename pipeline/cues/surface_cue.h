@@ -4,6 +4,7 @@
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/graph/geometry/lie.h>
 #include <placegraph/graph/measurements/frame.h>
+#include <placegraph/pipeline/cues/depth_sensor.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/cues/surface_cue_options.h>
 
@@ -11,22 +12,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// What depths are known of a frame by: two eyes, a depth camera, or nothing.
-class DepthSense {
- public:
-  DepthSense(const Calibration& calibration, const StereoMatcherOptions& stereo)
-      : calibration_(calibration), stereo_(stereo) {}
-  /// For DominantSurface::look; `expected` may be empty.
-  std::vector<std::optional<InverseDepth>> operator()(const Frame& frame,
-                                                      const RectificationError& rectification,
-                                                      const std::vector<Eigen::Vector2f>& px,
-                                                      const std::vector<double>& expected) const;
-
- private:
-  Calibration calibration_;
-  StereoMatcherOptions stereo_;
-};
 
 /// A pixel whose depth is known.
 struct KnownPixel {
@@ -83,7 +68,7 @@ class SurfaceCue {
 
   SurfaceCueOptions options_;
   Calibration calibration_;
-  DepthSense depth_;
+  DepthSensor depth_;
   bool several_, mono_;
   std::optional<DominantSurface> ground_;
   Eigen::Vector3d mounting_ = Eigen::Vector3d::UnitY();  // mean normal of the ground, for one eye

@@ -68,6 +68,22 @@ TEST(DepthSensor, ADisparityIsExpectedWhereThePointIs) {
   EXPECT_EQ(sensor_of(Sensor::kMono).disparity_px(point, error), std::nullopt);
 }
 
+TEST(DepthSensor, InverseDepthsAreExpectedAtTheDisparitiesOfTheirPoints) {
+  const DepthSensor sensor = sensor_of(Sensor::kStereo);
+  const RectificationError error{0.5, -0.2, 0.1};
+  const std::vector<Eigen::Vector2f> px = {{100, 80}, {300, 120}, {200, 60}};
+  const auto expected = sensor.disparities_px(px, {0.1, 0.04, -0.01}, error);
+  ASSERT_EQ(expected.size(), 3u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double inverse_depth = i == 0 ? 0.1 : 0.04;
+    const Eigen::Vector3d ray = *street_camera().unproject(px[i].cast<double>());
+    EXPECT_NEAR(*expected[i], *sensor.disparity_px(ray / inverse_depth, error), 1e-6);
+  }
+  EXPECT_LT(*expected[2], *sensor.disparities_px({px[2]}, {0}, error)[0]);  // beyond infinity
+  EXPECT_TRUE(sensor_of(Sensor::kRgbd).disparities_px(px, {0.1, 0.04, 0.02}, error).empty());
+  EXPECT_TRUE(sensor.disparities_px(px, {}, error).empty());
+}
+
 TEST(DepthSensor, ADepthImageIsLookedUp) {
   const Frame frame = street_of(true).frame(0, Sensor::kRgbd);
   const auto depths = sensor_of(Sensor::kRgbd).measure(frame, {}, pixels());
