@@ -44,7 +44,7 @@ TEST(PlaceHistory, AMapperGoesOnWhereAnotherStood) {
   expect_same(optimized(first), optimized(second), 1e-4);
 }
 
-TEST(PlaceHistory, ConstraintsAreToldOnceAndWhenTheyChange) {
+TEST(PlaceHistory, ConstraintsArePublishedOnceAndWhenTheyChange) {
   PlaceMapper mapper = square(false);
   EXPECT_EQ(mapper.take_constraint_changes().size(), 4u);
   EXPECT_TRUE(mapper.take_constraint_changes().empty());
@@ -52,19 +52,19 @@ TEST(PlaceHistory, ConstraintsAreToldOnceAndWhenTheyChange) {
   const auto changes = mapper.take_constraint_changes();
   ASSERT_FALSE(changes.empty());
   EXPECT_EQ(changes.back().constraint->source, ConstraintSource::kLoop);
-  // All that is told adds up to the graph, also after a merger has taken constraints away.
+  // All that is published adds up to the graph, also after a merger has taken constraints away.
   PlaceMapper merging = square(true);
   std::map<std::pair<int, std::int64_t>, RelativePoseConstraint> known;
-  const auto hear = [&] {
+  const auto take_over = [&] {
     for (const auto& change : merging.take_constraint_changes()) {
       known.erase({change.kind, change.number});
       if (change.constraint) known[{change.kind, change.number}] = *change.constraint;
     }
   };
-  hear();
+  take_over();
   merging.add_loop(loop(5, 0, kShort, 0.001, 0.0001));
   (void)merging.optimize(100);
-  hear();
+  take_over();
   const PlaceGraph graph = merging.place_graph();
   ASSERT_EQ(known.size(), graph.constraints.size());
   std::size_t i = 0;
