@@ -99,6 +99,7 @@ TEST(DirectTracker, TheMotionBetweenKeyframesGoesIntoTheWindow) {
   EXPECT_EQ(t.map.window().factors()[0].variables,
             (std::vector{keyframe_variable(0), keyframe_variable(1)}));
   EXPECT_LT(error(t.map.pose(1), street_T_world_cam(1)), 0.03);
+  EXPECT_FALSE(t.tracker.keyframe_to_retry_from());  // it is the newest frame itself
 }
 
 TEST(DirectTracker, AFrameThatIsFarFromTheKeyframeIsDueAsOne) {
