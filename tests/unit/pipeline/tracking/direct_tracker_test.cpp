@@ -82,6 +82,7 @@ TEST(DirectTracker, AlignsFramesWithTheSurfacesOfTheLastKeyframe) {
 
 TEST(DirectTracker, TheFirstKeyframeStandsWhereItIsToldAndHasTheDepthOfItsSurfaces) {
   Tracking t;
+  t.map.restart(Scale::kMetric, 50);  // what another segment saw
   ASSERT_TRUE(t.keyframe(0, street_T_world_cam(0)));
   EXPECT_LT(error(t.map.pose(0), street_T_world_cam(0)), 1e-12);
   EXPECT_GT(t.map.median_depth(), 2 * kStreetHeight_m);  // of the road ahead
