@@ -85,14 +85,21 @@ TEST(AgreedDepth, IsCertainWhereAllPixelsAboutTellTheSame) {
 
 TEST(AgreedDepth, IsCertainOnEitherSideOfAStepInDepthButNotOnIt) {
   const SweepGeometry geometry = geometry_of({sideways(0.2)});
-  std::vector<PixelDepth> found = wall();
-  for (int v = 0; v < kHeight; ++v)
-    for (int u = 0; u < 20; ++u) pixel(found, u, v).inverse_depth = 0.5 - 3.5 * geometry.step;
-  const Image certain = agreed_depth(found, geometry, 0.1).certain;
-  EXPECT_EQ(certain.at<std::uint8_t>(10, 15), 255);
-  EXPECT_EQ(certain.at<std::uint8_t>(10, 30), 255);
-  EXPECT_EQ(certain.at<std::uint8_t>(10, 19), 0);
-  EXPECT_EQ(certain.at<std::uint8_t>(10, 20), 0);
+  // From one row to the next, so that nothing hides anything from a view beside.
+  const auto certain_with_step = [&](double levels) {
+    std::vector<PixelDepth> found = wall();
+    for (int v = 0; v < 15; ++v)
+      for (int u = 0; u < kWidth; ++u)
+        pixel(found, u, v).inverse_depth = 0.5 - levels * geometry.step;
+    const SweptDepth depth = agreed_depth(found, geometry, 0.1);
+    EXPECT_GT(depth.depth_m.at<float>(14, 20), 0);
+    EXPECT_GT(depth.depth_m.at<float>(15, 20), 0);
+    return depth.certain;
+  };
+  const Image step = certain_with_step(3.5);
+  for (const int v : {10, 12, 17, 20}) EXPECT_EQ(step.at<std::uint8_t>(v, 20), 255) << v;
+  for (const int v : {13, 14, 15, 16}) EXPECT_EQ(step.at<std::uint8_t>(v, 20), 0) << v;
+  EXPECT_EQ(certain_with_step(2).at<std::uint8_t>(14, 20), 255);  // a slope is no step
 }
 
 }  // namespace

@@ -99,10 +99,12 @@ TEST(FillBoxes, CompletesABoxThatIsMostlyARoom) {
     RoomGrid grid = one_room();
     grid.rooms.setTo(0);
     grid.rooms(cv::Rect(4, 4, columns, 10)) = 1;
+    grid.rooms(cv::Rect(1, 4, 3, 10)) = 1;  // most of what lies outside of all lines stays as it is
+    grid.rooms(cv::Rect(22, 4, 17, 10)) = 1;
     grid.blocked(10, 19) = 255;
     grid.entered = {0, static_cast<char>(entered)};
     fill_boxes(grid, cuts, 0.5);
-    EXPECT_EQ(cells_of(grid, 1, {0, 0, 40, 30}), cells_of(grid, 1, box));  // nothing outside
+    EXPECT_EQ(cells_of(grid, 1, {0, 0, 40, 30}), cells_of(grid, 1, box) + 30 + 170);
     return cells_of(grid, 1, box);
   };
   EXPECT_EQ(filled(9, true), 159);  // all but the wall
