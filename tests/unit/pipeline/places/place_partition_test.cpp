@@ -72,7 +72,9 @@ TEST(PlacePartition, AMergerMovesNoKeyframe) {
 
 TEST(PlacePartition, ASecondMergerAddsItsCovarianceInTheFrameOfThePart) {
   Row row;
-  row.partition.merge(1, 2, Matrix7d::Zero());
+  Matrix7d first = Matrix7d::Zero();
+  first(2, 2) = 0.5;
+  row.partition.merge(1, 2, first);
   const Sim3 S_place_part = row.partition.parts().at(4).S_place_part;
   Matrix7d covariance = Matrix7d::Zero();
   covariance(1, 1) = 1;  // about the y axis alone: a lateral shift
@@ -85,6 +87,7 @@ TEST(PlacePartition, ASecondMergerAddsItsCovarianceInTheFrameOfThePart) {
       R.inverse() * Eigen::Vector3d(ahead, 0, -S_place_part.translation().x());
   Eigen::Matrix3d expected = 0.01 * side * side.transpose();
   expected(1, 1) += 1;
+  expected(2, 2) += 0.5;
   const Matrix7d& found = row.partition.parts().at(4).covariance;
   EXPECT_LT((found.topLeftCorner<3, 3>() - expected).norm(), kRounding);
 }
@@ -172,6 +175,18 @@ TEST(PlacePartition, TheEarlierPlaceIsTheNearestInReachThatLooksTheSameWay) {
   // No place is earlier than the first.
   EXPECT_FALSE(
       earlier_place_in_reach(chain, partition, {}, 0, partition.state_of(0).S_map_place, 3));
+}
+
+TEST(PlacePartition, OfTwoEarlierPlacesInReachTheNearerOneCounts) {
+  KeyframeChain chain;
+  PlacePartition partition;
+  const double x[] = {0, 1, 0.2};
+  for (int i = 0; i < 3; ++i) {  // three runs of tracking, so that no short path joins them
+    chain.add(i, std::nullopt);
+    partition.found(i, Sim3(SO3(), Eigen::Vector3d(x[i], 0, 0), 1), 0, 3);
+  }
+  EXPECT_EQ(earlier_place_in_reach(chain, partition, {}, 2, partition.state_of(2).S_map_place, 3),
+            0);
 }
 
 TEST(PlacePartition, AKeyframeWithinReachOfTheAnchorBelongsToItsPart) {
