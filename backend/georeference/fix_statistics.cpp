@@ -60,4 +60,10 @@ std::optional<FixScatter> scatter_of(const std::vector<FixResidual>& residuals, 
                     std::max(1.0, median_of(vertical) / kMedianOfNormal)};
 }
 
+Eigen::Matrix3d fix_information(double horizontal, double vertical) {
+  return Eigen::Vector3d(1 / (horizontal * horizontal), 1 / (horizontal * horizontal),
+                         1 / (vertical * vertical))
+      .asDiagonal();
+}
+
 }  // namespace placegraph

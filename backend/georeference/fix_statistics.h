@@ -36,4 +36,7 @@ struct FixScatter {
 };
 std::optional<FixScatter> scatter_of(const std::vector<FixResidual>& residuals, double max_gap_s);
 
+/// Information of a fix in (east, north, up) [1/m^2] from its standard deviations [m].
+Eigen::Matrix3d fix_information(double horizontal_m, double vertical_m);
+
 }  // namespace placegraph

@@ -53,7 +53,10 @@ class Georeferencer {
   void locate_fixes();
   void carry(const AntennaTrack& track);
   void carry_again();
-  Eigen::Matrix3d information(int fix) const;
+  Eigen::Matrix3d information(int fix) const {
+    return fix_information(accuracy_m_[fix] * result_.accuracy_factor_horizontal,
+                           accuracy_m_[fix] * result_.accuracy_factor_vertical);
+  }
   Outcome align();
   GpsAlignment align_component(int component, const std::vector<int>& component_of, Random& random);
   void place(const std::vector<std::optional<Sim3>>& T_enu_map, const std::vector<int>& component);
@@ -102,14 +105,6 @@ void Georeferencer::locate_fixes() {
     require(i == 0 || stamps_ns_[i - 1] < stamps_ns_[i],
             "georeference: times of fixes do not increase");
   }
-}
-
-Eigen::Matrix3d Georeferencer::information(int fix) const {
-  const double horizontal = accuracy_m_[fix] * result_.accuracy_factor_horizontal;
-  const double vertical = accuracy_m_[fix] * result_.accuracy_factor_vertical;
-  return Eigen::Vector3d(1 / (horizontal * horizontal), 1 / (horizontal * horizontal),
-                         1 / (vertical * vertical))
-      .asDiagonal();
 }
 
 /// Takes the fixes to the nodes at the clock offset found so far.

@@ -66,7 +66,7 @@ void LineCue::steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& 
 void LineCue::track(const Image& image, const SlidingWindow& window, const SE3& T_odom_cam,
                     double depth) {
   const std::vector<LineSegment> wanted = predict_segments(
-      calibration_.camera, tracker_.tracks(), window, {T_odom_last_, T_odom_cam, depth, drift_px_});
+      calibration_.camera, tracker_.tracks(), window, {T_odom_last_, T_odom_cam, depth}, drift_px_);
   T_odom_before_ = T_odom_last_;
   std::map<std::int64_t, LineSegment> wanted_of;
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted_of[tracker_.tracks()[i].id] = wanted[i];

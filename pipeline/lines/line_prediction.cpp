@@ -42,7 +42,8 @@ std::vector<KnownDepth> known_depths(const Camera& camera, const std::vector<Lin
 std::vector<LineSegment> predict_segments(const Camera& camera,
                                           const std::vector<LineTrack>& tracks,
                                           const SlidingWindow& window,
-                                          const LinePrediction& prediction) {
+                                          const LinePrediction& prediction,
+                                          const std::map<std::int64_t, double>& drift_px) {
   const SE3& T_odom_last = prediction.T_odom_last;
   const double depth = prediction.depth;
   const SE3 T_cam_last = prediction.T_odom_cam.inverse() * T_odom_last;
@@ -59,8 +60,8 @@ std::vector<LineSegment> predict_segments(const Camera& camera,
       depths[k] = z && *z > 0 ? *z : depth;
     }
     LineSegment segment = moved_segment(camera, now, depths, T_cam_last, depth);
-    if (const auto drift = prediction.drift_px.find(track.id);
-        !line && drift != prediction.drift_px.end() && segment.length() > 1) {
+    if (const auto drift = drift_px.find(track.id);
+        !line && drift != drift_px.end() && segment.length() > 1) {
       const Eigen::Vector2d across = drift->second * segment.normal();
       segment.start += across, segment.end += across;
     }

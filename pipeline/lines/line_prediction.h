@@ -26,15 +26,16 @@ std::vector<KnownDepth> known_depths(const Camera& camera, const std::vector<Lin
 struct LinePrediction {
   SE3 T_odom_last, T_odom_cam;
   double depth = 1;  ///< [m] of tracks that no line of the window is near
-  /// By track: how far it moved across its direction beyond what was expected the last time [px].
-  const std::map<std::int64_t, double>& drift_px;
 };
 
 /// A segment for each track: the points at its ends, on its line of the window or as deep as the
-/// lines beside it, are moved. Tracks that are no line of the window drift on as they did.
+/// lines beside it, are moved. Tracks that are no line of the window drift on as they did:
+/// `drift_px` holds, by track, how far it moved across its direction beyond what was expected the
+/// last time.
 std::vector<LineSegment> predict_segments(const Camera& camera,
                                           const std::vector<LineTrack>& tracks,
                                           const SlidingWindow& window,
-                                          const LinePrediction& prediction);
+                                          const LinePrediction& prediction,
+                                          const std::map<std::int64_t, double>& drift_px);
 
 }  // namespace placegraph

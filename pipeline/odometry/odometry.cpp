@@ -18,7 +18,7 @@ Odometry::Odometry(const OdometryOptions& options, const Calibration& calibratio
 }
 
 OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>& T_odom_cam_known) {
-  OdometryUpdate update = tracking_ ? track(frame) : initialize(frame, T_odom_cam_known);
+  OdometryUpdate update = map_.empty() ? initialize(frame, T_odom_cam_known) : track(frame);
   lost_ = update.state == TrackingState::kLost;
   if (lost_) motion_.forget_velocity();
   if (update.state != TrackingState::kTracking) return update;
@@ -67,8 +67,8 @@ bool Odometry::add_keyframe(const Frame& frame, const SE3& T_odom_cam, OdometryU
 OdometryUpdate Odometry::initialize(const Frame& frame,
                                     const std::optional<SE3>& T_odom_cam_known) {
   const Initialization start = initializer_->add(frame, T_odom_cam_known, map_, mapping_);
-  tracking_ = start.state == TrackingState::kTracking;
-  if (tracking_) motion_ = MotionModel(map_.pose(map_.newest()), start.T_last_cur);
+  if (start.state == TrackingState::kTracking)
+    motion_ = MotionModel(map_.pose(map_.newest()), start.T_last_cur);
   return start.update();
 }
 
@@ -82,7 +82,7 @@ void Odometry::restart(const SE3& T_odom_cam, bool in_known_map,
   mapping_.scale().reset();
   initializer_->restart(T_odom_cam);
   motion_ = MotionModel(T_odom_cam);
-  tracking_ = lost_ = false;
+  lost_ = false;
 }
 
 void Odometry::set_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
@@ -104,7 +104,7 @@ void Odometry::assume(const std::optional<Assumptions>& assumptions) {
 
 bool Odometry::awaits_scale() const {
   const bool arbitrary = map_.scale() == Scale::kArbitrary || map_.scale() == Scale::kGuessed;
-  return tracking_ && arbitrary && mapping_.scale().uses_floor_lines();
+  return !map_.empty() && arbitrary && mapping_.scale().uses_floor_lines();
 }
 
 std::vector<Eigen::Vector3d> Odometry::points_cam() const {

@@ -47,7 +47,7 @@ class Odometry {
   /// The keyframes and landmarks of the present track segment.
   const LocalMap& map() const { return map_; }
   /// Whether a first frame has been taken since the last restart.
-  bool started() const { return tracking_ || initializer_->started(); }
+  bool started() const { return !map_.empty() || initializer_->started(); }
   /// Tracking goes on in an arbitrary unit that lines on the floor are to replace by the metre:
   /// where a frame is, is not known yet.
   bool awaits_scale() const;
@@ -75,8 +75,7 @@ class Odometry {
   MotionModel motion_;
   std::unique_ptr<FrameTracker> tracker_;
   std::unique_ptr<Initializer> initializer_;
-  bool tracking_ = false;  // the map has begun
-  bool lost_ = false;      // the last frame has no pose
+  bool lost_ = false;  // the last frame has no pose
 };
 
 }  // namespace placegraph

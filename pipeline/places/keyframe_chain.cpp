@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <string>
 #include <utility>
 
 namespace placegraph {
@@ -33,25 +33,29 @@ KeyframeChain::KeyframeChain(const std::vector<PlaceHistory::Keyframe>& keyframe
                              std::vector<bool> scale_known)
     : scale_known_(std::move(scale_known)) {
   for (const auto& [id, part, run, link] : keyframes) {
-    require(
-        (!link || contains(link->from)) && run >= 0 && run < static_cast<int>(scale_known_.size()),
-        "KeyframeChain: keyframe " + std::to_string(id) +
-            " is of an unknown run, or linked to none before it");
-    keyframes_[id] = chained(link, run);
+    require(run >= 0 && run < static_cast<int>(scale_known_.size()),
+            "KeyframeChain: keyframe " + std::to_string(id) + " is of an unknown run");
+    insert(id, link, run);
   }
-  chain_up(std::numeric_limits<std::int64_t>::min());
+  chain_up(kBeforeAll);
 }
 
 void KeyframeChain::add(std::int64_t id, const std::optional<KeyframeLink>& link,
                         bool scale_known) {
-  require(!contains(id), "KeyframeChain: keyframe " + std::to_string(id) + " is there already");
-  require(!link || contains(link->from),
-          "KeyframeChain: keyframe " + std::to_string(id) + " is linked to none before it");
-  const bool begins_run = !is_odometry(link);
-  keyframes_[id] =
-      chained(link, begins_run ? static_cast<int>(scale_known_.size()) : at(link->from).run);
+  const bool begins_run = !is_odometry(link) || !contains(link->from);
+  insert(id, link, begins_run ? static_cast<int>(scale_known_.size()) : at(link->from).run);
   if (begins_run) scale_known_.push_back(scale_known);
   chain_up(id);
+}
+
+void KeyframeChain::insert(std::int64_t id, const std::optional<KeyframeLink>& link, int run) {
+  const std::string subject = "KeyframeChain: keyframe " + std::to_string(id);
+  require(!contains(id), subject + " is there already");
+  require(!link || (link->from < id && contains(link->from)),
+          subject + " is linked to none before it");
+  require(!is_odometry(link) || at(link->from).run == run,
+          subject + " is linked by odometry to another run");
+  keyframes_[id] = chained(link, run);
 }
 
 /// Brings poses and path lengths up to date, from keyframe `first` on.
@@ -99,7 +103,7 @@ void KeyframeChain::rescale(std::int64_t first, double factor) {
       link.sigma_log_scale = 0;
     keyframe.link_covariance = covariance_of_link(link);
   }
-  chain_up(first);
+  chain_up(kBeforeAll);
 }
 
 bool KeyframeChain::has_odometry(std::int64_t id) const { return is_odometry(at(id).link); }
@@ -112,8 +116,7 @@ std::optional<TrackedMotion> KeyframeChain::odometry(std::int64_t a, std::int64_
   const auto from = keyframes_.find(a), to = keyframes_.find(b);
   if (from == keyframes_.end() || to == keyframes_.end() || from->second.run != to->second.run)
     return std::nullopt;
-  return TrackedMotion{from->second.T_run_keyframe.inverse() * to->second.T_run_keyframe,
-                       std::abs(to->second.path_length - from->second.path_length)};
+  return TrackedMotion{T_a_b(a, b), std::abs(to->second.path_length - from->second.path_length)};
 }
 
 bool KeyframeChain::all_scales_known() const {

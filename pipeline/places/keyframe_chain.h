@@ -2,11 +2,17 @@
 #include <placegraph/graph/place_history.h>
 #include <placegraph/pipeline/places/keyframe_motion.h>
 
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
 
 namespace placegraph {
+
+/// Before and after the ids of all keyframes.
+inline constexpr std::int64_t kBeforeAll = std::numeric_limits<std::int64_t>::min();
+inline constexpr std::int64_t kAfterAll = std::numeric_limits<std::int64_t>::max();
 
 /// The keyframes in order, each linked to an earlier one by a measured motion. A keyframe whose
 /// link is not odometry, or that has none, begins a run of tracking. The lengths of one run have
@@ -24,13 +30,13 @@ class KeyframeChain {
   };
 
   KeyframeChain() = default;
-  /// The chain of a saved map; `scale_known` is of every run. Throws ArgumentError for a link to a
-  /// keyframe that does not stand before it, and for an unknown run.
+  /// The chain of a saved map; `scale_known` is of every run. Throws ArgumentError for an unknown
+  /// run, and as add() does.
   KeyframeChain(const std::vector<PlaceHistory::Keyframe>& keyframes,
                 std::vector<bool> scale_known);
 
   /// Appends a keyframe; `scale_known` counts where it begins a run. Throws ArgumentError if the
-  /// id is in use, and for a link to an unknown keyframe.
+  /// id is in use, for a link to an unknown or a later keyframe, and for odometry between two runs.
   void add(std::int64_t id, const std::optional<KeyframeLink>& link, bool scale_known = true);
   /// Replaces the motion to keyframe `id`. Throws ArgumentError if it has no link; the next, too.
   void update_link(std::int64_t id, const SE3& T_from_this);
@@ -46,7 +52,7 @@ class KeyframeChain {
   bool contains(std::int64_t id) const { return keyframes_.count(id) != 0; }
   /// Whether the keyframe does not begin a run.
   bool has_odometry(std::int64_t id) const;
-  /// Motion along the links between two keyframes of one run.
+  /// Motion along the links between two keyframes, which must be of one run.
   SE3 T_a_b(std::int64_t a, std::int64_t b) const;
   /// The same with the length of the path; nothing for keyframes of two runs or unknown ones.
   std::optional<TrackedMotion> odometry(std::int64_t a, std::int64_t b) const;
@@ -56,6 +62,7 @@ class KeyframeChain {
   bool all_scales_known() const;
 
  private:
+  void insert(std::int64_t id, const std::optional<KeyframeLink>& link, int run);
   void chain_up(std::int64_t first);
 
   std::map<std::int64_t, Keyframe> keyframes_;

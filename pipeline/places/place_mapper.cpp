@@ -51,7 +51,7 @@ void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
   const bool were_known = chain_.all_scales_known();
   chain_.add(id, link, scale_known);
   changed(id);
-  if (chain_.all_scales_known() != were_known) unpublished_from_ = kAll;  // now over Sim(3)
+  if (chain_.all_scales_known() != were_known) unpublished_from_ = kBeforeAll;  // now over Sim(3)
   if (chain_.has_odometry(id) &&
       in_reach_of_part(chain_, partition_, loops_, options_, id, median_depth_m)) {
     partition_.join(id, partition_.part_of(link->from));
@@ -117,7 +117,7 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
     loop = rescaled_loop(loop, chain_.at(loop.match).run == run, chain_.at(loop.query).run == run,
                          factor);
   optimizer_.reset();  // its lengths are of another scale
-  unpublished_from_ = kAll;
+  unpublished_from_ = kBeforeAll;
 }
 
 std::vector<PlaceConstraint> PlaceMapper::constraints(std::int64_t since) const {
@@ -136,9 +136,9 @@ IncrementalStep PlaceMapper::update_optimizer() {
     const Sim3& S = place.S_map_place;
     nodes.push_back({number, kind == PoseKind::kSim3 ? Pose(S) : Pose(rigid_part(S)), false});
   }
-  const IncrementalStep step = begin ? optimizer_.begin(nodes, constraints(kAll))
+  const IncrementalStep step = begin ? optimizer_.begin(nodes, constraints(kBeforeAll))
                                      : optimizer_.follow(nodes, constraints(unoptimized_from_));
-  unoptimized_from_ = kNone;
+  unoptimized_from_ = kAfterAll;
   return step;
 }
 
@@ -230,7 +230,7 @@ std::vector<Place> PlaceMapper::places() const { return partition_.graph_places(
 PlaceGraph PlaceMapper::place_graph() const {
   PlaceGraph graph;
   graph.places = places();
-  for (const PlaceConstraint& constraint : constraints(kAll))
+  for (const PlaceConstraint& constraint : constraints(kBeforeAll))
     if (constraint.measured) graph.constraints.push_back(*constraint.measured);
   return graph;
 }
@@ -240,7 +240,7 @@ std::vector<MapChanges::ConstraintChange> PlaceMapper::take_constraint_changes()
   for (const PlaceConstraint& constraint : constraints(unpublished_from_))
     changes.push_back(
         {static_cast<int>(constraint.key.first), constraint.key.second, constraint.measured});
-  unpublished_from_ = kNone;
+  unpublished_from_ = kAfterAll;
   return changes;
 }
 

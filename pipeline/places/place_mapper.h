@@ -5,8 +5,6 @@
 #include <placegraph/pipeline/places/place_options.h>
 #include <placegraph/pipeline/places/place_partition.h>
 
-#include <limits>
-
 namespace placegraph {
 
 /// Gathers keyframes into topological places, keeps what is known between them, and moves the
@@ -77,9 +75,6 @@ class PlaceMapper {
   PlaceHistory history() const;
 
  private:
-  static constexpr std::int64_t kAll = std::numeric_limits<std::int64_t>::min();
-  static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
-
   void changed(std::int64_t keyframe);
   std::vector<PlaceConstraint> constraints(std::int64_t since) const;
   IncrementalStep update_optimizer();
@@ -96,7 +91,7 @@ class PlaceMapper {
   std::size_t judged_loops_ = 0;  // how many there were when mergers were last judged
   // Constraints that hang on earlier keyframes are as the optimizer, or the last caller of
   // take_constraint_changes(), has them.
-  std::int64_t unoptimized_from_ = kAll, unpublished_from_ = kAll;
+  std::int64_t unoptimized_from_ = kBeforeAll, unpublished_from_ = kBeforeAll;
 };
 
 }  // namespace placegraph

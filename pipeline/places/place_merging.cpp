@@ -105,7 +105,7 @@ MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition&
   MergerErrors result{
       std::vector<double>(merged.size(), 0), std::vector<int>(merged.size(), 0), {}};
   const bool all_scales_known = chain.all_scales_known();
-  for (const PlaceEdge& edge : link_edges(chain, partition, 0)) {
+  for (const PlaceEdge& edge : link_edges(chain, partition, kBeforeAll)) {
     const std::int64_t from = partition.parts().at(edge.from_part).place,
                        to = partition.parts().at(edge.to_part).place;
     if (from == to || edge.source != ConstraintSource::kOdometry) continue;

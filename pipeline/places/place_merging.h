@@ -4,7 +4,6 @@
 #include <placegraph/pipeline/places/place_partition.h>
 
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace placegraph {
@@ -19,7 +18,7 @@ struct PlaceMerger {
 using PlaceCovariance = std::function<Matrix7d(std::int64_t from, std::int64_t to)>;
 
 /// As `first_open`: no keyframe is being refined any more.
-inline constexpr std::int64_t kNoneOpen = std::numeric_limits<std::int64_t>::max();
+inline constexpr std::int64_t kNoneOpen = kAfterAll;
 
 /// The places that may be merged, each in one merger at most, as a merger changes what is known of
 /// its place. Candidates are the places at the two ends of a loop that the map agrees with, and

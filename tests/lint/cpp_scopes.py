@@ -1,8 +1,8 @@
 """Finds the classes and functions of a C++ source: what they are called and which lines they take.
 
 A scanner of braces and no parser: what stands before a brace, since the last ';', '{' or '}' of the
-same scope, tells whether a namespace, a class, an enumeration or a function begins there. Sources
-must be laid out so that braces balance in every branch of the preprocessor.
+same scope, tells whether a namespace, a class, an enumeration or a function begins there. Macros are
+not looked into; braces must balance with all branches of the preprocessor in place.
 """
 import re
 from typing import NamedTuple
@@ -13,8 +13,10 @@ CLASS = re.compile(r"\b(?:class|struct|union)\s+(?:\[\[[^\]]*\]\]\s*|alignas\([^
 # A member's initializer: "A::A() : a(1), b" before the brace of b's value.
 INITIALIZER = re.compile(r"\)\s*(?:noexcept\s*)?:(?!:).*[\w>]\s*$", re.S)
 NAMESPACE = re.compile(r"\bnamespace\b|\bextern\s+\"\"")
-QUALIFIED = re.compile(r"([A-Za-z_]\w*)\s*(?:<[^<>()]*>)?\s*::\s*(~?[A-Za-z_]\w*|operator\b[^(]*)\s*\($")
-PLAIN = re.compile(r"(~?[A-Za-z_]\w*|operator\b[^(]*)\s*\($")
+OPERATOR = r"operator\s*(?:\(\s*\)|[^\s\w(]+|[\w:]+[\s\w:<>*&,]*)"
+NAME = rf"({OPERATOR}|~?[A-Za-z_]\w*)\s*\($"
+QUALIFIED = re.compile(rf"([A-Za-z_]\w*)\s*(?:<(?:[^<>()]|<[^<>()]*>)*>)?\s*::\s*{NAME}")
+PLAIN = re.compile(NAME)
 
 
 class Scope(NamedTuple):
@@ -34,8 +36,8 @@ def without_literals(text):
     """The text with the same lines, without comments, preprocessor lines and contents of literals."""
     text = re.sub(r'R"([^(\s]*)\((?:.*?)\)\1"', lambda m: '""' + "\n" * m.group(0).count("\n"), text,
                   flags=re.S)
+    text = re.sub(r"\b\d[\w.]*(?:'[0-9a-fA-F]+)+", lambda m: m.group(0).replace("'", ""), text)
     text = without_comments(text)
-    text = re.sub(r"(?<=[0-9a-fA-F])'(?=[0-9a-fA-F])", "", text)
     text = re.sub(r'"(?:\\.|[^"\\\n])*"', '""', text)
     text = re.sub(r"'(?:\\.|[^'\\\n])*'", "''", text)
     return re.sub(r"^[ \t]*#(?:[^\n\\]|\\.)*(?:\\\n[^\n]*)*",
@@ -55,8 +57,17 @@ def _without_templates(head):
         head = head[:match.start()] + head[at:]
 
 
+def _assigns(head):
+    """Whether a value is given, which an operator's name is not."""
+    head = re.sub(r"operator\s*[^\s\w(]+", "operator", head)
+    return re.search(r"(?<![=!<>])=(?!=)", head) is not None
+
+
 def _first_parenthesis(head):
     """Index of the first '(' that opens a list of parameters, or -1."""
+    call = re.search(r"\boperator\s*\(\s*\)\s*\(", head)
+    if call:
+        return call.end() - 1
     for match in re.finditer(r"\(", head):
         before = head[:match.start()].rstrip()
         if not re.search(r"\b(?:alignas|decltype|noexcept|requires|__attribute__)$", before):
@@ -66,7 +77,9 @@ def _first_parenthesis(head):
 
 def classify(head):
     """(kind, name, owner) of the scope that the head opens; kind "other" for blocks and values."""
-    head = _without_templates(head).strip()
+    head = _without_templates(head.replace("<<", "  ")).strip()
+    if re.fullmatch(r"(?:static\s+|const\s+)*(?:class|struct|union)", head):
+        return "class", "(unnamed)", ""
     if NAMESPACE.search(head):
         return "namespace", "", ""
     at = _first_parenthesis(head)
@@ -76,7 +89,10 @@ def classify(head):
     if found and (at < 0 or not re.search(r"[\w&*>]\s+[\w:~]+\s*$", head[found.end():at])):
         if "=" not in head:
             return "class", found.group(1).rsplit("::", 1)[-1], ""
-    if at < 0 or re.search(r"(?<![=!<>])=(?!=)", head[:at].replace("operator=", "")):
+    lambda_head = re.search(r"([A-Za-z_]\w*)\s*=\s*\[[^\[\]]*\]\s*(?:\(.*)?$", head, re.S)
+    if lambda_head and "operator" not in head:
+        return "function", lambda_head.group(1), ""
+    if at < 0 or _assigns(head[:at]):
         return "other", "", ""
     before = head[:at + 1]
     if INITIALIZER.search(head):
@@ -89,7 +105,9 @@ def classify(head):
 
 
 def scopes_of(text):
-    """The classes and functions of a source text, nested classes and their functions too."""
+    """The classes and functions of a source text, nested classes and their functions too. A lambda
+    that is a variable of a namespace or class counts as a function, those inside of functions as
+    part of these. Throws ValueError, with the line first, where braces do not balance."""
     text = without_literals(text)
     found, open_scopes = [], []
     line, head, head_line, parentheses = 1, "", 0, 0
@@ -105,11 +123,12 @@ def scopes_of(text):
                 open_scopes.append((*kind, head_line or line, line, "", 0))
             head, head_line, parentheses = "", 0, 0
         elif character == "}":
-            if open_scopes:
-                kind, name, owner, first, body, before, outer = open_scopes.pop()
-                if kind in ("class", "function"):
-                    found.append(Scope(kind, name, owner, first, line, body))
-                head, head_line, parentheses = before and before + "{}", first if before else 0, outer
+            if not open_scopes:
+                raise ValueError(f"{line}: a brace is closed that was not opened")
+            kind, name, owner, first, body, before, outer = open_scopes.pop()
+            if kind in ("class", "function"):
+                found.append(Scope(kind, name, owner, first, line, body))
+            head, head_line, parentheses = before and before + "{}", first if before else 0, outer
         elif inside:
             continue
         elif character == ";" and not parentheses:
@@ -121,4 +140,6 @@ def scopes_of(text):
                 head, head_line = "", 0
             elif not head_line and not character.isspace():
                 head_line = line
+    if open_scopes:
+        raise ValueError(f"{open_scopes[-1][4]}: a brace is not closed")
     return sorted(found, key=lambda scope: (scope.first, scope.last))

@@ -27,6 +27,7 @@ CLEAN = {
                    "void outer() {\n  auto f = [](int x) {\n    return x;\n  };\n}\n"
                    "bool operator==(const Inner& a, const Inner& b) {\n  return true;\n}\n"
                    "const char* kRaw = R\"sql(create { table)sql\";\n",
+    "io/digits.cpp": "const int kMany = 1'000;  // it's {\nint f() {\n  return kMany;\n}\n",
     # A class of the source's own is no slice, and neither is a nested class of its header.
     "pipeline/run.cpp": "struct Runner {\n  void go();\n};\nvoid Runner::go() {\n}\n",
     "pipeline/driver.h": "class Driver {\n  struct Part;\n};\nstruct Driver::Part {\n  void go();\n};\n",
@@ -42,6 +43,23 @@ PLANTED = [
      "io/constructor.cpp:4: function A has 63 lines"),
     ("backend/wide.h", "template <int D>\nclass Wide final : public Base<D> {\n" + "  int a;\n" * 148 + "};\n",
      "backend/wide.h:1: class Wide has 151 lines, 150 are allowed"),
+    ("graph/behind.cpp", "void g() { const int k = 1'000; }  // it's {\n" + function("void h()", 61),
+     "graph/behind.cpp:2: function h has 61 lines"),
+    ("graph/sums.cpp", "struct S {\n  int a;\n};\n" + function("S& operator+=(S& s, int a)", 61),
+     "graph/sums.cpp:4: function operator+= has 61 lines"),
+    ("graph/call.h", "struct F {\n" + function("  int operator()(int a) const", 61) + "};\n",
+     "graph/call.h:2: function operator() has 61 lines"),
+    ("graph/shift.h", function("template <int N = 1 << 3>\nvoid shift()", 61),
+     "graph/shift.h:1: function shift has 62 lines"),
+    ("graph/lambda.cpp", function("const auto kRule = [](int a)", 61)[:-1] + ";\n",
+     "graph/lambda.cpp:1: function kRule has 61 lines"),
+    ("graph/unnamed.h", "struct {\n" + "  int a;\n" * 149 + "} all;\n",
+     "graph/unnamed.h:1: class (unnamed) has 151 lines"),
+    ("graph/many.h", "// a line\n" * 401, "graph/many.h: 401 lines, 400 are allowed"),
+    ("graph/open.cpp", "void f() {\n", "graph/open.cpp:1: a brace is not closed"),
+    ("graph/closed.cpp", "void f() {\n}\n}\n", "graph/closed.cpp:3: a brace is closed"),
+    ("graph/chain_views.h", '#include "graph/chain.h"\ninline void Chain::add(int link) {\n}\n',
+     "graph/chain_views.h:2: defines members of Chain, which chain_views.h does not declare"),
     ("graph/chain_views.cpp", '#include "graph/chain.h"\nvoid Chain::add(int link) {\n}\n',
      "graph/chain_views.cpp:2: defines members of Chain, which chain_views.h does not declare"),
 ]

@@ -67,7 +67,7 @@ TEST(LinePrediction, ALineOfTheWindowIsExpectedWhereItIsSeenNext) {
   window.add_line(7, line_through(kTop, end));
   const std::map<std::int64_t, double> drift_px = {{7, 3}};  // does not count: its place is known
   const auto expected = predict_segments(line_camera(), {track_of(7, SE3(), kTop, end)}, window,
-                                         {SE3(), kMoved, 20, drift_px});
+                                         {SE3(), kMoved, 20}, drift_px);
   ASSERT_EQ(expected.size(), 1u);
   EXPECT_NEAR((expected[0].start - project(kMoved, kTop)).norm(), 0, 1e-9);
   EXPECT_NEAR((expected[0].end - project(kMoved, end)).norm(), 0, 1e-9);
@@ -82,7 +82,7 @@ TEST(LinePrediction, OtherTracksLieAsDeepAsTheLinesBesideThem) {
   const auto expected = predict_segments(
       line_camera(),
       {track_of(7, SE3(), kTop, kBottom), track_of(8, SE3(), kTop + beside, kBottom + beside)},
-      window, {SE3(), kMoved, 20, drift_px});
+      window, {SE3(), kMoved, 20}, drift_px);
   ASSERT_EQ(expected.size(), 2u);
   EXPECT_NEAR((expected[1].start - project(kMoved, kTop + beside)).norm(), 0, 1e-6);
 }
@@ -92,10 +92,10 @@ TEST(LinePrediction, WithoutLinesBesideThemTracksLieAtTheDepthGivenAndDriftOn) {
   window.add_keyframe(0, SE3());
   const LineTrack track = track_of(8, SE3(), kTop, kBottom);
   const std::map<std::int64_t, double> still, drifting = {{8, 2.5}};
-  const auto at_4 = predict_segments(line_camera(), {track}, window, {SE3(), kMoved, 4, still});
+  const auto at_4 = predict_segments(line_camera(), {track}, window, {SE3(), kMoved, 4}, still);
   EXPECT_NEAR((at_4[0].start - project(kMoved, kTop)).norm(), 0, 1e-9);
   const auto drifted =
-      predict_segments(line_camera(), {track}, window, {SE3(), kMoved, 4, drifting});
+      predict_segments(line_camera(), {track}, window, {SE3(), kMoved, 4}, drifting);
   EXPECT_NEAR((drifted[0].start - at_4[0].start - 2.5 * at_4[0].normal()).norm(), 0, 1e-9);
   EXPECT_NEAR((drifted[0].end - at_4[0].end - 2.5 * at_4[0].normal()).norm(), 0, 1e-9);
 }
