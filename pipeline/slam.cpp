@@ -314,7 +314,7 @@ void Slam::Impl::close_loops(FrameResult& result) {
   const KnownMotions motions{
       [&](std::int64_t a, std::int64_t b) { return mapper.odometry(a, b); },
       [&](std::int64_t a, std::int64_t b) { return mapper.predicted(a, b); },
-      [&](std::int64_t a, std::int64_t b) { return mapper.units_differ(a, b); }};
+      [&](std::int64_t a, std::int64_t b) { return mapper.scale_unknown(a, b); }};
   const auto loops = [&] {
     const auto span = times.measure("loop closure");
     return closer.find_loops(motions, odometry.map().median_depth());

@@ -187,7 +187,8 @@ TrainSceneResult train_scene(const TrainSceneArguments& a, SceneModel::Kind kind
   SceneModel model = blank_model(kind, set.classes, old);
   model.origin = origin_of(a, pictures.learned.size(), old);
   const Stopwatch watch;
-  const std::vector<LessonPicture> lesson = make_lesson(set, pictures.learned, model, a.options);
+  const std::vector<LessonPicture> lesson =
+      lesson_pictures(set, pictures.learned, model, a.options);
   std::vector<SceneExample> examples = make_examples(lesson, model, a.options);
   model = train_scene_model(
       std::move(model), std::move(examples), a.options.training, a.options.threads,

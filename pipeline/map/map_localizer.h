@@ -2,7 +2,7 @@
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/recognition_odds.h>
 #include <placegraph/io/map/map_database.h>
-#include <placegraph/pipeline/places/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 
 #include <set>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/place_history.h>
-#include <placegraph/pipeline/places/keyframe_motion.h>
+#include <placegraph/pipeline/loops/keyframe_motion.h>
 
 #include <cstdint>
 #include <limits>

@@ -1,8 +1,10 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/places/bounded_covariance.h>
+#include <placegraph/pipeline/places/place_components.h>
 #include <placegraph/pipeline/places/place_constraints.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 #include <placegraph/pipeline/places/place_merging.h>
+#include <placegraph/pipeline/places/place_reach.h>
 #include <placegraph/pipeline/places/rescaling.h>
 #include <placegraph/pipeline/places/shortest_path.h>
 
@@ -198,7 +200,7 @@ IncrementalStep PlaceMapper::finish() {
   return step;
 }
 
-bool PlaceMapper::units_differ(std::int64_t a, std::int64_t b) const {
+bool PlaceMapper::scale_unknown(std::int64_t a, std::int64_t b) const {
   return !chain_.scale_known(a) || !chain_.scale_known(b);
 }
 

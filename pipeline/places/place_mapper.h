@@ -60,7 +60,7 @@ class PlaceMapper {
   bool is_anchor(std::int64_t keyframe) const { return partition_.is_anchor(keyframe); }
   int component_of(std::int64_t keyframe) const { return partition_.state_of(keyframe).component; }
   /// Whether the scale of one of the two keyframes is not known.
-  bool units_differ(std::int64_t a, std::int64_t b) const;
+  bool scale_unknown(std::int64_t a, std::int64_t b) const;
   bool metric() const;  ///< whether the first component's scale is known
   /// Motion between two keyframes of one run by the links alone; nothing otherwise.
   std::optional<TrackedMotion> odometry(std::int64_t from, std::int64_t to) const;

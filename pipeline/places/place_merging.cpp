@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/places/place_constraints.h>
 #include <placegraph/pipeline/places/place_merging.h>
+#include <placegraph/pipeline/places/place_reach.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

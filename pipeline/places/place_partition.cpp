@@ -1,4 +1,3 @@
-#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/places/place_partition.h>
 #include <placegraph/pipeline/places/rescaling.h>
@@ -212,98 +211,6 @@ std::vector<Place> PlacePartition::graph_places(const KeyframeChain& chain) cons
     places[index.at(place_of(keyframe))].members.push_back({keyframe, rigid_part(S), S.scale()});
   }
   return places;
-}
-
-std::optional<std::int64_t> earlier_place_in_reach(const KeyframeChain& chain,
-                                                   const PlacePartition& partition,
-                                                   const PlaceOptions& options,
-                                                   std::int64_t keyframe, const Sim3& S_map_here,
-                                                   double reach) {
-  const PlacePartition::PlaceState& own = partition.state_of(keyframe);
-  std::optional<std::int64_t> nearest;
-  double least = reach;
-  for (const auto& [number, place] : partition.places()) {
-    if (place.anchor_keyframe >= own.anchor_keyframe || place.component != own.component) continue;
-    const double place_reach = place.reach * place.S_map_place.scale();
-    const double distance = (place.S_map_place.translation() - S_map_here.translation()).norm();
-    if (distance >= std::min(least, place_reach)) continue;
-    const SO3 rotation = place.S_map_place.rotation().inverse() * S_map_here.rotation();
-    if (rotation.log().norm() >= deg_to_rad(options.max_angle_deg)) continue;
-    const auto path = chain.odometry(place.anchor_keyframe, keyframe);
-    if (path && path->path_length * own.S_map_place.scale() < 2 * std::max(reach, place_reach))
-      continue;
-    least = distance;
-    nearest = number;
-  }
-  return nearest;
-}
-
-bool in_reach_of_part(const KeyframeChain& chain, const PlacePartition& partition,
-                      const std::vector<Loop>& loops, const PlaceOptions& options,
-                      std::int64_t keyframe, double median_depth) {
-  const std::int64_t anchor = partition.part_of(chain.at(keyframe).link->from);
-  const Sim3 S_place_this =
-      partition.parts().at(anchor).S_place_part * Sim3(chain.T_a_b(anchor, keyframe));
-  if (S_place_this.translation().norm() >=
-          options.max_distance * median_depth * S_place_this.scale() ||
-      S_place_this.rotation().log().norm() >= deg_to_rad(options.max_angle_deg))
-    return false;
-  if (loops.empty()) return true;
-  const PlacePartition::PlaceState& place = partition.state_of(anchor);
-  const double reach = place.reach * place.S_map_place.scale();
-  const auto earlier_place = [&](const Sim3& S_map_here) {
-    return earlier_place_in_reach(chain, partition, options, anchor, S_map_here, reach);
-  };
-  return earlier_place(place.S_map_place * S_place_this) ==
-         earlier_place(partition.S_map_keyframe(chain, anchor));
-}
-
-void join_components(const KeyframeChain& chain, const std::vector<Loop>& loops,
-                     PlacePartition& partition) {
-  for (const Loop& loop : loops) {
-    const int match = partition.state_of(loop.match).component,
-              query = partition.state_of(loop.query).component;
-    if (match == query) continue;
-    const Sim3 S_map_match = partition.S_map_keyframe(chain, loop.match),
-               S_map_query = partition.S_map_keyframe(chain, loop.query);
-    const Sim3 S_new_old =
-        query > match ? S_map_match * loop.S_match_query() * S_map_query.inverse()
-                      : S_map_query * loop.S_match_query().inverse() * S_map_match.inverse();
-    partition.move_component(std::max(match, query), std::min(match, query), S_new_old);
-  }
-}
-
-void normalize_scales(const KeyframeChain& chain, PlacePartition& partition) {
-  if (chain.all_scales_known()) {
-    partition.drop_scales();
-    return;
-  }
-  struct ComponentScale {
-    Eigen::Vector3d centre;
-    double sum_of_logs = 0;
-    int known = 0;
-    bool first_known = false;
-  };
-  std::map<int, ComponentScale> scales;
-  for (const auto& [number, place] : partition.places()) {
-    const bool known = chain.scale_known(place.anchor_keyframe);
-    const auto [scale, first] =
-        scales.try_emplace(place.component, ComponentScale{place.S_map_place.translation()});
-    if (first) scale->second.first_known = known;
-    // The first place, which the optimizer holds, tells the scale alone if its own is known.
-    if (!known || (!first && scale->second.first_known)) continue;
-    scale->second.sum_of_logs += std::log(place.S_map_place.scale());
-    ++scale->second.known;
-  }
-  for (const auto& [number, place] : partition.places()) {
-    const ComponentScale& scale = scales.at(place.component);
-    if (scale.known == 0) continue;
-    const double factor = std::exp(-scale.sum_of_logs / scale.known);
-    const Sim3& S = place.S_map_place;
-    const Eigen::Vector3d& centre = scale.centre;
-    partition.set_pose(number, Sim3(S.rotation(), centre + factor * (S.translation() - centre),
-                                    factor * S.scale()));
-  }
 }
 
 }  // namespace placegraph

@@ -1,9 +1,7 @@
 #pragma once
-#include <placegraph/graph/loop.h>
 #include <placegraph/graph/place_graph.h>
 #include <placegraph/graph/place_history.h>
 #include <placegraph/pipeline/places/keyframe_chain.h>
-#include <placegraph/pipeline/places/place_options.h>
 
 #include <map>
 #include <optional>
@@ -91,33 +89,5 @@ class PlacePartition {
   std::set<std::pair<std::int64_t, std::int64_t>> parted_;  // anchors that are not one place
   std::int64_t founded_ = 0;                                // places so far
 };
-
-/// The earlier place that a keyframe at `S_map_here` stands in by the map: the nearest of its
-/// component within `reach` [in the map's scale] and within its own reach that looks the same way.
-/// Places that odometry reaches from `keyframe` along a short path do not count: they are
-/// neighbours, no places that were visited before.
-std::optional<std::int64_t> earlier_place_in_reach(const KeyframeChain& chain,
-                                                   const PlacePartition& partition,
-                                                   const PlaceOptions& options,
-                                                   std::int64_t keyframe, const Sim3& S_map_here,
-                                                   double reach);
-
-/// Whether `keyframe`, the newest of the chain and not yet of the partition, belongs to the part of
-/// its predecessor: it is within reach of the anchor and, once loops have led back to known places,
-/// in the same earlier place as the anchor. So where a path is travelled again, its parts end where
-/// those of the first time did.
-bool in_reach_of_part(const KeyframeChain& chain, const PlacePartition& partition,
-                      const std::vector<Loop>& loops, const PlaceOptions& options,
-                      std::int64_t keyframe, double median_depth);
-
-/// Makes one component of those that a loop connects: the younger one moves as a whole to where the
-/// loop says, and takes the scale of the older one.
-void join_components(const KeyframeChain& chain, const std::vector<Loop>& loops,
-                     PlacePartition& partition);
-
-/// Gives a component in which the scale of a place is known that scale: its lengths become metres.
-/// Its first place stays where it is. Where the scales of all runs are known, no place has a scale
-/// of its own.
-void normalize_scales(const KeyframeChain& chain, PlacePartition& partition);
 
 }  // namespace placegraph

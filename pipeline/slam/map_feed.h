@@ -2,7 +2,7 @@
 #include <placegraph/frontend/places/place_view.h>
 #include <placegraph/graph/map_changes.h>
 #include <placegraph/pipeline/odometry/odometry.h>
-#include <placegraph/pipeline/places/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 #include <placegraph/pipeline/slam/environment_monitor.h>
 #include <placegraph/pipeline/slam/trajectory_recorder.h>

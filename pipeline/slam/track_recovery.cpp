@@ -15,7 +15,7 @@ void TrackRecovery::use_motion(std::shared_ptr<const MeasuredMotion> motion_cam)
 /// By other sensors since the last keyframe, if both are in metres.
 std::optional<Loop> TrackRecovery::by_motion(const Frame& frame, const KnownMap& known) const {
   const auto last = known.recorder.newest_keyframe();
-  if (!motion_ || !last || known.mapper.units_differ(*last, *last)) return std::nullopt;
+  if (!motion_ || !last || known.mapper.scale_unknown(*last, *last)) return std::nullopt;
   const auto since = motion_->between(known.recorder.stamp_ns_of(*last), frame.stamp_ns);
   if (!since) return std::nullopt;
   Loop loop{-1, *last, since->T_a_b};

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/odometry/odometry.h>
-#include <placegraph/pipeline/places/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 #include <placegraph/pipeline/slam/trajectory_recorder.h>
 

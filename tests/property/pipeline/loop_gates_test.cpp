@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/places/loop_gates.h>
+#include <placegraph/pipeline/loops/loop_gates.h>
 
 #include <array>
 

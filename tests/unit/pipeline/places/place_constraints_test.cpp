@@ -160,7 +160,7 @@ TEST(PlaceConstraints, BetweenPlacesTheCovariancesOfTheirPartsAreAdded) {
   const Sim3 S_1_4(pose({0, std::numbers::pi / 2, 0}, {2, 0, 0}));
   line.partition.set_pose(2, S_1_4);
   Matrix7d of_part = Matrix7d::Zero();
-  of_part(2, 2) = 0.5;  // along the part's z, which is the place's x
+  of_part(2, 2) = 0.5;                  // along the part's z, which is the place's x
   line.partition.merge(1, 2, of_part);  // the place of part 4 is the younger one: in its frame
   ASSERT_LT((line.partition.parts().at(4).covariance - of_part).norm(), kRounding);
   PlaceEdge edge;

@@ -1,4 +1,4 @@
-#include "apps/train/scene_lesson.h"
+#include "apps/train/lesson_pictures.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
@@ -26,18 +26,18 @@ class SceneLesson : public testing::Test {
   std::vector<int> blocks() const {
     std::vector<int> blocks;
     for (const SceneExample& example :
-         make_examples(make_lesson(set, set.train, model, options), model, options))
+         make_examples(lesson_pictures(set, set.train, model, options), model, options))
       blocks.push_back(example.block);
     return blocks;
   }
   test::TemporaryFolder folder;
   LabelledSet set;
   SceneModel model;
-  SceneLessonOptions options;
+  LessonOptions options;
 };
 
 TEST_F(SceneLesson, NumbersTheLabelsByTheClassesOfTheModel) {
-  const auto lesson = make_lesson(set, set.train, model, options);
+  const auto lesson = lesson_pictures(set, set.train, model, options);
   ASSERT_EQ(lesson.size(), 5u);
   EXPECT_EQ(lesson[0].sequence, "one");
   const auto [picture, labels] = lesson[0].read();
@@ -53,7 +53,7 @@ TEST_F(SceneLesson, NumbersTheLabelsByTheClassesOfTheModel) {
 TEST_F(SceneLesson, RenderedStreetsFollowThePhotographs) {
   options.rendered = {3};
   options.rendered_frames = 2;
-  const auto lesson = make_lesson(set, {set.train[0]}, model, options);
+  const auto lesson = lesson_pictures(set, {set.train[0]}, model, options);
   ASSERT_EQ(lesson.size(), 3u);
   EXPECT_EQ(lesson[1].sequence, "town-loop 3");
   const auto [picture, labels] = lesson[2].read();
@@ -76,7 +76,7 @@ TEST_F(SceneLesson, ABlockIsSoManyPicturesOfOneDrive) {
 
 TEST_F(SceneLesson, NamesTheFileThatCannotBeRead) {
   folder.write("set/train/images/one_2.png", "no image");
-  const auto lesson = make_lesson(set, set.train, model, options);
+  const auto lesson = lesson_pictures(set, set.train, model, options);
   EXPECT_THAT(message_of([&] { make_examples(lesson, model, options); }), HasSubstr("one_2.png"));
 }
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/places/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -60,7 +60,7 @@ class LoopCloserOnAStreet : public testing::Test {
   /// The loops after both drives. `drift` is how far off odometry between the drives is; without it
   /// they are two runs of tracking, which no odometry joins.
   std::vector<Loop> drive(LoopCloser& closer, double unit_m, const std::optional<SE3>& drift,
-                          bool units_differ) {
+                          bool scale_differs) {
     const auto odometry = [&](std::int64_t a, std::int64_t b) -> std::optional<TrackedMotion> {
       const bool across = (a < kFirst) != (b < kFirst);
       if (across && !drift) return std::nullopt;
@@ -74,7 +74,7 @@ class LoopCloserOnAStreet : public testing::Test {
       const bool begins = k == 0 || k == kFirst;
       const double unit = k < kFirst ? 1 : unit_m;
       closer.add_view(k, frame(k), begins ? std::nullopt : std::optional(T_previous_this(k, unit)));
-      const auto differ = [&](std::int64_t, std::int64_t) { return units_differ; };
+      const auto differ = [&](std::int64_t, std::int64_t) { return scale_differs; };
       const auto found = closer.find_loops({odometry, {}, differ}, kDepth_m / unit);
       loops.insert(loops.end(), found.begin(), found.end());
     }

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/places/loop_options.h>
+#include <placegraph/pipeline/loops/loop_options.h>
 
 namespace placegraph {
 

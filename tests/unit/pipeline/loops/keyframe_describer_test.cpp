@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/places/keyframe_describer.h>
+#include <placegraph/pipeline/loops/keyframe_describer.h>
 
 #include "tests/support/scenes/street.h"
 

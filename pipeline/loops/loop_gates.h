@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/loop.h>
-#include <placegraph/pipeline/places/keyframe_motion.h>
-#include <placegraph/pipeline/places/loop_options.h>
+#include <placegraph/pipeline/loops/keyframe_motion.h>
+#include <placegraph/pipeline/loops/loop_options.h>
 
 namespace placegraph {
 

@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/places/loop_closer.h>
-#include <placegraph/pipeline/places/loop_gates.h>
-#include <placegraph/pipeline/places/loop_probability.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
+#include <placegraph/pipeline/loops/loop_gates.h>
+#include <placegraph/pipeline/loops/loop_probability.h>
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <placegraph/graph/loop.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/places/keyframe_describer.h>
-#include <placegraph/pipeline/places/keyframe_motion.h>
-#include <placegraph/pipeline/places/loop_options.h>
+#include <placegraph/pipeline/loops/keyframe_describer.h>
+#include <placegraph/pipeline/loops/keyframe_motion.h>
+#include <placegraph/pipeline/loops/loop_options.h>
 
 #include <deque>
 

@@ -1,4 +1,4 @@
-#include "apps/train/scene_lesson.h"
+#include "apps/train/lesson_pictures.h"
 
 #include <placegraph/frontend/labels/scene_variants.h>
 #include <placegraph/graph/core/parallel.h>
@@ -15,7 +15,7 @@ namespace {
 
 /// Which of them are alike: so many of a drive one after the other (`block`), and never of two
 /// sequences.
-std::vector<int> blocks_of(const std::vector<LessonPicture>& lesson, const SceneLessonOptions& a) {
+std::vector<int> blocks_of(const std::vector<LessonPicture>& lesson, const LessonOptions& a) {
   std::vector<int> block;
   int in_block = 0;
   for (std::size_t i = 0; i < lesson.size(); ++i) {
@@ -34,9 +34,9 @@ Image colour_of(const std::string& path) {
   return read.colour.empty() ? read.grey : read.colour;
 }
 
-std::vector<LessonPicture> make_lesson(const LabelledSet& set,
-                                       const std::vector<LabelledPicture>& pictures,
-                                       const SceneModel& model, const SceneLessonOptions& a) {
+std::vector<LessonPicture> lesson_pictures(const LabelledSet& set,
+                                           const std::vector<LabelledPicture>& pictures,
+                                           const SceneModel& model, const LessonOptions& a) {
   const bool surfaces = model.kind == SceneModel::Kind::kSurfaces;
   const auto& names = model.classes;
   std::vector<LessonPicture> lesson;
@@ -57,7 +57,7 @@ std::vector<LessonPicture> make_lesson(const LabelledSet& set,
 }
 
 std::vector<SceneExample> make_examples(const std::vector<LessonPicture>& lesson,
-                                        const SceneModel& model, const SceneLessonOptions& a) {
+                                        const SceneModel& model, const LessonOptions& a) {
   const int count = static_cast<int>(lesson.size()), variants = a.training.variants;
   const std::vector<int> block = blocks_of(lesson, a);
   std::vector<SceneExample> examples(static_cast<std::size_t>(count * variants));

@@ -1,7 +1,7 @@
 #include <placegraph/frontend/features/depth_lookup.h>
 #include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/places/keyframe_describer.h>
+#include <placegraph/pipeline/loops/keyframe_describer.h>
 
 #include <algorithm>
 

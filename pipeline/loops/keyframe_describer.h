@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/measurements/frame.h>
-#include <placegraph/pipeline/places/loop_options.h>
+#include <placegraph/pipeline/loops/loop_options.h>
 
 #include <optional>
 #include <vector>

@@ -13,7 +13,7 @@
 namespace placegraph::apps {
 
 /// Which pictures a model of scenes is learned from, and how.
-struct SceneLessonOptions {
+struct LessonOptions {
   std::vector<std::uint64_t> rendered;  ///< seeds of rendered towns; those even have bad light
   int rendered_frames = 25;             ///< views of each
   int every = 1;                        ///< every n-th photograph alone
@@ -32,13 +32,13 @@ struct LessonPicture {
 Image colour_of(const std::string& path);
 
 /// Photographs of the set, then rendered streets. They refer to `set` and `model`.
-std::vector<LessonPicture> make_lesson(const LabelledSet& set,
-                                       const std::vector<LabelledPicture>& pictures,
-                                       const SceneModel& model, const SceneLessonOptions& options);
+std::vector<LessonPicture> lesson_pictures(const LabelledSet& set,
+                                           const std::vector<LabelledPicture>& pictures,
+                                           const SceneModel& model, const LessonOptions& options);
 
 /// Cuts up every picture as often as there are variants; those of one variant follow each other.
 /// Progress goes to stderr. Throws FileError.
 std::vector<SceneExample> make_examples(const std::vector<LessonPicture>& lesson,
-                                        const SceneModel& model, const SceneLessonOptions& options);
+                                        const SceneModel& model, const LessonOptions& options);
 
 }  // namespace placegraph::apps

@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/places/place_reach.h>
+
+#include <numbers>
+
+#include "tests/unit/pipeline/places/row_of_places.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+TEST(PlaceReach, TheEarlierPlaceIsTheNearestInReachThatLooksTheSameWay) {
+  // 0 .. 3 once around a square of 5 m sides; 4 is back at 0 with an error of 1 m.
+  KeyframeChain chain;
+  PlacePartition partition;
+  const SE3 side = pose({0, std::numbers::pi / 2, 0}, {0, 0, 5});
+  SE3 T_map_this = pose({0.1, 0, 0}, {1, 1, 1});
+  for (int i = 0; i < 5; ++i, T_map_this = T_map_this * side) {
+    chain.add(i, i == 0 ? std::nullopt : std::optional(link(i - 1, side)));
+    partition.found(i, Sim3(T_map_this * pose({0, 0, 0}, {i == 4 ? 1.0 : 0, 0, 0})), 0, 3);
+  }
+  const Sim3 S_map_here = partition.state_of(4).S_map_place;
+  const auto earlier = [&](const Sim3& S, double reach) {
+    return earlier_place_in_reach(chain, partition, {}, 4, S, reach);
+  };
+  EXPECT_EQ(earlier(S_map_here, 3), 0);
+  EXPECT_FALSE(earlier(S_map_here, 0.9));
+  EXPECT_FALSE(earlier(S_map_here * Sim3(pose({0, 0.4, 0}, {0, 0, 0})), 3));  // 23 deg
+  EXPECT_EQ(earlier(S_map_here * Sim3(pose({0, 0.3, 0}, {0, 0, 0})), 3), 0);  // 17 deg
+  // A path of 20 m that leads no further than twice the reach is no way round.
+  EXPECT_FALSE(earlier(S_map_here, 10.1));
+  // No place is earlier than the first.
+  EXPECT_FALSE(
+      earlier_place_in_reach(chain, partition, {}, 0, partition.state_of(0).S_map_place, 3));
+}
+
+TEST(PlaceReach, OfTwoEarlierPlacesInReachTheNearerOneCounts) {
+  KeyframeChain chain;
+  PlacePartition partition;
+  const double x[] = {0, 1, 0.2};
+  for (int i = 0; i < 3; ++i) {  // three runs of tracking, so that no short path joins them
+    chain.add(i, std::nullopt);
+    partition.found(i, Sim3(SO3(), Eigen::Vector3d(x[i], 0, 0), 1), 0, 3);
+  }
+  EXPECT_EQ(earlier_place_in_reach(chain, partition, {}, 2, partition.state_of(2).S_map_place, 3),
+            0);
+}
+
+TEST(PlaceReach, AKeyframeWithinReachOfTheAnchorBelongsToItsPart) {
+  Row row;
+  const auto in_reach = [&](const SE3& T_4_this, double median_depth) {
+    Row other = row;
+    other.chain.add(5, link(4, T_4_this));
+    return in_reach_of_part(other.chain, other.partition, {}, {}, 5, median_depth);
+  };
+  EXPECT_TRUE(in_reach(pose({0, 0, 0}, {0, 0, 2.9}), 10));
+  EXPECT_FALSE(in_reach(pose({0, 0, 0}, {0, 0, 3.1}), 10));
+  EXPECT_FALSE(in_reach(pose({0, 0, 0}, {0, 0, 2.9}), 9));
+  EXPECT_TRUE(in_reach(pose({0, 0.34, 0}, {0, 0, 1}), 10));   // 19.5 deg
+  EXPECT_FALSE(in_reach(pose({0, 0.36, 0}, {0, 0, 1}), 10));  // 20.6 deg
+}
+
+/// Two runs, each its own component: 0 and 1, 5 m apart; 2 and 3, too.
+struct TwoComponents {
+  KeyframeChain chain;
+  PlacePartition partition;
+
+  TwoComponents(bool first_known, bool second_known) {
+    chain.add(0, std::nullopt, first_known);
+    partition.found(0, Sim3(), 0, 3);
+    chain.add(1, link(0, kLong));
+    partition.found(1, Sim3(kLong), 0, 3);
+    const SE3 T_map_2 = pose({0, 1, 0}, {50, 0, 0});
+    chain.add(2, std::nullopt, second_known);
+    partition.found(2, Sim3(T_map_2), 1, 3);
+    chain.add(3, link(2, kLong));
+    partition.found(3, Sim3(T_map_2 * kLong), 1, 3);
+  }
+  Sim3 S_map(std::int64_t keyframe) const { return partition.S_map_keyframe(chain, keyframe); }
+};
+
+}  // namespace
+}  // namespace placegraph
