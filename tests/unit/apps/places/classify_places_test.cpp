@@ -92,10 +92,14 @@ TEST_F(ClassifyPlacesCommand, RefusesToTellWhatItIsNotSureOf) {
 TEST_F(ClassifyPlacesCommand, ACueThatDoesNotCountHasNoWeight) {
   arguments.cues = {"tiny", "edges"};
   const ClassifyPlacesResult result = classify_places(arguments);
+  ASSERT_EQ(result.weights.size(), place_cues().size());
+  int counted = 0;
   for (std::size_t m = 0; m < place_cues().size(); ++m) {
     const bool counts = place_cues()[m] == "tiny" || place_cues()[m] == "edges";
-    EXPECT_TRUE(counts || result.weights[m] == 0) << place_cues()[m];
+    counted += counts;
+    EXPECT_EQ(result.weights[m] > 0, counts) << place_cues()[m] << " " << result.weights[m];
   }
+  EXPECT_EQ(counted, 2);
 }
 
 TEST_F(ClassifyPlacesCommand, NamesTheFileAndThePlaceOfWhatIsWrong) {

@@ -1,4 +1,6 @@
 #include <gtest/gtest.h>
+#include <placegraph/frontend/planes/dominant_surface.h>
+#include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/cues/surface_cue.h>
 
 #include <opencv2/core.hpp>
@@ -107,28 +109,40 @@ TEST(SurfaceCue, ASingleCameraOfKnownHeightAlignsByTheGround) {
 
 TEST(SurfaceCue, ASingleCameraLearnsHowItIsMounted) {
   // It looks up by two degrees, which nothing has told it.
-  const double pitch_rad = 0.035;
-  const StreetDataset tilted(2, 0, 0, false, [&](int i) {
-    return street_T_world_cam(i) * pose({pitch_rad, 0, 0}, {0, 0, 0});
-  });
+  const SE3 T_level_cam = pose({0.035, 0, 0}, {0, 0, 0});
+  const StreetDataset tilted(2, 0, 0, false,
+                             [&](int i) { return street_T_world_cam(i) * T_level_cam; });
   Calibration calibration = tilted.calibration(Sensor::kMono);
   calibration.camera_height_m = kStreetHeight_m;
   SurfaceCue cue({}, calibration, {}, false);
   Random random(1);
-  // With a wrong normal of the ground the motion is off; each alignment tells more of the normal.
-  std::vector<double> off;
-  const SE3 truth = pose({pitch_rad, 0, 0}, {0, 0, 0}).inverse() * true_step() *
-                    pose({pitch_rad, 0, 0}, {0, 0, 0});
-  for (int round = 0; round < 4; ++round) {
+  const double way_m = true_step().translation().norm();
+  std::vector<double> depths_m;
+  for (int round = 0; round < 3; ++round) {
     cue.see(tilted.frame(0, Sensor::kMono));
     ASSERT_TRUE(cue.become_reference(SE3(), {}, {}, random));
+    depths_m.push_back(cue.median_depth_m());
     cue.see(tilted.frame(1, Sensor::kMono));
     const DirectMotion motion = cue.align({SE3(SO3(), Eigen::Vector3d(0, 0, 0.3))});
     ASSERT_TRUE(motion.outcome) << round << motion.outcome.reason;
-    off.push_back(std::abs(motion.T_ref_cur.translation().norm() - truth.translation().norm()));
+    EXPECT_NEAR(motion.T_ref_cur.translation().norm(), way_m,
+                3 * std::sqrt(motion.covariance(2, 2)));
     cue.learn(motion);
   }
-  EXPECT_LT(off.back(), 0.5 * off.front() + 0.002);
+  // The median depth of the road ahead for a camera whose mounting is known.
+  const Eigen::Vector3d normal = T_level_cam.rotation().inverse() * Eigen::Vector3d::UnitY();
+  const DominantSurface road(SurfaceCueOptions().surface, calibration.camera,
+                             Plane{normal, kStreetHeight_m});
+  std::vector<double> truth_m;
+  for (const Eigen::Vector2f& px : road.pixels_of(SurfaceRegion::kAhead, {}))
+    truth_m.push_back(kStreetHeight_m /
+                      normal.dot(*calibration.camera.unproject(px.cast<double>())));
+  const double median_m = median_of(truth_m);
+  EXPECT_LT(depths_m[0], 0.95 * median_m);  // what looks up takes the road to be nearer
+  // Pixels of the median depth lie 1.65 m / 5.9 m = 0.28 rad below the horizon; a pitch that is
+  // known to 2 mrad tells their depth to 0.7 %.
+  EXPECT_NEAR(depths_m[1], median_m, 0.007 * median_m);
+  EXPECT_NEAR(depths_m[2], median_m, 0.007 * median_m);
 }
 
 TEST(SurfaceCue, LandmarksShowASingleCameraOtherPlanes) {

@@ -3,6 +3,8 @@
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/lines/line_cue.h>
 
+#include <map>
+
 #include "tests/support/scenes/boards.h"
 #include "tests/unit/pipeline/lines/line_scene.h"
 
@@ -178,13 +180,30 @@ TEST(LineCue, LinesThatTheNewestKeyframeContradictsAreDropped) {
 TEST(LineCue, TellsHowFarLinesHaveMovedSinceTheKeyframe) {
   Corridor c;
   c.keyframe(0);
+  ASSERT_GT(c.cue.flow_px().size(), 15u);
   for (const double px : c.cue.flow_px()) EXPECT_LT(px, 1e-9);
+  std::map<std::int64_t, Eigen::Vector2d> middle_px;
+  for (const FrameView::Line& line : c.cue.view(c.window, boards_way(0)))
+    middle_px[line.id] = line.segment.middle();
   c.cue.track(Corridor::frame(2).image, c.window, boards_way(2), 5);
   const std::vector<double> flow = c.cue.flow_px();
-  ASSERT_GT(flow.size(), 10u);
-  // A decimetre sideways at five metres is seven pixels.
-  EXPECT_GT(median_of(flow), 1);
-  EXPECT_LT(median_of(flow), 20);
+  const std::vector<FrameView::Line> now = c.cue.view(c.window, boards_way(2));
+  ASSERT_EQ(flow.size(), now.size());
+  // How far the middle of an edge is from where its line is now.
+  std::vector<double> expected, off;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const auto line = c.window.line(now[i].id);
+    if (!line) continue;
+    const Eigen::Vector2d& px = middle_px.at(now[i].id);
+    const auto r = line_residual_px(c.calibration.camera, boards_way(2), *line, px, px);
+    ASSERT_TRUE(r);
+    expected.push_back(std::abs((*r)[0]));
+    off.push_back(std::abs(flow[i] - expected.back()));
+  }
+  ASSERT_GT(off.size(), 10u);
+  EXPECT_GT(median_of(expected), 2);  // px; much more than what they may be off by
+  // Edges are found to 0.2 px in both frames, and lines are placed by such edges.
+  EXPECT_LT(median_of(off), std::sqrt(3) * 0.2);
 }
 
 TEST(LineCue, ItsViewShowsWhereLinesOfTheWindowAreProjected) {
@@ -196,18 +215,37 @@ TEST(LineCue, ItsViewShowsWhereLinesOfTheWindowAreProjected) {
       ++judged;
       EXPECT_LT(*line.off_px, 1);
     }
+  ASSERT_GT(judged, 15);
   EXPECT_EQ(judged, c.cue.followed(c.window));
-  // Features carry the line in the camera: it lies at the depth that it is seen at.
+}
+
+TEST(LineCue, ItsFeaturesCarryLinesInTheCameraAtTheDepthThatTheyAreSeenAt) {
+  Corridor c;
+  c.keyframe(0);
   const SE3 T_other = test::pose({0, 0.5, 0}, {3, 0, 0});
   const auto here = c.cue.features(c.window, boards_way(0)),
              there = c.cue.features(c.window, T_other);
   ASSERT_EQ(here.size(), there.size());
+  std::vector<double> depths;
   for (std::size_t i = 0; i < here.size(); ++i) {
     ASSERT_EQ(here[i].line_cam.has_value(), there[i].line_cam.has_value());
     if (!here[i].line_cam) continue;
-    const Eigen::Vector3d in_world = T_other.rotation() * there[i].line_cam->direction();
-    EXPECT_LT(in_world.cross(here[i].line_cam->direction()).norm(), 1e-9);
+    const auto z = depth_on_line(c.calibration.camera, SE3(), *here[i].line_cam,
+                                 here[i].segment.middle());
+    ASSERT_TRUE(z);
+    depths.push_back(*z);
+    // Both cameras have it at one place of the world.
+    const Eigen::Vector3d of_here = boards_way(0) * here[i].line_cam->nearest_point(),
+                          of_there = T_other * there[i].line_cam->nearest_point(),
+                          direction = T_other.rotation() * there[i].line_cam->direction();
+    EXPECT_LT(direction.cross(boards_way(0).rotation() * here[i].line_cam->direction()).norm(),
+              1e-9);
+    EXPECT_LT(direction.cross(of_there - of_here).norm(), 1e-9);
   }
+  const std::vector<double> wanted = c.cue.depths(c.window);
+  ASSERT_GT(wanted.size(), 15u);
+  ASSERT_EQ(depths.size(), wanted.size());
+  for (std::size_t i = 0; i < depths.size(); ++i) EXPECT_NEAR(depths[i], wanted[i], 1e-9);
 }
 
 TEST(LineCue, AResetForgetsEverything) {

@@ -57,9 +57,11 @@ TEST(MapLocalizer, PlacesViewsInTheirRoom) {
 
 TEST(MapLocalizer, IsUnsureOfRoomsThatItHasNotSeen) {
   const MapLocalizer localizer({}, rooms());
+  const auto found = localizer.localize(
+      10, [](std::size_t i) { return frame_of(room_view(100 + i, 0)); }, false);
+  ASSERT_EQ(found.size(), 10u);
   int placed = 0;
-  for (const Localization& answer : localizer.localize(
-           10, [](std::size_t i) { return frame_of(room_view(100 + i, 0)); }, false)) {
+  for (const Localization& answer : found) {
     placed += answer.placed;
     if (!answer.placed) {
       EXPECT_EQ(answer.stage, "appearance");
@@ -75,6 +77,7 @@ TEST(MapLocalizer, ImagesOfOneDriveSupportEachOther) {
     return frame_of(room_view(2 + i / kRoom, 3.0 * static_cast<double>(i % kRoom) + 1));
   };
   const auto found = localizer.localize(2 * kRoom, frames, true);
+  ASSERT_EQ(found.size(), static_cast<std::size_t>(2 * kRoom));
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_TRUE(found[i].placed) << i;
     EXPECT_EQ(found[i].keyframe / kRoom, static_cast<std::int64_t>(2 + i / kRoom)) << i;
@@ -105,8 +108,10 @@ TEST(MapLocalizer, RefusesMapsThatItCannotCompareWith) {
 TEST(MapLocalizer, AMapWhoseViewsAllLookAlikeTellsNothing) {
   const StoredMap same = learn_map(
       12, [](std::size_t) { return room_view(0, 0); }, 0, MapLearnerOptions());
-  for (const Localization& answer : MapLocalizer({}, same).localize(
-           2, [](std::size_t) { return frame_of(room_view(0, 0)); }, false)) {
+  const auto found = MapLocalizer({}, same).localize(
+      2, [](std::size_t) { return frame_of(room_view(0, 0)); }, false);
+  ASSERT_EQ(found.size(), 2u);
+  for (const Localization& answer : found) {
     EXPECT_FALSE(answer.placed);
     EXPECT_EQ(answer.stage, "calibration");
     EXPECT_EQ(answer.probability, 0.5);

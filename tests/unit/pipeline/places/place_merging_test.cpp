@@ -79,7 +79,8 @@ TEST(PlaceMerging, LeavesTrueOnesTogetherWhenTheWayIsKnownBetter) {
   EXPECT_EQ(optimized(mapper).places.size(), 4u);
 }
 
-/// Five keyframes 5 m apart, each a place; the last is back at the first, off by `error_m`.
+/// Five keyframes 5 m apart, each a place; the last is back at the first,
+/// and the map has it at `T_0_4` from there.
 struct ClosedRow {
   KeyframeChain chain;
   PlacePartition partition;

@@ -71,7 +71,14 @@ TEST(IndoorMapper, FusesTwoKeyframesAndMovesWithALoop) {
   mapper.add(sight_of_room(1, second));
   const IndoorMap before = mapper.fuse(map_of({first, drifted}));
   ASSERT_TRUE(before.outcome) << before.outcome.reason;
-  EXPECT_TRUE(before.rooms.empty() || before.rooms[0].area_m2 > 5);
+  // The far wall stands where each of the two sees it. The room is what lies before the nearer one
+  // of the two walls of each kind: x from -2 to 2, z from -0.7 to 4, up to a row of cells each way.
+  const std::vector<double> twice = far_walls(before);
+  ASSERT_EQ(twice.size(), 2U);
+  EXPECT_NEAR(std::min(twice[0], twice[1]), 4, 0.005);
+  EXPECT_NEAR(std::max(twice[0], twice[1]), 4.3, 0.005);
+  ASSERT_EQ(before.rooms.size(), 1U);
+  EXPECT_NEAR(before.rooms[0].area_m2, 4 * 4.7, IndoorMapperOptions().cell_m * (4 + 4.7));
   const Map map = map_of({first, second});
   const IndoorMap after = mapper.fuse(map);
   ASSERT_TRUE(after.outcome) << after.outcome.reason;

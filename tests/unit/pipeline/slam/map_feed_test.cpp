@@ -181,7 +181,9 @@ TEST(MapFeed, ATakenUpMapIsNotToldAgain) {
   // Its one keyframe and its place, number 0 here as well, are known.
   ASSERT_EQ(changes.keyframes.size(), 1u);
   EXPECT_EQ(changes.keyframes[0].id, 1);
-  for (const auto& [place, appearance] : changes.appearances) EXPECT_NE(place, 0);
+  ASSERT_EQ(changes.places.size(), 1u);
+  EXPECT_EQ(changes.places[0].id, 0);
+  EXPECT_TRUE(changes.appearances.empty());
 }
 
 TEST(MapFeed, ATakenUpMapSaysWhetherViewsHaveColour) {
