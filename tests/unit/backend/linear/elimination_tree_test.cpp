@@ -111,6 +111,10 @@ TEST_F(EliminationTreeTest, FollowsTermsThatAreRemoved) {
   add_term(2, 9);
   EXPECT_TRUE(std::find(before.begin(), before.end(), numbers.back()) == before.end());
   expect_dense("another term in its place");
+  RandomSystem::Term& first = system.terms[find_term(0, 1)];
+  system.redraw(first);
+  tree.set_information(numbers[find_term(0, 1)], first.aa(), first.ab(), first.bb());
+  expect_dense("what the removed term was over has changed");
 }
 
 TEST_F(EliminationTreeTest, FollowsInformationThatChanges) {
