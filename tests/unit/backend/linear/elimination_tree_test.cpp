@@ -111,10 +111,13 @@ TEST_F(EliminationTreeTest, FollowsTermsThatAreRemoved) {
   add_term(2, 9);
   EXPECT_TRUE(std::find(before.begin(), before.end(), numbers.back()) == before.end());
   expect_dense("another term in its place");
-  RandomSystem::Term& first = system.terms[find_term(0, 1)];
-  system.redraw(first);
-  tree.set_information(numbers[find_term(0, 1)], first.aa(), first.ab(), first.bb());
-  expect_dense("what the removed term was over has changed");
+  add_term(3, 10);
+  for (const auto& [a, b] : {std::pair(0, 1), std::pair(4, 3), std::pair(6, 5)}) {
+    RandomSystem::Term& near = system.terms[find_term(a, b)];
+    system.redraw(near);
+    tree.set_information(numbers[find_term(a, b)], near.aa(), near.ab(), near.bb());
+  }
+  expect_dense("what the removed terms were over has changed");
 }
 
 TEST_F(EliminationTreeTest, FollowsInformationThatChanges) {
@@ -207,6 +210,24 @@ TEST_F(EliminationTreeTest, OnlyWhatMovesIsSolvedFor) {
   EXPECT_TRUE(tree.delta(0).isZero());
   EXPECT_TRUE(tree.solve(1e12).empty());
   EXPECT_TRUE(tree.delta(4).isZero());
+}
+
+TEST_F(EliminationTreeTest, WhatMovesIsSolvedForBelowWhatStandsStill) {
+  // All but the first variable are held so firmly that a step of the first one moves none of them.
+  build_chain(20);
+  for (int v = 1; v < 20; ++v) {
+    const Eigen::Matrix3d firm = 1e9 * Eigen::Matrix3d::Identity();
+    tree.set_information(tree.add_term(v, -1), firm, firm, firm);
+    tree.set_gradient(v, Eigen::Vector3d::Zero());
+  }
+  ASSERT_TRUE(tree.factorize());
+  const double decrease = tree.model_decrease();
+  EXPECT_GT(decrease, 0);
+  const std::vector<int> solved = tree.solve(1e-3 * decrease);
+  EXPECT_EQ(std::count(solved.begin(), solved.end(), 0), 1);
+  EXPECT_LT(solved.size(), 20u);
+  const Eigen::Vector3d alone = -system.H().topLeftCorner<3, 3>().llt().solve(system.gradients[0]);
+  EXPECT_LT((tree.delta(0) - alone).norm(), 1e-6 * alone.norm());
 }
 
 TEST_F(EliminationTreeTest, AMatrixThatIsNotPositiveDefiniteIsRefused) {

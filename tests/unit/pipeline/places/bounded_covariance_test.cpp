@@ -30,5 +30,13 @@ TEST(BoundedCovariance, TheInverseIsBoundedByTheLargestEigenvalueToo) {
   EXPECT_NEAR(bounded_inverse(matrix, 1e3)(1, 1), 1e-3, 1e-9);
 }
 
+TEST(BoundedCovariance, AFloorHoldsTheEigenvaluesOfAMatrixThatCanBeInverted) {
+  Matrix6d matrix = Matrix6d::Identity();
+  matrix(3, 3) = 1e-3;
+  EXPECT_NEAR(bounded_inverse(matrix, 1e-6)(3, 3), 1e3, 1e-9);
+  EXPECT_NEAR(bounded_inverse(matrix, 1e-2)(3, 3), 1e2, 1e-9);
+  EXPECT_NEAR(bounded_inverse(matrix, 1e-2)(0, 0), 1, 1e-12);
+}
+
 }  // namespace
 }  // namespace placegraph

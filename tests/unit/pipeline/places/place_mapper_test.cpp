@@ -110,6 +110,19 @@ TEST(PlaceMapper, CarriesALoopBetweenMembersToTheirAnchors) {
   EXPECT_EQ(mapper.place_graph().constraints.size(), before);
 }
 
+TEST(PlaceMapper, ALoopThatComesAfterAnOptimizationCountsInTheNext) {
+  PlaceMapper mapper = square();
+  (void)optimized(mapper);
+  (void)mapper.take_constraint_changes();
+  ASSERT_GT(mapper.T_map_keyframe(4).translation().norm(), 0.3);
+  mapper.add_loop(loop(4, 0, SE3(), 0.01, 0.001));
+  const auto changes = mapper.take_constraint_changes();
+  ASSERT_FALSE(changes.empty());
+  EXPECT_EQ(changes.back().constraint->source, ConstraintSource::kLoop);
+  (void)optimized(mapper);
+  EXPECT_LT(mapper.T_map_keyframe(4).translation().norm(), 0.05);
+}
+
 TEST(PlaceMapper, BringsComponentsTogetherByALoop) {
   PlaceMapper mapper({});
   mapper.add_keyframe(0, std::nullopt, {}, kDepth_m);
