@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "tests/support/scenes/window_world.h"
+
 namespace placegraph {
 namespace {
 
@@ -32,6 +34,57 @@ TEST(LensEstimator, KnowsItsDeviationFromFourWindowsOfLikeWeightOn) {
   EXPECT_TRUE(std::isinf(lens.sigma_k1()));
   lens.add(window_of(0.02, 0.001));
   EXPECT_NEAR(lens.sigma_k1(), 0.0005, 1e-5);
+}
+
+TEST(LensEstimator, AWindowThatSawNothingDoesNotCount) {
+  LensEstimator lens;
+  for (int i = 0; i < 5; ++i) lens.add(window_of(0.02, 0.001));
+  const double sigma = lens.sigma_k1();
+  lens.add({});
+  EXPECT_EQ(lens.sigma_k1(), sigma);
+}
+
+TEST(LensEstimator, ADistortionThatHardlyMovesTheTracksIsNoneHoweverSure) {
+  LensOptions options;
+  LensEstimator lens;
+  for (int i = 0; i < 6; ++i) lens.add({-0.02 * 1e6, 1e6, 1'000'000'000});
+  EXPECT_LT(lens.effect(), options.min_effect);
+  EXPECT_GT(lens.k1(), options.min_sigmas * lens.sigma_k1());
+  EXPECT_FALSE(lens.distorted(options));
+  options.min_effect = 0;
+  EXPECT_TRUE(lens.distorted(options));
+}
+
+TEST(LensEstimator, HearsWindowsThatShareNoKeyframe) {
+  Random random(3);
+  test::WindowWorldOptions drive;
+  drive.keyframes = 12;
+  drive.noise_px = 0.3;
+  const test::WindowWorld world = test::make_window_world(drive, random);
+  const auto observe = [&](LensEstimator& lens, std::int64_t first, std::int64_t last) {
+    SlidingWindow window({}, world.camera);
+    for (std::int64_t id = first; id <= last; ++id) {
+      window.add_keyframe(id, world.T_map_cam[static_cast<std::size_t>(id)]);
+      test::add_view(window, world, id, 0, random);
+    }
+    lens.observe(window);
+  };
+  /// What the windows heard weigh beside one that is known.
+  const auto weighed = [](LensEstimator lens) {
+    lens.add(window_of(0.5, 0.01));
+    return lens.k1();
+  };
+  LensEstimator lens;
+  observe(lens, 0, 5);
+  const double once = weighed(lens);
+  EXPECT_LT(std::abs(once - 0.5), 0.5);
+  EXPECT_NE(once, 0.5);
+  observe(lens, 0, 5);
+  EXPECT_EQ(weighed(lens), once);
+  observe(lens, 5, 10);  // one keyframe in common
+  EXPECT_EQ(weighed(lens), once);
+  observe(lens, 6, 11);
+  EXPECT_NE(weighed(lens), once);
 }
 
 TEST(LensEstimator, WindowsThatContradictEachOtherWidenIt) {
