@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/frontend/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/cues/manhattan_frames.h>
@@ -29,6 +30,7 @@ struct Drive {
   ManhattanWorlds worlds;
   Random random{5};
   std::int64_t next = 0;
+  std::optional<SO3> R_map_first;  ///< the first world before the window was optimized last
 
   static WindowWorld make() {
     Random random(9);
@@ -58,6 +60,7 @@ struct Drive {
       seen = worlds.add(
           id, T_map_cam.rotation().inverse() * kR_map_world * *turn * axes(static_cast<int>(id)),
           Eigen::Matrix3d::Identity() * std::pow(0.1 * kRadPerDeg, 2), window);
+    if (window.world(1)) R_map_first = *window.world(1);
     if (id > 0) {
       EXPECT_TRUE(window.optimize().outcome);
     }
@@ -72,6 +75,10 @@ TEST(ManhattanWorlds, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
   EXPECT_FALSE(drive.see(SO3()));
   EXPECT_FALSE(drive.see(SO3()));
   EXPECT_EQ(drive.see(SO3()), 1);
+  // It begins where the views have it: within what the poses of the window are off by.
+  ASSERT_TRUE(drive.R_map_first);
+  EXPECT_LT((kR_map_world.inverse() * nearest_axes(*drive.R_map_first, kR_map_world)).log().norm(),
+            0.1 * kRadPerDeg);
   for (int k = 3; k < 8; ++k) EXPECT_EQ(drive.see(SO3()), 1);
   EXPECT_EQ(drive.window.worlds(), (std::vector<std::int64_t>{ManhattanWorlds::kMapAxes, 1}));
   // Along the axes of the world, named as the first of the views named them.
@@ -103,6 +110,14 @@ TEST(ManhattanWorlds, AStrayViewBeginsNone) {
   EXPECT_FALSE(drive.see(SO3::exp({0, -0.2, 0.1})));
   EXPECT_EQ(drive.see(SO3()), 1);
   EXPECT_EQ(drive.window.worlds().size(), 2u);
+}
+
+TEST(ManhattanWorlds, ViewsThatDisagreeBeginNone) {
+  Drive drive({});
+  EXPECT_FALSE(drive.see(SO3()));
+  for (const double turn_deg : {20, 40, -20, -40})
+    EXPECT_FALSE(drive.see(SO3::exp({0, turn_deg * kRadPerDeg, 0}))) << turn_deg;
+  EXPECT_TRUE(drive.window.worlds().empty());
 }
 
 TEST(ManhattanWorlds, UnseenOnesAreRememberedUntilThereAreTooMany) {
