@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/window/window_observations.h>
+#include <placegraph/backend/window/window_measurements.h>
 #include <placegraph/frontend/lines/direction_compass.h>
 #include <placegraph/pipeline/lines/line_sightings.h>
 
