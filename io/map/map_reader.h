@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/io/map/map_blobs.h>
+#include <placegraph/io/map/map_history_reader.h>
 #include <placegraph/io/map/map_schema.h>
 #include <placegraph/io/map/stored_map.h>
 
