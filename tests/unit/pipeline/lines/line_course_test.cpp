@@ -2,10 +2,12 @@
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/lines/line_course.h>
 
-#include "tests/unit/pipeline/lines/line_scene.h"
+#include "tests/unit/pipeline/lines/edge_tracks.h"
 
 namespace placegraph {
 namespace {
+
+using namespace test;
 
 using Eigen::Vector3d;
 

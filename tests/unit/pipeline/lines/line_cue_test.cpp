@@ -6,10 +6,12 @@
 #include <map>
 
 #include "tests/support/scenes/boards.h"
-#include "tests/unit/pipeline/lines/line_scene.h"
+#include "tests/unit/pipeline/lines/edge_tracks.h"
 
 namespace placegraph {
 namespace {
+
+using namespace test;
 
 /// Four keyframes along x see upright lines at depths of 4 to 9 m; the right eye, half a metre to
 /// the right, is off by `error`.
@@ -73,10 +75,10 @@ TEST(LineCue, OnlyASecondEyeThatIsThereCanBeRevised) {
 
 constexpr double kBoardsBaseline_m = 0.5;
 
-SE3 boards_way(int i) { return test::pose({0, 0.004 * i, 0}, {0.05 * i, -0.03 * i, 0.1 * i}); }
+SE3 boards_way(int i) { return pose({0, 0.004 * i, 0}, {0.05 * i, -0.03 * i, 0.1 * i}); }
 
 const std::vector<Frame>& boards_drive() {
-  static const std::vector<Frame> frames = test::boards_frames(5, boards_way, kBoardsBaseline_m);
+  static const std::vector<Frame> frames = boards_frames(5, boards_way, kBoardsBaseline_m);
   return frames;
 }
 
@@ -91,7 +93,7 @@ struct Corridor {
       : calibration(of_boards(stereo)), cue({}, calibration, {}), window({}, calibration.camera) {}
   static Calibration of_boards(bool stereo) {
     Calibration calibration;
-    calibration.camera = test::boards_camera();
+    calibration.camera = boards_camera();
     if (stereo) calibration.baseline_m = kBoardsBaseline_m;
     return calibration;
   }
@@ -155,7 +157,7 @@ TEST(LineCue, LinesThatContradictThePoseAreNoLongerFollowed) {
     c->cue.track(Corridor::frame(1).image, c->window, boards_way(1), 5);
   }
   right.cue.accept(right.window, boards_way(1));
-  wrong.cue.accept(wrong.window, boards_way(1) * test::pose({0, 0.1, 0}, {0, 0, 0}));
+  wrong.cue.accept(wrong.window, boards_way(1) * pose({0, 0.1, 0}, {0, 0, 0}));
   EXPECT_GT(right.cue.followed(right.window), 10);
   EXPECT_LT(wrong.cue.followed(wrong.window), right.cue.followed(right.window) / 2);
 }
@@ -222,7 +224,7 @@ TEST(LineCue, ItsViewShowsWhereLinesOfTheWindowAreProjected) {
 TEST(LineCue, ItsFeaturesCarryLinesInTheCameraAtTheDepthThatTheyAreSeenAt) {
   Corridor c;
   c.keyframe(0);
-  const SE3 T_other = test::pose({0, 0.5, 0}, {3, 0, 0});
+  const SE3 T_other = pose({0, 0.5, 0}, {3, 0, 0});
   const auto here = c.cue.features(c.window, boards_way(0)),
              there = c.cue.features(c.window, T_other);
   ASSERT_EQ(here.size(), there.size());
@@ -230,8 +232,8 @@ TEST(LineCue, ItsFeaturesCarryLinesInTheCameraAtTheDepthThatTheyAreSeenAt) {
   for (std::size_t i = 0; i < here.size(); ++i) {
     ASSERT_EQ(here[i].line_cam.has_value(), there[i].line_cam.has_value());
     if (!here[i].line_cam) continue;
-    const auto z = depth_on_line(c.calibration.camera, SE3(), *here[i].line_cam,
-                                 here[i].segment.middle());
+    const auto z =
+        depth_on_line(c.calibration.camera, SE3(), *here[i].line_cam, here[i].segment.middle());
     ASSERT_TRUE(z);
     depths.push_back(*z);
     // Both cameras have it at one place of the world.

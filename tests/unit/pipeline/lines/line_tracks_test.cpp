@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/lines/line_tracks.h>
 
-#include "tests/unit/pipeline/lines/line_scene.h"
+#include "tests/unit/pipeline/lines/edge_tracks.h"
 
 namespace placegraph {
 namespace {
+
+using namespace test;
 
 using Eigen::Vector3d;
 

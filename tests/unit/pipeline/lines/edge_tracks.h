@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace placegraph {
+namespace placegraph::test {
 
 /// A camera of 640 x 480 pixels without distortion.
 inline Camera line_camera() {
@@ -35,4 +35,4 @@ inline LineTrack track_of(std::int64_t id, const SE3& T_odom_cam, const Eigen::V
   return track;
 }
 
-}  // namespace placegraph
+}  // namespace placegraph::test
