@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/odometry/two_view_initializer.h>
 
-#include <opencv2/core.hpp>
-
+#include "tests/support/scenes/beginning.h"
 #include "tests/support/scenes/street.h"
 #include "tests/support/seed.h"
 
@@ -28,33 +27,14 @@ struct Pair {
     b = render(camera, T_world_a * T_a_b, street(), 2).grey;
   }
 };
-Image flipped(const Image& image) {
-  Image result;
-  cv::flip(image, result, 1);
-  return result;
-}
-
 /// A map that two views begin.
-struct Beginning {
-  StageTimes times;
-  Calibration calibration;
-  OdometryOptions options;
-  FeatureTracker tracker;
-  LocalMapping mapping;
-  LocalMap map;
-  TwoViewInitializer initializer;
+struct PairBeginning : Beginning<TwoViewInitializer> {
   Initialization last;
 
-  Beginning(const Camera& camera, const Image& first, const Image& second,
-            const SE3& T_odom_first = SE3(), std::optional<double> median_depth = {})
-      : calibration(of(camera)),
-        options(by_points()),
-        tracker(options, calibration, 1, {}, times),
-        mapping(options, calibration, 1, {}, times),
-        map(options.window, camera, Scale::kArbitrary),
-        initializer(options, calibration, 1, tracker, {}, times) {
+  PairBeginning(const Camera& camera, const Image& first, const Image& second,
+                const SE3& T_odom_first = SE3(), std::optional<double> median_depth = {})
+      : Beginning(of(camera), "points", Scale::kArbitrary, T_odom_first) {
     map.restart(median_depth ? Scale::kGuessed : Scale::kArbitrary, median_depth);
-    initializer.restart(T_odom_first);
     (void)add(0, first);
     last = add(1, second);
   }
@@ -63,20 +43,14 @@ struct Beginning {
     calibration.camera = camera;
     return calibration;
   }
-  static OdometryOptions by_points() {
-    OdometryOptions options;
-    options.cues = "points";
-    return options;
-  }
   Initialization add(std::int64_t id, const Image& image) {
     Frame frame;
     frame.id = id;
     frame.stamp_ns = 100'000'000 * id;
     frame.image = image;
-    return initializer.add(frame, {}, map, mapping);
+    return Beginning::add(frame);
   }
   bool begun() const { return last.state == TrackingState::kTracking; }
-  SE3 motion() const { return map.pose(0).inverse() * map.pose(1); }
 };
 
 /// Tracks of 0.25 px at 330 px focal length, over a hundred of them: the rotation of two views is
@@ -88,7 +62,8 @@ TEST(TwoViewLaws, TheFrameOfTheOdometryMovesPosesAndLandmarks) {
   for (int trial = 0; trial < 3; ++trial) {
     const Pair pair(random);
     const SE3 T_other = SE3::exp(Vector6d::NullaryExpr([&] { return random.uniform(-2, 2); }));
-    const Beginning here(pair.camera, pair.a, pair.b), there(pair.camera, pair.a, pair.b, T_other);
+    const PairBeginning here(pair.camera, pair.a, pair.b),
+        there(pair.camera, pair.a, pair.b, T_other);
     ASSERT_TRUE(here.begun() && there.begun());
     // The descent ends within a thousandth of its cost, along directions that two views hardly
     // tell.
@@ -111,7 +86,7 @@ TEST(TwoViewLaws, LengthsGrowWithTheDepthThatIsGuessed) {
   for (int trial = 0; trial < 3; ++trial) {
     const Pair pair(random);
     const double depth = random.uniform(1, 40);
-    const Beginning one(pair.camera, pair.a, pair.b, SE3(), 1.0),
+    const PairBeginning one(pair.camera, pair.a, pair.b, SE3(), 1.0),
         many(pair.camera, pair.a, pair.b, SE3(), depth);
     ASSERT_TRUE(one.begun() && many.begun());
     EXPECT_LT(angle_rad(one.motion(), many.motion()), 1e-4);
@@ -124,7 +99,8 @@ TEST(TwoViewLaws, ExchangedViewsSeeTheInverseMotion) {
   Random random = seeded_random(3);
   for (int trial = 0; trial < 4; ++trial) {
     const Pair pair(random);
-    const Beginning forwards(pair.camera, pair.a, pair.b), backwards(pair.camera, pair.b, pair.a);
+    const PairBeginning forwards(pair.camera, pair.a, pair.b),
+        backwards(pair.camera, pair.b, pair.a);
     ASSERT_TRUE(forwards.begun() && backwards.begun());
     const SE3 there = forwards.motion(), back = backwards.motion().inverse();
     EXPECT_LT(angle_rad(there, back), kAngleRad);
@@ -140,7 +116,7 @@ TEST(TwoViewLaws, AMirrorShowsTheMirroredMotion) {
     const Pair pair(random);
     Camera mirror = pair.camera;
     mirror.cx = mirror.width - 1 - mirror.cx;
-    const Beginning direct(pair.camera, pair.a, pair.b),
+    const PairBeginning direct(pair.camera, pair.a, pair.b),
         mirrored(mirror, flipped(pair.a), flipped(pair.b));
     ASSERT_TRUE(direct.begun() && mirrored.begun());
     const Eigen::Vector3d w = direct.motion().rotation().log(), t = direct.motion().translation();
@@ -155,7 +131,8 @@ TEST(TwoViewLaws, ARotationBackIsTheInverse) {
   Random random = seeded_random(5);
   for (int trial = 0; trial < 4; ++trial) {
     const Pair pair(random, true);
-    const Beginning forwards(pair.camera, pair.a, pair.b), backwards(pair.camera, pair.b, pair.a);
+    const PairBeginning forwards(pair.camera, pair.a, pair.b),
+        backwards(pair.camera, pair.b, pair.a);
     ASSERT_FALSE(forwards.begun() || backwards.begun());
     ASSERT_TRUE(forwards.last.rotation && backwards.last.rotation);
     const SO3 there = forwards.last.rotation->R_before_cam,

@@ -3,22 +3,19 @@
 
 #include <array>
 
+#include "tests/support/scenes/poses.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {
 
-constexpr int kTrials = 400;
+using namespace test;
 
-SE3 random_motion(Random& random, double angle_rad, double length) {
-  Vector6d xi;
-  for (int i = 0; i < 6; ++i) xi[i] = random.uniform(-1, 1) * (i < 3 ? length : angle_rad);
-  return SE3::exp(xi);
-}
+constexpr int kTrials = 400;
 
 Loop random_loop(Random& random, const SE3& T_match_query) {
   Loop loop;
-  loop.T_match_query = T_match_query * random_motion(random, 0.03, 0.4);
+  loop.T_match_query = T_match_query * uniform_motion(random, 0.4, 0.03);
   for (int i = 0; i < 6; ++i) loop.information(i, i) = random.uniform(10, 1e4);
   return loop;
 }
@@ -26,13 +23,13 @@ Loop random_loop(Random& random, const SE3& T_match_query) {
 SE3 rigid(const Sim3& S) { return SE3(S.rotation(), S.translation()); }
 
 TEST(LoopGateLaws, TheMapFrameChangesNoDecision) {
-  Random random = test::seeded_random(1);
+  Random random = seeded_random(1);
   int passed = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const Sim3 S_map_match(random_motion(random, 1, 20)),
-        S_map_query = S_map_match * Sim3(random_motion(random, 1, 5));
+    const Sim3 S_map_match(uniform_motion(random, 20, 1)),
+        S_map_query = S_map_match * Sim3(uniform_motion(random, 5, 1));
     const Loop loop = random_loop(random, rigid(S_map_match.inverse() * S_map_query));
-    const Sim3 S_new_map(random_motion(random, 2, 50));
+    const Sim3 S_new_map(uniform_motion(random, 50, 2));
     const auto passes = [&](const Sim3& S_frame_map) {
       PredictedMotion predicted{(S_frame_map * S_map_match).inverse() *
                                 (S_frame_map * S_map_query)};
@@ -59,11 +56,11 @@ TrackedMotion rescaled(const TrackedMotion& motion, double factor) {
 }
 
 TEST(LoopGateLaws, TheUnitOfLengthChangesNoDecision) {
-  Random random = test::seeded_random(2);
+  Random random = seeded_random(2);
   int passed[4] = {};
   for (int trial = 0; trial < kTrials; ++trial) {
-    const TrackedMotion odometry{random_motion(random, 0.5, 3), random.uniform(3, 10)},
-        queries{random_motion(random, 0.1, 1), 1}, matches{random_motion(random, 0.1, 1), 1};
+    const TrackedMotion odometry{uniform_motion(random, 3, 0.5), random.uniform(3, 10)},
+        queries{uniform_motion(random, 1, 0.1), 1}, matches{uniform_motion(random, 1, 0.1), 1};
     const Loop a = random_loop(random, odometry.T_a_b);
     const Loop b = random_loop(random, matches.T_a_b.inverse() * a.T_match_query * queries.T_a_b);
     const double farthest = random.uniform(5, 30), factor = random.uniform(0.1, 10);

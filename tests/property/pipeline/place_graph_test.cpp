@@ -2,18 +2,13 @@
 #include <placegraph/pipeline/places/place_constraints.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 
+#include "tests/support/scenes/poses.h"
 #include "tests/support/seed.h"
 
 namespace placegraph {
 namespace {
 
-SE3 random_motion(Random& random, double angle_rad, double length) {
-  Vector6d xi;
-  for (int i = 0; i < 6; ++i) xi[i] = random.uniform(-1, 1) * (i < 3 ? length : angle_rad);
-  return SE3::exp(xi);
-}
-
-double difference(const Sim3& a, const Sim3& b) { return (a.matrix() - b.matrix()).norm(); }
+using namespace test;
 
 /// Random steps of one run of tracking, some with loops to earlier keyframes.
 struct Walk {
@@ -23,13 +18,13 @@ struct Walk {
   explicit Walk(Random& random) {
     std::vector<SE3> poses{SE3()};
     for (std::int64_t i = 1; i < 20; ++i) {
-      const SE3 T_last_this = random_motion(random, 0.5, 3);
+      const SE3 T_last_this = uniform_motion(random, 3, 0.5);
       poses.push_back(poses.back() * T_last_this);
-      links.push_back({i - 1, T_last_this * random_motion(random, 0.005, 0.03)});
+      links.push_back({i - 1, T_last_this * uniform_motion(random, 0.03, 0.005)});
       for (int k = 0; k < 6; ++k) links.back().information(k, k) = random.uniform(100, 1e4);
       if (i < 3 || random.uniform() < 0.6) continue;
       const std::int64_t match = random.index(static_cast<int>(i) - 1);
-      Loop loop{i, match, poses[match].inverse() * poses[i] * random_motion(random, 0.005, 0.03)};
+      Loop loop{i, match, poses[match].inverse() * poses[i] * uniform_motion(random, 0.03, 0.005)};
       for (int k = 0; k < 6; ++k) loop.information(k, k) = random.uniform(100, 1e4);
       loops.push_back(loop);
     }
@@ -61,10 +56,10 @@ struct Walk {
 constexpr double kLeft = 2e-3;
 
 TEST(PlaceGraphLaw, RotatingTheWorldRotatesAllPoses) {
-  Random random = test::seeded_random(3);
+  Random random = seeded_random(3);
   for (int trial = 0; trial < 10; ++trial) {
     const Walk walk(random);
-    const SE3 T_new_map = random_motion(random, 2, 30);
+    const SE3 T_new_map = uniform_motion(random, 30, 2);
     const PlaceMapper here = walk.mapped(SE3()), there = walk.mapped(T_new_map);
     for (std::int64_t id = 0; id < 20; ++id) {
       EXPECT_EQ(here.place_of(id), there.place_of(id)) << trial << " " << id;
@@ -76,7 +71,7 @@ TEST(PlaceGraphLaw, RotatingTheWorldRotatesAllPoses) {
 }
 
 TEST(PlaceGraphLaw, AnotherUnitOfLengthScalesAllPositions) {
-  Random random = test::seeded_random(4);
+  Random random = seeded_random(4);
   for (int trial = 0; trial < 10; ++trial) {
     const Walk walk(random);
     const double factor = random.uniform(0.5, 2);
@@ -93,7 +88,7 @@ TEST(PlaceGraphLaw, AnotherUnitOfLengthScalesAllPositions) {
 
 /// A chain of links measured in another unit is the chain rescaled.
 TEST(PlaceGraphLaw, RescalingAChainIsMeasuringItInAnotherUnit) {
-  Random random = test::seeded_random(5);
+  Random random = seeded_random(5);
   for (int trial = 0; trial < 20; ++trial) {
     const Walk walk(random);
     const double factor = random.uniform(0.2, 5);
@@ -115,14 +110,14 @@ TEST(PlaceGraphLaw, RescalingAChainIsMeasuringItInAnotherUnit) {
 
 /// Merging two places moves no keyframe, and separating them leaves all as it was.
 TEST(PlaceGraphLaw, SeparatingUndoesMerging) {
-  Random random = test::seeded_random(6);
+  Random random = seeded_random(6);
   for (int trial = 0; trial < 50; ++trial) {
     const Walk walk(random);
     KeyframeChain chain;
     PlacePartition partition;
     for (std::int64_t id = 0; id < 6; ++id) {
       chain.add(id, id == 0 ? std::nullopt : std::optional(walk.links[id - 1]));
-      const SE3 T = random_motion(random, 1, 10);
+      const SE3 T = uniform_motion(random, 10, 1);
       partition.found(id, Sim3(T.rotation(), T.translation(), random.uniform(0.5, 2)), 0, 3);
     }
     std::vector<Sim3> before;

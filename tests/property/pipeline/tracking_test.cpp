@@ -13,9 +13,6 @@ using namespace test;
 
 constexpr int kTrials = 30;
 
-SE3 pose(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translation_m) {
-  return SE3(SO3::exp(rotation_rad), translation_m);
-}
 SE3 anywhere(Random& random) { return random_motion(random, 5, 0.8); }
 
 // IntermediateFrames ------------------------------------------------------------------------------

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/scenes/poses.h"
+
 namespace placegraph::test {
 
 template <class Group>
@@ -66,10 +68,5 @@ struct Walk {
   std::vector<Group> truth;
   PoseGraph graph;
 };
-
-template <class Group>
-double difference(const Group& a, const Group& b) {
-  return (a.inverse() * b).log().norm();
-}
 
 }  // namespace placegraph::test

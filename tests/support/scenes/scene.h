@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "tests/support/scenes/poses.h"
+
 namespace placegraph::test {
 
 /// An undistorted camera with its principal point off the middle.
@@ -19,16 +21,6 @@ inline Camera pinhole(int width, int height, double focal_px) {
   return camera;
 }
 
-inline SE3 pose(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translation_m) {
-  return SE3(SO3::exp(rotation_rad), translation_m);
-}
-
-inline double distance_m(const SE3& a, const SE3& b) {
-  return (a.translation() - b.translation()).norm();
-}
-inline double angle_rad(const SE3& a, const SE3& b) {
-  return (a.rotation().inverse() * b.rotation()).log().norm();
-}
 /// Angle between two directions.
 inline double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));

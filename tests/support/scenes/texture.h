@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <vector>
 
@@ -124,6 +125,13 @@ inline Picture render(const Camera& camera, const SE3& T_world_cam,
       picture.depth.at<float>(v, u) = static_cast<float>(look(u, v).depth);
     }
   return picture;
+}
+
+/// The image in a mirror: left is right.
+inline Image flipped(const Image& image) {
+  Image result;
+  cv::flip(image, result, 1);
+  return result;
 }
 
 /// gain * image + bias + Gaussian noise of `sigma` grey levels.

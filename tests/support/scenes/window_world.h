@@ -6,6 +6,8 @@
 #include <Eigen/Cholesky>
 #include <map>
 
+#include "tests/support/scenes/poses.h"
+
 namespace placegraph::test {
 
 /// A camera that drives along a gentle curve through a cloud of points and lines over flat ground,
@@ -164,13 +166,6 @@ inline WindowWorld make_window_world(const WindowWorldOptions& options, Random& 
   return world;
 }
 
-/// A small random motion [m], [rad].
-inline SE3 random_motion(Random& random, double sigma_m, double sigma_rad) {
-  Vector6d xi;
-  for (int i = 0; i < 6; ++i) xi[i] = random.normal() * (i < 3 ? sigma_m : sigma_rad);
-  return SE3::exp(xi);
-}
-
 /// Puts the world into a window, the start disturbed (the first keyframe is exact).
 inline void fill_window(SlidingWindow& window, const WindowWorld& world, Random& random,
                         double sigma_m, double sigma_rad, double sigma_point_m) {
@@ -263,13 +258,6 @@ inline SlidingWindow drive_window(const WindowWorld& world, const WindowDrive& d
     window.marginalize();
   }
   return window;
-}
-
-inline double distance_m(const SE3& a, const SE3& b) {
-  return (a.translation() - b.translation()).norm();
-}
-inline double angle_rad(const SE3& a, const SE3& b) {
-  return (a.rotation().inverse() * b.rotation()).log().norm();
 }
 
 }  // namespace placegraph::test

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/odometry/line_view_initializer.h>
 
+#include "tests/support/scenes/beginning.h"
 #include "tests/support/scenes/boards.h"
 
 namespace placegraph {
@@ -17,44 +18,22 @@ const std::vector<Frame>& drive() {
   return frames;
 }
 
-struct Beginning {
-  StageTimes times;
-  Calibration calibration;
-  OdometryOptions options;
-  FeatureTracker tracker;
-  LocalMapping mapping;
-  LocalMap map;
-  LineViewInitializer initializer;
-  SE3 T_odom_start = pose({0, 0.3, 0}, {2, 0, 1});
+const SE3 kStart = pose({0, 0.3, 0}, {2, 0, 1});
 
-  explicit Beginning(Scale scale = Scale::kArbitrary, std::optional<double> height_m = {})
-      : calibration(of_boards(height_m)),
-        options(by_lines()),
-        tracker(options, calibration, 1, {}, times),
-        mapping(options, calibration, 1, {}, times),
-        map(options.window, calibration.camera, scale),
-        initializer(options, calibration, 1, tracker, {}) {
-    initializer.restart(T_odom_start);
-  }
+struct BoardsBeginning : Beginning<LineViewInitializer> {
+  explicit BoardsBeginning(Scale scale = Scale::kArbitrary, std::optional<double> height_m = {})
+      : Beginning(of_boards(height_m), "lines", scale, kStart) {}
   static Calibration of_boards(std::optional<double> height_m) {
     Calibration calibration;
     calibration.camera = boards_camera();
     calibration.camera_height_m = height_m;
     return calibration;
   }
-  static OdometryOptions by_lines() {
-    OdometryOptions options;
-    options.cues = "lines";
-    return options;
-  }
+  static const Frame& frame(int i) { return drive()[static_cast<std::size_t>(i)]; }
   Initialization add(int i, const std::optional<SE3>& T_odom_cam_known = {}) {
-    return initializer.add(drive()[static_cast<std::size_t>(i)], T_odom_cam_known, map, mapping);
+    return Beginning::add(frame(i), T_odom_cam_known);
   }
-  Initialization add_dark(int i) {
-    Frame frame = drive()[static_cast<std::size_t>(i)];
-    frame.image = Image(frame.image.size(), CV_8UC1, cv::Scalar(0));
-    return initializer.add(frame, {}, map, mapping);
-  }
+  Initialization add_dark(int i) { return Beginning::add_dark(frame(i)); }
   /// Frames from `first` on until the map begins; the last one's number in `last`.
   Initialization begin(int first, int* last = nullptr) {
     Initialization begun;
@@ -67,7 +46,7 @@ struct Beginning {
 };
 
 TEST(LineViewInitializer, TheFirstFrameIsTheReference) {
-  Beginning b;
+  BoardsBeginning b;
   EXPECT_FALSE(b.initializer.started());
   const Initialization first = b.add(0);
   EXPECT_EQ(first.state, TrackingState::kWaiting);
@@ -78,7 +57,7 @@ TEST(LineViewInitializer, TheFirstFrameIsTheReference) {
 }
 
 TEST(LineViewInitializer, AnEmptyFrameIsNothingToBeginWith) {
-  Beginning b;
+  BoardsBeginning b;
   const Initialization dark = b.add_dark(0);
   EXPECT_EQ(dark.state, TrackingState::kWaiting);
   EXPECT_FALSE(dark.is_reference);
@@ -88,7 +67,7 @@ TEST(LineViewInitializer, AnEmptyFrameIsNothingToBeginWith) {
 }
 
 TEST(LineViewInitializer, SeveralViewsOfLinesBeginAMap) {
-  Beginning b;
+  BoardsBeginning b;
   int last = 0;
   const Initialization begun = b.begin(0, &last);
   ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
@@ -120,7 +99,7 @@ TEST(LineViewInitializer, SeveralViewsOfLinesBeginAMap) {
 }
 
 TEST(LineViewInitializer, TheVelocityIsTheMotionOverOneFrame) {
-  Beginning b;
+  BoardsBeginning b;
   const Initialization begun = b.begin(0);
   ASSERT_EQ(begun.state, TrackingState::kTracking);
   ASSERT_TRUE(begun.T_last_cur);
@@ -133,14 +112,14 @@ TEST(LineViewInitializer, TheVelocityIsTheMotionOverOneFrame) {
 }
 
 TEST(LineViewInitializer, AnArbitraryMapSeesLinesAtTheUnknownDepth) {
-  Beginning b;
+  BoardsBeginning b;
   ASSERT_EQ(b.begin(0).state, TrackingState::kTracking);
   EXPECT_NEAR(b.map.median_depth(), LocalMap::kUnknownDepth, 0.4 * LocalMap::kUnknownDepth);
   EXPECT_FALSE(b.map.metric());
 }
 
 TEST(LineViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
-  Beginning b(Scale::kFromMap);
+  BoardsBeginning b(Scale::kFromMap);
   Initialization waits;
   int i = 0;
   for (; i < kFrames && waits.reason != "nothing gives the map's unit"; ++i) {
@@ -158,7 +137,7 @@ TEST(LineViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
 }
 
 TEST(LineViewInitializer, AFrameWithoutTheLinesOfTheFirstViewTakesItsPlace) {
-  Beginning b;
+  BoardsBeginning b;
   (void)b.add(0);
   (void)b.add(1);
   const Initialization dark = b.add_dark(2);
@@ -171,7 +150,7 @@ TEST(LineViewInitializer, AFrameWithoutTheLinesOfTheFirstViewTakesItsPlace) {
 }
 
 TEST(LineViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
-  Beginning b(Scale::kFromMap);
+  BoardsBeginning b(Scale::kFromMap);
   (void)b.add(0);
   (void)b.add(1);
   const Initialization lost = b.add_dark(2);
@@ -181,7 +160,7 @@ TEST(LineViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
 }
 
 TEST(LineViewInitializer, ACameraThatStandsWaitsAndLeavesTheMapEmpty) {
-  Beginning b;
+  BoardsBeginning b;
   Frame still = drive()[0];
   Initialization waits;
   for (int i = 0; i < 12; ++i) {
@@ -196,7 +175,7 @@ TEST(LineViewInitializer, ACameraThatStandsWaitsAndLeavesTheMapEmpty) {
 }
 
 TEST(LineViewInitializer, ARestartForgetsTheViewsAndMovesTheStart) {
-  Beginning b;
+  BoardsBeginning b;
   (void)b.add(0);
   const SE3 T_other = pose({0, 0, 0}, {-7, 0, 0});
   b.initializer.restart(T_other);

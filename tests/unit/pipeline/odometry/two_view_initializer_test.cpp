@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/odometry/two_view_initializer.h>
 
+#include "tests/support/scenes/beginning.h"
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
@@ -27,45 +28,21 @@ const StreetDataset& turn() {
   return dataset;
 }
 
-struct Beginning {
-  const StreetDataset& dataset;
-  StageTimes times;
-  Calibration calibration;
-  OdometryOptions options;
-  FeatureTracker tracker;
-  LocalMapping mapping;
-  LocalMap map;
-  TwoViewInitializer initializer;
-  SE3 T_odom_start = pose({0, 0.3, 0}, {2, 0, 1});
+const SE3 kStart = pose({0, 0.3, 0}, {2, 0, 1});
 
-  explicit Beginning(const StreetDataset& d, Scale scale = Scale::kArbitrary)
-      : dataset(d),
-        calibration(d.calibration(Sensor::kMono)),
-        options(by_points()),
-        tracker(options, calibration, 1, {}, times),
-        mapping(options, calibration, 1, {}, times),
-        map(options.window, calibration.camera, scale),
-        initializer(options, calibration, 1, tracker, {}, times) {
-    initializer.restart(T_odom_start);
-  }
-  static OdometryOptions by_points() {
-    OdometryOptions options;
-    options.cues = "points";
-    return options;
-  }
+struct StreetBeginning : Beginning<TwoViewInitializer> {
+  const StreetDataset& dataset;
+
+  explicit StreetBeginning(const StreetDataset& d, Scale scale = Scale::kArbitrary)
+      : Beginning(d.calibration(Sensor::kMono), "points", scale, kStart), dataset(d) {}
   Initialization add(int i, const std::optional<SE3>& T_odom_cam_known = {}) {
-    return initializer.add(dataset.frame(i, Sensor::kMono), T_odom_cam_known, map, mapping);
+    return Beginning::add(dataset.frame(i, Sensor::kMono), T_odom_cam_known);
   }
-  Initialization add_dark(int i) {
-    Frame frame = dataset.frame(i, Sensor::kMono);
-    frame.image = Image(frame.image.size(), CV_8UC1, cv::Scalar(0));
-    return initializer.add(frame, {}, map, mapping);
-  }
-  SE3 motion() const { return map.pose(map.first()).inverse() * map.pose(map.newest()); }
+  Initialization add_dark(int i) { return Beginning::add_dark(dataset.frame(i, Sensor::kMono)); }
 };
 
 TEST(TwoViewInitializer, TheFirstFrameIsTheReference) {
-  Beginning b(drive());
+  StreetBeginning b(drive());
   EXPECT_FALSE(b.initializer.started());
   const Initialization first = b.add(0);
   EXPECT_EQ(first.state, TrackingState::kWaiting);
@@ -76,7 +53,7 @@ TEST(TwoViewInitializer, TheFirstFrameIsTheReference) {
 }
 
 TEST(TwoViewInitializer, TwoViewsWithParallaxBeginAMap) {
-  Beginning b(drive());
+  StreetBeginning b(drive());
   (void)b.add(0);
   const Initialization begun = b.add(1);
   ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
@@ -93,7 +70,7 @@ TEST(TwoViewInitializer, TwoViewsWithParallaxBeginAMap) {
 }
 
 TEST(TwoViewInitializer, TheVelocityIsTheMotionOverOneFrame) {
-  Beginning b(turn());
+  StreetBeginning b(turn());
   Initialization begun;
   int i = 0;
   for (; i < kStands + 7 && begun.state != TrackingState::kTracking; ++i) begun = b.add(i);
@@ -105,16 +82,16 @@ TEST(TwoViewInitializer, TheVelocityIsTheMotionOverOneFrame) {
 }
 
 TEST(TwoViewInitializer, AnArbitraryMapSeesThingsAtTheUnknownDepth) {
-  Beginning b(drive());
+  StreetBeginning b(drive());
   (void)b.add(0);
   ASSERT_EQ(b.add(1).state, TrackingState::kTracking);
   EXPECT_NEAR(b.map.median_depth(), LocalMap::kUnknownDepth, 0.25 * LocalMap::kUnknownDepth);
 }
 
 TEST(TwoViewInitializer, AGuessedScaleTakesThingsToBeAsFarAwayAsBefore) {
-  Beginning unknown(drive()), guessed(drive());
+  StreetBeginning unknown(drive()), guessed(drive());
   guessed.map.restart(Scale::kGuessed, 2.5);
-  for (Beginning* b : {&unknown, &guessed}) {
+  for (StreetBeginning* b : {&unknown, &guessed}) {
     (void)b->add(0);
     ASSERT_EQ(b->add(1).state, TrackingState::kTracking);
   }
@@ -124,7 +101,7 @@ TEST(TwoViewInitializer, AGuessedScaleTakesThingsToBeAsFarAwayAsBefore) {
 }
 
 TEST(TwoViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
-  Beginning b(drive(), Scale::kFromMap);
+  StreetBeginning b(drive(), Scale::kFromMap);
   (void)b.add(0);
   const Initialization waits = b.add(1);
   EXPECT_EQ(waits.state, TrackingState::kWaiting);
@@ -137,7 +114,7 @@ TEST(TwoViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
 }
 
 TEST(TwoViewInitializer, ARotationIsNoBeginningButItsFramesArePosed) {
-  Beginning b(turn());
+  StreetBeginning b(turn());
   (void)b.add(0);
   for (int i = 1; i <= kStands; ++i) {
     const Initialization waits = b.add(i);
@@ -169,7 +146,7 @@ TEST(TwoViewInitializer, FramesFromBeforeAReferenceThatRotatedOutOfViewArePosed)
                 {0, -kStreetHeight_m, 0.3 * std::max(0, i - kRotates)});
   };
   const StreetDataset looks_aside(kAll, 0, 0, false, way);
-  Beginning b(looks_aside);
+  StreetBeginning b(looks_aside);
   Initialization begun = b.add(0);
   std::int64_t reference = 0;
   for (int i = 1; i < kAll && begun.state != TrackingState::kTracking; ++i) {
@@ -192,7 +169,7 @@ TEST(TwoViewInitializer, FramesFromBeforeAReferenceThatRotatedOutOfViewArePosed)
 }
 
 TEST(TwoViewInitializer, AnotherFrameTakesThePlaceOfAReferenceThatIsOutOfView) {
-  Beginning b(drive());
+  StreetBeginning b(drive());
   (void)b.add(0);
   const Initialization dark = b.add_dark(1);
   EXPECT_EQ(dark.state, TrackingState::kWaiting);
@@ -206,7 +183,7 @@ TEST(TwoViewInitializer, AnotherFrameTakesThePlaceOfAReferenceThatIsOutOfView) {
 }
 
 TEST(TwoViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
-  Beginning b(drive(), Scale::kFromMap);
+  StreetBeginning b(drive(), Scale::kFromMap);
   (void)b.add(0);
   const Initialization lost = b.add_dark(1);
   EXPECT_EQ(lost.state, TrackingState::kLost);
@@ -215,7 +192,7 @@ TEST(TwoViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
 }
 
 TEST(TwoViewInitializer, ARestartForgetsTheViewsAndMovesTheStart) {
-  Beginning b(drive());
+  StreetBeginning b(drive());
   (void)b.add(0);
   const SE3 T_other = pose({0, 0, 0}, {-7, 0, 0});
   b.initializer.restart(T_other);

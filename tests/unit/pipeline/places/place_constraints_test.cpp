@@ -12,8 +12,6 @@ using namespace test;
 
 constexpr double kRounding = 1e-9;
 
-double difference(const Sim3& a, const Sim3& b) { return (a.matrix() - b.matrix()).norm(); }
-
 Matrix7d diagonal(double translation, double rotation, double log_scale) {
   Matrix7d result = Matrix7d::Zero();
   result.diagonal() << translation, translation, translation, rotation, rotation, rotation,

@@ -2,12 +2,11 @@
 #include <placegraph/pipeline/places/place_partition.h>
 
 #include "tests/support/place_links.h"
+#include "tests/support/scenes/poses.h"
 
 namespace placegraph::test {
 
 constexpr double kRounding = 1e-9;
-
-inline double difference(const Sim3& a, const Sim3& b) { return (a.matrix() - b.matrix()).norm(); }
 
 /// Keyframes 0 (with 1), 2 (with 3) and 4, each an anchor 5 m after the last, in one component.
 struct Row {

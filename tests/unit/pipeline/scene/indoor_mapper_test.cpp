@@ -3,9 +3,12 @@
 #include <placegraph/pipeline/scene/indoor_mapper.h>
 
 #include "tests/support/scenes/boards.h"
+#include "tests/support/scenes/posed_map.h"
 
 namespace placegraph {
 namespace {
+
+using namespace test;
 
 /// What a camera 1.4 m above the floor sees of a room from x = -2 to 2, z = -1 to 4 and 2.6 m high,
 /// with the camera at `t` and turned by `turn` about the vertical.
@@ -35,22 +38,6 @@ SurfaceSight sight_of_room(std::int64_t keyframe, const SE3& T_room_cam) {
   return sight;
 }
 
-Map map_of(const std::vector<SE3>& poses) {
-  Map map;
-  map.metric = true;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const auto id = static_cast<std::int64_t>(i);
-    Keyframe keyframe;
-    keyframe.id = id, keyframe.frame = id, keyframe.place = id;
-    map.keyframes.push_back(keyframe);
-    Place place;
-    place.id = id, place.anchor_keyframe = id, place.T_map_place = poses[i];
-    place.members.push_back({id, SE3(), 1});
-    map.place_graph.places.push_back(place);
-  }
-  return map;
-}
-
 /// Where the wall at z = 4 of the room stands in the plan, and how many pieces it is in.
 std::vector<double> far_walls(const IndoorMap& plan) {
   std::vector<double> at;
@@ -69,7 +56,7 @@ TEST(IndoorMapper, FusesTwoKeyframesAndMovesWithALoop) {
                                       .camera_height_m = {}});
   mapper.add(sight_of_room(0, first));
   mapper.add(sight_of_room(1, second));
-  const IndoorMap before = mapper.fuse(map_of({first, drifted}));
+  const IndoorMap before = mapper.fuse(posed_map({first, drifted}));
   ASSERT_TRUE(before.outcome) << before.outcome.reason;
   // The far wall stands where each of the two sees it. The room is what lies before the nearer one
   // of the two walls of each kind: x from -2 to 2, z from -0.7 to 4, up to a row of cells each way.
@@ -79,7 +66,7 @@ TEST(IndoorMapper, FusesTwoKeyframesAndMovesWithALoop) {
   EXPECT_NEAR(std::max(twice[0], twice[1]), 4.3, 0.005);
   ASSERT_EQ(before.rooms.size(), 1U);
   EXPECT_NEAR(before.rooms[0].area_m2, 4 * 4.7, IndoorMapperOptions().cell_m * (4 + 4.7));
-  const Map map = map_of({first, second});
+  const Map map = posed_map({first, second});
   const IndoorMap after = mapper.fuse(map);
   ASSERT_TRUE(after.outcome) << after.outcome.reason;
   const std::vector<double> walls = far_walls(after);
@@ -98,7 +85,7 @@ TEST(IndoorMapper, SaysWhyThereIsNoPlan) {
   const Camera camera{640, 480, 500, 500, 320, 240};
   IndoorMapper mapper(
       {}, Calibration{.camera = camera, .baseline_m = 0.1, .depth = {}, .camera_height_m = {}});
-  Map map = map_of({SE3()});
+  Map map = posed_map({SE3()});
   EXPECT_EQ(mapper.fuse(map).outcome.code, Outcome::Code::kTooFewData);
   map.metric = false;
   EXPECT_EQ(mapper.fuse(map).outcome.reason, "the map's unit is not the metre");
@@ -134,7 +121,7 @@ TEST(NearbyViews, AreANearerAndAFartherOneOnEachSide) {
   for (int i = 0; i < 40; ++i) poses.push_back(SE3(SO3(), Eigen::Vector3d(0, 0, 0.15 * i)));
   // From the 30th on the camera looks elsewhere.
   for (int i = 30; i < 40; ++i) poses[i] = SE3(SO3::exp({0, 1, 0}), poses[i].translation());
-  const Map map = map_of(poses);
+  const Map map = posed_map(poses);
   GreyFrames frames;
   NearbyViews nearby = frames.views_of(map);
   const auto of = [&](int keyframe) {
@@ -157,7 +144,7 @@ TEST(NearbyViews, AreOnlyThoseThatHaveMovedALittle) {
   // It stands still, goes on in small steps, and then leaps.
   std::vector<SE3> poses(3);
   for (const double z : {0.1, 0.3, 2.3, 2.6}) poses.push_back(SE3(SO3(), Eigen::Vector3d(0, 0, z)));
-  const Map map = map_of(poses);
+  const Map map = posed_map(poses);
   GreyFrames frames;
   NearbyViews nearby = frames.views_of(map);
   EXPECT_EQ(numbers_of(nearby.of(map.keyframes[0])), std::vector<int>{4});
@@ -168,7 +155,7 @@ TEST(NearbyViews, AreOnlyThoseThatHaveMovedALittle) {
 TEST(NearbyViews, AreOfTheMapThatHangsTogether) {
   std::vector<SE3> poses;
   for (int i = 0; i < 6; ++i) poses.push_back(SE3(SO3(), Eigen::Vector3d(0, 0, 0.3 * i)));
-  Map map = map_of(poses);
+  Map map = posed_map(poses);
   for (int i = 3; i < 6; ++i) map.place_graph.places[i].component = 1;  // lost, and never found
   GreyFrames frames;
   NearbyViews nearby = frames.views_of(map);
@@ -212,7 +199,7 @@ TEST(IndoorMapper, SweepsDepthForAnEyeThatHasMoved) {
   }
   EXPECT_GT(right, 0.95 * count);
   EXPECT_GT(flat, 0.8 * count);
-  EXPECT_EQ(mapper.fuse(map_of({SE3()})).outcome.code, Outcome::Code::kDegenerate)
+  EXPECT_EQ(mapper.fuse(posed_map({SE3()})).outcome.code, Outcome::Code::kDegenerate)
       << "a wall alone is no building, but one eye of unknown height may see one";
 }
 
@@ -257,13 +244,13 @@ TEST(IndoorMapper, TakesTheDepthsOfADepthCamera) {
 TEST(IndoorMapper, OneEyeOfKnownHeightSeesTheFloor) {
   IndoorMapperOptions options;
   Calibration calibration;
-  calibration.camera = test::boards_camera();
+  calibration.camera = boards_camera();
   Frame frame;
-  frame.image = test::boards_image(SE3());
+  frame.image = boards_image(SE3());
   IndoorMapper blind(options, calibration);
   blind.add(0, frame);
   EXPECT_TRUE(blind.sights()[0].points.empty()) << "nothing gives lengths";
-  calibration.camera_height_m = test::kBoardsHeight_m;
+  calibration.camera_height_m = kBoardsHeight_m;
   IndoorMapper mapper(options, calibration);
   mapper.add(0, frame);
   ASSERT_GT(mapper.sights()[0].points.size(), 20U);
@@ -271,7 +258,7 @@ TEST(IndoorMapper, OneEyeOfKnownHeightSeesTheFloor) {
   for (const SurfacePoint& p : mapper.sights()[0].points)
     if (p.normal[1] < -0.9F) {
       ++floor;
-      on_floor += std::abs(p.point[1] - test::kBoardsHeight_m) < 0.15;
+      on_floor += std::abs(p.point[1] - kBoardsHeight_m) < 0.15;
     }
   ASSERT_GT(floor, 10);
   EXPECT_GT(on_floor, 0.9 * floor);
@@ -286,7 +273,7 @@ TEST(IndoorMapper, AMapIsReadByItsKeyframesThatAreApart) {
   std::vector<SE3> poses;
   for (int i = 0; i < 6; ++i) poses.push_back(SE3(SO3(), Eigen::Vector3d(0.1 * i, 0, 0)));
   std::vector<std::int64_t> read;
-  const IndoorMap plan = map_indoors(map_of(poses), calibration, [&](const Keyframe& keyframe) {
+  const IndoorMap plan = map_indoors(posed_map(poses), calibration, [&](const Keyframe& keyframe) {
     read.push_back(keyframe.id);
     return wall_in_depth(camera, 2);
   });

@@ -5,8 +5,12 @@
 #include <numbers>
 #include <set>
 
+#include "tests/support/scenes/posed_map.h"
+
 namespace placegraph {
 namespace {
+
+using namespace test;
 
 SceneModel model_of(SceneModel::Kind kind, std::vector<std::string> classes) {
   SceneModel model;
@@ -45,22 +49,6 @@ SemanticSight sight_of_wall(std::int64_t keyframe, const SE3& T_world_cam) {
   return sight;
 }
 
-Map map_of(const std::vector<SE3>& poses) {
-  Map map;
-  map.metric = true;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const auto id = static_cast<std::int64_t>(i);
-    Keyframe keyframe;
-    keyframe.id = id, keyframe.frame = id, keyframe.place = id, keyframe.stamp_ns = 100 * id;
-    map.keyframes.push_back(keyframe);
-    Place place;
-    place.id = id, place.anchor_keyframe = id, place.T_map_place = poses[i];
-    place.members.push_back({id, SE3(), 1});
-    map.place_graph.places.push_back(place);
-  }
-  return map;
-}
-
 std::set<int> depths_of(const SemanticMap& map) {
   std::set<int> rows;
   for (const SemanticCell& cell : map.cells)
@@ -75,10 +63,10 @@ TEST(UrbanMapper, FusesSightsAgainWhereALoopMovedThem) {
   UrbanMapper mapper = mapper_of();
   mapper.add(sight_of_wall(0, first));
   mapper.add(sight_of_wall(1, second));
-  const SemanticMap before = mapper.fuse(map_of({first, drifted}));
+  const SemanticMap before = mapper.fuse(posed_map({first, drifted}));
   ASSERT_TRUE(before.outcome) << before.outcome.reason;
   EXPECT_EQ(depths_of(before), (std::set<int>{33, 40}));  // cells of 0.3 m: 10.05 and 12.05 m
-  const SemanticMap after = mapper.fuse(map_of({first, second}));
+  const SemanticMap after = mapper.fuse(posed_map({first, second}));
   EXPECT_EQ(depths_of(after), std::set<int>{33});
 }
 
@@ -88,11 +76,11 @@ TEST(UrbanMapper, ReplacesWhatAKeyframeTold) {
   SemanticSight other = sight_of_wall(0, SE3());
   for (SemanticPoint& point : other.points) point.point[2] += 2;
   mapper.add(other);
-  EXPECT_EQ(depths_of(mapper.fuse(map_of({SE3()}))), std::set<int>{40});
+  EXPECT_EQ(depths_of(mapper.fuse(posed_map({SE3()}))), std::set<int>{40});
 }
 
 TEST(UrbanMapper, TakesPosesBeforeCorrectionsByTheirStamps) {
-  Map map = map_of({SE3(), SE3()});
+  Map map = posed_map({SE3(), SE3()});
   map.trajectory_online.poses.push_back({100, SE3(SO3(), Eigen::Vector3d(1, 2, 3)).isometry()});
   const KeyframePoses online = online_poses_of(map);
   EXPECT_FALSE(online(0));
@@ -105,7 +93,7 @@ TEST(UrbanMapper, TakesPosesBeforeCorrectionsByTheirStamps) {
 TEST(UrbanMapper, UsesKeyframesThatAreAStepApart) {
   std::vector<SE3> poses;
   for (int i = 0; i < 10; ++i) poses.emplace_back(SO3(), Eigen::Vector3d(0, 0, 0.4 * i));
-  const Map map = map_of(poses);
+  const Map map = posed_map(poses);
   std::vector<std::int64_t> ids;
   for (const Keyframe* keyframe : keyframes_apart(map, 1, 0.1)) ids.push_back(keyframe->id);
   EXPECT_EQ(ids, (std::vector<std::int64_t>{0, 3, 6, 9}));
@@ -114,7 +102,7 @@ TEST(UrbanMapper, UsesKeyframesThatAreAStepApart) {
 TEST(UrbanMapper, TellsWhatIsSeenFromEachPlace) {
   UrbanMapper mapper = mapper_of();
   mapper.add(sight_of_wall(1, SE3()));
-  const auto shares = class_shares(mapper, map_of({SE3(), SE3()}));
+  const auto shares = class_shares(mapper, posed_map({SE3(), SE3()}));
   ASSERT_EQ(shares.size(), 2U);
   EXPECT_TRUE(shares[0].empty());
   EXPECT_NEAR(shares[1][1], 0.9, 1e-4);
@@ -137,7 +125,7 @@ TEST(UrbanMapper, RefusesModelsAndClassesThatItCannotUse) {
 }
 
 TEST(UrbanMapper, SaysWhyThereIsNoMap) {
-  Map map = map_of({SE3()});
+  Map map = posed_map({SE3()});
   EXPECT_EQ(mapper_of().fuse(map).outcome.code, Outcome::Code::kTooFewData);
   EXPECT_EQ(mapper_of(0).fuse(map).outcome.reason, "two eyes are needed");
   map.metric = false;
@@ -184,7 +172,7 @@ TEST(UrbanMapper, ReadsTheKeyframesOfAMapThatAreApartAndSaysHowFarItIs) {
   std::vector<std::int64_t> read;
   std::vector<std::size_t> done;
   add_keyframes(
-      mapper, map_of(poses), {},
+      mapper, posed_map(poses), {},
       [&](const Keyframe& keyframe) {
         read.push_back(keyframe.id);
         return Frame();
@@ -204,7 +192,7 @@ TEST(UrbanMapper, SharesOfClassesAreOfAllPointsOfAPlace) {
   road.points.resize(wall.points.size() / 3);
   mapper.add(wall);
   mapper.add(road);
-  Map map = map_of({SE3(), SE3()});
+  Map map = posed_map({SE3(), SE3()});
   map.keyframes[1].place = 0;  // both are of one place
   map.place_graph.places[0].members.push_back({1, SE3(), 1});
   map.place_graph.places[1].members.clear();

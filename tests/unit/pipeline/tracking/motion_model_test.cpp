@@ -1,13 +1,15 @@
 #include <gtest/gtest.h>
 #include <placegraph/pipeline/tracking/motion_model.h>
 
+#include "tests/support/scenes/poses.h"
+
 namespace placegraph {
 namespace {
 
+using namespace test;
+
 const SE3 kStep(SO3::exp({0.01, 0.02, -0.03}), Eigen::Vector3d(0.1, 0, 0.5));
 const SE3 kStart(SO3::exp({0.3, -0.2, 0.1}), Eigen::Vector3d(4, 5, 6));
-
-double difference(const SE3& a, const SE3& b) { return (a.inverse() * b).log().norm(); }
 
 TEST(MotionModel, ExpectsTheSameMotionAgain) {
   MotionModel motion(kStart);
