@@ -173,8 +173,9 @@ TEST(OdometryLaws, DepthsGiveTheUnit) {
   }
 }
 
-/// Road 5 m ahead moves by f h t / z^2 = 6.5 px a step of 0.3 m; 0.25 px of them are 4 percent.
-constexpr double kShareOfRoad = 0.25 / (330 * kStreetHeight_m * 0.3 / (5 * 5));
+/// Road 5 m ahead moves by f h t / z^2 = 5.4 px in the shortest step, 0.25 m; 0.25 px of them are
+/// 4.6 percent.
+constexpr double kShareOfRoad = 0.25 / (330 * kStreetHeight_m * 0.25 / (5 * 5));
 
 TEST(OdometryLaws, TheHeightOfASingleCameraGivesTheUnit) {
   Random random = seeded_random(7);

@@ -52,8 +52,9 @@ struct Walk {
   }
 };
 
-/// The optimizer stops where little is left to gain: what it leaves may differ by this much [m].
-constexpr double kLeft = 2e-3;
+/// The optimizer stops where little is left to gain: what it leaves may differ by a fifth of the
+/// smallest deviation of a link, 1 / sqrt(1e4), of translation [m], rotation [rad] or log scale.
+constexpr double kLeft = 0.2 * 1e-2;
 
 TEST(PlaceGraphLaw, RotatingTheWorldRotatesAllPoses) {
   Random random = seeded_random(3);
