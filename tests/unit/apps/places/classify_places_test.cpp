@@ -93,13 +93,14 @@ TEST_F(ClassifyPlacesCommand, ACueThatDoesNotCountHasNoWeight) {
   arguments.cues = {"tiny", "edges"};
   const ClassifyPlacesResult result = classify_places(arguments);
   ASSERT_EQ(result.weights.size(), place_cues().size());
-  int counted = 0;
+  double named = 0;  // one of both may tell the places alone
   for (std::size_t m = 0; m < place_cues().size(); ++m) {
-    const bool counts = place_cues()[m] == "tiny" || place_cues()[m] == "edges";
-    counted += counts;
-    EXPECT_EQ(result.weights[m] > 0, counts) << place_cues()[m] << " " << result.weights[m];
+    if (place_cues()[m] == "tiny" || place_cues()[m] == "edges")
+      named += result.weights[m];
+    else
+      EXPECT_EQ(result.weights[m], 0) << place_cues()[m];
   }
-  EXPECT_EQ(counted, 2);
+  EXPECT_GT(named, 0);
 }
 
 TEST_F(ClassifyPlacesCommand, NamesTheFileAndThePlaceOfWhatIsWrong) {
