@@ -61,24 +61,5 @@ TEST(PlaceReach, AKeyframeWithinReachOfTheAnchorBelongsToItsPart) {
   EXPECT_FALSE(in_reach(pose({0, 0.36, 0}, {0, 0, 1}), 10));  // 20.6 deg
 }
 
-/// Two runs, each its own component: 0 and 1, 5 m apart; 2 and 3, too.
-struct TwoComponents {
-  KeyframeChain chain;
-  PlacePartition partition;
-
-  TwoComponents(bool first_known, bool second_known) {
-    chain.add(0, std::nullopt, first_known);
-    partition.found(0, Sim3(), 0, 3);
-    chain.add(1, link(0, kLong));
-    partition.found(1, Sim3(kLong), 0, 3);
-    const SE3 T_map_2 = pose({0, 1, 0}, {50, 0, 0});
-    chain.add(2, std::nullopt, second_known);
-    partition.found(2, Sim3(T_map_2), 1, 3);
-    chain.add(3, link(2, kLong));
-    partition.found(3, Sim3(T_map_2 * kLong), 1, 3);
-  }
-  Sim3 S_map(std::int64_t keyframe) const { return partition.S_map_keyframe(chain, keyframe); }
-};
-
 }  // namespace
 }  // namespace placegraph
