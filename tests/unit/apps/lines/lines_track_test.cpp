@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "apps/support/output.h"
+#include "tests/support/clean_world.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -23,11 +24,7 @@ class LinesTrackCommand : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = new test::TemporaryFolder;
-    SyntheticOptions options;
-    options.world = "corridor-loop";
-    options.difficulty = synthetic::Difficulty::kClean;
-    options.frames = 8;
-    options.width = 320, options.height = 240;
+    const SyntheticOptions options = test::clean_world("corridor-loop", 8, 320, 240);
     SequenceWriterOptions writer;
     writer.contents.depth = true;
     write_sequence(SyntheticWorld(options), *folder / "hall", writer);

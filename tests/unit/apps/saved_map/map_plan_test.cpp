@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "apps/support/output.h"
+#include "tests/support/clean_world.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/apps/saved_map/posed_map.h"
@@ -23,11 +24,7 @@ class MapPlanCommand : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
-    SyntheticOptions options;
-    options.world = "corridor-loop";
-    options.difficulty = synthetic::Difficulty::kClean;
-    options.frames = 40;
-    options.width = 160, options.height = 120;
+    const SyntheticOptions options = test::clean_world("corridor-loop", 40, 160, 120);
     const SyntheticWorld world(options);
     SequenceWriterOptions writing;
     writing.contents.depth = true;

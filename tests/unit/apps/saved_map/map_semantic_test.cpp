@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "apps/support/output.h"
+#include "tests/support/clean_world.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/unit/apps/saved_map/posed_map.h"
@@ -23,11 +24,7 @@ class MapSemanticCommand : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
-    SyntheticOptions options;
-    options.world = "town-loop";
-    options.difficulty = synthetic::Difficulty::kClean;
-    options.frames = 4;
-    options.width = 620, options.height = 188;
+    const SyntheticOptions options = test::clean_world("town-loop", 4, 620, 188);
     const SyntheticWorld world(options);
     SequenceWriterOptions writing;
     writing.contents.right = true;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/support/output.h"
+#include "tests/support/clean_world.h"
 #include "tests/support/message_of.h"
 #include "tests/support/scenes/street_files.h"
 
@@ -23,11 +24,7 @@ class SceneOrientationCommand : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
-    SyntheticOptions options;
-    options.world = "corridor-loop";
-    options.difficulty = synthetic::Difficulty::kClean;
-    options.frames = 3;
-    options.width = 320, options.height = 240;
+    const SyntheticOptions options = test::clean_world("corridor-loop", 3, 320, 240);
     const SyntheticWorld world(options);
     SequenceWriterOptions writing;
     writing.contents.planes = true;
