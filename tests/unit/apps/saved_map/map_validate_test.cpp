@@ -59,7 +59,9 @@ TEST_F(MapValidateCommand, FindsALoopOfAFrameThatIsNotThere) {
 
 TEST_F(MapValidateCommand, FindsThatARunCouldNotGoOn) {
   stored.history.founded = 0;  // the next place would get the number of one that is there
-  EXPECT_THAT(complaint(), HasSubstr("map.db: tables link, part, place: PlacePartition: fewer places were founded "));
+  EXPECT_THAT(
+      complaint(),
+      HasSubstr("map.db: tables link, part, place: PlacePartition: fewer places were founded "));
 }
 
 TEST_F(MapValidateCommand, FindsThatTheFileIsDamaged) {
