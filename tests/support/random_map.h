@@ -142,8 +142,9 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   stored.history.judged_loops = 1;
   stored.history.merged.push_back({0, {{0, random_information<7>(random)}}});
   stored.history.parted.insert({0, id - 1});
-  stored.history.motions.push_back(
-      {0, stored.history.parts[1].anchor, random_pose(random), random_information<6>(random)});
+  if (places > 1)
+    stored.history.motions.push_back(
+        {0, stored.history.parts[1].anchor, random_pose(random), random_information<6>(random)});
   return stored;
 }
 
