@@ -230,10 +230,10 @@ TEST_F(LandmarkGraphs, SayWhichPartsNothingTiesToTheWorld) {
   dir.write("parts.g2o", square_with_points(apart + "EDGE_PRIOR_SE2 0 0 0 0 1 0 0 1 0 1\n"));
   const json report = optimize("parts.g2o");
   EXPECT_EQ(report["components"], 2);
-  EXPECT_EQ(report["held_vertices"], json({30}));
+  EXPECT_EQ(report["held_vertices"], json::array({30}));
   EXPECT_THAT(said, HasSubstr("falls into 2 components"));
   dir.write("parts.g2o", square_with_points(apart + "FIX 31\n"));
-  EXPECT_EQ(optimize("parts.g2o")["held_vertices"], json({0}));
+  EXPECT_EQ(optimize("parts.g2o")["held_vertices"], json::array({0}));
   dir.write("whole.g2o", square_with_points("VERTEX_XY 40 1 1\n"));  // that nobody sees
   EXPECT_EQ(optimize("whole.g2o")["components"], 1);
   EXPECT_EQ(said, "");
