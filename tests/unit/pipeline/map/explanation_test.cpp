@@ -73,6 +73,8 @@ TEST(Explanation, CarriesTheCovarianceOfThePlaceToTheFrame) {
   // Half a metre ahead an uncertain turn counts as an uncertain way: 0.01 + 0.5^2 0.01.
   EXPECT_NEAR((*beyond->covariance)(0, 0), 0.0125, 1e-9);
   EXPECT_NEAR((*beyond->covariance)(2, 2), 0.01, 1e-9);
+  // A turn about y moves what is ahead in the direction of x.
+  EXPECT_NEAR((*beyond->covariance)(0, 4), 0.005, 1e-9);
 }
 
 TEST(Explanation, ALostFrameHasNoPoseAndAnUnknownOneNoAnswer) {
@@ -82,6 +84,7 @@ TEST(Explanation, ALostFrameHasNoPoseAndAnUnknownOneNoAnswer) {
   EXPECT_FALSE(lost->posed);
   EXPECT_FALSE(lost->covariance);
   EXPECT_FALSE(explain_frame(map, 4));
+  EXPECT_FALSE(explain_frame(map, -1));
 }
 
 }  // namespace
