@@ -4,11 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/support/output.h"
 #include "apps/support/subpixel.h"
+#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {
@@ -83,11 +82,10 @@ Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView&
 
 void write_frame_drawing(const std::string& folder, const Frame& frame, const FrameResult& result,
                          const FrameView& view) {
-  std::vector<unsigned char> png;
-  cv::imencode(".png", draw_frame(frame, result, view), png, {cv::IMWRITE_PNG_COMPRESSION, 3});
   char name[32];
   std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(frame.id));
-  write_file((std::filesystem::path(folder) / name).string(), {png.begin(), png.end()});
+  write_png((std::filesystem::path(folder) / name).string(), draw_frame(frame, result, view),
+            {.level = 3});
 }
 
 }  // namespace placegraph::apps

@@ -17,6 +17,7 @@
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/scene_models.h"
+#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/eval/plots/plot_canvas.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/image/png_codec.h>
 
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
@@ -135,9 +135,7 @@ class PngCanvas : public PlotCanvas {
   std::string encode() override {
     cv::Mat picture;
     cv::resize(whole_, picture, whole_.size() / kOversampling, 0, 0, cv::INTER_AREA);
-    std::vector<unsigned char> bytes;
-    if (!cv::imencode(".png", picture, bytes)) throw Error("the plot cannot be encoded as PNG");
-    return {bytes.begin(), bytes.end()};
+    return encode_png(picture);
   }
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/align/particle_swarm.h>
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/image/image.h>
 
 #include <vector>
 

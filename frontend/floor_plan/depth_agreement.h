@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/sweep_geometry.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/depth_agreement.h>
 #include <placegraph/frontend/floor_plan/semi_global.h>
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/image/image.h>
 
 #include <vector>
 

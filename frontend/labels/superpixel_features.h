@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/labels/superpixels.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 
 #include <cstdint>
 #include <utility>

@@ -1,10 +1,10 @@
 #include <placegraph/frontend/labels/superpixels.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/image/picture_plugin.h>
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/ximgproc/slic.hpp>
 
 namespace placegraph {
 
@@ -110,13 +110,12 @@ Superpixels cut_superpixels(const Image& bgr, const SuperpixelOptions& options) 
           "cut_superpixels: the picture is smaller than two superpixels");
   Image lab;
   cv::cvtColor(brightened(bgr), lab, cv::COLOR_BGR2Lab);
-  const auto slic = cv::ximgproc::createSuperpixelSLIC(lab, cv::ximgproc::SLIC, options.side_px,
-                                                       static_cast<float>(options.ruler));
-  slic->iterate(options.iterations);
-  slic->enforceLabelConnectivity(25);
   Image index;
-  slic->getLabels(index);
-  return superpixels_of_index(index, slic->getNumberOfSuperpixels());
+  const int count = picture_plugin("superpixels")
+                        .cut_superpixels(lab, options.side_px, static_cast<float>(options.ruler),
+                                         options.iterations, index);
+  if (count == 0) throw Error("cut_superpixels: the picture cannot be cut");
+  return superpixels_of_index(index, count);
 }
 
 Superpixels superpixels_of_index(const Image& index, int count) {

@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line_segment.h>
+#include <placegraph/graph/image/image.h>
 
 #include <optional>
 #include <vector>

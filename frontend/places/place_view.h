@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/places/cues/corner_agreement.h>
 #include <placegraph/frontend/places/cues/cue_grid.h>
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/place_view.h>
 
 #include <vector>

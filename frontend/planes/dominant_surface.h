@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/planes/inverse_depth_plane.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/planes/homography.h>
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
+#include <placegraph/graph/image/image.h>
 
 namespace placegraph {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/scene/scene_model.h>
 
 #include <optional>

@@ -1,9 +1,9 @@
 #pragma once
 #include <placegraph/frontend/segments/edge_refinement.h>
 #include <placegraph/frontend/segments/segment_merging.h>
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>
+#include <placegraph/graph/image/image.h>
 
 #include <vector>
 

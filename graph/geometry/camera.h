@@ -45,6 +45,9 @@ struct DepthCamera {
   double sigma_at_1m = 0.005;  ///< depth noise [m] at 1 m; grows with the square of the depth
 };
 
+/// The images that a camera delivers: one, two rectified ones, or one with its depth.
+enum class Sensor { kMono, kStereo, kRgbd };
+
 /// What is known of the sensors before the first frame. The (left) camera's frame is "cam".
 struct Calibration {
   Camera camera;          ///< the left or only eye, of the images as they are handed over

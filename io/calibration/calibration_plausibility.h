@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/graph/measurements/frame.h>
 #include <placegraph/io/calibration/calibration_file.h>
 #include <placegraph/io/calibration/rectification.h>
 

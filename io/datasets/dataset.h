@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/trajectory.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/data_note.h>
-#include <placegraph/graph/measurements/frame.h>
 
 #include <memory>
 #include <optional>

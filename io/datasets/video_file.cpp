@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/time.h>
+#include <placegraph/graph/image/picture_plugin.h>
 #include <placegraph/graph/measurements/stamp_plausibility.h>
 #include <placegraph/io/calibration/calibration_file.h>
 #include <placegraph/io/calibration/calibration_plausibility.h>
@@ -13,24 +14,18 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
-#include <opencv2/videoio.hpp>
 #include <string_view>
 
 namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
-/// With the two readers that decode the same bits everywhere and stay silent about bad files.
-cv::VideoCapture open_capture(const std::string& path) {
-  for (const int reader : {cv::CAP_FFMPEG, cv::CAP_OPENCV_MJPEG}) {
-    try {
-      cv::VideoCapture capture(path, reader);
-      if (capture.isOpened()) return capture;
-    } catch (const cv::Exception&) {  // this reader is not there, or cannot read it
-    }
-  }
-  throw FileError(path, "is no readable video");
+std::unique_ptr<VideoReader> open_video(const std::string& path) {
+  std::unique_ptr<VideoReader> video = picture_plugin(path).open_video(path);
+  if (!video) throw FileError(path, "is no readable video");
+  return video;
 }
 
 /// The reader tells no times of the last frames, those that the decoder still holds when the file
@@ -93,14 +88,13 @@ class VideoDataset : public Dataset {
  private:
   /// Those of the container where its rate varies, else counted at its rate or at the given one.
   void read_times(double given_hz) {
-    cv::VideoCapture capture = open_capture(path_);
-    const double told_hz = capture.get(cv::CAP_PROP_FPS);
+    const std::unique_ptr<VideoReader> video = open_video(path_);
+    const double told_hz = video->rate_hz();
     const bool rate_is_told = told_hz > 0.01 && told_hz < 1e5;
     const double rate_hz = given_hz > 0 ? given_hz : rate_is_told ? told_hz : kDefaultRateHz;
-    const double announced = capture.get(cv::CAP_PROP_FRAME_COUNT);
+    const double announced = video->announced_frames();
     std::vector<std::int64_t> container_ns;
-    while (capture.grab())
-      container_ns.push_back(std::llround(capture.get(cv::CAP_PROP_POS_MSEC) * 1e6));
+    while (video->grab()) container_ns.push_back(std::llround(video->time_ms() * 1e6));
     const std::size_t count = container_ns.size();
     if (count == 0) throw FileError(path_, "holds no frames");
     continue_times(container_ns);
@@ -146,17 +140,17 @@ class VideoDataset : public Dataset {
   /// Seeking by frame number is inexact in many containers; decoding in order is not.
   Image decode(std::size_t index) const {
     const std::lock_guard lock(mutex_);
-    if (!capture_.isOpened() || index < next_) {
-      capture_ = open_capture(path_);
+    if (!video_ || index < next_) {
+      video_ = open_video(path_);
       next_ = 0;
     }
     Image image;
     bool good = true;
     for (; good && next_ <= index; ++next_) {
-      good = next_ < index ? capture_.grab() : capture_.read(image);
+      good = next_ < index ? video_->grab() : video_->read(image);
     }
     if (!good || image.empty()) {
-      capture_.release();
+      video_.reset();
       throw FileError(path_, fmt::format("frame {} cannot be decoded", index));
     }
     return image.clone();
@@ -170,7 +164,7 @@ class VideoDataset : public Dataset {
   std::optional<Trajectory> ground_truth_;
   std::vector<DataNote> notes_;
   mutable std::mutex mutex_;
-  mutable cv::VideoCapture capture_;
+  mutable std::unique_ptr<VideoReader> video_;
   mutable std::size_t next_ = 0;
 };
 

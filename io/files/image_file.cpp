@@ -1,11 +1,12 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/image/picture.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph {
@@ -30,28 +31,10 @@ std::string read_bytes(const std::string& path) {
   return bytes;
 }
 
-/// Decoders fill the missing part of a cut JPEG or PNG with grey or black and call it success; an
-/// image without its end marker is not one.
-bool is_truncated(const std::string& bytes) {
-  if (bytes.starts_with("\xff\xd8")) {
-    // A thumbnail in the head has an end of its own: that of the image follows its scans.
-    const auto end = bytes.rfind("\xff\xd9"), scan = bytes.rfind("\xff\xda");
-    return end == std::string::npos || (scan != std::string::npos && end < scan);
-  }
-  if (bytes.starts_with("\x89PNG")) return bytes.rfind("IEND") == std::string::npos;
-  return false;
-}
-
-cv::Mat decode(const std::string& path, int flags) {
-  std::string bytes = read_bytes(path);
-  if (is_truncated(bytes)) throw FileError(path, "image is truncated");
-  const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data());
-  cv::Mat image;
-  try {
-    image = cv::imdecode(buffer, flags);
-  } catch (const cv::Exception&) {
-    image.release();
-  }
+cv::Mat decode(const std::string& path, DecodedPixels pixels) {
+  const std::string bytes = read_bytes(path);
+  if (is_truncated_picture(bytes)) throw FileError(path, "image is truncated");
+  cv::Mat image = decode_picture(bytes, pixels, path);
   if (image.empty()) throw FileError(path, "is no readable image");
   return image;
 }
@@ -60,9 +43,8 @@ cv::Mat decode(const std::string& path, int flags) {
 
 GreyAndColour read_image(const std::string& path, int bits) {
   GreyAndColour result;
-  int flags = cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION;
-  if (bits < 16) flags |= cv::IMREAD_ANYDEPTH;
-  cv::Mat image = decode(path, flags);
+  cv::Mat image =
+      decode(path, bits < 16 ? DecodedPixels::kGreyOrColour : DecodedPixels::kEightBits);
   if (image.depth() == CV_16U) {
     // Rounded down, as the lower bits are dropped: half a step keeps convertTo from rounding up.
     const double scale = 1.0 / (1 << (bits - 8));
@@ -76,7 +58,9 @@ GreyAndColour read_image(const std::string& path, int bits) {
   return result;
 }
 
-Image read_image_as_stored(const std::string& path) { return decode(path, cv::IMREAD_UNCHANGED); }
+Image read_image_as_stored(const std::string& path) {
+  return decode(path, DecodedPixels::kAsStored);
+}
 
 Image read_depth(const std::string& path, double unit_m) {
   const cv::Mat raw = read_image_as_stored(path);
@@ -88,6 +72,13 @@ Image read_depth(const std::string& path, double unit_m) {
   exact.convertTo(depth, CV_32F);
   depth.setTo(0, raw == 65535);
   return depth;
+}
+
+void write_image(const std::string& path, const Image& image) {
+  const std::string bytes = encode_picture(path, image);
+  AtomicFile file(path);
+  file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.commit();
 }
 
 Image to_grey(const Image& image) {

@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/map_changes.h>
-#include <placegraph/graph/measurements/frame.h>
 
 #include <optional>
 #include <string>

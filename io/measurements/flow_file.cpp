@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/measurements/flow_file.h>
@@ -12,7 +13,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 
 namespace placegraph {
 namespace {
@@ -125,10 +125,8 @@ void write_flow(const std::string& path, const Image& flow) {
   if (extension_of(path) == ".flo") {
     write_middlebury(file.stream(), flow);
   } else {
-    std::vector<unsigned char> bytes;
-    cv::imencode(".png", encode_kitti_flow(flow), bytes);
-    file.stream().write(reinterpret_cast<const char*>(bytes.data()),
-                        static_cast<std::streamsize>(bytes.size()));
+    const std::string bytes = encode_png(encode_kitti_flow(flow));
+    file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   }
   file.commit();
 }

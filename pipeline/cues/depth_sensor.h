@@ -2,7 +2,7 @@
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/planes/inverse_depth_plane.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 
 #include <optional>
 #include <vector>

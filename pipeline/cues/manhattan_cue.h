@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/log.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/cues/ground_mask.h>
 #include <placegraph/pipeline/cues/manhattan_frames.h>

@@ -3,7 +3,7 @@
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/graph/geometry/lie.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/depth_sensor.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/cues/surface_cue_options.h>

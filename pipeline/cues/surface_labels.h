@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/scene/environment.h>
 #include <placegraph/frontend/scene/scene_masks.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 
 #include <memory>
 

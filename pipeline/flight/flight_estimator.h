@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/inertial/error_state_filter.h>
 #include <placegraph/graph/core/stage_times.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/pipeline/flight/delay_line.h>
 #include <placegraph/pipeline/flight/floor_flow.h>

@@ -2,11 +2,11 @@
 #include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/frontend/flow/point_tracker.h>
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/measurements/body_state.h>
 
 #include <cstdint>

@@ -2,11 +2,11 @@
 #include <placegraph/frontend/markers/beacon_detector.h>
 #include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/frontend/markers/marker_filter.h>
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/measurements/marker_layout.h>
 

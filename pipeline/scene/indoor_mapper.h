@@ -2,8 +2,8 @@
 #include <placegraph/frontend/floor_plan/floor_sight.h>
 #include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/floor_plan/room_partition.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/graph/measurements/frame.h>
 #include <placegraph/pipeline/scene/nearby_views.h>
 
 #include <functional>

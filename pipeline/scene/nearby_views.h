@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/options.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/graph/measurements/frame.h>
 
 #include <deque>
 #include <functional>

@@ -1,8 +1,8 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/scene/urban_sight.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/graph/measurements/frame.h>
 #include <placegraph/graph/scene/semantic_map.h>
 #include <placegraph/pipeline/scene/map_keyframes.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/scene/environment.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/graph/measurements/frame.h>
 
 #include <array>
 #include <optional>

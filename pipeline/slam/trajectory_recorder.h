@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/trajectory.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/graph/measurements/frame.h>
 #include <placegraph/pipeline/tracking/odometry_update.h>
 
 #include <map>

@@ -20,9 +20,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+
+#include "tests/support/pictures.h"
 
 namespace placegraph {
 namespace {
@@ -160,7 +161,7 @@ void judge_frame(const SyntheticWorld& world, std::size_t k, const SceneModel& m
       picture = overlay_box(draw.empty() ? bgr : picture, popup, view, box.size, &mask);
       judge_pixels(box, truth.camera, frame.depth, mask, score);
     }
-  if (!draw.empty()) cv::imwrite(draw, picture);
+  if (!draw.empty()) test::write_picture(draw, picture);
 }
 
 void run(int count, char** arguments) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/frontend/places/classifiers/place_machine.h>
 #include <placegraph/frontend/places/classifiers/platt_scaling.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 
 #include <Eigen/Core>
 #include <array>

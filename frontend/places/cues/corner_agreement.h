@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/landmark.h>
 
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/places/cues/cue_grid.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 
 namespace placegraph {
 

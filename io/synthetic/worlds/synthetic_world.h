@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/trajectory.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/scene/labelled_mesh.h>
 #include <placegraph/graph/scene/scene_model.h>
 #include <placegraph/io/synthetic/render/sensor_model.h>

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/image/png_codec.h>
 #include <placegraph/io/synthetic/writers/sequence_folder.h>
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 
 namespace placegraph::synthetic {
 namespace fs = std::filesystem;
@@ -34,17 +34,8 @@ void SequenceFolder::make(const std::string& folder) const {
 }
 
 void SequenceFolder::write(const std::string& file, const Image& image) const {
-  // Level 1 with run lengths only: noise does not compress, and speed matters more.
-  static const std::vector<int> kFast = {cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
-                                         cv::IMWRITE_PNG_STRATEGY_RLE};
-  const fs::path path = temporary_ / file;
-  bool written = false;
-  try {
-    written = cv::imwrite(path.string(), image, kFast);
-  } catch (const cv::Exception& error) {
-    throw FileError(path.string(), "cannot be written: " + error.err);
-  }
-  if (!written) throw FileError(path.string(), "cannot be written");
+  // Noise does not compress, and speed matters more.
+  write(file, encode_png(image, {.level = 1, .runs_only = true}));
 }
 
 void SequenceFolder::write(const std::string& file, const std::string& text) const {

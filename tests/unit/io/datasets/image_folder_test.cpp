@@ -1,8 +1,7 @@
+#include <placegraph/graph/image/picture_plugin.h>
 #include <placegraph/io/calibration/calibration_file.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/files/image_list.h>
-
-#include <opencv2/videoio.hpp>
 
 #include "tests/support/message_of.h"
 #include "tiny_images.h"
@@ -158,10 +157,9 @@ TEST(ImageFolder, RefusesListsOfDifferentLengths) {
 
 /// Five frames of one brightness each, 20 a second; false if this OpenCV writes no MJPG.
 bool write_video(const std::string& path) {
-  cv::VideoWriter writer(path, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20, cv::Size(64, 48));
-  if (!writer.isOpened()) return false;
-  for (int i = 0; i < 5; ++i) writer.write(Image(48, 64, CV_8UC3, cv::Scalar::all(40 * i + 20)));
-  return true;
+  std::vector<Image> frames;
+  for (int i = 0; i < 5; ++i) frames.emplace_back(48, 64, CV_8UC3, cv::Scalar::all(40 * i + 20));
+  return picture_plugin(path).write_video(path, frames, 20);
 }
 
 TEST(ImageFolder, PairsImagesByTheirNumbersOrRefusesThem) {

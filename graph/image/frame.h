@@ -1,12 +1,10 @@
 #pragma once
-#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/image/image.h>
 
 #include <cstdint>
 
 namespace placegraph {
-
-enum class Sensor { kMono, kStereo, kRgbd };
 
 /// One moment's measurements, as a data set or a driver hands them over. Images are those of the
 /// Calibration's cameras: undistorted (and, for stereo, rectified). Absent images are empty.
