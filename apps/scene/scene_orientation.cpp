@@ -5,6 +5,7 @@
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/measurements/plane_truth.h>
 

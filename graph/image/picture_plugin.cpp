@@ -31,8 +31,7 @@ const PicturePlugin* open_module(const std::string& file, std::string& problem) 
   problem =
       version ? fmt::format("is of version {}, and {} is needed", version(), kPicturePluginVersion)
               : "is no module of placegraph";
-  dlclose(module);
-  return nullptr;
+  return nullptr;  // it stays mapped: what its libraries have begun cannot be undone
 }
 
 }  // namespace
