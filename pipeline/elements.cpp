@@ -1,3 +1,4 @@
+#include <placegraph/pipeline/tracking/cue_list.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/elements.h>
 

@@ -1,4 +1,11 @@
 #include <fmt/format.h>
+#include <placegraph/io/map/stored_map.h>
+#include <placegraph/graph/map_changes.h>
+#include <placegraph/graph/core/log_message.h>
+#include <placegraph/pipeline/cues/frame_view.h>
+#include <placegraph/graph/scene/scene_model.h>
+#include <placegraph/io/map/map_database.h>
+#include <placegraph/pipeline/local_map/lens_estimator.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/time.h>
 #include <placegraph/graph/measurements/stamp_plausibility.h>
@@ -135,47 +142,6 @@ Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
       std::find(offered.begin(), offered.end(), wanted) != offered.end(),
       dataset.name() + ": has not what " + to_string(wanted) + " needs; it can be run as " + all);
   return wanted;
-}
-
-void RunOptions::check() const {
-  check_ranges(*this);
-  slam.check();
-}
-
-void visit(OptionVisitor& field, RunOptions& o) {
-  field.choice("sensor", o.sensor, {"auto", "mono", "stereo", "rgbd"},
-               "what the sequence is run as; auto: the best it offers");
-  field("camera_height_m", o.camera_height_m,
-        "of the camera above the ground; 0: as the sequence says, or unknown", {0, 1000});
-  field("first_frame", o.first_frame, "frames left out at the beginning", {0, 1e9});
-  field("max_frames", o.max_frames, "frames run; 0: all", {0, 1e9});
-  field("threads", o.threads, "threads; the result does not depend on it", {1, 256});
-  field.group("motion", o.motion, "motion that other sensors measured");
-  field.group("lens", o.lens, "self-calibration of one eye's radial distortion");
-  field.group("scene", o.scene, "what is made of the scene beside the places");
-  visit(field, o.slam);
-}
-
-void visit(OptionVisitor& field, SceneOptions& o) {
-  field("geometry", o.geometry, "a floor plan with walls, doors and rooms, at the end");
-  field("semantics", o.semantics, "a map of what is where in a street, at the end");
-  field("urban_model", o.urban_model, "model of a street's classes; empty: the program's own");
-  field("surfaces_model", o.surfaces_model, "model of surfaces; empty: the program's own");
-  field.group("indoor", o.indoor, "the floor plan");
-  field.group("urban", o.urban, "the map of a street");
-}
-
-void MotionOptions::check() const {
-  check_ranges(*this);
-  require(T_cam_body.size() == 7, "T_cam_body: seven numbers needed, tx ty tz qx qy qz qw");
-  const Eigen::Map<const Eigen::Vector4d> q(T_cam_body.data() + 3);
-  require(std::abs(q.norm() - 1) < 1e-2, "T_cam_body: the quaternion is not of unit length");
-}
-
-void visit(OptionVisitor& field, MotionOptions& o) {
-  field("file", o.file, "see docs/odometry.md; none if empty");
-  field("T_cam_body", o.T_cam_body, "tx ty tz qx qy qz qw of the body in the camera [m]");
-  field.group("noise", o.noise, "where the file tells none");
 }
 
 namespace {

@@ -1,9 +1,8 @@
 #pragma once
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/map/map_database.h>
-#include <placegraph/pipeline/scene/indoor_mapper.h>
-#include <placegraph/pipeline/scene/urban_mapper.h>
+#include <placegraph/pipeline/run_options.h>
 #include <placegraph/pipeline/slam.h>
+#include <placegraph/pipeline/slam/environment_sight.h>
 
 #include <functional>
 #include <string>
@@ -11,41 +10,9 @@
 
 namespace placegraph {
 
-enum class SensorChoice { kAuto, kMono, kStereo, kRgbd };
+struct FrameView;
+struct SceneModel;
 
-/// Motion of a body by other sensors, beside the pictures.
-struct MotionOptions {
-  std::string file;                                     ///< see docs/odometry.md; none if empty
-  std::vector<double> T_cam_body{0, 0, 0, 0, 0, 0, 1};  ///< tx ty tz [m], qx qy qz qw
-  MotionNoise noise;
-  void check() const;
-};
-void visit(OptionVisitor& field, MotionOptions& options);
-
-/// What is made of the scene beside the places, from the finished map.
-struct SceneOptions {
-  bool geometry = false;   ///< a floor plan with walls, doors and rooms (docs/indoor.md)
-  bool semantics = false;  ///< a map of what is where in a street (docs/urban_map.md)
-  /// Models that label streets; empty: those that came with the program.
-  std::string urban_model, surfaces_model;
-  IndoorMapperOptions indoor;
-  UrbanMapperOptions urban;
-};
-void visit(OptionVisitor& field, SceneOptions& options);
-
-/// A run over a recorded sequence: what `placegraph run` and configs/*.yaml set.
-struct RunOptions {
-  SensorChoice sensor = SensorChoice::kAuto;  ///< auto: the best the sequence offers
-  double camera_height_m = 0;  ///< above the ground; 0: as the sequence says, or unknown
-  int first_frame = 0;
-  int max_frames = 0;  ///< 0: all
-  int threads = 2;     ///< 2 or more: the next frame is read while this one is worked on
-  MotionOptions motion;
-  LensOptions lens;
-  SceneOptions scene;
-  SlamOptions slam;
-  void check() const;
-};
 /// The SLAM options stand beside the others, not in a group of their own.
 void visit(OptionVisitor& field, RunOptions& options);
 

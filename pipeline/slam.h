@@ -1,63 +1,23 @@
 #pragma once
-#include <placegraph/frontend/places/place_view.h>
-#include <placegraph/graph/map_changes.h>
-#include <placegraph/pipeline/odometry/odometry.h>
-#include <placegraph/pipeline/loops/loop_closer.h>
-#include <placegraph/pipeline/places/place_mapper.h>
-#include <placegraph/pipeline/slam/environment_monitor.h>
+#include <placegraph/graph/core/log.h>
+#include <placegraph/graph/core/stage_times.h>
+#include <placegraph/graph/map.h>
+#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/pipeline/slam/frame_result.h>
+#include <placegraph/pipeline/slam_options.h>
+
+#include <memory>
+#include <vector>
 
 namespace placegraph {
 
-/// How keyframes look in all cues: kept in the map, so that images can be placed in it later.
-struct KeyframeViewOptions {
-  bool enabled = true;
-  PlaceCueOptions cues;
-};
-void visit(OptionVisitor& field, KeyframeViewOptions& options);
-
-/// Labels of surfaces for motion and places; the model is given by Slam::set_scene.
-struct SceneUseOptions {
-  bool enabled = false;
-  SceneMaskOptions masks;
-};
-void visit(OptionVisitor& field, SceneUseOptions& options);
-
-/// The kind of environment the camera is in, and what is assumed there.
-struct ContextOptions {
-  bool enabled = false;
-  bool assume = true;  ///< the odometry takes for granted what holds there, and nothing else
-  EnvironmentFilterOptions filter;
-};
-void visit(OptionVisitor& field, ContextOptions& options);
-
-struct SlamOptions {
-  std::uint64_t seed = 0;  ///< of every random stream
-  OdometryOptions odometry;
-  LoopOptions loops;
-  PlaceOptions places;
-  IncrementalOptions pose_graph;
-  KeyframeViewOptions views;
-  SceneUseOptions semantics;
-  ContextOptions context;
-  int max_lost_frames = 10;  ///< then a new component of the map begins
-  void check() const;
-};
-void visit(OptionVisitor& field, SlamOptions& options);
-
-/// What became of one frame.
-struct FrameResult {
-  std::int64_t frame = 0;
-  TrackingState state =
-      TrackingState::kWaiting;   ///< waiting for the second view, tracking, or lost
-  std::optional<SE3> T_map_cam;  ///< in the frame of `component`; nothing while unknown
-  bool keyframe = false;
-  bool new_place = false;
-  int inliers = 0;
-  int component = 0;
-  int loops_accepted = 0;  ///< with this frame
-  /// Why it has no pose (yet), or one that stands only if a second view confirms it; else empty.
-  std::string reason;
-};
+class LensEstimator;
+class MeasuredMotion;
+struct EnvironmentSight;
+struct FrameView;
+struct MapChanges;
+struct PlaceHistory;
+struct SceneModel;
 
 /// The whole system: frames in, place graph and trajectory out.
 ///

@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/log_message.h>
 #include "apps/graph/optimize.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,7 @@
 #include "apps/lines/lines_track.h"
 
 #include <fmt/format.h>
+#include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/frontend/lines/track_consistency.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/io/config/yaml_config.h>

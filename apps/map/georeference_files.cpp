@@ -1,6 +1,8 @@
 #include "apps/map/georeference_files.h"
 
 #include <fmt/format.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>

@@ -1,3 +1,4 @@
+#include <placegraph/pipeline/slam/environment_sight.h>
 #include "apps/results/environment_files.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+#include <placegraph/pipeline/cues/frame_view.h>
 #include "apps/run/draw_frame.h"
 
 #include <algorithm>

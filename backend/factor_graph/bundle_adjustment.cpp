@@ -6,17 +6,6 @@
 
 namespace placegraph {
 
-void BundleOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, BundleOptions& o) {
-  field("max_iterations", o.max_iterations, "steps of Levenberg-Marquardt", {1, 100000});
-  field("relative_decrease", o.relative_decrease,
-        "stop when the cost falls by less than this share", {0, 1});
-  field.choice("kernel", o.kernel.kind, robust_kernel_names(),
-               "robust kernel on the reprojection errors");
-  field("kernel_width_px", o.kernel.width, "its width", {1e-3, 1e6});
-}
-
 BundleReport adjust_bundle(const Bundle& bundle, const BundleOptions& options) {
   options.check();
   bundle.check();

@@ -1,18 +1,9 @@
 #pragma once
-#include <placegraph/graph/core/options.h>
+#include <placegraph/backend/factor_graph/factor_graph_options.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/core/robust_kernel.h>
 #include <placegraph/graph/pose_graph/bundle.h>
 
 namespace placegraph {
-
-struct BundleOptions {
-  int max_iterations = 200;
-  double relative_decrease = 1e-7;  ///< stop when the cost falls by less than this share
-  RobustKernel kernel;              ///< width in pixels
-  void check() const;
-};
-void visit(OptionVisitor& field, BundleOptions& options);
 
 struct BundleReport {
   Outcome outcome;

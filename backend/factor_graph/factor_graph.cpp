@@ -89,14 +89,6 @@ void FactorGraph::check() const {
     check_term(*this, terms[i], "factor graph: term " + std::to_string(i));
 }
 
-void FactorGraphOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, FactorGraphOptions& o) {
-  field("max_iterations", o.max_iterations, "steps of Levenberg-Marquardt", {1, 100000});
-  field("relative_decrease", o.relative_decrease,
-        "stop when the cost falls by less than this share", {0, 1});
-}
-
 std::vector<std::optional<double>> squared_residuals(const FactorGraph& graph) {
   graph.check();
   std::vector<std::optional<double>> squares;

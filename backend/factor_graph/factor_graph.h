@@ -1,12 +1,17 @@
 #pragma once
+#include <placegraph/backend/factor_graph/factor_graph_options.h>
 #include <placegraph/backend/factors/factor.h>
-#include <placegraph/backend/factors/pose_error.h>
-#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/pose_graph/constraint.h>
+#include <placegraph/backend/factors/variable.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/robust_kernel.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
+#include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace placegraph {
 
@@ -47,13 +52,6 @@ struct FactorGraph {
  private:
   const Variable& value_of_kind(int variable, std::size_t kind) const;
 };
-
-struct FactorGraphOptions {
-  int max_iterations = 100;
-  double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
-  void check() const;
-};
-void visit(OptionVisitor& field, FactorGraphOptions& options);
 
 struct FactorGraphReport {
   Outcome outcome;

@@ -1,3 +1,5 @@
+#include <placegraph/backend/solver/free_directions.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/backend/factor_graph/landmark_graph_optimizer.h>
 #include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/pose_prior.h>

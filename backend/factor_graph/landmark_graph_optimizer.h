@@ -1,17 +1,14 @@
 #pragma once
 #include <placegraph/backend/factor_graph/factor_graph.h>
-#include <placegraph/backend/solver/free_directions.h>
-#include <placegraph/backend/solver/local_solver_options.h>
+#include <placegraph/backend/factor_graph/factor_graph_options.h>
+#include <placegraph/graph/pose_graph/constraint.h>
+#include <placegraph/backend/pose_graph/pose_graph_report.h>
+#include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 
-namespace placegraph {
+#include <vector>
 
-struct LandmarkGraphOptions {
-  RotationError rotation_error = RotationError::kLog;
-  PoseGraphEngine engine = PoseGraphEngine::kNative;  ///< kCeres: as a factor graph
-  int max_iterations = 200;
-  double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
-};
+namespace placegraph {
 
 struct LandmarkGraphReport {
   Outcome outcome;

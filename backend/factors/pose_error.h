@@ -1,15 +1,8 @@
 #pragma once
+#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/geometry/lie.h>
 
 namespace placegraph {
-
-/// How the rotation part of a relative-pose error is written: one .g2o file has several costs.
-enum class RotationError {
-  kLog,  ///< Log of SE(2) / SE(3) / Sim(3): the default
-  /// g2o: translation of the error pose, vector part of its quaternion (half the angle); in the
-  /// plane, where g2o has no quaternion, translation and angle.
-  kQuaternion,
-};
 
 /// The error pose E = T_from_to^-1 T_world_from^-1 T_world_to in coordinates, and its derivative by
 /// E exp(xi), exact at any size of the error.

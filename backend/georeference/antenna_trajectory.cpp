@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
 

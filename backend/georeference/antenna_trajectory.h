@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/georeference/georeference_report.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
@@ -6,12 +7,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// A time at which the vehicle was at a node, or so near that it is described relative to it.
-struct NodeVisit {
-  std::int64_t stamp_ns = 0;
-  std::int64_t node = 0;  ///< its id
-};
 
 /// A fix seen from a node: where the antenna was at the time of the fix, in the node's frame and
 /// unit,

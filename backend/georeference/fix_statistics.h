@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/georeference/georeference_report.h>
 #include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/graph/measurements/gps_fix.h>
 
@@ -10,11 +11,6 @@ namespace placegraph {
 /// Of all coordinates by themselves, longitudes relative to the first fix: gross errors do not move
 /// it. At least one fix.
 GeodeticPosition median_position(const std::vector<GpsFix>& fixes);
-
-/// A time without a fix, inside of the map's time.
-struct GpsDropout {
-  std::int64_t begin_ns = 0, end_ns = 0;  ///< by the nodes' clock
-};
 
 /// The times longer than `least_s` between the first and the last visit in which no fix lies.
 std::vector<GpsDropout> find_dropouts(const std::vector<NodeVisit>& visits,

@@ -1,3 +1,10 @@
+#include <placegraph/backend/georeference/antenna_trajectory.h>
+#include <placegraph/backend/georeference/fix_statistics.h>
+#include <placegraph/graph/core/random.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/backend/georeference/gps_alignment.h>
+#include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/backend/georeference/antenna_calibration.h>
 #include <placegraph/backend/georeference/connected_parts.h>
 #include <placegraph/backend/georeference/georeference.h>

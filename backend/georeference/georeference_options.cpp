@@ -31,4 +31,14 @@ void visit(OptionVisitor& field, GeoreferenceOptions& o) {
   field("seed", o.seed, "of the search for the alignment");
 }
 
+void GpsAlignmentOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, GpsAlignmentOptions& o) {
+  field("max_bend_percent", o.max_bend_percent,
+        "how far drift may have bent the map, in percent of the length of the way", {0, 100});
+  field("max_angle_sigma_deg", o.max_angle_sigma_deg,
+        "no answer if a rotation of the map is less certain than this", {1e-6, 180});
+  field.group("ransac", o.ransac, "search for fixes that agree");
+}
+
 }  // namespace placegraph

@@ -1,10 +1,21 @@
 #pragma once
-#include <placegraph/backend/georeference/gps_alignment.h>
-#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/backend/pose_graph/pose_graph_options.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/core/ransac_options.h>
+#include <placegraph/graph/core/robust_kernel.h>
 
 #include <cstdint>
 
 namespace placegraph {
+
+struct GpsAlignmentOptions {
+  double max_bend_percent =
+      3;  ///< how far the map may be bent, in percent of its extent along the way
+  double max_angle_sigma_deg = 10;  ///< of the rotation; above it the positions determine none
+  RansacOptions ransac{1000, 0.9999, 3};
+  void check() const;
+};
+void visit(OptionVisitor& field, GpsAlignmentOptions& options);
 
 struct GeoreferenceOptions {
   /// Of the position error in standard deviations; a fix far off must have no say.

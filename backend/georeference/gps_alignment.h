@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/georeference/georeference_options.h>
 #include <placegraph/graph/core/ransac.h>
 #include <placegraph/graph/pose_graph/constraint.h>
 
@@ -20,15 +21,6 @@ enum class AlignmentGroup {
 
 /// Of a map whose nodes are of that kind.
 AlignmentGroup alignment_group(PoseKind kind);
-
-struct GpsAlignmentOptions {
-  double max_bend_percent =
-      3;  ///< how far the map may be bent, in percent of its extent along the way
-  double max_angle_sigma_deg = 10;  ///< of the rotation; above it the positions determine none
-  RansacOptions ransac{1000, 0.9999, 3};
-  void check() const;
-};
-void visit(OptionVisitor& field, GpsAlignmentOptions& options);
 
 struct GpsAlignment {
   Outcome outcome;

@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/backend/georeference/variance_components.h>
 #include <placegraph/backend/solver/odometry_chain.h>
 #include <placegraph/backend/solver/pose_marginals.h>

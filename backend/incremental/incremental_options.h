@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/backend/factors/pose_error.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {

@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/backend/incremental/incremental_replay.h>
 
 #include <algorithm>

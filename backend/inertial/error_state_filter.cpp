@@ -23,25 +23,6 @@ Outcome not_started() { return Outcome::failure(Code::kNotAttempted, "the filter
 
 }  // namespace
 
-void PositionFilterOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, PositionFilterOptions& o) {
-  field("gyro_noise", o.gyro_noise, "rad/s per root of a hertz", {1e-9, 1});
-  field("accel_noise", o.accel_noise, "m/s^2 per root of a hertz", {1e-9, 10});
-  field("gyro_bias_walk", o.gyro_bias_walk, "rad/s^2 per root of a hertz", {0, 1});
-  field("accel_bias_walk", o.accel_bias_walk, "m/s^3 per root of a hertz", {0, 10});
-  field("gate", o.gate, "a measurement less likely than one minus this is not believed",
-        {0.5, 0.999999});
-  field("history_s", o.history_s, "measurements that come later than that are refused", {0, 60});
-  field("max_prediction_s", o.max_prediction_s, "beyond the last inertial sample", {0, 10});
-  field("ahead_turn_rad_s2", o.ahead_turn_rad_s2, "angular acceleration beyond the last sample",
-        {0, 1000});
-  field("ahead_push_m_s3", o.ahead_push_m_s3, "change of the force beyond the last sample",
-        {0, 1000});
-  field("max_position_sigma_m", o.max_position_sigma_m, "a position less sure is no answer",
-        {1e-3, 1e6});
-}
-
 PositionFilter::PositionFilter(const PositionFilterOptions& options, const SE3& T_body_cam,
                                double floor_z_m)
     : options_(options), T_body_cam_(T_body_cam), floor_z_m_(floor_z_m) {

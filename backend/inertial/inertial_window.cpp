@@ -84,23 +84,6 @@ struct InertialWindow::Chain {
   }
 };
 
-void InertialWindowOptions::check() const {
-  check_ranges(*this);
-  for (const double density : {noise.gyro, noise.accel})
-    require(density > 0 && std::isfinite(density), "noise: white noise must be positive");
-  for (const double walk : {noise.gyro_bias_walk, noise.accel_bias_walk})
-    require(walk >= 0 && std::isfinite(walk), "noise: the walk of a bias is not negative");
-}
-
-void visit(OptionVisitor& field, InertialWindowOptions& o) {
-  field("max_states", o.max_states, "the oldest is marginalized beyond this", {2, 1000});
-  field("max_iterations", o.max_iterations, "of Gauss-Newton where the states are asked for",
-        {1, 100});
-  field("gate", o.gate, "a measurement less likely than one minus this is not believed",
-        {0.5, 0.999999});
-  field("max_prediction_s", o.max_prediction_s, "beyond the last inertial sample", {0, 10});
-}
-
 InertialWindow::InertialWindow(const InertialWindowOptions& options, const SE3& T_body_cam,
                                double floor_z_m)
     : options_(options), T_body_cam_(T_body_cam), floor_z_m_(floor_z_m) {

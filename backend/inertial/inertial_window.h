@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/inertial/inertial_options.h>
 #include <placegraph/backend/inertial/inertial_factors.h>
 #include <placegraph/backend/linear/marginalization.h>
 #include <placegraph/graph/core/options.h>
@@ -8,16 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct InertialWindowOptions {
-  ImuNoise noise{2e-3, 2e-2, 2e-5, 5e-4};  ///< as PositionFilterOptions has them
-  int max_states = 20;                     ///< the oldest is marginalized beyond this
-  int max_iterations = 4;
-  double gate = 0.999;             ///< a measurement less likely than that is not believed
-  double max_prediction_s = 0.25;  ///< beyond the last inertial sample
-  void check() const;
-};
-void visit(OptionVisitor& field, InertialWindowOptions& options);
 
 /// The smoother beside PositionFilter: pose, velocity and biases at the times of the last images by
 /// Gauss-Newton over all measurements between them: preintegrated inertial samples, poses told by

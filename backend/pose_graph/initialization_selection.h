@@ -1,16 +1,9 @@
 #pragma once
+#include <placegraph/backend/pose_graph/pose_graph_options.h>
 #include <placegraph/backend/solver/local_solver.h>
 
 namespace placegraph {
 
-/// Where the descent begins.
-enum class PoseGraphStart {
-  kAuto,       ///< the cheapest start whose minimum can be trusted
-  kFile,       ///< the poses as they are
-  kOdometry,   ///< spanning_tree_start
-  kChordal,    ///< chordal_start
-  kCertified,  ///< certified_start
-};
 const char* to_string(PoseGraphStart start);
 
 /// Sets the poses to a start; kAuto and kFile leave them.

@@ -1,3 +1,7 @@
+#include <placegraph/backend/pose_graph/initialization_selection.h>
+#include <placegraph/backend/pose_graph/robust_optimizer.h>
+#include <placegraph/backend/solver/free_directions.h>
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 
 #include <utility>
@@ -86,22 +90,6 @@ double chi2_of(const PoseGraph& graph, RotationError rotation_error) {
 }
 
 }  // namespace
-
-void PoseGraphOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, PoseGraphOptions& o) {
-  field.choice("rotation_error", o.rotation_error, {"log", "quaternion"},
-               "error of a relative pose: log of the group, or g2o's quaternion vector part");
-  field.choice("engine", o.engine, {"native", "ceres"}, "which solver finds the minimum");
-  field.choice("step_rule", o.step_rule, {"dogleg", "gauss_newton", "levenberg_marquardt"},
-               "how the native engine steps");
-  field.choice("start", o.start, {"auto", "file", "odometry", "chordal", "certified"},
-               "where the descent begins; auto: the cheapest start whose minimum can be trusted");
-  field("max_iterations", o.max_iterations, "steps of the descent at most", {1, 100000});
-  field("relative_decrease", o.relative_decrease,
-        "stop when the cost falls by less than this share", {0, 1});
-  field.group("robust", o.robust, "what is done against false loops");
-}
 
 PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
                                     const LogSink& log) {

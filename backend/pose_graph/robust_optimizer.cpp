@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/backend/pose_graph/initialization_selection.h>
 #include <placegraph/backend/pose_graph/robust_optimizer.h>
 #include <placegraph/backend/robust/parallel_odometry.h>
@@ -178,20 +179,6 @@ RobustSolution solve_rejecting(PackedGraph<Group>& graph, const LocalSolverOptio
 }
 
 }  // namespace
-
-void RobustOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, RobustOptions& o) {
-  field.choice("method", o.method, {"none", "huber", "dcs", "gnc", "pcm", "auto"},
-               "what is done against false loops; none: the kernels the constraints carry");
-  field("kernel_width", o.kernel_width, "of huber and dcs, in standard deviations", {1e-9, 1e9});
-  field("gate_probability", o.gate_probability,
-        "share of the true loops whose squared error lies below the gate, were noise Gaussian",
-        {0.5, 0.999999});
-  field.group("gnc", o.gnc, "graduated non-convexity");
-  field.group("support", o.support, "which loops agree with loops nearby");
-  field.group("growth", o.growth, "which loops are true, from the best supported ones on");
-}
 
 template <class Group>
 RobustSolution solve_robustly(PackedGraph<Group>& graph, const LocalSolverOptions& solver,

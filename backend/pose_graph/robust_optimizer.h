@@ -1,32 +1,11 @@
 #pragma once
+#include <placegraph/backend/pose_graph/pose_graph_report.h>
+#include <placegraph/backend/pose_graph/pose_graph_options.h>
 #include <placegraph/backend/robust/loop_set_growth.h>
 
 #include <string>
 
 namespace placegraph {
-
-enum class RobustMethod { kNone, kHuber, kDcs, kGnc, kPcm, kAuto };
-
-struct RobustOptions {
-  RobustMethod method = RobustMethod::kNone;
-  double kernel_width = 1;  ///< of huber and dcs, in standard deviations
-  /// Share of the true loops whose squared error lies below the gate, were their noise Gaussian.
-  double gate_probability = 0.999;
-  GncOptions gnc = {};
-  LoopSupportOptions support;
-  LoopGrowthOptions growth;
-  void check() const;
-};
-void visit(OptionVisitor& field, RobustOptions& options);
-
-/// A constraint that was left out of the solution.
-struct RejectedEdge {
-  int constraint = 0;  ///< position in PoseGraph::constraints
-  double chi2 = 0;     ///< e^T Omega e at the solution
-  /// The first that holds of "inconsistent with odometry": no drift of the odometry explains it,
-  /// "pairwise": no loop nearby agrees with it, "residual": its error lies beyond the gate.
-  std::string reason;
-};
 
 struct RobustSolution {
   LocalSolution local;

@@ -47,18 +47,6 @@ std::vector<double> chi2_of(const PackedGraph<Group>& graph, const std::vector<i
 
 }  // namespace
 
-void GncOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, GncOptions& o) {
-  field.choice("surrogate", o.surrogate, {"truncated", "geman_mcclure"},
-               "the robust cost that is approached");
-  field("least_factor", o.least_factor, "by which a round lowers the threshold at least",
-        {1.01, 100});
-  field("share_per_round", o.share_per_round,
-        "of the undecided edges that a round may leave behind", {0, 1});
-  field("max_rounds", o.max_rounds, "of reweighting", {1, 10000});
-}
-
 template <class Group>
 GncSolution graduated_non_convexity(PackedGraph<Group>& graph, double gate,
                                     const LocalSolverOptions& solver_options,

@@ -1,19 +1,9 @@
 #pragma once
+#include <placegraph/backend/pose_graph/pose_graph_options.h>
 #include <placegraph/backend/solver/local_solver.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {
-
-enum class GncSurrogate { kTruncated, kGemanMcClure };
-
-struct GncOptions {
-  GncSurrogate surrogate = GncSurrogate::kTruncated;
-  double least_factor = 1.4;     ///< by which a round lowers the threshold at least
-  double share_per_round = 0.1;  ///< of the undecided edges that a round may leave behind
-  int max_rounds = 60;
-  void check() const;
-};
-void visit(OptionVisitor& field, GncOptions& options);
 
 struct GncSolution {
   LocalSolution local;  ///< of the last solve; iterations are those of all rounds

@@ -146,17 +146,6 @@ std::vector<std::vector<int>> clusters_of(const std::vector<LoopOnChain<Group>>&
 
 }  // namespace
 
-void LoopSupportOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LoopSupportOptions& o) {
-  field("reach", o.reach, "poses between the ends of two loops that are held against each other",
-        {1, 100000});
-  field("neighbours", o.neighbours, "loops that one loop is held against, the nearest ones",
-        {1, 1000});
-  field("least_probability", o.least_probability,
-        "that two loops are both true, for them to support each other", {0.01, 0.9999});
-}
-
 namespace {
 
 /// The likeliest mixture from several starting scales; nothing where too few rings close to tell.

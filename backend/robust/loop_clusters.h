@@ -1,16 +1,9 @@
 #pragma once
+#include <placegraph/backend/pose_graph/pose_graph_options.h>
 #include <placegraph/backend/robust/loop_pairs.h>
 #include <placegraph/graph/core/options.h>
 
 namespace placegraph {
-
-struct LoopSupportOptions {
-  int reach = 100;      ///< poses between the ends of two loops that are held against each other
-  int neighbours = 10;  ///< loops that one loop is held against, the nearest ones
-  double least_probability = 0.9;  ///< that two loops are both true, for them to support each other
-  void check() const;
-};
-void visit(OptionVisitor& field, LoopSupportOptions& options);
 
 /// How rings of neighbouring loops close, told from all of them together.
 struct RingMixture {

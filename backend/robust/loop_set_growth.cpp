@@ -171,19 +171,6 @@ class Growth {
 
 }  // namespace
 
-void LoopGrowthOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LoopGrowthOptions& o) {
-  field("margin", o.margin,
-        "of the gate over the chi-squared quantile: real noise has longer tails", {0.1, 1000});
-  field("tail", o.tail, "times the largest error of true loops that another one may have",
-        {1, 100});
-  field("nearly_right", o.nearly_right,
-        "share of the map's extent (and of half a turn) by which a true loop may be badly measured",
-        {0, 1});
-  field("max_rounds", o.max_rounds, "of testing every loop", {1, 1000});
-}
-
 namespace {
 
 template <class Group>

@@ -1,23 +1,9 @@
 #pragma once
+#include <placegraph/backend/pose_graph/pose_graph_options.h>
 #include <placegraph/backend/robust/gnc.h>
 #include <placegraph/backend/robust/loop_clusters.h>
 
 namespace placegraph {
-
-struct LoopGrowthOptions {
-  /// The gate of a loop's squared error is this many times the chi-squared quantile of Gaussian
-  /// noise: measured loops have longer tails.
-  double margin = 1.5;
-  /// A loop with an error beyond the gate is still one of the others if it is at most this many
-  /// times the largest error among them.
-  double tail = 3;
-  /// A loop that says nearly the right thing, off by at most this share of the map's extent and of
-  /// half a turn, is badly measured rather than false: its gate is twenty times as wide.
-  double nearly_right = 0.01;
-  int max_rounds = 20;
-  void check() const;
-};
-void visit(OptionVisitor& field, LoopGrowthOptions& options);
 
 struct LoopGrowth {
   LocalSolution local;

@@ -1,16 +1,9 @@
 #pragma once
+#include <placegraph/backend/pose_graph/pose_graph_report.h>
 #include <placegraph/backend/factors/pose_error.h>
 #include <placegraph/backend/solver/packed_graph.h>
 
 namespace placegraph {
-
-/// Directions in which the cost of a graph does not change, to rounding, from where its poses are:
-/// a minimum there is not the only one.
-struct FreeDirections {
-  int count = 0;           ///< kMost stands for as many or more
-  std::vector<int> nodes;  ///< positions of the nodes that move along them, ascending
-  static constexpr int kMost = 64;
-};
 
 /// The null space of the normal equations of the edges with weight, by subspace iteration on their
 /// shifted inverse: what is below 1e-10 of the diagonal counts as nothing. Costs one factorization

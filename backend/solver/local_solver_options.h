@@ -1,13 +1,10 @@
 #pragma once
-#include <placegraph/backend/factors/pose_error.h>
+#include <placegraph/graph/pose_graph/constraint.h>
+#include <placegraph/backend/pose_graph/pose_graph_options.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/outcome.h>
 
 namespace placegraph {
-
-enum class PoseGraphEngine { kNative, kCeres };
-/// How the native engine steps; Ceres always takes Levenberg-Marquardt.
-enum class StepRule { kDogleg, kGaussNewton, kLevenbergMarquardt };
 
 struct LocalSolverOptions {
   PoseGraphEngine engine = PoseGraphEngine::kNative;

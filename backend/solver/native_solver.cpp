@@ -1,3 +1,4 @@
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/backend/solver/native_solver.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/backend/solver/packed_graph.h>
 #include <placegraph/graph/core/disjoint_sets.h>
 

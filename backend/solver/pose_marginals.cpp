@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/backend/linear/relative_covariance.h>
 #include <placegraph/backend/linear/sparse_inverse.h>
 #include <placegraph/backend/solver/normal_equations.h>

@@ -4,6 +4,7 @@
 #include <placegraph/backend/window/window_information.h>
 #include <placegraph/backend/window/window_measurements.h>
 #include <placegraph/backend/window/window_observations.h>
+#include <placegraph/backend/window/window_summary.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/geometry/plane3.h>

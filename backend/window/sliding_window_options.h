@@ -1,6 +1,5 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/core/outcome.h>
 
 namespace placegraph {
 
@@ -21,11 +20,5 @@ struct SlidingWindowOptions {
 };
 /// All but what follows from the sensor: scale_drift and hold_oldest are set by the window's owner.
 void visit(OptionVisitor& field, SlidingWindowOptions& options);
-
-struct WindowSummary {
-  Outcome outcome;
-  double cost_initial = 0, cost_final = 0;  ///< half the robust sum of squares
-  int iterations = 0;
-};
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/backend/window/window_summary.h>
 #include <placegraph/backend/window/window_state.h>
 
 namespace placegraph {

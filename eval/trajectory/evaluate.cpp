@@ -115,19 +115,6 @@ double posed_path_m(const std::vector<FramePair>& pairs, const std::vector<doubl
 
 }  // namespace
 
-void EvaluationOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, EvaluationOptions& o) {
-  field.choice("align", o.alignment, {"none", "origin", "se3", "sim3", "scale"},
-               "what is fitted before comparing");
-  field.choice("associate", o.association, {"auto", "index", "time"},
-               "how lines of the two files are paired");
-  field("max_difference_s", o.time.max_difference_s, "largest difference of stamps of a pair",
-        {0, 1e6});
-  field("offset_s", o.time.offset_s, "added to the estimate's stamps", {-1e12, 1e12});
-  field.group("segments", o.segments, "t_rel and r_rel");
-}
-
 EvaluationResult evaluate(const Trajectory& truth, const Trajectory& estimate,
                           const EvaluationOptions& options, const std::string& name) {
   options.check();

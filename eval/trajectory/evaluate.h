@@ -1,19 +1,12 @@
 #pragma once
+#include <placegraph/eval/trajectory/evaluation_options.h>
+#include <placegraph/eval/trajectory/pairing.h>
 #include <placegraph/eval/trajectory/result.h>
 #include <placegraph/graph/geometry/trajectory.h>
 
 #include <string>
 
 namespace placegraph {
-
-struct EvaluationOptions {
-  Alignment alignment = Alignment::kSe3;
-  Association association = Association::kAuto;
-  AssociationOptions time;  ///< of the association by time
-  SegmentOptions segments;
-  void check() const;
-};
-void visit(OptionVisitor& field, EvaluationOptions& options);
 
 /// Judges an estimated trajectory (T_world_body, the same body as the ground truth's): pairs the
 /// two, aligns, and computes ATE, RPE and segment errors, warning where the estimate looks

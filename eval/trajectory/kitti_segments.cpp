@@ -54,20 +54,6 @@ std::map<long, SegmentGroup> grouped(const std::vector<SegmentError>& segments, 
 
 }  // namespace
 
-void SegmentOptions::check() const {
-  check_ranges(*this);
-  require(!lengths_m.empty(), "lengths_m: empty list");
-}
-
-void visit(OptionVisitor& field, SegmentOptions& o) {
-  field("lengths_m", o.lengths_m, "segment lengths of t_rel and r_rel [m]", {1e-3, 1e6});
-  field("step", o.step, "frames between segment starts", {1, 1e6});
-  field("frame_rate_hz", o.frame_rate_hz, "for speeds where the ground truth has no times",
-        {1e-3, 1e4});
-  field("speed_bin_m_per_s", o.speed_bin_m_per_s, "width of a row of the table per speed",
-        {1e-3, 1e3});
-}
-
 std::vector<SegmentGroup> group_by_length(const std::vector<SegmentError>& segments) {
   std::vector<SegmentGroup> rows;
   const auto micrometres = [](const SegmentError& s) { return std::lround(s.length_m * 1e6); };

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/eval/trajectory/evaluation_options.h>
 #include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
@@ -6,15 +7,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct SegmentOptions {
-  std::vector<double> lengths_m = {100, 200, 300, 400, 500, 600, 700, 800};
-  int step = 10;                 ///< frames between segment starts
-  double frame_rate_hz = 10;     ///< for speeds, where the ground truth has no times
-  double speed_bin_m_per_s = 2;  ///< width of the rows of the table per speed
-  void check() const;
-};
-void visit(OptionVisitor& field, SegmentOptions& options);
 
 /// The error over one segment, divided by its nominal length.
 struct SegmentError {

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/eval/trajectory/evaluation_options.h>
 #include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/trajectory.h>
@@ -7,13 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-enum class Association {
-  kAuto,   ///< by time if both have times, by index if neither has; otherwise refused
-  kIndex,  ///< frames of the same number: line i with line i, both of the same length, unless the
-           ///< files number their frames
-  kTime,   ///< nearest stamps
-};
 
 std::string to_string(Association association);  ///< "auto", "index", "time"
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/eval/trajectory/evaluation_options.h>
 #include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/graph/core/outcome.h>
 
@@ -6,15 +7,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// What is fitted before an estimate is compared with the ground truth.
-enum class Alignment {
-  kNone,    ///< nothing: the estimate as it stands
-  kOrigin,  ///< the first associated pose is put on the ground truth's; nothing is fitted
-  kSe3,     ///< rotation and translation that fit the positions best
-  kSim3,    ///< rotation, translation and scale
-  kScale,   ///< as kOrigin, and one scale fitted about that first pose
-};
 
 /// "none", "origin", "se3", "sim3", "scale": the spelling of the command line and of results.
 std::string to_string(Alignment alignment);

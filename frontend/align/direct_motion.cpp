@@ -79,22 +79,6 @@ Outcome judge(const DirectMotion& motion, const DirectMotionOptions& o, int visi
 
 }  // namespace
 
-void DirectMotionOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, DirectMotionOptions& o) {
-  field("levels", o.levels, "of the pyramid, coarse to fine", {1, 8});
-  field("samples", o.samples, "of all planes together, per level", {100, 1000000});
-  field("min_samples", o.min_samples, "of the finest level, in view", {20, 1000000});
-  field("iterations", o.iterations, "at most, per level", {1, 1000});
-  field("converged", o.converged, "mean step that ends a level [px]", {1e-6, 1});
-  field("kernel_width", o.kernel_width, "of the weights, in standard deviations", {0.1, 100});
-  field("min_visible_share", o.min_visible_share, "of the samples", {0.05, 1});
-  field("min_agreement", o.min_agreement, "correlation below which it is no match", {-1, 1});
-  field("min_inlier_share", o.min_inlier_share, "of the samples in view", {0, 1});
-  field("tile_px", o.tile_px, "residuals within a tile may be correlated", {4, 1000});
-  field.group("swarm", o.swarm, "search where no start is known");
-}
-
 DirectReference::DirectReference(const std::vector<Image>& pyramid, const Camera& camera,
                                  std::vector<SurfacePatch> patches,
                                  const DirectMotionOptions& options)

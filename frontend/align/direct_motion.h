@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/frontend/align/particle_swarm.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
@@ -7,22 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct DirectMotionOptions {
-  int levels = 4;
-  int samples = 1500;       ///< of all planes together, per level
-  int min_samples = 150;    ///< of the finest level, in view
-  int iterations = 12;      ///< per level
-  double converged = 0.01;  ///< a step that moves the samples by less on average ends a level [px]
-  double kernel_width = 4.685;     ///< of Tukey's weights [standard deviations of the residuals]
-  double min_visible_share = 0.3;  ///< of the samples
-  double min_agreement = 0.5;      ///< correlation of what is seen and what is predicted
-  double min_inlier_share = 0.4;   ///< of the samples in view
-  int tile_px = 32;  ///< residuals within a tile may be correlated in any way, see the covariance
-  SwarmOptions swarm{.particles = 48, .generations = 40};
-  void check() const;
-};
-void visit(OptionVisitor& field, DirectMotionOptions& options);
 
 /// A plane n^T X = d of the reference view, and where it is seen.
 struct SurfacePatch {

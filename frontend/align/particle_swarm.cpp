@@ -92,21 +92,6 @@ void sort_population(PopulationResult& population) {
   population = std::move(sorted);
 }
 
-void SwarmOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, SwarmOptions& o) {
-  field.choice("damping", o.damping, {"constriction", "inertia"}, "how velocities are damped");
-  field.choice("topology", o.topology, {"global", "ring"}, "whose best point draws a particle");
-  field("particles", o.particles, "size of the swarm", {3, 10000});
-  field("generations", o.generations, "moves of each particle at most", {1, 10000});
-  field("stagnation", o.stagnation, "generations without progress that end it", {1, 10000});
-  field("max_speed", o.max_speed, "of a coordinate, in standard deviations of the start",
-        {0.001, 100});
-  field("bound", o.bound, "of a coordinate, in standard deviations of the start", {0.1, 100});
-  field("seed", o.seed, "of the random streams");
-  field("threads", o.threads, "threads; the result does not depend on it", {1, 256});
-}
-
 PopulationResult swarm_search(const PopulationCost& cost, int n, const SwarmOptions& options) {
   require(n >= 1, "swarm_search: at least one dimension");
   options.check();

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/graph/core/options.h>
 
 #include <Eigen/Core>
@@ -25,31 +26,6 @@ void evaluate_population(const PopulationCost& cost, const std::vector<Eigen::Ve
 
 /// Points and costs in ascending order of cost; of equal ones in the order of their indices.
 void sort_population(PopulationResult& population);
-
-/// How a particle's velocity is damped.
-enum class SwarmDamping {
-  kConstriction,  ///< chi = 2 / |2 - phi - sqrt(phi^2 - 4 phi)|, phi = 4.1 (Clerc & Kennedy 2002)
-  kInertia,       ///< weight from 0.9 to 0.4 over the run, c1 = c2 = 1.7 (Shi & Eberhart 1998)
-};
-/// Whose best point draws a particle.
-enum class SwarmTopology {
-  kGlobal,  ///< that of all
-  kRing,    ///< of itself and its two neighbours by index: slower to agree, harder to fool
-};
-
-struct SwarmOptions {
-  SwarmDamping damping = SwarmDamping::kConstriction;
-  SwarmTopology topology = SwarmTopology::kRing;
-  int particles = 40;
-  int generations = 40;
-  int stagnation = 12;     ///< generations without a better best point that end the search
-  double max_speed = 0.8;  ///< per coordinate and generation, in standard deviations of the start
-  double bound = 3;        ///< coordinates stay within, in the same unit; they are reflected there
-  std::uint64_t seed = 1;
-  int threads = 1;  ///< the result does not depend on it
-  void check() const;
-};
-void visit(OptionVisitor& field, SwarmOptions& options);
 
 /// chi for phi > 4: 0.7298 for 4.1.
 double constriction(double phi);

@@ -1,5 +1,6 @@
 #pragma once
-#include <placegraph/frontend/cloud_planes/depth_planes_options.h>
+#include <placegraph/frontend/planes/plane_options.h>
+#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/plane3.h>
 #include <placegraph/graph/image/image.h>

@@ -32,15 +32,6 @@ std::vector<cv::KeyPoint> spread(std::vector<cv::KeyPoint> candidates, cv::Size 
 
 }  // namespace
 
-void DetectorOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, DetectorOptions& o) {
-  field("max_features", o.max_features, "described points per keyframe", {50, 20000});
-  field("octaves", o.octaves, "pyramid levels", {1, 12});
-  field("scale_factor", o.scale_factor, "between pyramid levels", {1.05, 2});
-  field("fast_threshold", o.fast_threshold, "FAST corner threshold, grey levels", {1, 100});
-}
-
 std::vector<Feature> detect_features(const Image& image, const DetectorOptions& options,
                                      const Image& mask) {
   require(image.type() == CV_8UC1, "detect_features: grey image needed");

@@ -97,13 +97,6 @@ std::vector<FeatureMatch> mutual(const std::vector<Best>& best_a, const std::vec
 
 }  // namespace
 
-void MatcherOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, MatcherOptions& o) {
-  field("max_distance", o.max_distance, "differing bits of 256", {1, 256});
-  field("max_ratio", o.max_ratio, "best over second best distance", {0.1, 1});
-}
-
 std::vector<FeatureMatch> match_features(const std::vector<Feature>& a,
                                          const std::vector<Feature>& b,
                                          const MatcherOptions& options,

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/features/feature_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/landmark.h>
@@ -6,13 +7,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct MatcherOptions {
-  int max_distance = 64;    ///< bits of 256
-  double max_ratio = 0.85;  ///< best over second best distance (Lowe 2004)
-  void check() const;
-};
-void visit(OptionVisitor& field, MatcherOptions& options);
 
 struct FeatureMatch {
   int a = 0, b = 0;  ///< indices into the two feature lists

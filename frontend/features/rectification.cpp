@@ -45,19 +45,6 @@ Batch weigh(const std::vector<DisparitySample>& samples, const Vector4d& state) 
 
 }  // namespace
 
-void RectificationOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, RectificationOptions& o) {
-  field("enabled", o.enabled, "estimate what the eyes' rectification is off by while driving");
-  field("prior_sigma_px", o.prior_sigma_px,
-        "of the offset, and of its growth over a unit of x and y, before anything was seen",
-        {1e-3, 10});
-  field("batch_sigma_px", o.batch_sigma_px, "error common to the samples of one keyframe",
-        {1e-3, 10});
-  field("scale_sigma", o.scale_sigma, "of the motion's unit before anything was seen", {1e-5, 1});
-  field("scale_drift", o.scale_drift, "of the motion's unit, from keyframe to keyframe", {1e-6, 1});
-}
-
 RectificationEstimator::RectificationEstimator(const RectificationOptions& options)
     : options_(options), state_(1, 0, 0, 0) {
   options_.check();

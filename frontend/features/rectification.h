@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/features/feature_options.h>
 #include <placegraph/graph/core/options.h>
 
 #include <Eigen/Core>
@@ -26,16 +27,6 @@ struct DisparitySample {
   double from_motion_px = 0;
   double sigma_px = 1;  ///< of their difference
 };
-
-struct RectificationOptions {
-  bool enabled = true;
-  double prior_sigma_px = 0.3;  ///< of offset, by_x and by_y before anything was seen
-  double batch_sigma_px = 0.1;  ///< common to all samples of a batch: the motion's own errors
-  double scale_sigma = 0.02;    ///< of the motion's unit before anything was seen
-  double scale_drift = 0.002;   ///< of the motion's unit, from one batch to the next
-  void check() const;
-};
-void visit(OptionVisitor& field, RectificationOptions& options);
 
 /// Self-calibration of a stereo pair while it drives. The motion knows depths up to one scale,
 /// which disparities of many sizes tell apart from an offset: a Kalman filter of the scale, which

@@ -94,17 +94,6 @@ std::optional<double> match_within(const Image& left, const Image& right, const 
 
 }  // namespace
 
-void StereoMatcherOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, StereoMatcherOptions& o) {
-  field("half_width_px", o.half_width_px, "half width of the compared patches", {2, 31});
-  field("half_height_px", o.half_height_px, "half height of the compared patches", {1, 31});
-  field("max_disparity_px", o.max_disparity_px, "greatest disparity looked for", {4, 1024});
-  field("min_score", o.min_score, "ZNCC of an accepted match", {0, 1});
-  field("max_left_right_px", o.max_left_right_px, "disagreement with the search back", {0.1, 20});
-  field("sigma_disparity_px", o.sigma_disparity_px, "noise of the disparity", {0.01, 10});
-}
-
 std::vector<std::optional<double>> match_stereo(
     const Image& left, const Image& right, const std::vector<Eigen::Vector2f>& px_left,
     const StereoMatcherOptions& o, const std::vector<std::optional<double>>& expected_px) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/frontend/features/feature_options.h>
+#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
@@ -7,16 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct StereoMatcherOptions {
-  int half_width_px = 7, half_height_px = 5;  ///< of the compared patches
-  double max_disparity_px = 128;
-  double min_score = 0.85;       ///< ZNCC of the best place
-  double max_left_right_px = 1;  ///< searching back from the right eye must end this close
-  double sigma_disparity_px = 0.3;
-  void check() const;
-};
-void visit(OptionVisitor& field, StereoMatcherOptions& options);
 
 /// Disparity [px] (u_left - u_right, > 0) of points of the left eye of a rectified pair: ZNCC
 /// search along the row, parabola to sub-pixels, checked from right to left. Nothing where there is

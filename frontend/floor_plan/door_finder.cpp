@@ -103,15 +103,6 @@ void find_crossed(const WallProfile& profile, const DoorFinderOptions& options, 
 
 }  // namespace
 
-void visit(OptionVisitor& field, DoorFinderOptions& o) {
-  field("min_width_m", o.min_width_m, "of a door", {0.2, 5});
-  field("max_width_m", o.max_width_m, "of a door", {0.2, 10});
-  field("min_head_m", o.min_head_m, "of an opening's head above the floor", {0.5, 5});
-  field("max_head_m", o.max_head_m, "of an opening's head above the floor", {0.5, 10});
-  field("min_recess_m", o.min_recess_m, "of a leaf behind its wall's surface", {0.005, 1});
-  field("max_recess_m", o.max_recess_m, "of a leaf behind its wall's surface", {0.005, 1});
-}
-
 ProfileDoors doors_of(const WallProfile& profile, const DoorFinderOptions& options) {
   const std::vector<WallStep>& steps = profile.steps;
   ProfileDoors doors;

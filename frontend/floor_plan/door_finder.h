@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/floor_plan_options.h>
 #include <placegraph/frontend/floor_plan/wall_finder.h>
 #include <placegraph/frontend/floor_plan/wall_profile.h>
 #include <placegraph/graph/core/options.h>
@@ -6,14 +7,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct DoorFinderOptions {
-  double min_width_m = 0.6, max_width_m = 2.2;
-  double min_head_m = 1.8, max_head_m = 2.5;         ///< of an opening's head above the floor
-  double min_recess_m = 0.025, max_recess_m = 0.16;  ///< of a leaf behind its wall's surface
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, DoorFinderOptions& options);
 
 /// A door in the frame of the walls: in the wall surface `offset_m` along `axis`.
 struct DoorPiece {

@@ -139,14 +139,6 @@ class FloorViewer {
 
 }  // namespace
 
-void visit(OptionVisitor& field, FloorSightOptions& o) {
-  field("max_range_m", o.max_range_m, "farther surfaces are not used", {0.1, 1000});
-  field("step_px", o.step_px, "between points", {1, 100});
-  field("sigma_boundary_px", o.sigma_boundary_px, "of the row where floor and wall meet",
-        {0.01, 100});
-  field("skirting_m", o.skirting_m, "height of skirting boards, at most; 0: none", {0, 1});
-}
-
 std::vector<SurfacePoint> surface_points_on_floor(const OrientationMap& map,
                                                   const std::vector<LineSegment>& segments,
                                                   const std::vector<int>& axis,

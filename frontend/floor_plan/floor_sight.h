@@ -1,19 +1,9 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/floor_plan_options.h>
 #include <placegraph/frontend/scene/orientation_map.h>
 #include <placegraph/graph/scene/indoor_map.h>
 
 namespace placegraph {
-
-struct FloorSightOptions {
-  double max_range_m = 6;
-  int step_px = 8;
-  double sigma_boundary_px = 1.5;  ///< of the row where floor and wall meet
-  /// A wall's lowest edge, up to so far below where the map's floor ends, is its foot: the upper
-  /// edge of a skirting board is mostly the clearer one. 0: the map alone.
-  double skirting_m = 0.15;
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, FloorSightOptions& options);
 
 /// Points of the surfaces in one image, in the camera frame: floor pixels of an orientation map lie
 /// on the floor, `height_m` under the camera; walls stand where it ends below them, turned as their

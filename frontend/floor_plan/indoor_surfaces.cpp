@@ -48,19 +48,6 @@ PatchPlane fit_patch(const Image& depth_m, const Camera& camera, int u, int v, i
 
 }  // namespace
 
-void visit(OptionVisitor& field, SurfacePointOptions& o) {
-  field("step_px", o.step_px, "between points", {1, 100});
-  field("radius_px", o.radius_px, "of the patch whose plane gives the normal", {2, 50});
-  field("max_residual", o.max_residual, "of inverse depths from their plane, relative, rms",
-        {1e-4, 1});
-  field("max_range_m", o.max_range_m, "farther points are not used", {0.1, 1000});
-}
-
-void visit(OptionVisitor& field, DenseStereoOptions& o) {
-  field("disparities", o.disparities, "searched from 0 on, a multiple of 16", {16, 1024});
-  field("window_px", o.window_px, "side of the matched blocks", {1, 21});
-}
-
 std::vector<SurfacePoint> surface_points(const Image& depth_m, const Image& sigma_inverse,
                                          const Camera& depth_camera, const SE3& T_cam_depth,
                                          const SurfacePointOptions& options) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/floor_plan_options.h>
+#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/se3.h>
@@ -6,15 +8,6 @@
 #include <placegraph/graph/scene/indoor_map.h>
 
 namespace placegraph {
-
-struct SurfacePointOptions {
-  int step_px = 8;             ///< between points
-  int radius_px = 8;           ///< of the patch whose plane gives the normal
-  double max_residual = 0.01;  ///< of inverse depths from it, relative, rms, beside noise
-  double max_range_m = 15;
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, SurfacePointOptions& options);
 
 /// Points of the surfaces in a depth image (CV_32FC1 [m], 0 = none) of `depth_camera`, in the frame
 /// that `T_cam_depth` leads to. Inverse depth is linear in the pixel on a plane: where a patch's
@@ -28,13 +21,6 @@ std::vector<SurfacePoint> surface_points(const Image& depth_m, const Image& sigm
 std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& depth_camera,
                                          const SE3& T_cam_depth, double sigma_at_1m,
                                          const SurfacePointOptions& options = {});
-
-struct DenseStereoOptions {
-  int disparities = 96;  ///< searched from 0 on [px], a multiple of 16
-  int window_px = 9;
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, DenseStereoOptions& options);
 
 /// Depth of every pixel of the left eye that both eyes agree on (semi-global matching,
 /// Hirschmueller 2008, by OpenCV): CV_32FC1 [m], 0 = none.

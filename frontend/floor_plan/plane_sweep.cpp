@@ -181,30 +181,6 @@ class PlaneSweep {
 
 }  // namespace
 
-void PlaneSweepOptions::check() const {
-  check_ranges(*this);
-  require(min_depth_m < max_depth_m, "max_depth_m: must be above min_depth_m");
-  require(window_px % 2 == 1, "window_px: must be odd");
-  require(block_px % 2 == 1, "block_px: must be odd");
-}
-
-void visit(OptionVisitor& field, PlaneSweepOptions& o) {
-  field("min_depth_m", o.min_depth_m, "of surfaces", {0.01, 1000});
-  field("max_depth_m", o.max_depth_m, "of surfaces", {0.02, 10000});
-  field("max_width_px", o.max_width_px, "wider images are halved", {32, 10000});
-  field("step_px", o.step_px, "between two planes, where a view moves most", {0.1, 10});
-  field("max_planes", o.max_planes, "farther apart where more would be needed", {8, 1000});
-  field("window_px", o.window_px, "over which brightness and contrast are made alike", {3, 51});
-  field("noise_share", o.noise_share, "contrast below so much noise counts for little", {0, 100});
-  field("block_px", o.block_px, "over which costs are averaged", {1, 31});
-  field("path_step", o.paths.step, "cost of neighbours one plane apart", {0, 1000});
-  field("path_jump", o.paths.jump, "cost of neighbours farther apart", {0, 1000});
-  field("uniqueness", o.uniqueness, "by which a depth must be better than any other", {0, 1});
-  field("distinct", o.distinct, "cost of a depth that the pixel tells by itself, of its mean cost",
-        {0, 1});
-  field("sigma_px", o.sigma_px, "of where a surface is seen in another view", {0.01, 10});
-}
-
 SweptDepth sweep_planes(const Image& image, const Camera& camera,
                         const std::vector<SweptView>& views, const PlaneSweepOptions& options) {
   options.check();

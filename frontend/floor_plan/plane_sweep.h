@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/floor_plan_options.h>
 #include <placegraph/frontend/floor_plan/depth_agreement.h>
 #include <placegraph/frontend/floor_plan/semi_global.h>
 #include <placegraph/graph/core/options.h>
@@ -8,22 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct PlaneSweepOptions {
-  double min_depth_m = 0.7, max_depth_m = 15;
-  int max_width_px = 400;    ///< wider images are halved
-  double step_px = 1;        ///< between two planes, where a view moves most
-  int max_planes = 192;      ///< farther apart where more would be needed
-  int window_px = 9;         ///< over which brightness and contrast are made alike
-  double noise_share = 2.7;  ///< contrast below so many deviations of noise (and 1) counts little
-  int block_px = 5;          ///< over which costs are averaged
-  PathCosts paths;
-  double uniqueness = 0.05;  ///< by which a depth must be better than any other
-  double distinct = 0.6;     ///< cost of a depth that the pixel tells by itself, of its mean cost
-  double sigma_px = 0.3;     ///< of where a surface is seen in another view
-  void check() const;
-};
-void visit(OptionVisitor& field, PlaneSweepOptions& options);
 
 /// Another image of the same camera, which shows no distortion.
 struct SweptView {

@@ -173,17 +173,6 @@ class Partitioner {
 
 }  // namespace
 
-void visit(OptionVisitor& field, RoomPartitionOptions& o) {
-  field("min_area_m2", o.min_area_m2, "of a room", {0.1, 1000});
-  field("neck_m", o.neck_m, "free space narrower than this parts rooms", {0, 5});
-  field("closing_m", o.closing_m, "unseen cells so near to free ones are free", {0, 5});
-  field("completed_share", o.completed_share,
-        "of a box between walls that is seen free: then all of it is", {0, 1});
-  field("walled_share", o.walled_share,
-        "of the border of an unseen part of a room: with more walls it is not the room's", {0, 1});
-  field("outline_m", o.outline_m, "tolerance of a room's outline", {0.01, 5});
-}
-
 RoomPartition partition_rooms(const VoxelEvidence& voxels, const std::vector<WallPiece>& walls,
                               const std::vector<DoorPiece>& doors,
                               const std::vector<Eigen::Vector3d>& path,

@@ -1,19 +1,9 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/floor_plan_options.h>
 #include <placegraph/frontend/floor_plan/door_finder.h>
 #include <placegraph/graph/image/image.h>
 
 namespace placegraph {
-
-struct RoomPartitionOptions {
-  double min_area_m2 = 2;
-  double neck_m = 0.7;           ///< free space narrower than this parts rooms
-  double closing_m = 0.15;       ///< unseen cells so near to free ones are free
-  double completed_share = 0.5;  ///< of a box between walls that is seen free: all of it is
-  double walled_share = 0.2;  ///< of an unseen part's border: with more, it is no part of the room
-  double outline_m = 0.08;    ///< tolerance of a room's outline
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, RoomPartitionOptions& options);
 
 /// Rooms in the frame of the walls.
 struct RoomPartition {

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/floor_plan/floor_plan_options.h>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,11 +18,6 @@ struct CostVolume {
   }
   int width, height, levels;
   std::vector<std::uint8_t> costs;  ///< a pixel's levels beside each other, pixels by rows
-};
-
-struct PathCosts {
-  int step = 8;   ///< of neighbours that differ by one level
-  int jump = 32;  ///< by more
 };
 
 /// Least costs of paths that end in each pixel at each level, summed over the eight directions that

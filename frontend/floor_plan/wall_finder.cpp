@@ -156,18 +156,6 @@ class SideCoverage {
 
 }  // namespace
 
-void visit(OptionVisitor& field, WallFinderOptions& o) {
-  field("max_sigma_m", o.max_sigma_m, "of points that walls are found from", {0.001, 10});
-  field("max_turn_deg", o.max_turn_deg, "of a point's normal from the wall's", {1, 44});
-  field("band_m", o.band_m, "half width of what counts as one plane", {0.02, 1});
-  field("min_height_m", o.min_height_m, "that must be seen of a wall", {0.1, 10});
-  field("min_share", o.min_share, "of the looked at height that must be wall", {0, 1});
-  field("max_gap_m", o.max_gap_m, "within a wall", {0, 2});
-  field("min_length_m", o.min_length_m, "of a wall", {0.1, 10});
-  field("max_step_m", o.max_step_m, "between pieces of one wall", {0, 1});
-  field("min_top_m", o.min_top_m, "short pieces of wall reach above it", {0, 10});
-}
-
 std::vector<WallPiece> find_walls(const std::vector<PlacedPoint>& points,
                                   const VoxelEvidence& voxels, const WallFinderOptions& options) {
   options.check();

@@ -8,31 +8,6 @@
 
 namespace placegraph {
 
-void PointTrackerOptions::check() const {
-  check_ranges(*this);
-  require(window_px % 2 == 1, "window_px: must be odd");
-}
-
-void visit(OptionVisitor& field, PointTrackerOptions& o) {
-  field("max_tracks", o.max_tracks, "points followed at once", {20, 10000});
-  field("window_px", o.window_px, "side of the Lucas-Kanade window, odd", {5, 63});
-  field("pyramid_levels", o.pyramid_levels, "levels of the image pyramid", {1, 8});
-  field("max_forward_backward_px", o.max_forward_backward_px,
-        "a track that does not come back to its start this closely is dropped", {0.01, 10});
-  field("min_eigenvalue", o.min_eigenvalue,
-        "least eigenvalue of the gradient matrix per pixel, grey levels / 255", {0, 1});
-  field("cell_px", o.cell_px, "side of the cells over which tracks are balanced", {8, 512});
-  field("min_distance_px", o.min_distance_px, "least distance between detected points", {1, 256});
-  field("max_anchor_shift_px", o.max_anchor_shift_px,
-        "at keyframes a track goes to where its first look is, at most this far; 0: never",
-        {0, 100});
-  field("min_anchor_correlation", o.min_anchor_correlation,
-        "with the first look; below, the look is taken anew", {0, 1});
-  field("sigma_px", o.sigma_px, "noise of a step where the first look was not found", {0.05, 10});
-  field("min_sigma_px", o.min_sigma_px, "noise, at least, of a look that is found", {0.01, 10});
-  field("max_sigma_px", o.max_sigma_px, "a track that has gathered more noise ends", {0.1, 100});
-}
-
 PointTracker::PointTracker(const PointTrackerOptions& options) : options_(options) {
   options_.check();
   least_ *= static_cast<float>(options.min_sigma_px * options.min_sigma_px);

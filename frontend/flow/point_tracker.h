@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/features/feature_options.h>
 #include <placegraph/frontend/flow/anchored_patch.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
@@ -10,24 +11,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct PointTrackerOptions {
-  int max_tracks = 500;
-  int window_px = 21;
-  int pyramid_levels = 4;
-  double max_forward_backward_px = 0.8;
-  double min_eigenvalue = 2e-4;  ///< of the window's gradient matrix per pixel, grey levels / 255
-  int cell_px = 48;              ///< detection balances tracks over cells of this side
-  int min_distance_px = 10;
-  /// From where steps have led to where the first look is; 0: looks are not sought.
-  double max_anchor_shift_px = 3;
-  double min_anchor_correlation = 0.8;  ///< with the first look
-  double sigma_px = 0.7;                ///< of a step where the first look was not found
-  double min_sigma_px = 0.25;           ///< of a look that is found, at least
-  double max_sigma_px = 1.5;            ///< a track that has gathered more ends
-  void check() const;
-};
-void visit(OptionVisitor& field, PointTrackerOptions& options);
 
 /// One image point followed over time.
 struct PointTrack {

@@ -25,15 +25,6 @@ void second_row(const ByteFeatures& features, const ByteFeatures& context, int i
 
 }  // namespace
 
-void LabellerOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LabellerOptions& o) {
-  field("context", o.context, "labels around count");
-  field("field", o.field, "neighbours that look alike tend to one label");
-  field("relations", o.relations, "which classes lie above and beside which counts");
-  field("rounds", o.rounds, "of the labels around", {1, 5});
-}
-
 Image scene_picture(const Image& picture) {
   require(!picture.empty() && (picture.type() == CV_8UC3 || picture.type() == CV_8UC1),
           "view_scene: a picture of 8 bits, BGR or grey, is needed");

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/scene/scene_options.h>
 #include <placegraph/frontend/labels/superpixel_features.h>
 #include <placegraph/frontend/labels/superpixels.h>
 #include <placegraph/graph/scene/scene_model.h>
@@ -20,18 +21,6 @@ SceneView view_scene(const Image& picture);
 
 /// The size of work for a picture: its shape, even sides and about 480 x 360 pixels.
 Image scene_picture(const Image& picture);
-
-/// How much of a model is used: for measuring what each part brings.
-struct LabellerOptions {
-  bool context = true;  ///< the second forest
-  bool field = true;    ///< the random field
-  /// Its table of relations: off, for the second forest sees who lies where already, and on a day
-  /// that was not learned from the table counts the same evidence twice.
-  bool relations = false;
-  int rounds = 2;  ///< of the second forest
-  void check() const;
-};
-void visit(OptionVisitor& field, LabellerOptions& options);
 
 /// Probabilities of the classes, count x classes. Throws ArgumentError if the model is of other
 /// features than these.

@@ -100,14 +100,6 @@ PlaneFit search_plane(const std::vector<Eigen::Vector3d>& points, const std::vec
 
 }  // namespace
 
-void visit(OptionVisitor& field, UrbanGeometryOptions& o) {
-  field("disparity_sigma_px", o.disparity_sigma_px, "of one pixel", {0.01, 10});
-  field("ground_sigma_m", o.ground_sigma_m, "how even the ground is near by", {0.001, 10});
-  field("ground_sigma_rate", o.ground_sigma_rate, "more of it by the metre of distance", {0, 1});
-  field("outliers", o.outliers, "share of superpixels whose place says nothing", {1e-6, 1});
-  field("weight", o.weight, "of height and normal in the random field; 0: none", {0, 100});
-}
-
 double GroundProfile::height_of(const Eigen::Vector3d& point) const {
   double rise = 0;
   if (!rise_m.empty()) {

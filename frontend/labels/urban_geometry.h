@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/scene/scene_options.h>
 #include <placegraph/frontend/labels/scene_labeller.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
@@ -14,16 +15,6 @@ struct DepthSample {
   Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< camera frame [m]
   int superpixel = 0;
 };
-
-struct UrbanGeometryOptions {
-  double disparity_sigma_px = 0.25;  ///< of one pixel
-  double ground_sigma_m = 0.03;      ///< how even the ground is, near by, and ...
-  double ground_sigma_rate = 0.004;  ///< ... more of it by the metre of distance
-  double outliers = 0.05;            ///< share of superpixels whose place says nothing
-  double weight = 1;                 ///< of the terms in the random field; 0: none
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, UrbanGeometryOptions& options);
 
 /// The ground in front of a camera: a plane, and how much higher or lower it is farther out.
 struct GroundProfile {

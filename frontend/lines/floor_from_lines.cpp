@@ -232,16 +232,6 @@ FloorPlane fit_plane(const std::vector<Mark>& level, const std::vector<SharedDir
 
 }  // namespace
 
-void visit(OptionVisitor& field, FloorFromLinesOptions& o) {
-  field("max_tilt_deg", o.max_tilt_deg, "of the floor from the camera's xz plane", {1, 80});
-  field("upright_deg", o.upright_deg, "of an upright from the vertical", {0.1, 20});
-  field("end_px", o.end_px, "an upright's end from where it meets the floor", {0.1, 50});
-  field("unevenness", o.unevenness, "of the floor, in heights of the camera", {0, 0.5});
-  field("max_sigma", o.max_sigma, "of a height with a vote, in heights of the camera", {0.001, 1});
-  field("min_lines", o.min_lines, "on the floor", {2, 1000});
-  field("min_share", o.min_share, "of the votes for the level that has most", {0, 1});
-}
-
 FloorFromLines floor_from_lines(const Camera& camera, const SE3& T_ref_cam,
                                 const std::vector<PlacedLine>& lines,
                                 const FloorFromLinesOptions& options,

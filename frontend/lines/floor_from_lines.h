@@ -1,22 +1,11 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/lines/line_triangulation.h>
 
 #include <cstdint>
 #include <vector>
 
 namespace placegraph {
-
-struct FloorFromLinesOptions {
-  double max_tilt_deg = 25;  ///< of the floor from the camera's xz plane
-  double upright_deg = 3;    ///< deviation of uprights from the floor's normal: built so
-  double end_px = 3;         ///< how far an edge's end may lie from where it meets the floor
-  double unevenness = 0.01;  ///< of the floor, in heights of the camera
-  double max_sigma = 0.1;    ///< of a height, in heights of the camera, to have a vote
-  int min_lines = 4;         ///< on the floor
-  double min_share = 0.35;   ///< of the votes for the level that has most
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, FloorFromLinesOptions& options);
 
 /// A line of known place as the camera sees it now.
 struct PlacedLine {

@@ -65,15 +65,6 @@ bool lies_along(const LineSegment& seen, const LineSegment& expected,
 
 }  // namespace
 
-void LineFeatureMatcherOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LineFeatureMatcherOptions& o) {
-  field("max_distance", o.max_distance, "differing bits of 256", {0, 256});
-  field("gate_px", o.gate_px, "between a segment and where its line is expected", {0.1, 1000});
-  field("max_angle_deg", o.max_angle_deg, "between both", {0.1, 90});
-  field("min_overlap", o.min_overlap, "of the shorter of two segments with the other", {0, 1});
-}
-
 std::vector<BinaryDescriptor> describe_segments(const Image& image,
                                                 const std::vector<LineSegment>& segments) {
   require(image.type() == CV_8UC1, "describe_segments: CV_8UC1 needed");

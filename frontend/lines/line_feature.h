@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line3.h>
@@ -23,15 +25,6 @@ struct LineFeature {
 /// Throws ArgumentError if the image is not CV_8UC1 or a segment lies outside it or has no length.
 std::vector<BinaryDescriptor> describe_segments(const Image& image,
                                                 const std::vector<LineSegment>& segments);
-
-struct LineFeatureMatcherOptions {
-  int max_distance = 60;     ///< bits of 256
-  double gate_px = 9;        ///< between a segment and where its line is expected
-  double max_angle_deg = 8;  ///< between both
-  double min_overlap = 0.3;  ///< of the shorter of two segments with the other, along the line
-  void check() const;
-};
-void visit(OptionVisitor& field, LineFeatureMatcherOptions& options);
 
 struct LineFeatureMatch {
   int a = 0, b = 0;  ///< indices into the two lists

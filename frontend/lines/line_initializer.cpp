@@ -225,16 +225,6 @@ void pose_between(const Camera& camera, const std::vector<LineView>& views, std:
 
 }  // namespace
 
-void LineInitializerOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LineInitializerOptions& o) {
-  field.group("directions", o.directions, "vanishing points that show the rotation");
-  field.group("ransac", o.ransac, "five-line hypotheses of the translations");
-  field("threshold_px", o.threshold_px, "of a line of two views in the third", {0.1, 50});
-  field("min_turn_deg", o.min_turn_deg, "of a line's plane, to take part", {0.01, 45});
-  field("min_lines", o.min_lines, "seen from the first to the last view", {6, 1000});
-}
-
 LineInitialization initialize_from_lines(const Camera& camera, const std::vector<LineView>& views,
                                          const LineInitializerOptions& options, Random& random) {
   options.check();

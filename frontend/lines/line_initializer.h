@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/frontend/vanishing/vanishing_points.h>
 
@@ -8,16 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct LineInitializerOptions {
-  VanishingPointOptions directions;  ///< of the first view: rotation is seen by them
-  RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 9};
-  double threshold_px = 3;    ///< of a line of the first and last view, in the one in the middle
-  double min_turn_deg = 0.7;  ///< of a line's plane, to take part in the translation
-  int min_lines = 12;         ///< seen from the first to the last view
-  void check() const;
-};
-void visit(OptionVisitor& field, LineInitializerOptions& options);
 
 /// A line track in one view.
 struct TrackedLine {

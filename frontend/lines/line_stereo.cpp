@@ -43,17 +43,6 @@ std::optional<std::pair<double, double>> consensus(const std::vector<Sample>& sa
 
 }  // namespace
 
-void LineStereoOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LineStereoOptions& o) {
-  field.group("flow", o.flow, "alignment in the right eye");
-  field("min_sine", o.min_sine, "of a segment's angle to the rows", {0.01, 1});
-  field("samples", o.samples, "points along a segment that begin the search", {3, 100});
-  field("max_disparity_miss_px", o.max_disparity_miss_px, "of a sample that counts", {0.1, 20});
-  field("min_similarity", o.min_similarity, "correlation of its surroundings in both eyes",
-        {-1, 1});
-}
-
 std::vector<std::optional<EdgeSegment>> match_stereo_segments(
     const Image& left, const Image& right, const std::vector<LineSegment>& segments_left,
     const StereoMatcherOptions& points, const EdgeRefinementOptions& refinement,

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/segments/edge_refinement.h>
 #include <placegraph/frontend/segments/segment_flow.h>
@@ -7,16 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct LineStereoOptions {
-  SegmentFlowOptions flow;
-  double min_sine = 0.17;  ///< of a segment's angle to the rows; flatter ones tell no depth
-  int samples = 7;         ///< points along a segment whose disparities begin the search
-  double max_disparity_miss_px = 1.5;  ///< of a sample that counts, from the common line
-  double min_similarity = 0.8;  ///< correlation of the strips of both eyes, of one side or both
-  void check() const;
-};
-void visit(OptionVisitor& field, LineStereoOptions& options);
 
 /// Where the right eye of a rectified pair sees edges of the left one. Disparities of points along
 /// a segment, found by correlation of rows, lie on a straight line over its length (the inverse

@@ -77,28 +77,6 @@ bool same_edge(const LineSegment& a, const LineSegment& b, double max_distance_p
 
 }  // namespace
 
-void LineTrackerOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LineTrackerOptions& o) {
-  field.group("detector", o.detector, "where new tracks come from");
-  field.group("flow", o.flow, "alignment from frame to frame");
-  field("grow_px", o.growth.beyond_px, "an edge may have become longer by, at either end",
-        {0, 100});
-  field("max_gap_px", o.growth.max_gap_px, "without support, inside one edge", {1, 1000});
-  field("max_tracks", o.max_tracks, "lines followed at once", {1, 10000});
-  field("enough_share", o.enough_share, "of max_tracks: no new ones are looked for", {0.01, 1});
-  field("leaving_share", o.leaving_share,
-        "of max_tracks: only with fewer are edges begun that leave the image soon", {0, 1});
-  field("max_shift_px", o.max_shift_px, "of a segment from where it is expected", {1, 200});
-  field("min_new_px", o.min_new_px, "length of an edge that becomes a track", {5, 1000});
-  field("min_length_px", o.min_length_px, "shorter pieces die", {5, 1000});
-  field("min_similarity", o.min_similarity, "correlation of its surroundings in two frames",
-        {-1, 1});
-  field("max_forward_backward_px", o.max_forward_backward_px,
-        "disagreement with the way back, across", {0.05, 20});
-  field("max_contrast_ratio", o.max_contrast_ratio, "between two frames", {1, 100});
-}
-
 LineTracker::LineTracker(const LineTrackerOptions& options) : options_(options) {
   options_.check();
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/segments/segment_flow.h>
 
@@ -9,23 +10,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct LineTrackerOptions {
-  SegmentDetectorOptions detector;
-  SegmentFlowOptions flow;
-  EdgeGrowth growth;
-  int max_tracks = 80;          ///< the longest edges
-  double enough_share = 0.75;   ///< of max_tracks: with so many no new ones are looked for
-  double leaving_share = 0.3;   ///< of max_tracks: with fewer, edges that leave soon are begun too
-  double max_shift_px = 12;     ///< of a segment from where it is expected
-  double min_new_px = 25;       ///< length of an edge that becomes a track
-  double min_length_px = 20;    ///< of a track; shorter pieces die
-  double min_similarity = 0.7;  ///< correlation of the strips of two frames, of one side or both
-  double max_forward_backward_px = 1;  ///< of the ends, across
-  double max_contrast_ratio = 2.5;     ///< between two frames
-  void check() const;
-};
-void visit(OptionVisitor& field, LineTrackerOptions& options);
 
 /// A straight edge followed over time. Its line, with the covariance of its support in the newest
 /// frame, is measured anew in every frame and does not drift; its ends are those of its support.

@@ -69,13 +69,6 @@ void refine_line(const Camera& camera, const std::vector<LineSighting>& sighting
 
 }  // namespace
 
-void visit(OptionVisitor& field, LineTriangulationOptions& o) {
-  field("min_turn_deg", o.min_turn_deg, "between the planes through the line and two eyes",
-        {0.01, 45});
-  field("min_turn_sigmas", o.min_turn_sigmas, "the same over its standard deviation", {1, 1000});
-  field("max_error_sigmas", o.max_error_sigmas, "of a sighting from the line", {1, 1000});
-}
-
 Eigen::Vector3d plane_normal(const Camera& camera, const Eigen::Vector2d& px_a,
                              const Eigen::Vector2d& px_b) {
   const auto ray = [&](const Eigen::Vector2d& px) {

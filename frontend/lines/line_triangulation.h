@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
@@ -8,14 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct LineTriangulationOptions {
-  double min_turn_deg = 1.5;    ///< between the planes through the line and the two farthest eyes
-  double min_turn_sigmas = 8;   ///< the same turn, over its own standard deviation
-  double max_error_sigmas = 4;  ///< of a sighting from the line, worst of all
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, LineTriangulationOptions& options);
 
 /// A line of the scene as one eye sees it.
 struct LineSighting {

@@ -135,16 +135,6 @@ std::vector<double> trigonometric_roots(const std::array<double, 9>& values) {
 
 }  // namespace
 
-void PoseFromLinesOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, PoseFromLinesOptions& o) {
-  field.group("ransac", o.ransac, "three-line hypotheses");
-  field("threshold_px", o.threshold_px, "inliers lie within this of their projection", {0.1, 50});
-  field("prior_inlier_ratio", o.prior_inlier_ratio,
-        "a predicted pose that explains this share of the lines spares the RANSAC", {0, 1.01});
-  field("huber_sigmas", o.huber_sigmas, "width of the Huber kernel", {0.1, 100});
-}
-
 std::vector<SE3> solve_three_lines(const std::array<Line3, 3>& lines_ref,
                                    const std::array<Eigen::Vector3d, 3>& normals_cam) {
   Eigen::Matrix3d C, V;  // m_1 is the third axis of C, v_1 the first of V

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/graph/core/ransac.h>
 
@@ -7,15 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct PoseFromLinesOptions {
-  RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 6};
-  double threshold_px = 2.5;        ///< inliers lie within this of their projection
-  double prior_inlier_ratio = 0.6;  ///< a prior that explains this share spares the RANSAC
-  double huber_sigmas = 3;
-  void check() const;
-};
-void visit(OptionVisitor& field, PoseFromLinesOptions& options);
 
 /// A line of known place and where it is seen.
 struct SeenLine {

@@ -80,15 +80,6 @@ bool measure(const Image& grey, const cv::Rect& window, const cv::Point& seed,
 
 }  // namespace
 
-void visit(OptionVisitor& field, BeaconDetectorOptions& o) {
-  field("min_grey", o.min_grey, "of a spot's brightest pixel", {1, 255});
-  field("min_contrast", o.min_contrast, "over what surrounds a spot, grey levels", {1, 255});
-  field("min_area_px", o.min_area_px, "above half of the contrast", {1, 1e5});
-  field("max_area_px", o.max_area_px, "larger ones are no beacons", {1, 1e6});
-  field("min_roundness", o.min_roundness, "shorter axis over longer", {0, 1});
-  field("min_sigma_px", o.min_sigma_px, "of a spot, whatever the grey values say", {1e-4, 5});
-}
-
 std::vector<BeaconSighting> detect_beacons(const Image& grey,
                                            const BeaconDetectorOptions& options) {
   options.check();

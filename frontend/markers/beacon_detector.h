@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/frontend/markers/marker_options.h>
+#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
 
@@ -6,17 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct BeaconDetectorOptions {
-  double min_grey = 200;     ///< of a spot's brightest pixel
-  double min_contrast = 80;  ///< of that over what surrounds the spot, grey levels
-  double min_area_px = 2;    ///< above half of that contrast
-  double max_area_px = 900;
-  double min_roundness = 0.6;  ///< the spot's shorter axis over its longer
-  double min_sigma_px = 0.05;  ///< of a spot: no better, whatever the grey values say
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, BeaconDetectorOptions& options);
 
 /// A bright spot in an image.
 struct BeaconSighting {

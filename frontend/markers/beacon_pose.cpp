@@ -168,15 +168,6 @@ class AssignmentSearch {
 
 }  // namespace
 
-void visit(OptionVisitor& field, BeaconPoseOptions& o) {
-  field("gate", o.gate, "a spot is a beacon's where it is likelier than one minus this",
-        {0.5, 0.999999});
-  field("min_spots", o.min_spots, "of a pose from nothing", {4, 100});
-  field("max_missed", o.max_missed, "share of the beacons in view without a spot", {0, 1});
-  field("min_margin", o.min_margin, "of the next pose's squared error over the best", {0, 1e6});
-  field("max_trials", o.max_trials, "assignments of three spots to three beacons", {1, 1e8});
-}
-
 BeaconPairs assign_beacons(const std::vector<BeaconSighting>& spots,
                            const std::vector<Eigen::Vector3d>& beacons_world, const Camera& camera,
                            const SE3& T_world_cam, const Matrix6d& covariance,

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/markers/marker_options.h>
 #include <placegraph/frontend/markers/beacon_detector.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
@@ -8,16 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct BeaconPoseOptions {
-  double gate = 0.999;  ///< a spot is a beacon's where its distance is likelier than one minus this
-  int min_spots = 4;    ///< of one pose from nothing
-  double max_missed = 0.34;  ///< share of the beacons in view that no spot belongs to
-  double min_margin = 12;    ///< of the next pose's squared error over the best one's
-  int max_trials = 200000;   ///< assignments of three spots to three beacons
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, BeaconPoseOptions& options);
 
 /// Which spot is which beacon: (index of the spot, index of the beacon).
 using BeaconPairs = std::vector<std::pair<int, int>>;

@@ -13,16 +13,6 @@ struct MarkerDetector::Family {
   cv::Ptr<cv::aruco::Dictionary> dictionary;
 };
 
-void MarkerDetectorOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, MarkerDetectorOptions& o) {
-  field("min_side_px", o.min_side_px, "smaller markers are not looked for", {8, 1000});
-  field("correction", o.correction, "share of the correctable bits that are corrected", {0, 1});
-  field("search_margin", o.search_margin,
-        "around an expected marker, in its widths, where it is looked for", {0.1, 10});
-  field.group("square", o.square, "sub-pixel fit of the sides");
-}
-
 MarkerDetector::MarkerDetector(const MarkerDetectorOptions& options, const std::string& dictionary)
     : options_(options), dictionary_(dictionary) {
   options_.check();

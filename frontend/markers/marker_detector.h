@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/markers/marker_options.h>
 #include <placegraph/frontend/markers/square_fit.h>
 
 #include <memory>
@@ -7,15 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct MarkerDetectorOptions {
-  double min_side_px = 12;     ///< smaller markers are not looked for
-  double correction = 0.5;     ///< share of a dictionary's correctable bits that are corrected
-  double search_margin = 0.6;  ///< around an expected marker, in its widths, where it is looked for
-  SquareFitOptions square;
-  void check() const;
-};
-void visit(OptionVisitor& field, MarkerDetectorOptions& options);
 
 /// A marker in an image. Corners: top left, top right, bottom right, bottom left, as somebody reads
 /// it (those of PlacedMarker::corners_marker).

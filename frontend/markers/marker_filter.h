@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/markers/marker_options.h>
 #include <placegraph/frontend/markers/beacon_pose.h>
 #include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/frontend/markers/square_pose.h>
@@ -11,20 +12,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct MarkerFilterOptions {
-  double decided_nats = 14;       ///< a pose so much less likely than the best one is refuted
-  double extra_sigma_px = 0.05;   ///< of a corner beside its own: print, lens, layout
-  double gate = 0.9999;           ///< of a marker's corners under a pose of the camera
-  double gravity_sigma_deg = 10;  ///< of the accelerometer's direction in flight
-  double turn_sigma_deg = 0.3;    ///< of the gyro's turn from view to view
-  double max_turn_rad_s = 2;      ///< without a gyro
-  double max_speed_m_s = 3;
-  double memory_s = 1;  ///< what was not seen for so long is forgotten
-  BeaconPoseOptions beacons;
-  void check() const;
-};
-void visit(OptionVisitor& field, MarkerFilterOptions& options);
 
 /// What one image shows, and what is known of the body at its time.
 struct MarkerView {

@@ -322,14 +322,6 @@ bool fit_once(const StraightPixels& pixels, double border_share, const SquareFit
 
 }  // namespace
 
-void visit(OptionVisitor& field, SquareFitOptions& o) {
-  field("reach_px", o.reach_px, "pixels so far from a side shape it, at most", {1.5, 20});
-  field("min_contrast", o.min_contrast, "grey levels between a square and its surroundings",
-        {1, 255});
-  field("max_sigma_px", o.max_sigma_px, "a corner known worse than that is none", {0.01, 100});
-  field("min_sigma_px", o.min_sigma_px, "of a corner, whatever the fit says", {1e-4, 5});
-}
-
 std::optional<SquareFit> fit_square(const Image& grey, const SquareCorners& expected_px,
                                     double border_share, const SquareFitOptions& options,
                                     const Camera* lens) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/frontend/markers/marker_options.h>
+#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
@@ -8,16 +10,6 @@
 #include <optional>
 
 namespace placegraph {
-
-struct SquareFitOptions {
-  double reach_px = 4;      ///< pixels so far from a side shape it, at most
-  double min_contrast = 8;  ///< grey levels between the square and what is around it
-  double max_sigma_px = 1;  ///< a corner known worse than that is none
-  double min_sigma_px =
-      0.02;  ///< of a corner: no lens and no print is better, whatever the fit says
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, SquareFitOptions& options);
 
 using SquareCorners = std::array<Eigen::Vector2d, 4>;
 

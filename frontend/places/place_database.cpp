@@ -16,15 +16,6 @@ std::vector<BinaryDescriptor> descriptors_of(const std::vector<Feature>& feature
 
 }  // namespace
 
-void PlaceDatabaseOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, PlaceDatabaseOptions& o) {
-  field.group("vocabulary", o.vocabulary, "tree of visual words, trained from the run itself");
-  field("first_training", o.first_training, "views before the first vocabulary", {2, 100000});
-  field("max_training_features", o.max_training_features, "features a training looks at",
-        {100, 10000000});
-}
-
 PlaceDatabase::PlaceDatabase(const PlaceDatabaseOptions& options, std::uint64_t seed)
     : options_(options), seed_(seed) {
   options_.check();

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/frontend/places/vocabulary.h>
 #include <placegraph/graph/place_graph.h>
 
@@ -7,14 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct PlaceDatabaseOptions {
-  VocabularyOptions vocabulary;
-  int first_training = 20;  ///< views after which the first vocabulary is trained
-  int max_training_features = 60000;
-  void check() const;
-};
-void visit(OptionVisitor& field, PlaceDatabaseOptions& options);
 
 struct PlaceCandidate {
   std::int64_t id = 0;

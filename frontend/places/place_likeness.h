@@ -1,14 +1,10 @@
 #pragma once
+#include <placegraph/frontend/places/place_recognizer.h>
+
 #include <algorithm>
 #include <vector>
 
 namespace placegraph {
-
-/// How much a stored view looks like the query: comparable over queries, no probability.
-struct PlaceLikeness {
-  int view = 0;
-  double score = 0;
-};
 
 /// Sorts by score, best first, equal ones by view, and keeps the first `count`.
 inline void keep_best(std::vector<PlaceLikeness>& list, int count) {

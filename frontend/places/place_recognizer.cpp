@@ -1,3 +1,6 @@
+#include <placegraph/frontend/places/place_view.h>
+#include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/frontend/places/dense_index.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/function_clones.h>
@@ -63,20 +66,13 @@ std::vector<float> unit_vector(const std::int16_t* glance, std::size_t length) {
 
 }  // namespace
 
-void PlaceRecognizerOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, PlaceRecognizerOptions& o) {
-  field.group("cues", o.cues, "what tells places apart, and how much each counts");
-  field("glanced", o.glanced, "views that pass the first look", {1, 1e6});
-  field("short_list", o.short_list, "of those, views compared in full", {1, 1e6});
-  field("verified", o.verified, "first views by all grids whose corners are compared", {0, 1e6});
-  field("indexed_from", o.indexed_from, "views from which a graph serves the first look", {1, 1e9});
-  field("nominated", o.nominated, "first views by each cue whose corners are compared", {0, 1e6});
-}
-
 PlaceRecognizer::PlaceRecognizer(const PlaceRecognizerOptions& options) : options_(options) {
   options_.check();
 }
+
+PlaceRecognizer::~PlaceRecognizer() = default;
+PlaceRecognizer::PlaceRecognizer(PlaceRecognizer&&) noexcept = default;
+PlaceRecognizer& PlaceRecognizer::operator=(PlaceRecognizer&&) noexcept = default;
 
 int PlaceRecognizer::add(PlaceView view) {
   require(views_.empty() || views_.front().colour.empty() == view.colour.empty(),
@@ -95,7 +91,7 @@ int PlaceRecognizer::add(PlaceView view) {
 void PlaceRecognizer::grow_graph() {
   const std::size_t length = views_.back().glance.size();
   if (length == 0 || size() < options_.indexed_from / 2) return;
-  if (!graph_) graph_.emplace(static_cast<int>(length), 0);
+  if (!graph_) graph_ = std::make_unique<DenseIndex>(static_cast<int>(length), 0);
   for (int i = 0; i < 2 && graph_->size() < size(); ++i)
     graph_->add(
         unit_vector(glances_.data() + static_cast<std::size_t>(graph_->size()) * length, length));

@@ -1,24 +1,25 @@
 #pragma once
-#include <placegraph/frontend/places/dense_index.h>
-#include <placegraph/frontend/places/place_likeness.h>
-#include <placegraph/frontend/places/place_view.h>
+#include <placegraph/frontend/places/recognition_options.h>
+#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/place_view.h>
 
-#include <optional>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace placegraph {
 
-struct PlaceRecognizerOptions {
-  PlaceCueOptions cues;
-  int glanced = 300;    ///< views that pass a first look at all, at pooled cues
-  int short_list = 60;  ///< of those, the views that are compared in full, after a second look
-  int verified = 12;    ///< of those, the first by all cues, whose corners are compared
-  int nominated = 8;    ///< and the first by each cue alone
-  /// From so many views on, the first look follows a graph of neighbours instead of all views.
-  int indexed_from = 20000;
-  void check() const;
+class DenseIndex;
+
+/// `image`: grey or BGR, 8 bits (ArgumentError otherwise). A `query` costs three scales instead of
+/// one; cues of weight 0 stay empty.
+PlaceView describe_place(const Image& image, const PlaceCueOptions& options, bool query);
+
+/// How much a stored view looks like the query: comparable over queries, no probability.
+struct PlaceLikeness {
+  int view = 0;
+  double score = 0;
 };
-void visit(OptionVisitor& field, PlaceRecognizerOptions& options);
 
 /// Views in the order they were added, and which of them an image resembles. Nothing is learned:
 /// every score depends on two images alone. All cues are joined by a weighted sum; two coarse
@@ -27,6 +28,9 @@ void visit(OptionVisitor& field, PlaceRecognizerOptions& options);
 class PlaceRecognizer {
  public:
   explicit PlaceRecognizer(const PlaceRecognizerOptions& options);
+  ~PlaceRecognizer();
+  PlaceRecognizer(PlaceRecognizer&&) noexcept;
+  PlaceRecognizer& operator=(PlaceRecognizer&&) noexcept;
 
   /// The index of the new view: 0, 1, ... Of a query's scales only the first is kept. Views are all
   /// grey or all in colour (ArgumentError otherwise).
@@ -45,7 +49,7 @@ class PlaceRecognizer {
   PlaceRecognizerOptions options_;
   std::vector<PlaceView> views_;
   std::vector<std::int16_t> glances_;  ///< of the views, one after the other
-  std::optional<DenseIndex> graph_;    ///< of the same; from half of indexed_from on
+  std::unique_ptr<DenseIndex> graph_;  ///< of the same; from half of indexed_from on
 };
 
 }  // namespace placegraph

@@ -1,3 +1,5 @@
+#include <placegraph/frontend/places/cues/cue_grid.h>
+#include <placegraph/frontend/places/cues/corner_agreement.h>
 #include <placegraph/frontend/places/cues/colour_histogram.h>
 #include <placegraph/frontend/places/cues/gabor_statistics.h>
 #include <placegraph/frontend/places/cues/gradient_layout.h>
@@ -55,21 +57,6 @@ std::vector<std::int16_t> glance_of(const PlaceView& view) {
 }
 
 }  // namespace
-
-void PlaceCueOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, PlaceCueOptions& o) {
-  field("tiny", o.tiny, "weight of the shrunk image", {0, 100});
-  field("colour", o.colour, "weight of the colour histograms", {0, 100});
-  field("gradients", o.gradients, "weight of the gradient histograms", {0, 100});
-  field("corners", o.corners, "weight of agreeing corners, per e-fold", {0, 100});
-  field("gabor", o.gabor, "weight of the answers of a Gabor filter bank", {0, 100});
-  field("corner_floor", o.corner_floor, "corners that agree by chance", {1, 1000});
-  field("tiny_columns", o.tiny_columns, "cells of the shrunk image", {8, 128});
-  field("zoom", o.zoom, "a query is also looked at larger and smaller by this", {1, 2});
-  field("shift_loss", o.shift_loss, "of similarity where nothing overlaps", {0, 1});
-  field.group("corner_agreement", o.corner_agreement, "corners in one similarity");
-}
 
 PlaceView describe_place(const Image& image, const PlaceCueOptions& options, bool query) {
   require(!image.empty() && (image.type() == CV_8UC1 || image.type() == CV_8UC3),

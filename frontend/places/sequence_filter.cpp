@@ -31,15 +31,6 @@ double middle_of(const std::vector<double>& scores) {
 
 }  // namespace
 
-void SequenceFilterOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, SequenceFilterOptions& o) {
-  field("memory", o.memory, "weight of the past against the present image", {0, 0.999});
-  field("pace_penalty", o.pace_penalty, "per squared view a step is off the pace", {0, 1e3});
-  field("max_step", o.max_step, "views between the answers of two images", {1, 100});
-  field("present", o.present, "weight of the present image in how sure an answer is", {0, 1e3});
-}
-
 SequenceFilter::SequenceFilter(const SequenceFilterOptions& options) : options_(options) {
   options_.check();
 }

@@ -1,19 +1,11 @@
 #pragma once
+#include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/frontend/places/place_likeness.h>
 #include <placegraph/graph/core/options.h>
 
 #include <vector>
 
 namespace placegraph {
-
-struct SequenceFilterOptions {
-  double memory = 0.9;        ///< weight of the past against the present image
-  double pace_penalty = 0.4;  ///< of the score, per squared view a step is off the pace
-  int max_step = 3;           ///< views between the answers of two images, at most
-  double present = 0.5;       ///< weight of the present image in how sure an answer is
-  void check() const;
-};
-void visit(OptionVisitor& field, SequenceFilterOptions& options);
 
 /// Evidence of past images for where the present one is: the best path through the views that led
 /// to each, a max-product filter over view, direction of travel (forward or back) and pace (half a

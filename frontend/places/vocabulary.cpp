@@ -69,14 +69,6 @@ std::vector<std::pair<BinaryDescriptor, Indices>> cluster(
 
 }  // namespace
 
-void VocabularyOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, VocabularyOptions& o) {
-  field("branching", o.branching, "children of a tree node", {2, 64});
-  field("depth", o.depth, "levels of the tree", {1, 6});
-  field("iterations", o.iterations, "k-majority rounds per node", {1, 100});
-}
-
 Vocabulary::Vocabulary(WordTree tree) : tree_(std::move(tree)) {
   require(tree_.kind == WordTree::Kind::kBinary, "Vocabulary: not of binary words");
   const auto problem = tree_.problem();

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/graph/word_tree.h>
@@ -7,14 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct VocabularyOptions {
-  int branching = 16;
-  int depth = 3;  ///< at most branching^depth words
-  int iterations = 5;
-  void check() const;
-};
-void visit(OptionVisitor& field, VocabularyOptions& options);
 
 /// A tree of binary words: hierarchical k-majority clustering (Nister & Stewenius 2006;
 /// Galvez-Lopez & Tardos 2012). Deterministic for a given `random`.

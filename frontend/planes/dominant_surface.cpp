@@ -46,29 +46,6 @@ const char* to_string(SurfaceRegion region) {
   return kNames[static_cast<std::size_t>(region)];
 }
 
-void DominantSurfaceOptions::check() const {
-  check_ranges(*this);
-  require(near_heights < far_heights, "near_heights: must be below far_heights");
-}
-
-void visit(OptionVisitor& field, DominantSurfaceOptions& o) {
-  field.group("fit", o.fit, "plane through the depths of a region");
-  field("near_heights", o.near_heights, "nearest place looked at, in distances", {0.5, 100});
-  field("far_heights", o.far_heights, "farthest place looked at, in distances", {1, 200});
-  field("half_width_heights", o.half_width_heights, "half the width looked at, in distances",
-        {0.2, 50});
-  field("pixels", o.pixels, "asked for in one region", {50, 100000});
-  field("min_share", o.min_share, "of a region's pixels that must lie on it", {0, 1});
-  field("mounting_sigma_deg", o.mounting_sigma_deg, "pitch and roll before anything was seen",
-        {0.01, 45});
-  field("mounting_sigma_distance", o.mounting_sigma_distance,
-        "height before anything was seen, as a share of it", {1e-3, 1});
-  field("pitching_sigma_deg", o.pitching_sigma_deg, "pitch and roll from look to look", {0, 45});
-  field("distance_drift", o.distance_drift, "height from look to look, as a share of it", {0, 1});
-  field("slope_sigma_deg", o.slope_sigma_deg, "pitch and roll where the slope may have changed",
-        {0, 45});
-}
-
 DominantSurface::DominantSurface(const DominantSurfaceOptions& options, const Camera& camera,
                                  const Plane& mounting_cam)
     : options_(options),

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/frontend/planes/inverse_depth_plane.h>
 #include <placegraph/graph/image/image.h>
 
@@ -10,22 +11,6 @@ namespace placegraph {
 /// many answers as pixels, none where it does not see.
 using SurfaceDepths = std::function<std::vector<std::optional<InverseDepth>>(
     const std::vector<Eigen::Vector2f>& px, const std::vector<double>& expected)>;
-
-struct DominantSurfaceOptions {
-  InverseDepthPlaneOptions fit;
-  /// The road that is looked at first, in distances of the surface; the other regions lie in it or
-  /// beside it.
-  double near_heights = 2, far_heights = 12, half_width_heights = 1.5;
-  int pixels = 400;                      ///< asked for in one region
-  double min_share = 0.4;                ///< of a region's pixels that must lie on the surface
-  double mounting_sigma_deg = 5;         ///< pitch and roll before anything was seen
-  double mounting_sigma_distance = 0.3;  ///< height before anything was seen, as a share of it
-  double pitching_sigma_deg = 0.3;       ///< pitch and roll from one look to the next
-  double distance_drift = 0.005;         ///< height from one look to the next, as a share of it
-  double slope_sigma_deg = 2;            ///< pitch and roll where the slope may have changed
-  void check() const;
-};
-void visit(OptionVisitor& field, DominantSurfaceOptions& options);
 
 /// Where a surface is looked at.
 enum class SurfaceRegion { kAhead, kNear, kFar, kLeft, kRight };

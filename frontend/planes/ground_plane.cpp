@@ -257,25 +257,6 @@ double start_distance(const Level& level, const Matrix3d& R, const Vector3d& t, 
 
 }  // namespace
 
-void GroundPlaneOptions::check() const {
-  check_ranges(*this);
-  require(near_heights < far_heights, "near_heights: must be below far_heights");
-}
-
-void visit(OptionVisitor& field, GroundPlaneOptions& o) {
-  field("near_heights", o.near_heights, "nearest road looked at, in camera heights", {0.5, 100});
-  field("far_heights", o.far_heights, "farthest road looked at, in camera heights", {1, 200});
-  field("half_width_heights", o.half_width_heights,
-        "half the width of the road looked at, in camera heights", {0.2, 50});
-  field("step_px", o.step_px, "grid of samples", {1, 32});
-  field("pyramid_levels", o.pyramid_levels, "levels, coarse to fine", {1, 6});
-  field("iterations", o.iterations, "Gauss-Newton steps per level", {1, 100});
-  field("pixel_correlation", o.pixel_correlation,
-        "share of the samples that counts as independent, for the covariance", {0.001, 1});
-  field("min_zncc", o.min_zncc, "agreement below which nothing is said", {-1, 1});
-  field("min_samples", o.min_samples, "fewest samples seen in both images", {50, 1000000});
-}
-
 GroundPlaneResult align_ground_plane(const Image& image_ref, const Image& image_cur,
                                      const Camera& camera, const SE3& T_cur_ref,
                                      const GroundPlanePrior& prior,

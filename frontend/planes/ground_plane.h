@@ -1,23 +1,10 @@
 #pragma once
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/frontend/planes/homography.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
 
 namespace placegraph {
-
-struct GroundPlaneOptions {
-  /// The part of the ground that is looked at, in camera heights: it must be road, and of one lane,
-  /// as roads are arched.
-  double near_heights = 2.5, far_heights = 12, half_width_heights = 1.4;
-  int step_px = 3;  ///< grid of samples in the reference image
-  int pyramid_levels = 3;
-  int iterations = 12;             ///< per level
-  double pixel_correlation = 0.1;  ///< share of the samples that counts as independent
-  double min_zncc = 0.5;           ///< agreement of the warped patches below which nothing is said
-  int min_samples = 400;
-  void check() const;
-};
-void visit(OptionVisitor& field, GroundPlaneOptions& options);
 
 /// What is known beforehand: the normal to `sigma_normal_rad` (pitch and roll alike), the motion to
 /// its sigmas; the distance is only where the search starts.

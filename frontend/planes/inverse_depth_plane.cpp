@@ -42,15 +42,6 @@ std::vector<Vector3d> through_three(const Pixels& pixels, const std::vector<int>
 
 }  // namespace
 
-void InverseDepthPlaneOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, InverseDepthPlaneOptions& o) {
-  field.group("ransac", o.ransac, "three-pixel hypotheses");
-  field("threshold_sigmas", o.threshold_sigmas, "inliers lie this close", {0.5, 20});
-  field("max_sigma_deg", o.max_sigma_deg, "of the normal, to be of use", {0.01, 45});
-  field("max_sigma_distance", o.max_sigma_distance, "of the distance, as a share of it", {1e-3, 1});
-}
-
 double sigma_normal_rad(const Vector3d& g, const Matrix3d& covariance) {
   const double length = g.norm();
   const Vector3d n = g / length, e1 = n.unitOrthogonal(), e2 = n.cross(e1);

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/planes/plane_options.h>
 #include <placegraph/frontend/planes/homography.h>
 #include <placegraph/graph/core/ransac.h>
 
@@ -13,15 +14,6 @@ struct InverseDepth {
   double value = 0;                                    ///< 1 / z [1/m]
   double sigma = 1;                                    ///< [1/m]
 };
-
-struct InverseDepthPlaneOptions {
-  RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 25};
-  double threshold_sigmas = 3;      ///< inliers lie this close
-  double max_sigma_deg = 3;         ///< of the normal, to be of use
-  double max_sigma_distance = 0.1;  ///< of the distance, as a share of it
-  void check() const;
-};
-void visit(OptionVisitor& field, InverseDepthPlaneOptions& options);
 
 struct InverseDepthPlane {
   Outcome outcome;

@@ -68,18 +68,6 @@ std::optional<double> judge_between(const Camera& camera, const Hypothesis& hypo
 
 }  // namespace
 
-void MonoInitializerOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, MonoInitializerOptions& o) {
-  field.group("two_view", o.two_view, "essential matrix and homography");
-  field("min_parallax_deg", o.min_parallax_deg, "angle between the rays that min_points must have",
-        {0.01, 45});
-  field("min_points", o.min_points, "points of that parallax", {8, 100000});
-  field("max_error_px", o.max_error_px, "reprojection error of a triangulated point", {0.1, 20});
-  field("ambiguity", o.ambiguity, "share of the best motion's points that makes another a rival",
-        {0, 1});
-}
-
 MonoInitialization initialize_mono(const Camera& camera, const std::vector<Eigen::Vector2d>& px_ref,
                                    const std::vector<Eigen::Vector2d>& px_cur,
                                    const std::vector<PartialView>& between,

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/relative_pose/relative_pose_options.h>
 #include <placegraph/frontend/relative_pose/pose_2d2d.h>
 
 #include <optional>
@@ -6,16 +7,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct MonoInitializerOptions {
-  Pose2d2dOptions two_view;
-  double min_parallax_deg = 0.6;  ///< that min_points must have
-  int min_points = 50;
-  double max_error_px = 1.5;  ///< reprojection error of a triangulated point
-  double ambiguity = 0.8;  ///< a second motion with this share of the best one's points is a rival
-  void check() const;
-};
-void visit(OptionVisitor& field, MonoInitializerOptions& options);
 
 /// Pixels of some of the points in a view between the two: (index of the point, pixel).
 using PartialView = std::vector<std::pair<int, Eigen::Vector2d>>;

@@ -115,15 +115,6 @@ std::vector<SE3> decompose_essential(const Matrix3d& E) {
 
 }  // namespace
 
-void Pose2d2dOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, Pose2d2dOptions& o) {
-  field.group("ransac", o.ransac, "five-point and four-point hypotheses");
-  field("threshold_px", o.threshold_px, "inliers lie this close", {0.1, 20});
-  field("homography_share", o.homography_share,
-        "S_H / (S_H + S_E) above which the scene counts as planar", {0, 1});
-}
-
 Pose2d2dResult estimate_pose_2d2d(const Camera& camera, const std::vector<Vector2d>& px_ref,
                                   const std::vector<Vector2d>& px_cur,
                                   const Pose2d2dOptions& options, Random& random) {

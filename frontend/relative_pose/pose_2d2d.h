@@ -1,19 +1,11 @@
 #pragma once
+#include <placegraph/frontend/relative_pose/relative_pose_options.h>
 #include <placegraph/graph/core/ransac.h>
 #include <placegraph/graph/geometry/camera.h>
 
 #include <vector>
 
 namespace placegraph {
-
-struct Pose2d2dOptions {
-  RansacOptions ransac{.max_iterations = 300, .confidence = 0.999, .min_inliers = 30};
-  double threshold_px = 1.0;  ///< distance to the epipolar line, or transfer by the homography
-  double homography_share =
-      0.45;  ///< R_H = S_H / (S_H + S_E) above which the scene counts as planar
-  void check() const;
-};
-void visit(OptionVisitor& field, Pose2d2dOptions& options);
 
 /// Which model explains two views.
 enum class TwoViewModel { kEssential, kHomography };

@@ -107,15 +107,6 @@ RansacResult<SE3> search_pose(const Camera& camera, const std::vector<Eigen::Vec
 
 }  // namespace
 
-void Pose3d2dOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, Pose3d2dOptions& o) {
-  field.group("ransac", o.ransac, "three-point hypotheses");
-  field("threshold_px", o.threshold_px, "inliers reproject within this", {0.1, 50});
-  field("prior_inlier_ratio", o.prior_inlier_ratio,
-        "a predicted pose that explains this share of the points spares the RANSAC", {0, 1.01});
-}
-
 SE3 refine_pose_3d2d(const Camera& camera, const std::vector<Eigen::Vector3d>& points_ref,
                      const std::vector<Eigen::Vector2d>& px, const std::vector<int>& indices,
                      const SE3& T_ref_cam, double huber_px, int iterations, Matrix6d* normal) {

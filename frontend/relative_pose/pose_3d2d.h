@@ -1,18 +1,11 @@
 #pragma once
+#include <placegraph/frontend/relative_pose/relative_pose_options.h>
 #include <placegraph/graph/core/ransac.h>
 #include <placegraph/graph/geometry/camera.h>
 
 #include <vector>
 
 namespace placegraph {
-
-struct Pose3d2dOptions {
-  RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 12};
-  double threshold_px = 2.5;        ///< inliers reproject within this
-  double prior_inlier_ratio = 0.7;  ///< a prior that explains this share spares the RANSAC
-  void check() const;
-};
-void visit(OptionVisitor& field, Pose3d2dOptions& options);
 
 struct Pose3d2dResult {
   Outcome outcome;

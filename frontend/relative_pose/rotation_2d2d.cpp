@@ -69,15 +69,6 @@ Fit refine(const Rays& rays, const Matrix3d& start, const std::vector<int>& inli
 
 }  // namespace
 
-void Rotation2d2dOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, Rotation2d2dOptions& o) {
-  field.group("ransac", o.ransac, "two-point hypotheses");
-  field("threshold_px", o.threshold_px, "inliers lie this close", {0.1, 20});
-  field("min_inlier_share", o.min_inlier_share,
-        "of the points that a rotation must explain where no way has been made", {0, 1});
-}
-
 Rotation2d2dResult estimate_rotation_2d2d(const Camera& camera, const std::vector<Vector2d>& px_ref,
                                           const std::vector<Vector2d>& px_cur,
                                           const Rotation2d2dOptions& options, Random& random) {

@@ -1,20 +1,11 @@
 #pragma once
+#include <placegraph/frontend/relative_pose/relative_pose_options.h>
 #include <placegraph/graph/core/ransac.h>
 #include <placegraph/graph/geometry/camera.h>
 
 #include <vector>
 
 namespace placegraph {
-
-struct Rotation2d2dOptions {
-  RansacOptions ransac{.max_iterations = 100, .confidence = 0.999, .min_inliers = 30};
-  double threshold_px = 1.5;  ///< between a pixel and where the rotation carries it
-  /// Of the matches that a rotation must explain, so that no way has been made; things that move
-  /// on their own are among the others.
-  double min_inlier_share = 0.85;
-  void check() const;
-};
-void visit(OptionVisitor& field, Rotation2d2dOptions& options);
 
 struct Rotation2d2dResult {
   Outcome outcome;

@@ -258,19 +258,6 @@ EnvironmentModel parse_environments(const std::string& text, const std::string& 
   return model;
 }
 
-void EnvironmentFilterOptions::check() const {
-  check_ranges(*this);
-  require(leave < enter, "leave: must be below enter");
-}
-
-void visit(OptionVisitor& field, EnvironmentFilterOptions& o) {
-  field("stay", o.stay, "probability that the next view is of the same kind", {0.2, 1});
-  field("evidence", o.evidence, "power of a view's probabilities: neighbours err alike", {0, 1});
-  field("enter", o.enter, "probability from which a kind is taken", {0, 1});
-  field("leave", o.leave, "probability below which it is given up", {0, 1});
-  field("min_views", o.min_views, "before anything is said", {1, 1000});
-}
-
 EnvironmentFilter::EnvironmentFilter(const EnvironmentFilterOptions& options) : options_(options) {
   options_.check();
   state_.fill(1.0 / kEnvironmentCount);

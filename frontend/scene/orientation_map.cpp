@@ -125,16 +125,6 @@ int axes_with_edges(const std::vector<int>& axis) {
 
 }  // namespace
 
-void visit(OptionVisitor& field, OrientationMapOptions& o) {
-  field("cell_px", o.cell_px, "of the raster that lines are swept over", {1, 64});
-  field("max_sweep", o.max_sweep, "way from an edge that it still speaks for, in image widths",
-        {0.01, 10});
-  field("min_margin", o.min_margin, "the best orientation against the second", {1, 100});
-  field("min_confidence", o.min_confidence, "pixels below it have no orientation", {0, 1});
-  field("smoothing_cells", o.smoothing_cells, "radius of the vote among neighbours; 0: none",
-        {0, 50});
-}
-
 const char* to_string(IndoorSurface surface) {
   static constexpr const char* kNames[] = {"none", "floor", "ceiling", "wall"};
   return kNames[static_cast<int>(surface)];

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/frontend/scene/scene_options.h>
+#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
@@ -11,16 +13,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct OrientationMapOptions {
-  double cell_px = 3;      ///< of the raster that lines are swept over
-  double max_sweep = 0.6;  ///< way from an edge that it still speaks for [image widths]
-  double min_margin = 2;   ///< the best orientation against the second, where two are supported
-  double min_confidence = 0.1;  ///< pixels below it have no orientation
-  int smoothing_cells = 2;      ///< radius of the vote among neighbours; 0: none
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, OrientationMapOptions& options);
 
 /// How the surface behind each pixel is turned, as edges tell.
 struct OrientationMap {

@@ -36,20 +36,6 @@ Image where(std::size_t surface, double least, const std::vector<float>& surface
 
 }  // namespace
 
-void SceneMaskOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, SceneMaskOptions& o) {
-  field("sky", o.sky, "nothing is looked for in the sky");
-  field("moving", o.moving, "nor on what may move: cars, people, bicycles");
-  field("ground", o.ground, "the road is measured only where it is ground");
-  field("min_sky", o.min_sky, "probability from which it is sky", {0, 1});
-  field("min_moving", o.min_moving, "probability from which it may move", {0, 1});
-  field("min_ground", o.min_ground, "probability from which it is ground", {0, 1});
-  field("margin_px", o.margin_px, "about what may move, as its contour moves too", {0, 50});
-  field("min_share", o.min_share, "of the picture that must be left, otherwise no mask is used",
-        {0, 1});
-}
-
 SceneMasks mask_scene(const std::vector<float>& surfaces, const SceneView& view,
                       const SceneMaskOptions& options) {
   options.check();

@@ -29,24 +29,6 @@ std::vector<DepthSample> sample_depth(const Image& depth_m, const Camera& camera
 
 }  // namespace
 
-void UrbanSightOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, UrbanSightOptions& o) {
-  field("step_px", o.step_px, "between points", {1, 100});
-  field("max_range_m", o.max_range_m, "farther points are not used", {1, 1000});
-  field("max_residual", o.max_residual,
-        "standard deviations of a disparity from its superpixel's plane", {0.5, 1000});
-  field("moving", o.moving, "classes that are no part of the map, joined by commas");
-  field.group("geometry", o.geometry, "what height and normal say of the class");
-  field.group("labeller", o.labeller, "the labels of superpixels");
-}
-
-void visit(OptionVisitor& field, SeenThroughOptions& o) {
-  field("min_disparity_px", o.min_disparity_px, "by which what stands behind must be farther",
-        {0.1, 100});
-  field("radius_px", o.radius_px, "all around must be so", {0, 20});
-}
-
 UrbanSight see_street(const Image& picture, const Image& depth_m, const Camera& camera,
                       double baseline_m, double camera_height_m, const SceneModel& urban,
                       const SceneModel& surfaces, const UrbanSightOptions& options) {

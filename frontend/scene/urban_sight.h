@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/scene/scene_options.h>
 #include <placegraph/frontend/labels/urban_geometry.h>
 #include <placegraph/frontend/labels/urban_labels.h>
 #include <placegraph/graph/scene/semantic_map.h>
@@ -7,18 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct UrbanSightOptions {
-  int step_px = 6;          ///< between points
-  double max_range_m = 40;  ///< farther points are not used
-  double max_residual = 3;  ///< standard deviations of a disparity from its superpixel's plane
-  /// Classes that move, joined by commas: what is one of them is no part of the map.
-  std::string moving = "Car,Pedestrian,Bicyclist";
-  UrbanGeometryOptions geometry;
-  LabellerOptions labeller;
-  void check() const;
-};
-void visit(OptionVisitor& field, UrbanSightOptions& options);
 
 /// What a street camera sees: labels, and the points of what stands still.
 struct UrbanSight {
@@ -38,13 +27,6 @@ struct UrbanSight {
 UrbanSight see_street(const Image& picture, const Image& depth_m, const Camera& camera,
                       double baseline_m, double camera_height_m, const SceneModel& urban,
                       const SceneModel& surfaces, const UrbanSightOptions& options = {});
-
-struct SeenThroughOptions {
-  double min_disparity_px = 2;  ///< by which what stands behind must be farther
-  int radius_px = 2;            ///< all around must be so
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, SeenThroughOptions& options);
 
 /// Which points another image looks through: where it sees them at a pixel and all depths around
 /// are farther, nothing stood there when it was taken. `depth_m` as above, of that image;

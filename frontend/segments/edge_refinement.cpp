@@ -38,14 +38,6 @@ double distance(const ImageLine& line, const Eigen::Vector2d& px) {
 
 }  // namespace
 
-void visit(OptionVisitor& field, EdgeRefinementOptions& o) {
-  field("reach_px", o.reach_px, "the edge is looked for so far on both sides", {1, 20});
-  field("blur_px", o.blur_px, "of the image before its gradient is taken", {0.3, 5});
-  field("min_gradient", o.min_gradient, "of a point of the edge, grey levels / px", {0, 255});
-  field("min_support", o.min_support, "share of the segment's samples that see the edge", {0, 1});
-  field("min_sigma_px", o.min_sigma_px, "no sample is better, whatever the fit says", {1e-4, 5});
-}
-
 EdgeRefiner::EdgeRefiner(const Image& image, const EdgeRefinementOptions& options)
     : options_(options) {
   options_.check();

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/graph/image/image.h>
@@ -7,16 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct EdgeRefinementOptions {
-  int reach_px = 3;            ///< the edge is looked for so far on both sides
-  double blur_px = 1;          ///< of the image before its gradient is taken
-  double min_gradient = 2;     ///< grey levels / px, of a point of the edge
-  double min_support = 0.5;    ///< share of the segment's samples that see the edge
-  double min_sigma_px = 0.03;  ///< across the edge: no sample is better, whatever the fit says
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, EdgeRefinementOptions& options);
 
 /// A segment measured on the gradient, brighter side on the right.
 struct EdgeSegment {
@@ -31,12 +23,6 @@ struct EdgePoint {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double gradient = 0;  ///< along the normal of the segment, grey levels / px
   double position = 0;  ///< of the profile along the segment, from its start [px]
-};
-
-/// How far an edge is followed beyond the ends it is expected to have.
-struct EdgeGrowth {
-  double beyond_px = 6;
-  double max_gap_px = 10;  ///< without support, inside one edge
 };
 
 /// Fits segments anew to the place of the steepest grey value across them: one point every pixel,

@@ -25,15 +25,6 @@ bool on_border(const LineSegment& segment, const Image& image, double border_px)
 
 }  // namespace
 
-void SegmentDetectorOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, SegmentDetectorOptions& o) {
-  field("min_length_px", o.min_length_px, "shorter segments are dropped", {3, 1000});
-  field("border_px", o.border_px, "edges so near along the image's border are its own", {0, 50});
-  field.group("merging", o.merging, "pieces of one edge");
-  field.group("refinement", o.refinement, "sub-pixel fit to the gradient");
-}
-
 std::vector<EdgeSegment> detect_segments(const Image& image,
                                          const SegmentDetectorOptions& options) {
   options.check();

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/segments/edge_refinement.h>
 #include <placegraph/frontend/segments/segment_merging.h>
 #include <placegraph/graph/core/options.h>
@@ -8,15 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct SegmentDetectorOptions {
-  double min_length_px = 15;
-  double border_px = 3;  ///< edges that run so near along the border of the image are its own
-  SegmentMergingOptions merging;
-  EdgeRefinementOptions refinement;
-  void check() const;
-};
-void visit(OptionVisitor& field, SegmentDetectorOptions& options);
 
 /// Straight edges of a grey image (CV_8UC1, else ArgumentError): LSD (von Gioi et al. 2010, by
 /// OpenCV), pieces of one edge merged, each fitted anew to the gradient at sub-pixel accuracy. All

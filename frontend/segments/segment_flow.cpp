@@ -95,13 +95,6 @@ bool align_level(const StripImage& from, const LineSegment& segment, const Strip
 
 }  // namespace
 
-void visit(OptionVisitor& field, SegmentFlowOptions& o) {
-  field("strip_px", o.strip_px, "half width of the strip that is followed", {3, 30});
-  field("iterations", o.iterations, "on each level", {1, 50});
-  field("robust_grey", o.robust_grey, "width of the kernel on grey values", {1, 255});
-  field("max_turn_deg", o.max_turn_deg, "from the expected direction", {1, 60});
-}
-
 std::optional<SegmentFlow> follow_segment(const StripImage& from, const LineSegment& segment,
                                           const StripImage& to, const LineSegment& expected,
                                           int coarsest, const SegmentFlowOptions& options) {

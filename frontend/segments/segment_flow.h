@@ -1,19 +1,11 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/segments/segment_strip.h>
 #include <placegraph/graph/core/options.h>
 
 #include <optional>
 
 namespace placegraph {
-
-struct SegmentFlowOptions {
-  int strip_px = 7;          ///< half width of the strip that is followed
-  int iterations = 8;        ///< on each level
-  double robust_grey = 12;   ///< width of the kernel on grey values, where a side is hidden
-  double max_turn_deg = 15;  ///< from the expected direction
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, SegmentFlowOptions& options);
 
 struct SegmentFlow {
   LineSegment segment;    ///< in the second image; its ends correspond as the expected ones do

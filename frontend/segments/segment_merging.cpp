@@ -51,12 +51,6 @@ std::optional<LineSegment> common(const std::vector<LineSegment>& pieces, double
 
 }  // namespace
 
-void visit(OptionVisitor& field, SegmentMergingOptions& o) {
-  field("max_angle_deg", o.max_angle_deg, "between pieces of one edge", {0, 20});
-  field("max_distance_px", o.max_distance_px, "of the pieces' ends from the common line", {0, 20});
-  field("max_gap_px", o.max_gap_px, "between pieces", {0, 1000});
-}
-
 std::vector<LineSegment> merge_segments(const std::vector<LineSegment>& pieces,
                                         const SegmentMergingOptions& options) {
   options.check();

@@ -195,15 +195,6 @@ bool shows_more(const VanishingEvidence& evidence, const ManhattanFit& fit,
 
 }  // namespace
 
-void visit(OptionVisitor& field, ManhattanOptions& options) {
-  field("orthogonality_deg", options.orthogonality_deg,
-        "deviation of the directions of a rectangular world from right angles", {0.01, 10});
-  field("min_segments", options.min_segments, "of an axis that counts as seen", {2, 1e6});
-  field("min_evidence", options.min_evidence, "of each of two axes [nats]", {0, 1e6});
-  field("min_orthogonality", options.min_orthogonality,
-        "log of the odds, by its angles, that a world is rectangular", {-100, 100});
-}
-
 SO3 nearest_axes(const SO3& R_cam_manhattan, const SO3& like) {
   const Eigen::Matrix3d M = R_cam_manhattan.matrix();
   constexpr int kOrders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};

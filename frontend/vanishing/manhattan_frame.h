@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/vanishing/vanishing_points.h>
 #include <placegraph/graph/geometry/so3.h>
 
@@ -6,17 +7,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct ManhattanOptions {
-  /// How far the directions of a scene that is said to be rectangular may be from right angles,
-  /// lens and calibration included. How far they are is estimated, up to twice this.
-  double orthogonality_deg = 1;
-  int min_segments = 4;          ///< of an axis that counts as seen
-  double min_evidence = 8;       ///< of each of the two best axes [nats]
-  double min_orthogonality = 1;  ///< log of the odds by the angles that the world is rectangular
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, ManhattanOptions& options);
 
 /// Three directions at right angles along which edges of the scene lie, as the camera sees them.
 struct ManhattanFrame {

@@ -102,16 +102,6 @@ std::pair<DirectionPrior, std::vector<PointRole>> prior_of(
 
 }  // namespace
 
-void SceneDirectionOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, SceneDirectionOptions& options) {
-  field.group("points", options.points, "vanishing points");
-  field.group("manhattan", options.manhattan, "rectangular worlds");
-  field("off_right_deg", options.off_right_deg,
-        "deviation of further points from right angles to an axis", {0.01, 45});
-  field("free_share", options.free_share, "of further points, that lie anywhere", {0.01, 1});
-}
-
 SceneDirections find_scene_directions(const std::vector<LineSegment>& segments,
                                       const Camera& camera, const SceneDirectionOptions& options,
                                       Random& random) {

@@ -1,16 +1,8 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/vanishing/manhattan_frame.h>
 
 namespace placegraph {
-
-struct SceneDirectionOptions {
-  VanishingPointOptions points;
-  ManhattanOptions manhattan;
-  double off_right_deg = 2;  ///< deviation of further points from right angles to an axis
-  double free_share = 0.25;  ///< of further points, that lie anywhere
-  void check() const;
-};
-void visit(OptionVisitor& field, SceneDirectionOptions& options);
 
 /// What a vanishing point is to the rectangular worlds of its scene.
 struct PointRole {

@@ -23,16 +23,6 @@ std::optional<Eigen::Vector2d> ideal_point(const Camera& camera, const Eigen::Ve
 
 }  // namespace
 
-void VanishingNoise::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, VanishingNoise& noise) {
-  field("end_px", noise.end_px, "deviation of a segment's ends across it, to start with",
-        {1e-3, 100});
-  field("parallel_deg", noise.parallel_deg, "deviation of the scene's edges from parallel",
-        {1e-3, 10});
-  field("tail_freedom", noise.tail_freedom, "of the errors, Student t", {1, 1e6});
-}
-
 VanishingEvidence::VanishingEvidence(const std::vector<LineSegment>& segments, const Camera& camera,
                                      const VanishingNoise& noise)
     : start_(noise) {

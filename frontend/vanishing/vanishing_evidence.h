@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line_segment.h>
@@ -8,16 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// How far segments may point past the vanishing point they belong to. Both parts are estimated
-/// from the image; these are where the estimate starts.
-struct VanishingNoise {
-  double end_px = 0.3;        ///< deviation of the ends of a segment, across it
-  double parallel_deg = 0.2;  ///< of the edges of the scene and of the camera model from the ideal
-  double tail_freedom = 4;    ///< of the errors, Student t: the smaller, the heavier the tails
-  void check() const;
-};
-void visit(OptionVisitor& field, VanishingNoise& noise);
 
 /// What one segment says of a vanishing direction v (unit, camera frame): the angle at the middle
 /// of the segment between it and the way to the vanishing point.

@@ -20,16 +20,6 @@ void shrink(VanishingModel& model) {
 
 }  // namespace
 
-void VanishingPointOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, VanishingPointOptions& options) {
-  field.group("noise", options.noise, "of the segments");
-  field("samples", options.samples, "of two segments, to begin with", {1, 1e6});
-  field("max_points", options.max_points, "vanishing points looked for", {1, 1000});
-  field("min_segments", options.min_segments, "a vanishing point with fewer is none", {3, 1e6});
-  field("point_cost", options.point_cost, "of each point beside its precision [nats]", {0, 1e6});
-}
-
 VanishingPoints vanishing_points(const VanishingEvidence& evidence, const VanishingModel& model,
                                  std::vector<int>& order) {
   std::vector<VanishingPoint> points;

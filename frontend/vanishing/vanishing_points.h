@@ -1,19 +1,10 @@
 #pragma once
+#include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/vanishing/vanishing_model.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/random.h>
 
 namespace placegraph {
-
-struct VanishingPointOptions {
-  VanishingNoise noise;
-  int samples = 1000;  ///< of two segments, to begin with; half as many for each later search
-  int max_points = 10;
-  int min_segments = 4;   ///< a vanishing point with fewer is none
-  double point_cost = 8;  ///< of each point beside its precision [nats]: how sure it must be
-  void check() const;
-};
-void visit(OptionVisitor& field, VanishingPointOptions& options);
 
 /// A direction in which edges of the scene point.
 struct VanishingPoint {

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ransac_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/random.h>
@@ -9,14 +10,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct RansacOptions {
-  int max_iterations = 300;
-  double confidence = 0.999;  ///< probability of having drawn one all-inlier sample
-  int min_inliers = 12;
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, RansacOptions& options);
 
 /// Samples still needed so that with probability `confidence` one holds inliers only
 /// (Fischler & Bolles 1981); at least 1, at most `max`.

@@ -26,6 +26,14 @@ enum class ConstraintSource { kOdometry, kLoop, kOther };
 const char* fault_of(const Information& information);
 const char* fault_of(const Eigen::Matrix3d& information);
 
+/// How the rotation part of a relative-pose error is written: one .g2o file has several costs.
+enum class RotationError {
+  kLog,  ///< Log of SE(2) / SE(3) / Sim(3): the default
+  /// g2o: translation of the error pose, vector part of its quaternion (half the angle); in the
+  /// plane, where g2o has no quaternion, translation and angle.
+  kQuaternion,
+};
+
 /// Node `to` seen from node `from`: error = Log(T_from_to^-1 * T_world_from^-1 * T_world_to).
 struct RelativePoseConstraint {
   std::int64_t from = 0, to = 0;

@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/graph_parts.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 #include <placegraph/graph/pose_graph/position_of.h>

@@ -1,11 +1,12 @@
 #pragma once
 #include <placegraph/graph/pose_graph/constraint.h>
-#include <placegraph/graph/pose_graph/node_index.h>
 
 #include <string>
 #include <vector>
 
 namespace placegraph {
+
+class NodeIndex;
 
 struct PoseNode {
   std::int64_t id = 0;

@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/rigid_graph.h>
 
 namespace placegraph {

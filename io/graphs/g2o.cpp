@@ -1,4 +1,6 @@
 #include <fmt/format.h>
+#include <placegraph/io/graphs/pose_graph_builder.h>
+#include <placegraph/io/graphs/parse_graph.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/graphs/g2o.h>

@@ -1,5 +1,6 @@
 #pragma once
-#include <placegraph/io/graphs/pose_graph_builder.h>
+#include <placegraph/graph/pose_graph/landmark_graph.h>
+#include <placegraph/io/graphs/pose_graph_reading.h>
 
 #include <string>
 
@@ -8,7 +9,7 @@ namespace placegraph {
 /// Reads VERTEX_ and EDGE_ lines of SE2, SE3:QUAT and SIM3:EXPMAP, EDGE_PRIOR_SE2_XY (a measured
 /// position) and FIX lines, in any order;
 /// PARAMS_* lines and comments (#) are passed over, any other tag is an error; so are priors and
-/// point landmarks, which parse_g2o_landmarks takes. Vertices are
+/// point landmarks, which read_landmark_graph takes. Vertices are
 /// T_world_node, edges T_from_to; information is upper-triangular in g2o's order: [x y theta],
 /// [translation, rotation], and for SIM3 [rotation, translation, log scale], which is also the
 /// order of the logarithm a SIM3 pose is written as (the four numbers of a camera that may follow a
@@ -20,13 +21,6 @@ namespace placegraph {
 /// vertex that is not there or from a vertex to itself, kinds mixed, information that is indefinite
 /// or all zero; also if the file has no vertices.
 PoseGraph read_g2o(const std::string& path, const PoseGraphReading& reading = {});
-/// The same from a file that is open.
-PoseGraph parse_g2o(TextFile& file, const PoseGraphReading& reading);
-/// The same with measured poses (EDGE_PRIOR_SE2, EDGE_SE3_PRIOR) and point landmarks (VERTEX_XY
-/// with EDGE_SE2_XY, VERTEX_TRACKXYZ with EDGE_SE3_TRACKXYZ). Where PARAMS_SE3OFFSET puts the
-/// sensor elsewhere on a node, measurements become those of the node. A point without a line of its
-/// own is where its first sight says.
-LandmarkGraph parse_g2o_landmarks(TextFile& file, const PoseGraphReading& reading);
 
 /// Writes with 17 significant digits, atomically. Robust kernels have no place in the file and are
 /// left out. Throws ArgumentError for constraints g2o has no text form for.

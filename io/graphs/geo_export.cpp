@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/pose_graph/position_of.h>

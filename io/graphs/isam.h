@@ -1,5 +1,6 @@
 #pragma once
-#include <placegraph/io/graphs/pose_graph_builder.h>
+#include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/io/graphs/pose_graph_reading.h>
 
 #include <string>
 
@@ -19,7 +20,5 @@ namespace placegraph {
 /// and edges between consecutive ids count as odometry, the rest as loops. Landmarks are no part of
 /// a pose graph: LANDMARK and POINT3 lines are an error, as is every other tag. Errors as read_g2o.
 PoseGraph read_isam(const std::string& path, const PoseGraphReading& reading = {});
-/// The same from a file that is open.
-PoseGraph parse_isam(TextFile& file, const PoseGraphReading& reading);
 
 }  // namespace placegraph

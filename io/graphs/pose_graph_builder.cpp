@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/io/graphs/pose_graph_builder.h>

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/io/graphs/pose_graph_reading.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/landmark_lines.h>
@@ -7,15 +9,6 @@
 #include <span>
 
 namespace placegraph {
-
-struct PoseGraphReading {
-  /// Refuse a graph that falls into components, unless each has a fixed vertex: then all stand in
-  /// one frame.
-  bool connected = false;
-  /// Takes what was passed over, a sentence each, for the caller to tell; without it that is
-  /// refused.
-  std::vector<std::string>* remarks = nullptr;
-};
 
 /// Puts a pose graph together from the lines of a text file, whatever the format; edges may precede
 /// their vertices. What is wrong is said with the line it came from: members throw FileError for

@@ -1,3 +1,4 @@
+#include <placegraph/io/graphs/parse_graph.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/isam.h>

@@ -1,3 +1,5 @@
+#include <placegraph/io/graphs/pose_graph_builder.h>
+#include <placegraph/io/graphs/parse_graph.h>
 #include <placegraph/io/graphs/euler_angles.h>
 #include <placegraph/io/graphs/toro.h>
 

@@ -1,5 +1,6 @@
 #pragma once
-#include <placegraph/io/graphs/pose_graph_builder.h>
+#include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/io/graphs/pose_graph_reading.h>
 
 #include <string>
 
@@ -20,7 +21,5 @@ namespace placegraph {
 /// that of our tangent [translation, rotation] and belongs to RotationError::kLog. Errors as
 /// read_g2o.
 PoseGraph read_toro(const std::string& path, const PoseGraphReading& reading = {});
-/// The same from a file that is open.
-PoseGraph parse_toro(TextFile& file, const PoseGraphReading& reading);
 
 }  // namespace placegraph

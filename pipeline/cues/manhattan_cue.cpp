@@ -41,19 +41,6 @@ Image below_walls(const Image& surfaces) {
 
 }  // namespace
 
-void ManhattanCueOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, ManhattanCueOptions& o) {
-  field.group("segments", o.segments, "straight edges");
-  field.group("directions", o.directions, "vanishing points and rectangular worlds");
-  field.group("worlds", o.worlds, "the worlds of the window");
-  field("max_width_px", o.max_width_px, "wider images are halved first", {16, 1e5});
-  field("max_sigma_deg", o.max_sigma_deg, "directions known less well are not believed",
-        {0.01, 30});
-  field("few_points", o.few_points,
-        "a frame between keyframes that is posed by fewer is turned by the worlds, too", {0, 1e6});
-}
-
 ManhattanCue::ManhattanCue(const ManhattanCueOptions& options, const Camera& camera,
                            std::uint64_t seed, LogSink log)
     : options_(options),

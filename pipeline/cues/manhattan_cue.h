@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/log.h>
@@ -8,18 +9,6 @@
 #include <placegraph/pipeline/cues/manhattan_frames.h>
 
 namespace placegraph {
-
-struct ManhattanCueOptions {
-  SegmentDetectorOptions segments{.min_length_px = 20, .merging = {}, .refinement = {}};
-  SceneDirectionOptions directions;
-  ManhattanWorldOptions worlds;
-  int max_width_px = 800;    ///< wider images are halved before segments are looked for
-  double max_sigma_deg = 1;  ///< about any axis: directions known less well are not believed
-  /// A frame between keyframes that is posed by fewer points is turned by the worlds, too.
-  int few_points = 1000;
-  void check() const;
-};
-void visit(OptionVisitor& field, ManhattanCueOptions& options);
 
 /// The share of rectangular worlds in motion memory: the straight edges of a keyframe give the
 /// directions of its scene, which are sightings of the window's worlds (ManhattanWorlds). Known

@@ -23,18 +23,6 @@ double frame_gate() {
 
 }  // namespace
 
-void visit(OptionVisitor& field, ManhattanWorldOptions& o) {
-  field("sigma_floor_deg", o.sigma_floor_deg,
-        "of the directions of one view beyond the noise of its lines", {1e-3, 10});
-  field("correlation", o.correlation, "so many neighbouring views count as one", {1, 1000});
-  field("sigma_drift_deg", o.sigma_drift_deg,
-        "of a world seen from a new keyframe, beyond what the window claims", {1e-3, 10});
-  field("persistence", o.persistence, "keyframes of the window that must show a new world",
-        {1, 1000});
-  field("max_worlds", o.max_worlds, "remembered; the one unseen for longest is forgotten",
-        {1, 100});
-}
-
 Eigen::Matrix3d ManhattanWorlds::honest(const Eigen::Matrix3d& covariance) const {
   const double floor_rad = options_.sigma_floor_deg * kRadPerDeg;
   return covariance + floor_rad * floor_rad * Eigen::Matrix3d::Identity();

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/options.h>
 
@@ -7,23 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct ManhattanWorldOptions {
-  /// Of the directions of one view beyond what its lines' noise explains: the scene is not quite
-  /// rectangular, lines are taken for what they are not, the lens.
-  double sigma_floor_deg = 0.1;
-  /// Neighbouring views see the same lines and err alike: so many of them count as one. What points
-  /// before a blank wall say of a turn is worse than they know, so this is not to be overdone.
-  double correlation = 1;
-  /// Of a world seen from a new keyframe, beyond what the window claims to know: its rotations
-  /// drift by more than the noise of its points explains, in turns above all. Worlds that differ by
-  /// less than about three of these are one.
-  double sigma_drift_deg = 1;
-  int persistence = 3;  ///< keyframes of the window that must show a new world
-  int max_worlds = 4;   ///< remembered; the one unseen for longest is forgotten
-  void check() const { check_ranges(*this); }
-};
-void visit(OptionVisitor& field, ManhattanWorldOptions& options);
 
 /// The rectangular worlds that a sliding window knows. A view's directions are a sighting of the
 /// world they agree with, of the 24 frames along the same axes the one nearest to it; those that

@@ -68,20 +68,6 @@ std::vector<Eigen::Vector3d> moved(const SE3& T_new_old, const std::vector<Eigen
 
 }  // namespace
 
-void PlaneLandmarkOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, PlaneLandmarkOptions& o) {
-  field("enabled", o.enabled, "walls, floors and tables in the depth of keyframes as landmarks");
-  field.group("depth", o.depth, "planes of a depth image");
-  field("correlation", o.correlation, "so many neighbouring views count as one", {1, 1000});
-  field("drift_deg", o.drift_deg,
-        "of a plane seen from a new keyframe, beyond what the window claims", {0, 10});
-  field("drift_m", o.drift_m, "the same of its distance", {0, 10});
-  field("min_overlap", o.min_overlap, "of the smaller of a plane seen and a landmark", {0, 1});
-  field("patience", o.patience, "keyframes that a landmark is remembered unseen", {0, 100000});
-  field("max_landmarks", o.max_landmarks, "the one unseen for longest is forgotten", {1, 1000});
-}
-
 Eigen::Matrix3d PlaneLandmarks::drift(const Plane3& plane_cam) const {
   return plane_information(plane_cam, std::max(1e-6, options_.drift_deg * kRadPerDeg),
                            std::max(1e-6, options_.drift_m))

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/cloud_planes/depth_planes.h>
 #include <placegraph/graph/core/log.h>
@@ -9,21 +10,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct PlaneLandmarkOptions {
-  bool enabled = false;
-  DepthPlanesOptions depth;
-  /// Neighbouring views see the same depths and err alike: so many of them count as one.
-  double correlation = 4;
-  /// Of a plane seen from a new keyframe, beyond what the window claims to know: its motion drifts
-  /// by more than the noise of its points explains.
-  double drift_deg = 0.2, drift_m = 0.01;
-  double min_overlap = 0.2;  ///< of the smaller of a plane seen and a landmark
-  int patience = 20;         ///< keyframes that a landmark is remembered unseen
-  int max_landmarks = 12;    ///< the one unseen for longest is forgotten
-  void check() const;
-};
-void visit(OptionVisitor& field, PlaneLandmarkOptions& options);
 
 /// The planes that a sliding window knows as landmarks. A plane seen in a keyframe is a sighting of
 /// the landmark it agrees with: by the Mahalanobis distance with the marginal covariance that the

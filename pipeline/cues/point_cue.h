@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
@@ -11,17 +12,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct PointCueOptions {
-  PointTrackerOptions tracker;
-  Pose3d2dOptions pose;
-  double outlier_px = 4;  ///< a landmark that misses its pixel by more is dropped
-  /// So is one that misses all its pixels by more than both, root mean square, with its track.
-  double misfit_px = 0.4, misfit_sigmas = 1.5;
-  /// Fewer tracks than this, and masks made from semantic labels are ignored.
-  int min_unmasked_tracks = 150;
-  double min_parallax_deg = 0.5;  ///< to triangulate a landmark from keyframes
-};
 
 /// Point features: tracks them from frame to frame, poses frames against the landmarks of the
 /// sliding window, and hands what keyframes observe to it.

@@ -1,3 +1,4 @@
+#include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/frontend/align/grey_pyramid.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/median.h>

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/planes/dominant_surface.h>
 #include <placegraph/frontend/align/direct_motion.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
@@ -6,7 +7,7 @@
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/depth_sensor.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/cues/surface_cue_options.h>
+#include <placegraph/pipeline/cues/cue_options.h>
 
 #include <optional>
 #include <vector>

@@ -16,14 +16,6 @@ constexpr int kDetectionInterval = 2, kVainDetectionInterval = 5;
 
 }  // namespace
 
-void visit(OptionVisitor& field, FloorFlowOptions& o) {
-  field("flow_noise_px", o.noise_px, "of a followed point, beside what the image's noise makes",
-        {0, 10});
-  field("flow_common_px", o.common_px, "what all points of an image pair err alike", {0, 10});
-  field("min_flow_points", o.min_points, "with fewer, flow says nothing", {6, 10000});
-  field("use_flow", o.enabled, "whether flow over the floor is heeded");
-}
-
 FloorFlow::FloorFlow(const FloorFlowOptions& options, const Camera& camera, const SE3& T_body_cam,
                      double floor_z_m)
     : options_(options),

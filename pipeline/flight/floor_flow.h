@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/flight/hover_options.h>
 #include <placegraph/frontend/flow/flow_cues.h>
 #include <placegraph/frontend/flow/flow_vector.h>
 #include <placegraph/frontend/flow/point_tracker.h>
@@ -15,21 +16,6 @@
 
 namespace placegraph {
 
-struct FloorFlowOptions {
-  double noise_px = 0.05;  ///< of a tracked point, beside what the noise of the image makes
-  /// Error common to all flow vectors of an image pair [px]. Chosen so that the drift over seconds
-  /// above rendered floors is covered; the scatter of the vectors would tell a fraction of it.
-  double common_px = 0.025;
-  int min_points = 12;  ///< with fewer inliers there is no measurement
-  bool enabled = true;  ///< whether a measurement is made of the flow
-  /// Weak corners are tracked too, as their covariance weighs them; steps are not compared with the
-  /// first patch of a track. In `HoverOptions` a group of its own, which `PointTracker` checks.
-  PointTrackerOptions tracker{.max_tracks = 120,
-                              .window_px = 15,
-                              .pyramid_levels = 4,
-                              .min_eigenvalue = 1e-4,
-                              .max_anchor_shift_px = 0};
-};
 /// All but `tracker`.
 void visit(OptionVisitor& field, FloorFlowOptions& options);
 

@@ -1,3 +1,4 @@
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/backend/solver/pose_marginals.h>
 #include <placegraph/frontend/markers/marker_pose.h>
@@ -187,14 +188,6 @@ std::vector<MappedMarker> read_markers(const PoseGraph& graph, const PoseMargina
 }
 
 }  // namespace
-
-void MarkerMapOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, MarkerMapOptions& o) {
-  field("gate", o.gate, "of a sighting against what the others say of its marker", {0.5, 0.999999});
-  field("extra_sigma_px", o.extra_sigma_px, "of a corner, beside its own", {0, 10});
-  field("min_views", o.min_views, "of a marker that is mapped", {1, 1e6});
-}
 
 std::int64_t marker_node(int id) {
   constexpr std::int64_t kFirst = 1'000'000'000;

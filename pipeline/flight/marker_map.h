@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/flight/hover_options.h>
 #include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/measurements/marker_layout.h>
@@ -8,14 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct MarkerMapOptions {
-  double gate = 0.9999;          ///< of a sighting against what the others say of its marker
-  double extra_sigma_px = 0.05;  ///< of a corner, beside its own
-  int min_views = 2;             ///< of a marker that is mapped
-  void check() const;
-};
-void visit(OptionVisitor& field, MarkerMapOptions& options);
 
 /// A frame whose motion is known from elsewhere, and the markers it shows.
 struct MarkerFrame {

@@ -25,17 +25,6 @@ Matrix6d pose_covariance(const BodyState& state) {
 
 }  // namespace
 
-void visit(OptionVisitor& field, MarkerSensorOptions& o) {
-  field("max_markers", o.max_markers, "looked for where more are expected: the largest", {1, 1000});
-  field("restart_after", o.restart_after,
-        "images in a row whose markers contradict the filter, until it begins anew", {1, 100000});
-  field("search_interval", o.search_interval,
-        "images without a believed marker, until one is searched whole", {1, 1000});
-  field.group("detector", o.detector, "how markers are found");
-  field.group("beacons", o.beacons, "how beacons are found");
-  field.group("markers", o.markers, "how markers and beacons become poses");
-}
-
 MarkerSensor::MarkerSensor(const MarkerSensorOptions& options, const Camera& camera,
                            const SE3& T_body_cam, const MarkerLayout& layout)
     : options_(options),

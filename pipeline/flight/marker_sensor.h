@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/flight/hover_options.h>
 #include <placegraph/frontend/markers/beacon_detector.h>
 #include <placegraph/frontend/markers/marker_detector.h>
 #include <placegraph/frontend/markers/marker_filter.h>
@@ -14,16 +15,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct MarkerSensorOptions {
-  int max_markers = 4;       ///< searched for where more are expected: the largest
-  int restart_after = 20;    ///< images in a row whose markers contradict the expected state
-  int search_interval = 20;  ///< images without an accepted marker until one is searched whole
-  MarkerDetectorOptions detector = {};
-  BeaconDetectorOptions beacons = {};
-  MarkerFilterOptions markers = {};
-};
-void visit(OptionVisitor& field, MarkerSensorOptions& options);
 
 /// The markers and beacons in one image.
 struct MarkerDetections {

@@ -3,13 +3,6 @@
 
 namespace placegraph {
 
-void visit(OptionVisitor& field, HoverStartOptions& o) {
-  field("velocity_sigma_mps", o.velocity_sigma_mps, "of a body that begins, each axis",
-        {1e-3, 100});
-  field("gyro_bias_sigma", o.gyro_bias_sigma, "rad/s, before anything is known of it", {1e-6, 1});
-  field("accel_bias_sigma", o.accel_bias_sigma, "m/s^2, likewise", {1e-6, 10});
-}
-
 BodyState start_state(const PoseSighting& pose, const HoverStartOptions& options,
                       const std::optional<BodyState>& before) {
   BodyState state;

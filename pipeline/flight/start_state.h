@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/flight/hover_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/measurements/body_state.h>
 #include <placegraph/graph/measurements/sighting.h>
@@ -6,14 +7,6 @@
 #include <optional>
 
 namespace placegraph {
-
-/// What is not known of a body at the start.
-struct HoverStartOptions {
-  double velocity_sigma_mps = 1;
-  double gyro_bias_sigma = 0.02;  ///< [rad/s]
-  double accel_bias_sigma = 0.2;  ///< [m/s^2]
-};
-void visit(OptionVisitor& field, HoverStartOptions& options);
 
 /// The state of a body of which markers tell the pose: velocity zero, as uncertain as the options
 /// say, and so are the biases, unless `before`, an earlier estimate for the same time, knows them:

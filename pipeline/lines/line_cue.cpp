@@ -1,3 +1,4 @@
+#include <placegraph/frontend/lines/floor_from_lines.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/pipeline/lines/line_course.h>
 #include <placegraph/pipeline/lines/line_cue.h>

@@ -1,12 +1,13 @@
 #pragma once
+#include <placegraph/frontend/lines/floor_from_lines.h>
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
 #include <placegraph/frontend/lines/direction_compass.h>
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/frontend/lines/line_tracker.h>
-#include <placegraph/graph/image/frame.h>
-#include <placegraph/pipeline/lines/line_cue_options.h>
+#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/lines/line_sightings.h>
 #include <placegraph/pipeline/lines/line_tracks.h>
 

@@ -1,3 +1,5 @@
+#include <placegraph/frontend/lines/line_stereo.h>
+#include <placegraph/frontend/lines/line_triangulation.h>
 #include <placegraph/frontend/lines/line_depth.h>
 #include <placegraph/pipeline/lines/line_second_eye.h>
 

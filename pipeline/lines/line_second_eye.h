@@ -1,9 +1,10 @@
 #pragma once
+#include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
-#include <placegraph/graph/image/frame.h>
-#include <placegraph/pipeline/lines/line_cue_options.h>
+#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/pipeline/cues/cue_options.h>
 
 #include <optional>
 #include <vector>

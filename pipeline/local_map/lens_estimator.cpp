@@ -6,19 +6,6 @@
 
 namespace placegraph {
 
-void LensOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LensOptions& o) {
-  field("enabled", o.enabled,
-        "one eye or a depth camera: where the images prove to be distorted, the run begins again "
-        "with undistorted ones");
-  field("min_sigmas", o.min_sigmas, "radial distortion over its deviation that counts as proof",
-        {0, 1e6});
-  field("min_effect", o.min_effect,
-        "of it on the tracks, rms in their standard deviations, that nothing else would explain",
-        {0, 1e6});
-}
-
 void LensEstimator::observe(const SlidingWindow& window) {
   const auto keyframes = window.keyframes();
   if (keyframes.empty() || keyframes.front() <= newest_) return;

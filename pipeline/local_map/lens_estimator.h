@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/run_options.h>
 #include <placegraph/backend/window/distortion_evidence.h>
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/graph/core/options.h>
@@ -8,16 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct LensOptions {
-  bool enabled = true;
-  double min_sigmas = 5;  ///< |k1| over its deviation, to call a lens distorted
-  /// What of it no other motion or structure would explain, rms over the tracks, in their standard
-  /// deviations. Below this it may come from a bias of the tracks, as when driving straight on.
-  double min_effect = 0.05;
-  void check() const;
-};
-void visit(OptionVisitor& field, LensOptions& options);
 
 /// What is left of radial distortion in images that should have none, from bundle adjustment over
 /// windows that share no keyframe. Windows contradict each other by more than the noise of their

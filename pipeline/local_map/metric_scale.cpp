@@ -1,3 +1,5 @@
+#include <placegraph/pipeline/tracking/cue_list.h>
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/local_map/metric_scale.h>
 

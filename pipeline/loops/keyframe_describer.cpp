@@ -1,3 +1,6 @@
+#include <placegraph/frontend/features/detector.h>
+#include <placegraph/frontend/features/matcher.h>
+#include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/frontend/features/depth_lookup.h>
 #include <placegraph/frontend/features/triangulation.h>
 #include <placegraph/graph/core/angle.h>

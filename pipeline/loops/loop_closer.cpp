@@ -1,3 +1,6 @@
+#include <placegraph/graph/core/random.h>
+#include <placegraph/frontend/places/verification/loop_verifier.h>
+#include <placegraph/frontend/places/place_database.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/loops/loop_gates.h>

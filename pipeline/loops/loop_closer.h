@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/frontend/lines/line_feature.h>
+#include <placegraph/frontend/places/place_database.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/pipeline/loops/keyframe_describer.h>

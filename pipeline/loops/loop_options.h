@@ -1,7 +1,7 @@
 #pragma once
-#include <placegraph/frontend/features/detector.h>
-#include <placegraph/frontend/places/place_database.h>
-#include <placegraph/frontend/places/verification/loop_verifier.h>
+#include <placegraph/frontend/features/feature_options.h>
+#include <placegraph/frontend/places/recognition_options.h>
+#include <placegraph/graph/core/options.h>
 
 namespace placegraph {
 

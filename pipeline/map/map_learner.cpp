@@ -4,14 +4,6 @@
 
 namespace placegraph {
 
-void MapLearnerOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, MapLearnerOptions& o) {
-  field.group("cues", o.cues, "what tells places apart, and how much each counts");
-  field("alike", o.alike, "share of what neighbours have in common, below which a place ends",
-        {0, 1});
-}
-
 namespace {
 
 /// What any two views have in common: the median over pairs that are far from each other.

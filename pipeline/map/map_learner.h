@@ -1,19 +1,11 @@
 #pragma once
+#include <placegraph/pipeline/map/map_options.h>
 #include <placegraph/frontend/places/place_view.h>
 #include <placegraph/io/map/map_database.h>
 
 #include <functional>
 
 namespace placegraph {
-
-struct MapLearnerOptions {
-  PlaceCueOptions cues;
-  /// A place ends where a view has less than this share of what neighbouring views have in common
-  /// (beyond any two views) with the place's first.
-  double alike = 0.5;
-  void check() const;
-};
-void visit(OptionVisitor& field, MapLearnerOptions& options);
 
 /// A map by appearance alone, of images without any camera: each image is a keyframe with its view,
 /// a place is a stretch of images that look like its first one. No pose of it means anything, and

@@ -1,27 +1,56 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/frontend/places/place_view.h>
+#include <placegraph/frontend/places/recognition_odds.h>
+#include <placegraph/pipeline/loops/loop_closer.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace placegraph {
 
-void LocalizerOptions::check() const {
-  check_ranges(*this);
-  loops.check();
-}
+/// The map, its views for recognition, and the tests of an answer.
+struct MapLocalizer::Impl {
+  Impl(const LocalizerOptions& options, StoredMap stored);
+  std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
+  std::string why_no_features(const Image& grey) const;
+  std::vector<PlaceLikeness> likenesses(const PlaceView& view) const;
+  void learn_near();
+  int lag_of_likeness() const;
+  bool near(int a, int b) const;
+  std::optional<RecognitionOdds> odds(bool sequence) const;
+  std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
+                                     bool sequence) const;
+  Localization described(const ViewAnswer& answer, double probability) const;
+  std::optional<Loop> verify(const Frame& frame, const std::vector<PlaceLikeness>& list) const;
+  void take_geometry(const Loop& loop, Localization& result) const;
+  const Keyframe& keyframe_of(int view) const;
 
-void visit(OptionVisitor& field, LocalizerOptions& o) {
-  field.group("recognizer", o.recognizer, "likeness of two views");
-  field.group("sequence", o.sequence, "evidence of the images around");
-  field("min_probability", o.min_probability, "of an answer", {0.5, 1});
-  field("calibration_views", o.calibration_views,
-        "views of the map that tell how wrong answers look, at most", {10, 1e6});
-  field("geometry", o.geometry, "verify by features where the map has their depth");
-}
+  LocalizerOptions options_;
+  StoredMap stored_;
+  bool in_colour_ = false;
+  PlaceRecognizer recognizer_;
+  std::vector<int> keyframes_;  ///< of the views, indices in the map's
+  int lag_ = 1;                 ///< views so far apart look like any others
+  std::set<std::pair<std::int64_t, std::int64_t>> adjacent_;  ///< places
+  std::optional<LoopCloser> closer_;
+};
 
 MapLocalizer::MapLocalizer(const LocalizerOptions& options, StoredMap stored)
+    : impl_(std::make_unique<Impl>(options, std::move(stored))) {}
+MapLocalizer::~MapLocalizer() = default;
+MapLocalizer::MapLocalizer(MapLocalizer&&) noexcept = default;
+MapLocalizer& MapLocalizer::operator=(MapLocalizer&&) noexcept = default;
+
+std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames& frames,
+                                                 bool sequence) const {
+  return impl_->localize(count, frames, sequence);
+}
+
+MapLocalizer::Impl::Impl(const LocalizerOptions& options, StoredMap stored)
     : options_(options), stored_(std::move(stored)), recognizer_(options.recognizer) {
   options_.check();
   std::vector<Keyframe>& all = stored_.map.keyframes;
@@ -51,7 +80,7 @@ MapLocalizer::MapLocalizer(const LocalizerOptions& options, StoredMap stored)
 }
 
 /// Why the features of an image cannot be compared with the map's; empty if they can.
-std::string MapLocalizer::why_no_features(const Image& grey) const {
+std::string MapLocalizer::Impl::why_no_features(const Image& grey) const {
   if (!closer_) return "the map has no camera or no features of known depth, or geometry is off";
   const Camera& camera = stored_.origin.calibration->camera;
   if (grey.cols == camera.width && grey.rows == camera.height) return "";
@@ -59,16 +88,16 @@ std::string MapLocalizer::why_no_features(const Image& grey) const {
                      grey.rows, camera.width, camera.height);
 }
 
-const Keyframe& MapLocalizer::keyframe_of(int view) const {
+const Keyframe& MapLocalizer::Impl::keyframe_of(int view) const {
   return stored_.map
       .keyframes[static_cast<std::size_t>(keyframes_[static_cast<std::size_t>(view)])];
 }
 
-std::vector<PlaceLikeness> MapLocalizer::likenesses(const PlaceView& view) const {
+std::vector<PlaceLikeness> MapLocalizer::Impl::likenesses(const PlaceView& view) const {
   return recognizer_.query(view, 0, recognizer_.size() - 1);
 }
 
-void MapLocalizer::learn_near() {
+void MapLocalizer::Impl::learn_near() {
   for (const RelativePoseConstraint& edge : stored_.map.place_graph.constraints) {
     adjacent_.emplace(edge.from, edge.to);
     adjacent_.emplace(edge.to, edge.from);
@@ -78,7 +107,7 @@ void MapLocalizer::learn_near() {
 
 /// By how many views two must be apart to look no more alike than any two: where three quarters of
 /// what neighbours have in common beyond that are gone.
-int MapLocalizer::lag_of_likeness() const {
+int MapLocalizer::Impl::lag_of_likeness() const {
   constexpr int kSamples = 40, kLongest = 50;
   constexpr double kRest = 0.25;
   const int views = recognizer_.size();
@@ -98,13 +127,13 @@ int MapLocalizer::lag_of_likeness() const {
   return lag;
 }
 
-bool MapLocalizer::near(int a, int b) const {
+bool MapLocalizer::Impl::near(int a, int b) const {
   if (std::abs(a - b) <= lag_) return true;
   const std::int64_t at = keyframe_of(a).place, other = keyframe_of(b).place;
   return at == other || adjacent_.count({at, other}) > 0;
 }
 
-std::vector<ViewEvidence> MapLocalizer::evidence(
+std::vector<ViewEvidence> MapLocalizer::Impl::evidence(
     const std::vector<std::vector<PlaceLikeness>>& lists, bool sequence) const {
   const int views = recognizer_.size();
   return sequence ? sequence_evidence(lists, views, options_.sequence)
@@ -113,7 +142,7 @@ std::vector<ViewEvidence> MapLocalizer::evidence(
 
 /// What the map's own views are answered: kept from all that is near them, or from themselves.
 /// Nothing if they all look alike, or are of one place: that tells not how wrong answers look.
-std::optional<RecognitionOdds> MapLocalizer::odds(bool sequence) const {
+std::optional<RecognitionOdds> MapLocalizer::Impl::odds(bool sequence) const {
   const int views = recognizer_.size();
   // Some stretches of a long map, as a sequence needs neighbours.
   const int stretches = views <= options_.calibration_views ? 1 : 3;
@@ -147,7 +176,7 @@ std::optional<RecognitionOdds> MapLocalizer::odds(bool sequence) const {
   return RecognitionOdds(wrong, right);
 }
 
-Localization MapLocalizer::described(const ViewAnswer& answer, double probability) const {
+Localization MapLocalizer::Impl::described(const ViewAnswer& answer, double probability) const {
   Localization result;
   result.stage = "blank";
   if (answer.view < 0) return result;
@@ -161,7 +190,7 @@ Localization MapLocalizer::described(const ViewAnswer& answer, double probabilit
   return result;
 }
 
-std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames& frames,
+std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const Frames& frames,
                                                  bool sequence) const {
   std::vector<std::vector<PlaceLikeness>> lists;
   std::vector<std::optional<Loop>> verified;
@@ -198,7 +227,7 @@ std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames
   return result;
 }
 
-std::optional<Loop> MapLocalizer::verify(const Frame& frame,
+std::optional<Loop> MapLocalizer::Impl::verify(const Frame& frame,
                                          const std::vector<PlaceLikeness>& list) const {
   constexpr std::size_t kTries = 3;
   std::vector<std::int64_t> tries;
@@ -209,7 +238,7 @@ std::optional<Loop> MapLocalizer::verify(const Frame& frame,
 
 /// Features agree with a pose by chance once in a thousand images, or less; what whole views say
 /// counts beside that, for the same place or against another.
-void MapLocalizer::take_geometry(const Loop& loop, Localization& result) const {
+void MapLocalizer::Impl::take_geometry(const Loop& loop, Localization& result) const {
   constexpr double kOddsOfVerified = 1000, kSurest = 1 - 1e-9;
   const Keyframe& match = *stored_.map.find_keyframe(loop.match);
   const bool agree =

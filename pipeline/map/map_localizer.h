@@ -1,25 +1,16 @@
 #pragma once
-#include <placegraph/frontend/places/place_recognizer.h>
-#include <placegraph/frontend/places/recognition_odds.h>
-#include <placegraph/io/map/map_database.h>
-#include <placegraph/pipeline/loops/loop_closer.h>
+#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/io/map/stored_map.h>
+#include <placegraph/pipeline/map/map_options.h>
 
-#include <set>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace placegraph {
-
-struct LocalizerOptions {
-  PlaceRecognizerOptions recognizer;  ///< its cues are those of the map
-  /// Images behind and ahead count, and none hurries: evidence is gathered over a longer way than
-  /// where only the past is known.
-  SequenceFilterOptions sequence{.memory = 0.97};
-  double min_probability = 0.95;  ///< of an answer
-  int calibration_views = 300;    ///< of the map, that tell how wrong answers look, at most
-  bool geometry = true;           ///< verify by features where the map has their depth
-  LoopOptions loops;              ///< as the run that made the map
-  void check() const;
-};
-void visit(OptionVisitor& field, LocalizerOptions& options);
 
 /// Where an image was taken, or why that is not said.
 struct Localization {
@@ -40,6 +31,9 @@ class MapLocalizer {
  public:
   /// Throws ArgumentError for a map of fewer than ten views, or whose views cannot be compared.
   MapLocalizer(const LocalizerOptions& options, StoredMap stored);
+  ~MapLocalizer();
+  MapLocalizer(MapLocalizer&&) noexcept;
+  MapLocalizer& operator=(MapLocalizer&&) noexcept;
 
   /// Images one by one, or consecutive ones of one drive, each with the evidence of those around
   /// it. `frames`: grey image as by the map's camera (others are placed without a pose),
@@ -48,27 +42,8 @@ class MapLocalizer {
   std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
 
  private:
-  std::string why_no_features(const Image& grey) const;
-  std::vector<PlaceLikeness> likenesses(const PlaceView& view) const;
-  void learn_near();
-  int lag_of_likeness() const;
-  bool near(int a, int b) const;
-  std::optional<RecognitionOdds> odds(bool sequence) const;
-  std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
-                                     bool sequence) const;
-  Localization described(const ViewAnswer& answer, double probability) const;
-  std::optional<Loop> verify(const Frame& frame, const std::vector<PlaceLikeness>& list) const;
-  void take_geometry(const Loop& loop, Localization& result) const;
-  const Keyframe& keyframe_of(int view) const;
-
-  LocalizerOptions options_;
-  StoredMap stored_;
-  bool in_colour_ = false;
-  PlaceRecognizer recognizer_;
-  std::vector<int> keyframes_;  ///< of the views, indices in the map's
-  int lag_ = 1;                 ///< views so far apart look like any others
-  std::set<std::pair<std::int64_t, std::int64_t>> adjacent_;  ///< places
-  std::optional<LoopCloser> closer_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace placegraph

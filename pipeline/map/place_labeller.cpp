@@ -4,13 +4,6 @@
 
 namespace placegraph {
 
-void PlaceLabelOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, PlaceLabelOptions& o) {
-  field("min_probability", o.min_probability,
-        "mean over a place's views, below which it stays without label", {0, 1});
-}
-
 std::vector<PlaceLabel> label_places(const Map& map, const PlaceClassifier& classifier,
                                      const std::function<Image(const Keyframe&)>& image_of,
                                      const PlaceLabelOptions& options) {

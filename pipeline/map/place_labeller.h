@@ -1,16 +1,11 @@
 #pragma once
+#include <placegraph/pipeline/map/map_options.h>
 #include <placegraph/frontend/places/classifiers/place_classifier.h>
 #include <placegraph/graph/map.h>
 
 #include <functional>
 
 namespace placegraph {
-
-struct PlaceLabelOptions {
-  double min_probability = 0.5;  ///< mean over a place's views, below which it stays without label
-  void check() const;
-};
-void visit(OptionVisitor& field, PlaceLabelOptions& options);
 
 /// What a classifier says of a place.
 struct PlaceLabel {

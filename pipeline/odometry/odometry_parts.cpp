@@ -1,3 +1,4 @@
+#include <placegraph/pipeline/tracking/cue_list.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/odometry/first_frame_initializer.h>
 #include <placegraph/pipeline/odometry/line_view_initializer.h>

@@ -1,4 +1,7 @@
 #include <fmt/format.h>
+#include <placegraph/frontend/relative_pose/mono_initializer.h>
+#include <placegraph/pipeline/cues/point_cue.h>
+#include <placegraph/graph/core/log_message.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/odometry/two_view_initializer.h>
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/pipeline/odometry/initializer.h>
 #include <placegraph/pipeline/tracking/feature_tracker.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/lines/floor_from_lines.h>
-#include <placegraph/pipeline/scale/floor_line_scale_options.h>
+#include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/scale/ground_plane_scale.h>
 
 #include <deque>

@@ -9,27 +9,6 @@
 
 namespace placegraph {
 
-void GroundScaleOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, GroundScaleOptions& o) {
-  field.group("plane", o.plane, "direct alignment of the road");
-  field("enabled", o.enabled, "use the ground plane where the camera height is known");
-  field("sigma_relative", o.sigma_relative,
-        "noise of a single scale beyond that of the alignment: the road is not flat", {0, 1});
-  field("max_log_jump", o.max_log_jump,
-        "a scale further from the median of the last ones (in logarithm) is not believed",
-        {0.01, 5});
-  field("mounting_sigma_deg", o.mounting_sigma_deg,
-        "pitch and roll of the camera before anything was seen", {0.01, 45});
-  field("pitching_sigma_deg", o.pitching_sigma_deg, "pitch and roll of one view about the mean",
-        {0.01, 45});
-  field("mounting_drift_deg", o.mounting_drift_deg, "of the mean between measurements", {0, 10});
-  field("level_sigma_deg", o.level_sigma_deg,
-        "of a floor that edges show to be level, beside that of the edges", {0.001, 45});
-  field("min_baseline_heights", o.min_baseline_heights,
-        "motion between the two views, in camera heights", {0.01, 10});
-}
-
 GroundScale::GroundScale(const GroundScaleOptions& options, const Camera& camera,
                          double camera_height_m)
     : options_(options),

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/frontend/planes/ground_plane.h>
 #include <placegraph/pipeline/cues/ground_mask.h>
 
@@ -6,22 +7,6 @@
 #include <optional>
 
 namespace placegraph {
-
-struct GroundScaleOptions {
-  GroundPlaneOptions plane;
-  bool enabled = true;  ///< use the ground plane where the camera height is known
-  /// Of a single scale, added to its noise: the road is uneven, and pairs of views that overlap see
-  /// the same of it, so that they err together.
-  double sigma_relative = 0.02;
-  double max_log_jump = 0.12;         ///< from the median of the last scales; more is not believed
-  double mounting_sigma_deg = 3;      ///< pitch and roll of the camera before anything was seen
-  double pitching_sigma_deg = 0.5;    ///< of a single view about the mean: the vehicle nods
-  double mounting_drift_deg = 0.03;   ///< of the mean, from one measurement to the next
-  double level_sigma_deg = 0.03;      ///< of a floor that edges show to be level, beside theirs
-  double min_baseline_heights = 0.6;  ///< motion between the two views; a shorter one tells little
-  void check() const;
-};
-void visit(OptionVisitor& field, GroundScaleOptions& options);
 
 /// Metric scale from the ground: follows the plane under a camera of known height over pairs of
 /// views and says what a motion's true length is. The mean normal in the camera (mounting pitch and

@@ -114,26 +114,6 @@ IndoorMap fuse_sights(const std::vector<SurfaceSight>& all, const Map& map,
 
 }  // namespace
 
-void IndoorMapperOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, IndoorMapperOptions& o) {
-  field.group("points", o.points, "surface points of a depth image");
-  field.group("sweep", o.sweep, "depth from views of known motion");
-  field.group("views", o.views, "that depth is swept from");
-  field.group("floor", o.floor, "surfaces from one eye that has not moved");
-  field.group("orientation", o.orientation, "orientation maps, for one eye");
-  field("swept_radius_px", o.swept_radius_px, "points.radius_px for depth from images", {2, 50});
-  field("swept_band_m", o.swept_band_m, "walls.band_m for depth from images", {0.02, 1});
-  field("min_step_m", o.min_step_m, "keyframes nearer to the last one used tell nothing new",
-        {0, 10});
-  field("min_turn_deg", o.min_turn_deg, "unless they are turned by so much", {0, 180});
-  field("cell_m", o.cell_m, "of the cells that walls and rooms are found from", {0.01, 1});
-  field("layer_m", o.layer_m, "height of the cells", {0.05, 1});
-  field.group("walls", o.walls, "upright surfaces up to the ceiling");
-  field.group("doors", o.doors, "passages and leaves");
-  field.group("rooms", o.rooms, "parts of the free space");
-}
-
 IndoorMapper::IndoorMapper(const IndoorMapperOptions& options, const Calibration& calibration)
     : options_(options), calibration_(calibration) {
   options_.check();

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/scene/scene_map_options.h>
 #include <placegraph/frontend/floor_plan/floor_sight.h>
 #include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/floor_plan/room_partition.h>
@@ -9,25 +10,6 @@
 #include <functional>
 
 namespace placegraph {
-
-struct IndoorMapperOptions {
-  SurfacePointOptions points;
-  PlaneSweepOptions sweep;
-  NearbyViewOptions views;  ///< that depth is swept from, beside the right eye's
-  FloorSightOptions floor;
-  OrientationMapOptions orientation;
-  int swept_radius_px = 16;   ///< as points.radius_px, of depth from images, and ...
-  double swept_band_m = 0.1;  ///< ... walls.band_m
-  double min_step_m = 0.15;   ///< keyframes nearer to the last one that was used, and ...
-  double min_turn_deg = 5;    ///< ... turned by less, tell nothing new
-  double cell_m = 0.05;       ///< of the cells that walls and rooms are found from
-  double layer_m = 0.2;       ///< their height
-  WallFinderOptions walls;
-  DoorFinderOptions doors;
-  RoomPartitionOptions rooms;
-  void check() const;
-};
-void visit(OptionVisitor& field, IndoorMapperOptions& options);
 
 /// A floor plan with walls, doors and rooms from the keyframes of a map. Depth is measured, or
 /// swept from views of known motion and from the other eye; what a keyframe tells of the surfaces

@@ -14,17 +14,6 @@ constexpr std::size_t kMostRead = 2 * kFarthest + 4;
 
 }  // namespace
 
-void NearbyViewOptions::check() const {
-  check_ranges(*this);
-  require(near_m <= far_m, "far_m: must not be below near_m");
-}
-
-void visit(OptionVisitor& field, NearbyViewOptions& o) {
-  field("near_m", o.near_m, "how far the nearer ones have moved, at least", {0.001, 100});
-  field("far_m", o.far_m, "how far the farther ones have", {0.001, 100});
-  field("turn_deg", o.turn_deg, "how much they have turned, at most", {0, 90});
-}
-
 NearbyViews::NearbyViews(const Map& map, std::function<Frame(const Keyframe&)> frame_of,
                          const NearbyViewOptions& options)
     : map_(map),

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/scene/scene_map_options.h>
 #include <placegraph/frontend/floor_plan/plane_sweep.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/frame.h>
@@ -11,14 +12,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct NearbyViewOptions {
-  double near_m = 0.2;   ///< how far the nearer views have moved, at least, and ...
-  double far_m = 0.5;    ///< ... the farther ones; none has by twice as much
-  double turn_deg = 20;  ///< how much they have turned, at most
-  void check() const;
-};
-void visit(OptionVisitor& field, NearbyViewOptions& options);
 
 /// Images of keyframes that stand near one: a nearer and a farther one before it, and after it.
 class NearbyViews {

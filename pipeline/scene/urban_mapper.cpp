@@ -8,18 +8,6 @@
 #include <map>
 
 namespace placegraph {
-void UrbanMapperOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, UrbanMapperOptions& o) {
-  field.group("stereo", o.stereo, "depth of two eyes");
-  field.group("sight", o.sight, "what a keyframe tells");
-  field("residuals", o.residuals, "points that the keyframe before or after looks through go");
-  field.group("seen_through", o.seen_through, "when it does");
-  field("min_step_m", o.min_step_m, "keyframes nearer to the last one that was used, and ...",
-        {0, 100});
-  field("min_turn_deg", o.min_turn_deg, "... turned by less, tell nothing new", {0, 180});
-  field.group("grid", o.grid, "the cells");
-}
 
 UrbanMapper::UrbanMapper(const UrbanMapperOptions& options, const Calibration& calibration,
                          SceneModel urban, SceneModel surfaces)

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/scene/scene_map_options.h>
 #include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/scene/urban_sight.h>
 #include <placegraph/graph/image/frame.h>
@@ -10,18 +11,6 @@
 #include <optional>
 
 namespace placegraph {
-
-struct UrbanMapperOptions {
-  DenseStereoOptions stereo{128, 9};
-  UrbanSightOptions sight;
-  bool residuals = true;  ///< points that the keyframe before or after looks through are dropped
-  SeenThroughOptions seen_through;
-  double min_step_m = 1;    ///< keyframes nearer to the last one that was used, and ...
-  double min_turn_deg = 5;  ///< ... turned by less, tell nothing new
-  SemanticGridOptions grid;
-  void check() const;
-};
-void visit(OptionVisitor& field, UrbanMapperOptions& options);
 
 /// A map of what is where in a street, from the keyframes of a stereo map. What a keyframe tells is
 /// kept in its own frame; `fuse` lays all of it out with the poses of the map as it stands, so that

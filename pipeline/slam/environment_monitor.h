@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/slam/environment_sight.h>
 #include <placegraph/frontend/scene/environment.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
@@ -8,14 +9,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// What one keyframe says of its surroundings.
-struct EnvironmentSight {
-  std::int64_t keyframe = 0, frame = 0;
-  EnvironmentEvidence evidence;
-  std::array<double, kEnvironmentCount> probabilities{};  ///< by this view alone
-  std::optional<Environment> kind;                        ///< with those before it
-};
 
 /// Classifies the environment of keyframes in order of travel, and labels places by it.
 class EnvironmentMonitor {

@@ -45,4 +45,9 @@ Cues parse_cues(const std::string& names) {
   return cues;
 }
 
+bool metric_from_start(const Cues& cues, const Calibration& calibration) {
+  return calibration.baseline_m > 0 || calibration.depth ||
+         (cues.surfaces_alone() && calibration.camera_height_m);
+}
+
 }  // namespace placegraph

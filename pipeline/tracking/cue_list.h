@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/geometry/camera.h>
+
 #include <string>
 
 namespace placegraph {
@@ -20,5 +22,9 @@ struct Cues {
 /// From names joined by commas, as in "points,plane". Throws ArgumentError for an unknown name, one
 /// named twice, or if none of points, lines, plane and direct is there.
 Cues parse_cues(const std::string& names);
+
+/// Whether lengths are metric from the first frame on: a stereo or depth camera measures them, as
+/// does a surface at a known distance if surfaces are the only cue.
+bool metric_from_start(const Cues& cues, const Calibration& calibration);
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/cues/surface_cue.h>
 #include <placegraph/pipeline/tracking/frame_tracker.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>
 

@@ -1,4 +1,7 @@
 #include <fmt/format.h>
+#include <placegraph/frontend/cloud_planes/depth_planes.h>
+#include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 #include <placegraph/pipeline/tracking/feature_tracker.h>
 #include <placegraph/pipeline/tracking/line_pose.h>
 

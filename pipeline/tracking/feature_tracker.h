@@ -1,4 +1,8 @@
 #pragma once
+#include <placegraph/pipeline/cues/plane_cue.h>
+#include <placegraph/pipeline/cues/point_cue.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
+#include <placegraph/pipeline/tracking/keyframe_selector.h>
 #include <placegraph/pipeline/cues/keyframe_alignment.h>
 #include <placegraph/pipeline/tracking/frame_tracker.h>
 #include <placegraph/pipeline/tracking/intermediate_frames.h>

@@ -4,19 +4,6 @@
 
 namespace placegraph {
 
-void KeyframeOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, KeyframeOptions& o) {
-  field("max_flow_share", o.max_flow_share,
-        "median displacement since the last keyframe over the image width", {0.001, 1});
-  field("derotated", o.derotated,
-        "whether the camera's turn is taken out of the displacements: what is left is parallax");
-  field("min_tracked_share", o.min_tracked_share,
-        "landmarks of the last keyframe that must still be followed", {0, 1});
-  field("max_interval", o.max_interval, "frames between keyframes while the camera moves",
-        {1, 100000});
-}
-
 void KeyframeSelector::start(const std::vector<PointTrack>& tracks, int landmarks) {
   px_at_keyframe_.clear();
   for (const PointTrack& track : tracks) px_at_keyframe_[track.id] = track.px.cast<double>();

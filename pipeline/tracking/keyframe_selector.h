@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/tracking/odometry_options.h>
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/graph/geometry/camera.h>
 
@@ -6,17 +7,6 @@
 #include <vector>
 
 namespace placegraph {
-
-/// When a frame becomes a keyframe.
-struct KeyframeOptions {
-  double max_flow_share = 0.06;  ///< median track displacement since the last one / image width
-  /// Whether the camera's turn is taken out of the displacements: what is left is parallax.
-  bool derotated = false;
-  double min_tracked_share = 0.7;  ///< of the last keyframe's landmarks still followed
-  int max_interval = 20;           ///< frames, if the camera moves at all
-  void check() const;
-};
-void visit(OptionVisitor& field, KeyframeOptions& options);
 
 /// Decides which tracked frames become keyframes, by what has changed since the last keyframe.
 class KeyframeSelector {

@@ -1,5 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
 
 namespace placegraph {
 
@@ -42,9 +43,17 @@ void visit(OptionVisitor& field, OdometryOptions& o) {
         {0, 1});
 }
 
-bool metric_from_start(const Cues& cues, const Calibration& calibration) {
-  return calibration.baseline_m > 0 || calibration.depth ||
-         (cues.surfaces_alone() && calibration.camera_height_m);
+void KeyframeOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, KeyframeOptions& o) {
+  field("max_flow_share", o.max_flow_share,
+        "median displacement since the last keyframe over the image width", {0.001, 1});
+  field("derotated", o.derotated,
+        "whether the camera's turn is taken out of the displacements: what is left is parallax");
+  field("min_tracked_share", o.min_tracked_share,
+        "landmarks of the last keyframe that must still be followed", {0, 1});
+  field("max_interval", o.max_interval, "frames between keyframes while the camera moves",
+        {1, 100000});
 }
 
 }  // namespace placegraph

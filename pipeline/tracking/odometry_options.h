@@ -1,21 +1,24 @@
 #pragma once
 #include <placegraph/backend/window/sliding_window_options.h>
-#include <placegraph/frontend/features/rectification.h>
-#include <placegraph/frontend/features/stereo_matcher.h>
-#include <placegraph/frontend/relative_pose/mono_initializer.h>
-#include <placegraph/frontend/relative_pose/rotation_2d2d.h>
-#include <placegraph/pipeline/cues/surface_cue.h>
-#include <placegraph/pipeline/lines/line_cue.h>
-#include <placegraph/pipeline/cues/manhattan_cue.h>
-#include <placegraph/pipeline/cues/plane_cue.h>
-#include <placegraph/pipeline/cues/point_cue.h>
-#include <placegraph/pipeline/tracking/cue_list.h>
-#include <placegraph/pipeline/tracking/keyframe_selector.h>
-#include <placegraph/pipeline/scale/ground_plane_scale.h>
+#include <placegraph/frontend/features/feature_options.h>
+#include <placegraph/frontend/relative_pose/relative_pose_options.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/pipeline/cues/cue_options.h>
 
 #include <string>
 
 namespace placegraph {
+
+/// When a frame becomes a keyframe.
+struct KeyframeOptions {
+  double max_flow_share = 0.06;  ///< median track displacement since the last one / image width
+  /// Whether the camera's turn is taken out of the displacements: what is left is parallax.
+  bool derotated = false;
+  double min_tracked_share = 0.7;  ///< of the last keyframe's landmarks still followed
+  int max_interval = 20;           ///< frames, if the camera moves at all
+  void check() const;
+};
+void visit(OptionVisitor& field, KeyframeOptions& options);
 
 struct OdometryOptions {
   std::string cues = "points,plane";  ///< see parse_cues
@@ -37,9 +40,5 @@ struct OdometryOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, OdometryOptions& options);
-
-/// Whether lengths are metric from the first frame on: a stereo or depth camera measures them, as
-/// does a surface at a known distance if surfaces are the only cue.
-bool metric_from_start(const Cues& cues, const Calibration& calibration);
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/slam/frame_result.h>
 #include <placegraph/pipeline/cues/surface_labels.h>
 #include <placegraph/pipeline/local_map/local_map.h>
 
@@ -9,8 +10,6 @@
 #include <vector>
 
 namespace placegraph {
-
-enum class TrackingState { kWaiting, kTracking, kLost };
 
 /// A frame that has become a keyframe.
 struct NewKeyframe {

@@ -1,5 +1,6 @@
 // Rectangular worlds in a run through a rendered corridor.
 #include <gtest/gtest.h>
+#include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
 #include <placegraph/graph/core/angle.h>

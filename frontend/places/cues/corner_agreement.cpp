@@ -41,16 +41,6 @@ int count_agreeing(const MatchedPoints& points, const PlaneSimilarity& similarit
 
 }  // namespace
 
-void CornerAgreementOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, CornerAgreementOptions& o) {
-  field("width_px", o.width_px, "images are brought to this width for their corners", {64, 4096});
-  field("max_corners", o.max_corners, "of an image", {50, 5000});
-  field("max_distance", o.max_distance, "differing bits of 256 of two descriptors", {1, 256});
-  field("max_ratio", o.max_ratio, "best over second best distance", {0.1, 1});
-  field("tolerance", o.tolerance, "share of the width, where a corner should be", {0.001, 1});
-}
-
 std::vector<Feature> corners_of_view(const Image& grey, const CornerAgreementOptions& options) {
   cv::Mat sized = grey;
   if (grey.cols != options.width_px) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/frontend/places/recognition_options.h>
+#include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
 #include <placegraph/graph/landmark.h>
@@ -6,16 +8,6 @@
 #include <vector>
 
 namespace placegraph {
-
-struct CornerAgreementOptions {
-  int width_px = 320;  ///< images are brought to it, smaller ones too
-  int max_corners = 300;
-  int max_distance = 70;    ///< bits of 256 between two descriptors
-  double max_ratio = 0.8;   ///< best over second best distance
-  double tolerance = 0.06;  ///< of the width, within which a corner is where it should be
-  void check() const;
-};
-void visit(OptionVisitor& field, CornerAgreementOptions& options);
 
 /// Harris corners of a pyramid with rotated binary descriptors (Rublee et al. 2011), their pixels
 /// those of the image at `width_px`.

@@ -107,20 +107,6 @@ std::optional<Sim3> with_length(const Candidate& candidate, const LoopTwoViewOpt
 
 }  // namespace
 
-void LoopTwoViewOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LoopTwoViewOptions& o) {
-  field.group("pose", o.pose, "essential matrix or homography");
-  field.group("turn", o.turn, "views that differ by a turn alone");
-  field("min_parallax_px", o.min_parallax_px, "median displacement that the rotation leaves",
-        {0.1, 1000});
-  field("min_depths", o.min_depths, "known depths that must agree on the length of the way",
-        {3, 1000});
-  field("max_depth_spread", o.max_depth_spread, "of their ratios (logarithm) from the median",
-        {0.01, 2});
-  field("min_depth_share", o.min_depth_share, "of the depths that must agree", {0, 1});
-}
-
 LoopOfTwoViews loop_of_two_views(const Camera& camera, const std::vector<LoopPoint>& points,
                                  const LoopTwoViewOptions& options, Random& random,
                                  bool free_scale) {

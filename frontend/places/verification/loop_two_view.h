@@ -1,21 +1,10 @@
 #pragma once
+#include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/frontend/places/verification/loop_refinement.h>
 #include <placegraph/frontend/relative_pose/pose_2d2d.h>
 #include <placegraph/frontend/relative_pose/rotation_2d2d.h>
 
 namespace placegraph {
-
-struct LoopTwoViewOptions {
-  Pose2d2dOptions pose{.ransac = {.max_iterations = 400, .confidence = 0.9999, .min_inliers = 50},
-                       .threshold_px = 1.5};
-  Rotation2d2dOptions turn;
-  double min_parallax_px = 4;     ///< median displacement that the rotation leaves
-  int min_depths = 8;             ///< of one side that must agree on the length of the way
-  double max_depth_spread = 0.2;  ///< of their ratios (logarithm) from the median, to agree
-  double min_depth_share = 0.6;   ///< of the depths must agree
-  void check() const;
-};
-void visit(OptionVisitor& field, LoopTwoViewOptions& options);
 
 struct LoopOfTwoViews {
   Outcome outcome;

@@ -213,22 +213,6 @@ Outcome judged(const Camera& camera, const PointsAgree& agree, const LoopVerific
 
 }  // namespace
 
-void LoopVerifierOptions::check() const { check_ranges(*this); }
-
-void visit(OptionVisitor& field, LoopVerifierOptions& o) {
-  field.group("matcher", o.matcher, "descriptor matching");
-  field.group("pose", o.pose, "relative pose from 3-D points to pixels");
-  field.group("two_view", o.two_view, "relative pose where too few points have a depth");
-  field.group("lines", o.lines, "lines that the pose expects in the query");
-  field("min_inlier_ratio", o.min_inlier_ratio, "share of the matches that must agree", {0, 1});
-  field("min_spread", o.min_spread, "share of the image the inliers must cover", {0, 1});
-  field("max_scale_error", o.max_scale_error, "disagreement of depths seen from both sides",
-        {0, 10});
-  field("max_baseline_depths", o.max_baseline_depths,
-        "translation between the views over the median depth of the inliers", {0.01, 100});
-  field("max_angle_deg", o.max_angle_deg, "rotation between the views", {1, 180});
-}
-
 LoopVerification verify_loop(const Camera& camera, const LoopView& query, const LoopView& match,
                              const LoopVerifierOptions& options, Random& random, bool free_scale) {
   using Code = Outcome::Code;

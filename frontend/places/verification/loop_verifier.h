@@ -1,32 +1,15 @@
 #pragma once
+#include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/frontend/features/matcher.h>
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/frontend/places/verification/loop_two_view.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
 #include <placegraph/graph/geometry/sim3.h>
-#include <placegraph/graph/loop_model.h>
+#include <placegraph/graph/loop_stage.h>
 
 #include <span>
 
 namespace placegraph {
-
-struct LoopVerifierOptions {
-  MatcherOptions matcher{.max_distance = 60, .max_ratio = 0.85};
-  Pose3d2dOptions pose{.ransac = {.max_iterations = 400, .confidence = 0.9999, .min_inliers = 40},
-                       .threshold_px = 3.0,
-                       .prior_inlier_ratio = 1.01};
-  LoopTwoViewOptions two_view;  ///< where too few points have a depth for `pose`
-  LineFeatureMatcherOptions lines;
-  double min_inlier_ratio = 0.35;  ///< of the matches that agree with the pose
-  double min_spread = 0.03;        ///< share of the image the inliers' box of deviations covers
-  double max_scale_error = 0.15;   ///< disagreement of depths seen from both sides
-  /// Views that differ more are no revisit: what little calibration and depth are off grows with
-  /// it.
-  double max_baseline_depths = 0.15;  ///< translation over the median depth of the inliers
-  double max_angle_deg = 40;
-  void check() const;
-};
-void visit(OptionVisitor& field, LoopVerifierOptions& options);
 
 /// What a view is verified by. Refers to lists of others.
 struct LoopView {

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/odometry/initializer.h>
 #include <placegraph/pipeline/odometry/local_mapping.h>
 #include <placegraph/pipeline/tracking/feature_tracker.h>
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/backend/georeference/antenna_trajectory.h>
 #include <placegraph/backend/georeference/georeference.h>
 #include <placegraph/graph/core/error.h>
 

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/core/error.h>
 #include <tests/support/seed.h>
 

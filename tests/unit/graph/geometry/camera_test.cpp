@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <tests/support/seed.h>

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 

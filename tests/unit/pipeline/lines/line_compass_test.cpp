@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/frontend/lines/floor_from_lines.h>
 #include <placegraph/pipeline/lines/line_cue.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/pipeline/tracking/cue_list.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/odometry/odometry.h>
 

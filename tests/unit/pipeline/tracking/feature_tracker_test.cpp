@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <placegraph/pipeline/cues/point_cue.h>
 #include <placegraph/pipeline/tracking/feature_tracker.h>
 
 #include "tests/support/scenes/street.h"
