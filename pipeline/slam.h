@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/slam/frame_result.h>
 #include <placegraph/pipeline/slam_options.h>
 

@@ -1,9 +1,8 @@
 #pragma once
 #include <placegraph/frontend/planes/plane_options.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/plane3.h>
-#include <placegraph/graph/image/image.h>
 
 #include <vector>
 

@@ -1,9 +1,8 @@
 #pragma once
 #include <placegraph/frontend/features/feature_options.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/image/image.h>
 
 #include <optional>
 #include <vector>

@@ -1,10 +1,9 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/floor_plan_options.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/se3.h>
-#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/scene/indoor_map.h>
 
 namespace placegraph {

@@ -1,11 +1,10 @@
 #pragma once
 #include <placegraph/frontend/lines/line_options.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line3.h>
 #include <placegraph/graph/geometry/line_segment.h>
-#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/landmark.h>
 
 #include <optional>

@@ -1,9 +1,8 @@
 #pragma once
 #include <placegraph/frontend/markers/marker_options.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/camera.h>
-#include <placegraph/graph/image/image.h>
 
 #include <Eigen/Core>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/places/recognition_options.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/place_view.h>
 
 #include <cstdint>

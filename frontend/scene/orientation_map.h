@@ -1,12 +1,11 @@
 #pragma once
 #include <placegraph/frontend/scene/scene_options.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line_segment.h>
 #include <placegraph/graph/geometry/so3.h>
-#include <placegraph/graph/image/image.h>
 
 #include <array>
 #include <cstdint>

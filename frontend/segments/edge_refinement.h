@@ -1,9 +1,8 @@
 #pragma once
 #include <placegraph/frontend/lines/line_options.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/line_segment.h>
-#include <placegraph/graph/image/image.h>
 
 #include <optional>
 #include <vector>

@@ -6,7 +6,7 @@
 #include <placegraph/frontend/lines/direction_compass.h>
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/frontend/lines/line_tracker.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/lines/line_sightings.h>
 #include <placegraph/pipeline/lines/line_tracks.h>

@@ -3,7 +3,7 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>
 
 #include <optional>

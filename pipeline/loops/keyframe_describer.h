@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/places/verification/loop_verifier.h>
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/loops/loop_options.h>
 
 #include <optional>

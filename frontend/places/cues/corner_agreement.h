@@ -1,8 +1,7 @@
 #pragma once
 #include <placegraph/frontend/places/recognition_options.h>
-#include <placegraph/graph/core/image.h>
-#include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
+#include <placegraph/graph/core/options.h>
 #include <placegraph/graph/landmark.h>
 
 #include <vector>
