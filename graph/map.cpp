@@ -45,7 +45,7 @@ Trajectory Map::trajectory_optimized() const {
     if (!record.T_keyframe_frame) continue;
     const auto keyframe = keyframe_by_id.find(record.keyframe);
     if (keyframe == keyframe_by_id.end())
-      throw ArgumentError("map: frame " + std::to_string(record.frame) + " hangs on keyframe " +
+      throw ArgumentError("map: frame " + to_string(record.frame) + " hangs on keyframe " +
                           std::to_string(record.keyframe) + ", which is not there");
     const auto place = place_by_id.find(keyframe->second->place);
     if (place == place_by_id.end())

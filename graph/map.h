@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/loop_stage.h>
 #include <placegraph/graph/place_graph.h>
@@ -9,7 +10,7 @@ namespace placegraph {
 /// A keyframe as the map keeps it: its pose hangs on its place's, see PlaceMember.
 struct Keyframe {
   std::int64_t id = 0;
-  std::int64_t frame = 0;
+  FrameId frame;
   std::int64_t stamp_ns = 0;
   std::int64_t place = 0;
   SE3 T_place_keyframe;
@@ -20,7 +21,7 @@ struct Keyframe {
 
 /// Every input frame, relative to its keyframe; nothing where it is lost.
 struct FrameRecord {
-  std::int64_t frame = 0;
+  FrameId frame;
   std::int64_t stamp_ns = 0;
   std::int64_t keyframe = -1;
   std::optional<SE3> T_keyframe_frame;
@@ -30,7 +31,7 @@ struct FrameRecord {
 
 /// What became of a loop candidate.
 struct LoopRecord {
-  std::int64_t query_frame = 0, match_frame = 0;
+  FrameId query_frame, match_frame;
   int inliers = 0;  ///< points that agree with the pose
   LoopStage stage = LoopStage::kRetrieval;
   SE3 T_match_query;  ///< of accepted ones

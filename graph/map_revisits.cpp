@@ -14,7 +14,7 @@ using Isometry = Eigen::Isometry3d;
 
 /// Frames as they are known when a later one asks.
 struct SeenFrame {
-  std::int64_t frame;
+  FrameId frame;
   Isometry T_map_cam;
 };
 
@@ -55,13 +55,13 @@ std::vector<LoopPrediction> map_revisits(const Map& map, const MapRevisitOptions
   for (std::size_t i = 0; i < map.frames.size(); ++i) {
     const auto& T_map_cam = trajectory.poses[i].T_world_body;
     if (!T_map_cam) continue;
-    const std::int64_t frame = map.frames[i].frame;
+    const FrameId frame = map.frames[i].frame;
     const std::int64_t here = place_of.at(map.frames[i].keyframe);
     const SeenFrame* nearest = nullptr;
     double least = 0;
     for (const std::int64_t place : next_to.at(here)) {
       for (const SeenFrame& older : seen_in[place]) {
-        if (older.frame > frame - options.min_age) break;
+        if (older.frame.value() > frame.value() - options.min_age) break;
         const Isometry T_older_cam = older.T_map_cam.inverse() * *T_map_cam;
         const double distance = T_older_cam.translation().norm();
         // The angle of a rotation by its trace.

@@ -23,8 +23,7 @@ std::vector<PlaceTransition> place_transitions(const Map& map) {
     }
     const auto place = place_of.find(frame.keyframe);
     require(place != place_of.end(), "map: keyframe " + std::to_string(frame.keyframe) +
-                                         " of frame " + std::to_string(frame.frame) +
-                                         " is not there");
+                                         " of frame " + to_string(frame.frame) + " is not there");
     const std::int64_t next = place->second;
     if (here && *here != next && component_of[*here] == component_of[next]) ++counts[{*here, next}];
     here = next;

@@ -136,18 +136,18 @@ void Slam::Impl::check_frame(const Frame& frame) const {
   const Camera& camera = calibration.camera;
   require(frame.image.type() == CV_8UC1 && frame.image.cols == camera.width &&
               frame.image.rows == camera.height,
-          "frame " + std::to_string(frame.id) + ": grey image of " + std::to_string(camera.width) +
-              "x" + std::to_string(camera.height) + " needed");
+          "frame " + to_string(frame.id) + ": grey image of " + std::to_string(camera.width) + "x" +
+              std::to_string(camera.height) + " needed");
   const auto fits = [&](const Image& image, int type, const Camera& of) {
     return image.empty() ||
            (image.type() == type && image.cols == of.width && image.rows == of.height);
   };
   require(fits(frame.right, CV_8UC1, camera) && fits(frame.mask, CV_8UC1, camera) &&
               (!calibration.depth || fits(frame.depth, CV_32FC1, calibration.depth->camera)),
-          "frame " + std::to_string(frame.id) +
+          "frame " + to_string(frame.id) +
               ": right eye, mask or depth image of another size or type than calibrated");
   require(recorder.accepts(frame),
-          "frame " + std::to_string(frame.id) + ": ids and stamps must increase");
+          "frame " + to_string(frame.id) + ": ids and stamps must increase");
 }
 
 FrameResult Slam::Impl::add_frame(const Frame& frame) {

@@ -1,8 +1,9 @@
 #pragma once
 #include <placegraph/frontend/places/place_view.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map_changes.h>
-#include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/loops/loop_closer.h>
+#include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 #include <placegraph/pipeline/slam/environment_monitor.h>
 
@@ -46,7 +47,7 @@ void visit(OptionVisitor& field, SlamOptions& options);
 
 /// What became of one frame.
 struct FrameResult {
-  std::int64_t frame = 0;
+  FrameId frame;
   TrackingState state =
       TrackingState::kWaiting;   ///< waiting for the second view, tracking, or lost
   std::optional<SE3> T_map_cam;  ///< in the frame of `component`; nothing while unknown

@@ -38,9 +38,9 @@ LocalizerOptions options_of(const LocalizeArguments& arguments, const StoredMap&
 }
 
 std::string line_of(std::int64_t image, const Localization& at) {
-  std::string line =
-      fmt::format("{} {} {} {:.6f} {}", image, at.placed ? at.place : -1, at.placed ? at.frame : -1,
-                  at.probability, at.placed ? at.stage : "refused:" + at.stage);
+  const std::int64_t frame = at.placed && at.frame ? at.frame->value() : -1;
+  std::string line = fmt::format("{} {} {} {:.6f} {}", image, at.placed ? at.place : -1, frame,
+                                 at.probability, at.placed ? at.stage : "refused:" + at.stage);
   if (at.T_map_cam) {
     const auto& t = at.T_map_cam->translation();
     const auto& q = at.T_map_cam->rotation().quaternion();
@@ -51,8 +51,9 @@ std::string line_of(std::int64_t image, const Localization& at) {
 }
 
 json json_of(std::int64_t image, const Localization& at) {
-  json entry = {{"image", image},   {"placed", at.placed},     {"place", at.place},
-                {"view", at.frame}, {"keyframe", at.keyframe}, {"probability", at.probability},
+  json entry = {{"image", image},          {"placed", at.placed},
+                {"place", at.place},       {"view", at.frame ? at.frame->value() : -1},
+                {"keyframe", at.keyframe}, {"probability", at.probability},
                 {"stage", at.stage}};
   if (at.T_map_cam) entry["T_map_cam"] = pose_json(*at.T_map_cam);
   if (!at.without_pose.empty()) entry["without_pose"] = at.without_pose;

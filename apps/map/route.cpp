@@ -4,6 +4,7 @@
 #include <placegraph/eval/plots/plot.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/id_format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -91,8 +92,8 @@ std::string to_text(const RouteResult& result) {
                                  route.steps.size(), route.length_m());
   for (const RouteStep& step : route.steps)
     text += fmt::format("{:>6} {:>6} {:>10.3f} {:>14.3f}\n", step.place,
-                        result.map.anchor_frame(*result.map.graph.find(step.place)), step.leg_m,
-                        step.travelled_m);
+                        result.map.anchor_frame(*result.map.graph.find(step.place)).value(),
+                        step.leg_m, step.travelled_m);
   return text;
 }
 

@@ -20,8 +20,8 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<std::int64_t> lost_frames(const Map& map, const Trajectory& trajectory) {
-  std::vector<std::int64_t> lost;
+std::vector<FrameId> lost_frames(const Map& map, const Trajectory& trajectory) {
+  std::vector<FrameId> lost;
   for (std::size_t i = 0; i < trajectory.size(); ++i)
     if (!trajectory.poses[i].T_world_body) lost.push_back(map.frames[i].frame);
   return lost;

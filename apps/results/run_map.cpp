@@ -28,7 +28,7 @@ Place place_of(const json& entry, RunMap& map) {
                              pose_of(member.at("T_place_keyframe")),
                              member.at("scale").get<double>()});
     if (member.contains("frame"))
-      map.frame_of_keyframe[place.members.back().keyframe] = member.at("frame").get<std::int64_t>();
+      map.frame_of_keyframe[place.members.back().keyframe] = member.at("frame").get<FrameId>();
   }
   return place;
 }
@@ -50,7 +50,7 @@ void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
 
 }  // namespace
 
-std::int64_t RunMap::anchor_frame(const Place& place) const {
+FrameId RunMap::anchor_frame(const Place& place) const {
   const auto frame = frame_of_keyframe.find(place.anchor_keyframe);
   require(frame != frame_of_keyframe.end(),
           "place " + std::to_string(place.id) + " has no frame of its anchor");

@@ -112,7 +112,7 @@ UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, cons
   add_keyframes(
       mapper, map, options,
       [&](const Keyframe& keyframe) {
-        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame), sensor);
+        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame.value()), sensor);
         if (lens_k1 != 0) lens.apply(frame);
         return frame;
       },

@@ -21,7 +21,8 @@ struct Anchor {
 
 /// The map's frames with their true poses and places.
 struct PlacedFrame {
-  std::int64_t frame, place;
+  FrameId frame;
+  std::int64_t place;
   Isometry T_world_frame;
 };
 
@@ -33,11 +34,11 @@ double angle_between(const Isometry& a, const Isometry& b) {
   return rad_to_deg(rotation_angle(a.linear().transpose() * b.linear()));
 }
 
-const std::optional<Isometry>& true_pose(const Trajectory& truth, std::int64_t frame) {
-  require(frame >= 0 && frame < static_cast<std::int64_t>(truth.size()),
-          "place check: frame " + std::to_string(frame) + " is beyond the truth's " +
+const std::optional<Isometry>& true_pose(const Trajectory& truth, FrameId frame) {
+  require(frame.value() >= 0 && frame.value() < static_cast<std::int64_t>(truth.size()),
+          "place check: frame " + to_string(frame) + " is beyond the truth's " +
               std::to_string(truth.size()) + " poses");
-  return truth.poses[static_cast<std::size_t>(frame)].T_world_body;
+  return truth.poses[static_cast<std::size_t>(frame.value())].T_world_body;
 }
 
 std::vector<PlacedFrame> placed_frames(const Map& map, const Trajectory& truth) {
@@ -74,7 +75,7 @@ void count_pure_pairs(const Map& map, const Trajectory& truth, const PlaceCheckO
 void count_growth(const std::vector<PlacedFrame>& frames, const Trajectory& truth,
                   const PlaceCheckOptions& options, PlaceCheck& check) {
   const LoopTruth revisits = loop_truth_from_poses(truth, options.revisit);
-  std::map<std::int64_t, std::int64_t> place_of_frame;
+  std::map<FrameId, std::int64_t> place_of_frame;
   std::set<std::int64_t> founded_first, revisited, of_revisits;
   for (const PlacedFrame& frame : frames) {
     place_of_frame[frame.frame] = frame.place;
@@ -84,7 +85,7 @@ void count_growth(const std::vector<PlacedFrame>& frames, const Trajectory& trut
       continue;
     }
     of_revisits.insert(frame.place);
-    for (const std::int64_t match : query->second.matches)
+    for (const FrameId match : query->second.matches)
       if (const auto place = place_of_frame.find(match); place != place_of_frame.end())
         revisited.insert(place->second);
   }
@@ -97,7 +98,7 @@ std::set<std::pair<std::int64_t, std::int64_t>> true_adjacency(
     const PlaceCheckOptions& options) {
   std::set<std::pair<std::int64_t, std::int64_t>> pairs;
   const Anchor* before = nullptr;
-  std::int64_t last = -2;
+  std::optional<FrameId> last;
   for (const PlacedFrame& frame : frames) {
     const Anchor* nearest = nullptr;
     double least = options.max_distance_m;
@@ -109,7 +110,7 @@ std::set<std::pair<std::int64_t, std::int64_t>> true_adjacency(
       least = distance;
       nearest = &anchor;
     }
-    if (before && nearest && before != nearest && last + 1 == frame.frame)
+    if (before && nearest && before != nearest && last->value() + 1 == frame.frame.value())
       pairs.insert(std::minmax(before->place, nearest->place));
     before = nearest;
     last = frame.frame;

@@ -93,17 +93,18 @@ PlaceGraph driven_roads(const Trajectory& truth, const RouteCheckOptions& option
 }
 
 RouteCheck check_routes(const PlaceGraph& graph,
-                        const std::map<std::int64_t, std::int64_t>& frame_of_place,
+                        const std::map<std::int64_t, FrameId>& frame_of_place,
                         const Trajectory& truth, const RouteCheckOptions& options) {
   const PlaceGraph roads = driven_roads(truth, options);
   PlaceGraph true_graph = graph;
   for (Place& place : true_graph.places) {
     const auto frame = frame_of_place.find(place.id);
-    const bool known = frame != frame_of_place.end() && frame->second >= 0 &&
-                       frame->second < static_cast<std::int64_t>(truth.size()) &&
-                       truth.poses[static_cast<std::size_t>(frame->second)].T_world_body;
+    const bool known = frame != frame_of_place.end() && frame->second.value() >= 0 &&
+                       frame->second.value() < static_cast<std::int64_t>(truth.size()) &&
+                       truth.poses[static_cast<std::size_t>(frame->second.value())].T_world_body;
     require(known, "place " + std::to_string(place.id) + " has no true pose");
-    place.T_map_place = SE3(*truth.poses[static_cast<std::size_t>(frame->second)].T_world_body);
+    place.T_map_place =
+        SE3(*truth.poses[static_cast<std::size_t>(frame->second.value())].T_world_body);
   }
   RouteCheck result;
   std::vector<double> excesses, detours, length_errors;
@@ -116,7 +117,8 @@ RouteCheck check_routes(const PlaceGraph& graph,
     }
     ++result.pairs;
     const Route best = shortest_route(true_graph, from, to);
-    const Route driven = shortest_route(roads, frame_of_place.at(from), frame_of_place.at(to));
+    const Route driven =
+        shortest_route(roads, frame_of_place.at(from).value(), frame_of_place.at(to).value());
     const double length = true_length(way, true_graph);
     if (same_places(way, best)) ++result.same_places;
     if (!(best.length_m() > 0 && driven.length_m() > 0)) continue;

@@ -66,7 +66,7 @@ void MapReader::read_keyframes() {
   while (rows.next()) {
     Keyframe& keyframe = stored_.map.keyframes.emplace_back();
     keyframe.id = rows.integer(0, 0);
-    keyframe.frame = rows.integer(1, 0);
+    keyframe.frame = FrameId(rows.integer(1, 0));
     keyframe.stamp_ns = rows.integer(2);
     keyframe.place = rows.integer(3, 0);
     keyframe.T_place_keyframe = pose_column(rows, 4, "T_place_keyframe");
@@ -204,7 +204,7 @@ void MapReader::read_frames() {
   while (rows.next()) {
     require_next(rows, map.frames.size());
     FrameRecord record;
-    record.frame = rows.integer(1, 0);
+    record.frame = FrameId(rows.integer(1, 0));
     record.stamp_ns = rows.integer(2);
     record.keyframe = rows.integer(3, -1);
     record.inliers = static_cast<int>(rows.integer(5, 0, kMost));
@@ -240,8 +240,8 @@ void MapReader::read_loops() {
   while (rows.next()) {
     require_next(rows, stored_.map.loops.size());
     LoopRecord& loop = stored_.map.loops.emplace_back();
-    loop.query_frame = rows.integer(1, 0);
-    loop.match_frame = rows.integer(2, 0);
+    loop.query_frame = FrameId(rows.integer(1, 0));
+    loop.match_frame = FrameId(rows.integer(2, 0));
     loop.inliers = static_cast<int>(rows.integer(3, 0, kMost));
     loop.T_match_query = pose_column(rows, 6, "T_match_query");
     const auto model = loop_model(rows.text(7));

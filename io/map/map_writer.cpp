@@ -65,7 +65,7 @@ void MapWriter::put_keyframes(const MapChanges& changes) {
               "map: place " + std::to_string(place.id) + " has keyframe " +
                   std::to_string(member.keyframe) + ", which is not there");
       keyframes.put(member.keyframe, MapRow()
-                                         .integer(times->second.first)
+                                         .integer(times->second.first.value())
                                          .integer(times->second.second)
                                          .integer(place.id)
                                          .pose(member.T_place_keyframe)
@@ -77,7 +77,7 @@ void MapWriter::put_frames(const MapChanges& changes) {
   auto number = static_cast<std::int64_t>(changes.first_frame);
   for (const FrameRecord& record : changes.frames) {
     MapRow row;
-    row.integer(record.frame).integer(record.stamp_ns).integer(record.keyframe);
+    row.integer(record.frame.value()).integer(record.stamp_ns).integer(record.keyframe);
     record.T_keyframe_frame ? row.pose(*record.T_keyframe_frame) : row.null();
     row.integer(record.inliers);
     frames.write(number++, row);
@@ -94,8 +94,8 @@ void MapWriter::put_frames(const MapChanges& changes) {
   number = 0;
   for (const LoopRecord& loop : changes.loops)
     loops.put(number++, MapRow()
-                            .integer(loop.query_frame)
-                            .integer(loop.match_frame)
+                            .integer(loop.query_frame.value())
+                            .integer(loop.match_frame.value())
                             .integer(loop.inliers)
                             .integer(loop.accepted())
                             .text(to_string(loop.stage))

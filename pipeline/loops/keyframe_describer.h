@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/measurements/frame.h>
 #include <placegraph/pipeline/loops/loop_options.h>
 
@@ -9,7 +10,8 @@ namespace placegraph {
 
 /// A keyframe as place recognition and loop verification see it.
 struct DescribedKeyframe {
-  std::int64_t keyframe, frame;
+  std::int64_t keyframe;
+  FrameId frame;
   std::vector<Feature> features;
   std::vector<LineFeature> lines;  ///< not those of a map that was read
   LoopView for_verification() const { return {features, lines}; }

@@ -51,9 +51,10 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve() const {
       views_.size() < 2 ? 0
                         : database_.similarity(query.features, views_[views_.size() - 2].keyframe);
   std::vector<Candidate> candidates;
-  for (const PlaceCandidate& candidate : database_.query(
-           query.features, options_.candidates,
-           [&](std::int64_t id) { return query.frame - view(id).frame >= options_.min_frame_gap; }))
+  for (const PlaceCandidate& candidate :
+       database_.query(query.features, options_.candidates, [&](std::int64_t id) {
+         return query.frame.value() - view(id).frame.value() >= options_.min_frame_gap;
+       }))
     candidates.push_back(
         {&view(candidate.id), similarity_to_last > 0 ? candidate.score / similarity_to_last : 1});
   return candidates;
@@ -63,7 +64,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve() const {
 std::optional<Loop> LoopCloser::verify(const View& match, bool free_scale,
                                        LoopRecord& record) const {
   const View& query = views_.back();
-  Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | match.keyframe);
+  Random random(seed_, static_cast<std::uint64_t>(query.frame.value()) << 20 | match.keyframe);
   const LoopVerification verified =
       verify_loop(describer_.camera(), query.for_verification(), match.for_verification(),
                   options_.verifier, random, free_scale);
@@ -170,7 +171,7 @@ std::optional<Loop> LoopCloser::relocalize(const Frame& frame,
        database_.query(features, options_.candidates, [](std::int64_t) { return true; }))
     if (std::find(tries.begin(), tries.end(), c.id) == tries.end()) tries.push_back(c.id);
   for (const std::int64_t id : tries) {
-    Random random(seed_, static_cast<std::uint64_t>(frame.id) << 20 | id);
+    Random random(seed_, static_cast<std::uint64_t>(frame.id.value()) << 20 | id);
     const LoopVerification verified = verify_loop(
         describer_.camera(), features, view(id).for_verification(), options_.verifier, random);
     // No second loop stands beside this one: two views and a few depths are not enough.

@@ -47,23 +47,21 @@ void place_frame(const Map& map, const FrameRecord& record, Explanation& told) {
 
 }  // namespace
 
-std::optional<Explanation> explain_frame(const Map& map, std::int64_t frame) {
+std::optional<Explanation> explain_frame(const Map& map, FrameId frame) {
   const auto record =
       std::lower_bound(map.frames.begin(), map.frames.end(), frame,
-                       [](const FrameRecord& r, std::int64_t id) { return r.frame < id; });
+                       [](const FrameRecord& r, FrameId id) { return r.frame < id; });
   if (record == map.frames.end() || record->frame != frame) return std::nullopt;
   Explanation told;
   told.frame = record->frame;
   told.stamp_ns = record->stamp_ns;
   told.inliers = record->inliers;
-  std::int64_t frame_of_keyframe = frame;
+  FrameId frame_of_keyframe = frame;
   if (record->T_keyframe_frame) {
     place_frame(map, *record, told);
     frame_of_keyframe = map.find_keyframe(record->keyframe)->frame;
   }
-  const auto about = [&](std::int64_t other) {
-    return other == frame || other == frame_of_keyframe;
-  };
+  const auto about = [&](FrameId other) { return other == frame || other == frame_of_keyframe; };
   for (const LoopRecord& loop : map.loops) {
     if (loop.accepted() && (about(loop.query_frame) || about(loop.match_frame)))
       told.loops.push_back(loop);

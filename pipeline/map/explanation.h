@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 
 #include <map>
@@ -10,7 +11,8 @@ namespace placegraph {
 
 /// What a map tells of one frame.
 struct Explanation {
-  std::int64_t frame = 0, stamp_ns = 0;
+  FrameId frame;
+  std::int64_t stamp_ns = 0;
   bool posed = false;
 
   // Where it is; of a posed frame.
@@ -35,6 +37,6 @@ struct Explanation {
 };
 
 /// Nothing if the map has no such frame.
-std::optional<Explanation> explain_frame(const Map& map, std::int64_t frame);
+std::optional<Explanation> explain_frame(const Map& map, FrameId frame);
 
 }  // namespace placegraph

@@ -54,7 +54,7 @@ StoredMap learn_map(std::size_t count, const std::function<Image(std::size_t)>& 
     places.back().members.push_back({id, SE3(), 1});
     Keyframe keyframe;
     keyframe.id = id;
-    keyframe.frame = first + id;
+    keyframe.frame = FrameId(first + id);
     keyframe.stamp_ns = first + id;
     keyframe.place = places.back().id;
     keyframe.view = views[i];

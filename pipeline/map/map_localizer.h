@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/recognition_odds.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/loops/loop_closer.h>
 
@@ -24,7 +25,8 @@ void visit(OptionVisitor& field, LocalizerOptions& options);
 /// Where an image was taken, or why that is not said.
 struct Localization {
   bool placed = false;
-  std::int64_t place = -1, keyframe = -1, frame = -1;  ///< of the map; the best guess if refused
+  std::int64_t place = -1, keyframe = -1;  ///< of the map; the best guess if refused
+  std::optional<FrameId> frame;
   double probability = 0;
   /// The test that decided: "geometry" and "appearance" of placed ones; of others "blank" (there is
   /// nothing to compare), "calibration" (the map's views do not tell how wrong answers look),

@@ -65,7 +65,7 @@ Initialization LineViewInitializer::add(const Frame& frame, const std::optional<
   if (views_.size() > kMostViews) views_.erase(views_.begin() + 1);
   const Initialization waits = Initialization::waiting("waits for more views of the lines");
   if (views_.size() < kLeastViews) return waits;
-  const LineInitialization start = motion_of_views(static_cast<std::uint64_t>(frame.id));
+  const LineInitialization start = motion_of_views(static_cast<std::uint64_t>(frame.id.value()));
   const std::vector<double> depths = depths_of(start);
   if (!start.outcome || depths.empty()) {
     log(log_, LogLevel::kDebug, "initialization waits: {}", start.outcome.reason);

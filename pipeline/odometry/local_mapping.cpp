@@ -45,7 +45,7 @@ void LocalMapping::assume(const std::optional<Assumptions>& assumptions) {
 
 std::optional<LocalMapping::Added> LocalMapping::add(const Frame& frame, const SE3& T_odom_cam,
                                                      FrameTracker& tracker, LocalMap& map) {
-  Random random(seed_, frame.id);
+  Random random(seed_, static_cast<std::uint64_t>(frame.id.value()));
   const KeyframeImages images = masks_.apply(frame);
   const auto T_odom_keyframe = tracker.prepare_keyframe(images, T_odom_cam, map, random);
   if (!T_odom_keyframe) return std::nullopt;

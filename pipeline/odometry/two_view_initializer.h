@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/odometry/initializer.h>
 #include <placegraph/pipeline/tracking/feature_tracker.h>
 
@@ -20,7 +21,7 @@ class TwoViewInitializer : public Initializer {
 
  private:
   struct View {
-    std::int64_t frame;
+    FrameId frame;
     std::map<std::int64_t, Eigen::Vector2d> px;  // of its tracks
   };
   Initialization begin(const Frame& frame, LocalMapping& mapping);
@@ -38,7 +39,7 @@ class TwoViewInitializer : public Initializer {
                                    const std::optional<PureRotation>& rotation, LocalMap& map,
                                    LocalMapping& mapping);
   std::string too_few_points() const;
-  View view_of(std::int64_t frame) const;
+  View view_of(FrameId frame) const;
 
   OdometryOptions options_;
   Camera camera_;

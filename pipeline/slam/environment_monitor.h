@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/scene/environment.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/measurements/frame.h>
 
@@ -11,7 +12,8 @@ namespace placegraph {
 
 /// What one keyframe says of its surroundings.
 struct EnvironmentSight {
-  std::int64_t keyframe = 0, frame = 0;
+  std::int64_t keyframe = 0;
+  FrameId frame;
   EnvironmentEvidence evidence;
   std::array<double, kEnvironmentCount> probabilities{};  ///< by this view alone
   std::optional<Environment> kind;                        ///< with those before it

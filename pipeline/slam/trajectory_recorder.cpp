@@ -25,10 +25,10 @@ void TrajectoryRecorder::finish(const std::optional<SE3>& T_map_cam) {
 }
 
 /// To be changed; null for a frame that has none.
-FrameRecord* TrajectoryRecorder::record_of(std::int64_t frame) {
+FrameRecord* TrajectoryRecorder::record_of(FrameId frame) {
   const auto record =
       std::lower_bound(records_.begin(), records_.end(), frame,
-                       [](const FrameRecord& r, std::int64_t id) { return r.frame < id; });
+                       [](const FrameRecord& r, FrameId id) { return r.frame < id; });
   if (record == records_.end() || record->frame != frame) return nullptr;
   first_changed_ =
       std::min(first_changed_, static_cast<std::size_t>(std::distance(records_.begin(), record)));
@@ -72,7 +72,7 @@ void TrajectoryRecorder::begin_at_origin(bool rotated) {
   origins_.push_back(records_.size() - 1);
 }
 
-void TrajectoryRecorder::take_up(const Map& map, std::int64_t last_frame) {
+void TrajectoryRecorder::take_up(const Map& map, FrameId last_frame) {
   for (const Keyframe& keyframe : map.keyframes) {
     frames_[keyframe.id] = keyframe.frame;
     stamps_ns_[keyframe.id] = keyframe.stamp_ns;

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/measurements/frame.h>
@@ -44,21 +45,22 @@ class TrajectoryRecorder {
   bool newest_has_keyframe() const { return records_.back().keyframe >= 0; }
   const std::vector<FrameRecord>& records() const { return records_; }
   const Trajectory& online() const { return online_; }
-  std::int64_t frame_of(std::int64_t keyframe) const { return frames_.at(keyframe); }
+  FrameId frame_of(std::int64_t keyframe) const { return frames_.at(keyframe); }
   std::int64_t stamp_ns_of(std::int64_t keyframe) const { return stamps_ns_.at(keyframe); }
 
   /// Records from this one on have changed since they were told last.
   std::size_t first_changed() const { return first_changed_; }
   void tell_all() { first_changed_ = records_.size(); }
   /// Takes over the frames of a saved map up to `last_frame`.
-  void take_up(const Map& map, std::int64_t last_frame);
+  void take_up(const Map& map, FrameId last_frame);
 
  private:
-  FrameRecord* record_of(std::int64_t frame);
+  FrameRecord* record_of(FrameId frame);
 
   std::vector<FrameRecord> records_;
   Trajectory online_;
-  std::map<std::int64_t, std::int64_t> frames_, stamps_ns_;  // of keyframes
+  std::map<std::int64_t, FrameId> frames_;          // of keyframes
+  std::map<std::int64_t, std::int64_t> stamps_ns_;  // of keyframes
   std::vector<std::size_t> origins_;
   std::size_t first_changed_ = 0;
 };

@@ -12,13 +12,13 @@ void IntermediateFrames::correct_drift(const std::map<std::int64_t, Eigen::Vecto
         px += static_cast<double>(k + 1) / steps * drift->second;
 }
 
-std::vector<std::pair<std::int64_t, SE3>> IntermediateFrames::repose(const LocalMap& map,
-                                                                     std::int64_t keyframe,
-                                                                     double scale) {
+std::vector<std::pair<FrameId, SE3>> IntermediateFrames::repose(const LocalMap& map,
+                                                                std::int64_t keyframe,
+                                                                double scale) {
   constexpr int kIterations = 10;
   constexpr double kSigmaPx = 1;  // of a track
   const SlidingWindow& window = map.window();
-  std::vector<std::pair<std::int64_t, SE3>> posed;
+  std::vector<std::pair<FrameId, SE3>> posed;
   for (const Tracked& frame : frames_) {
     std::vector<Eigen::Vector3d> points;
     std::vector<Eigen::Vector2d> px;

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/surface_labels.h>
 #include <placegraph/pipeline/local_map/local_map.h>
 
@@ -26,7 +27,7 @@ struct PureRotation {
 };
 
 /// A frame that is posed after it was handed over: id and T_odom_cam.
-using PosedFrame = std::pair<std::int64_t, SE3>;
+using PosedFrame = std::pair<FrameId, SE3>;
 
 /// What one frame brought.
 struct OdometryUpdate {

@@ -33,7 +33,7 @@ struct Replay {
 Replay replay_places(const Map& map, const WayBack& back) {
   Replay replay;
   for (const auto& [place, frame] : test::frames_of_places(map)) {
-    replay.views[place] = back.view_at(frame);
+    replay.views[place] = back.view_at(frame.value());
     replay.recognitions[place] = back.recognize(replay.views[place]);
   }
   return replay;

@@ -100,8 +100,8 @@ TEST(WayBackThroughARenderedTown, IsTheShortestAndEveryPlaceOnItIsRecognized) {
   const test::WayBack replay(run.map, memory, dataset, run.sensor, kMapFrames);
   int other_passes = 0;
   for (const auto& [place, frame] : frames) {
-    const test::ViewOnTheWay view = replay.view_at(frame);
-    EXPECT_NE(view.frame, frame);
+    const test::ViewOnTheWay view = replay.view_at(frame.value());
+    EXPECT_NE(FrameId(view.frame), frame);
     other_passes += view.another_pass;
     const Recognition seen = replay.recognize(view);
     EXPECT_EQ(seen.result, Recognition::Result::kRight)

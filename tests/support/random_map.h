@@ -86,7 +86,7 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
     const std::int64_t anchor = id;
     for (int k = 0; k <= random.index(3); ++k, ++id) {
       Keyframe keyframe{id,
-                        3 * id + 1,
+                        FrameId(3 * id + 1),
                         1000 * id,
                         p,
                         k == 0 ? SE3() : random_pose(random),
@@ -123,8 +123,8 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
     map.place_graph.constraints.push_back(edge);
   }
   for (std::int64_t f = 0; f < 3 * id; ++f) {
-    FrameRecord record{f, 100 * f, f / 3, random_pose(random), static_cast<int>(17 * f)};
-    if (f % 7 == 5) record = {f, 100 * f, -1, std::nullopt, 0};
+    FrameRecord record{FrameId(f), 100 * f, f / 3, random_pose(random), static_cast<int>(17 * f)};
+    if (f % 7 == 5) record = {FrameId(f), 100 * f, -1, std::nullopt, 0};
     map.frames.push_back(record);
     StampedPose& online = map.trajectory_online.poses.emplace_back();
     online.stamp_ns = 100 * f;
@@ -133,9 +133,9 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   for (int l = 0; l < 2500; ++l)
     map.landmarks.push_back(
         {l, random.index(static_cast<int>(id)), Eigen::Vector3d::Random(), random.index(9)});
-  map.loops.push_back(
-      {9, 1, 33, LoopStage::kAccepted, random_pose(random), LoopModel::kPoints3d2d, 4, 0.7, 0.9});
-  map.loops.push_back({10, 2, 0, LoopStage::kGeometry, {}});
+  map.loops.push_back({FrameId(9), FrameId(1), 33, LoopStage::kAccepted, random_pose(random),
+                       LoopModel::kPoints3d2d, 4, 0.7, 0.9});
+  map.loops.push_back({FrameId(10), FrameId(2), 0, LoopStage::kGeometry, {}});
   stored.history.loops.push_back(
       {id - 1, 0, random_pose(random), random_information<7>(random), 1});
   stored.history.founded = places + 2;

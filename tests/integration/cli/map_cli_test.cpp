@@ -50,7 +50,7 @@ class MapCli : public test::CliTest {
     });
     std::erase_if(map.keyframes, [&](const Keyframe& k) { return k.id > last; });
     std::erase_if(map.landmarks, [&](const PointLandmark& l) { return l.keyframe > last; });
-    const std::int64_t frame = map.keyframes.back().frame;
+    const FrameId frame = map.keyframes.back().frame;
     std::erase_if(map.frames, [&](const FrameRecord& r) { return r.frame > frame; });
     map.trajectory_online.poses.resize(map.frames.size());
     std::erase_if(map.loops, [&](const LoopRecord& l) { return l.query_frame > frame; });

@@ -45,7 +45,7 @@ struct PairBeginning : Beginning<TwoViewInitializer> {
   }
   Initialization add(std::int64_t id, const Image& image) {
     Frame frame;
-    frame.id = id;
+    frame.id = FrameId(id);
     frame.stamp_ns = 100'000'000 * id;
     frame.image = image;
     return Beginning::add(frame);

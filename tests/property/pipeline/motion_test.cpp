@@ -115,8 +115,8 @@ struct Walk {
       map.add_keyframe((T_odom_world * T_world_cam[k]).scaled(1 / unit));
       map.update_poses({}, false);
       Frame frame;
-      frame.id = static_cast<std::int64_t>(k);
-      frame.stamp_ns = frame.id * kSecond;
+      frame.id = FrameId(k);
+      frame.stamp_ns = frame.id.value() * kSecond;
       if (const auto rescale = scale.measure({frame, {}, nullptr}, {}, map)) return rescale->factor;
     }
     ADD_FAILURE() << "no scale";
@@ -167,8 +167,8 @@ struct Recording {
     for (std::size_t i = 0; i < T_world_frame.size(); ++i) {
       T_odom_frame.push_back((T_odom_world * T_world_frame[i]).scaled(1 / unit));
       Frame frame;
-      frame.id = static_cast<std::int64_t>(i);
-      frame.stamp_ns = frame.id * kSecond;
+      frame.id = FrameId(i);
+      frame.stamp_ns = frame.id.value() * kSecond;
       recorder.begin(frame);
       if (i % 3 == 0) {
         keyframe = map.add_keyframe(T_odom_frame.back());

@@ -40,8 +40,7 @@ struct Between {
   }
   /// Poses of the frames where the keyframe stands at T_odom_keyframe and lengths have grown by
   /// `grown` since they were tracked.
-  std::vector<std::pair<std::int64_t, SE3>> repose(const SE3& T_odom_keyframe,
-                                                   double grown = 1) const {
+  std::vector<std::pair<FrameId, SE3>> repose(const SE3& T_odom_keyframe, double grown = 1) const {
     LocalMap map({}, camera, Scale::kArbitrary);
     map.add_keyframe(T_odom_keyframe);
     map.add_keyframe(T_odom_keyframe * pose({0, 0, 0}, {0, 0, 1}));
@@ -50,7 +49,7 @@ struct Between {
                                 T_odom_keyframe * (grown * points[i]));
     IntermediateFrames frames({}, camera);
     for (std::size_t f = 0; f < px.size(); ++f)
-      frames.remember({static_cast<std::int64_t>(f), thought[f], px[f], std::nullopt});
+      frames.remember({FrameId(f), thought[f], px[f], std::nullopt});
     return frames.repose(map, 0, grown);
   }
 };

@@ -12,7 +12,8 @@ inline Map posed_map(const std::vector<SE3>& poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
     Keyframe keyframe;
-    keyframe.id = id, keyframe.frame = id, keyframe.place = id, keyframe.stamp_ns = 100 * id;
+    keyframe.id = id, keyframe.frame = FrameId(id), keyframe.place = id,
+    keyframe.stamp_ns = 100 * id;
     map.keyframes.push_back(keyframe);
     Place place;
     place.id = id, place.anchor_keyframe = id, place.T_map_place = poses[i];

@@ -16,10 +16,11 @@ Map map_of(const std::vector<int>& places, const std::vector<int>& components) {
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
-    FrameRecord frame{id, 10 * id, -1, std::nullopt, 0};
+    FrameRecord frame{FrameId(id), 10 * id, -1, std::nullopt, 0};
     if (places[i] >= 0) {
       Keyframe keyframe;
-      keyframe.id = keyframe.frame = id;
+      keyframe.id = id;
+      keyframe.frame = FrameId(id);
       keyframe.place = places[i];
       map.keyframes.push_back(keyframe);
       frame.keyframe = id;

@@ -58,7 +58,7 @@ TEST_F(LocalizeCommand, PlacesImagesWhereTheMapLooksLikeThem) {
   EXPECT_FALSE(result.no_answer);
   for (int i = 0; i < 6; ++i) {
     EXPECT_EQ(result.answers[static_cast<std::size_t>(i)].stage, "appearance");
-    EXPECT_NEAR(static_cast<double>(result.answers[static_cast<std::size_t>(i)].frame),
+    EXPECT_NEAR(static_cast<double>(result.answers[static_cast<std::size_t>(i)].frame->value()),
                 frame_of(i) + 0.5, 2)
         << i;
   }

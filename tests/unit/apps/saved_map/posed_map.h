@@ -24,7 +24,7 @@ inline StoredMap posed_map(const SyntheticWorld& world, const std::string& seque
     if (frame % step == 0) {
       Keyframe keyframe;
       keyframe.id = keyframe.place = id;
-      keyframe.frame = frame;
+      keyframe.frame = FrameId(frame);
       keyframe.stamp_ns = truth.poses[i].stamp_ns;
       map.keyframes.push_back(keyframe);
       Place place;
@@ -35,7 +35,7 @@ inline StoredMap posed_map(const SyntheticWorld& world, const std::string& seque
     }
     const SE3 T_map_keyframe = map.place_graph.places.back().T_map_place;
     map.frames.push_back(
-        {frame, truth.poses[i].stamp_ns, id, T_map_keyframe.inverse() * T_map_cam, 50});
+        {FrameId(frame), truth.poses[i].stamp_ns, id, T_map_keyframe.inverse() * T_map_cam, 50});
   }
   map.trajectory_online = truth;
   return stored;

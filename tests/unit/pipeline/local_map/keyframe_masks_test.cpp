@@ -37,7 +37,7 @@ std::shared_ptr<const SceneEye> labeller() {
 
 Frame frame_of(std::int64_t id) {
   Frame frame;
-  frame.id = id;
+  frame.id = FrameId(id);
   frame.image = Image(kHeight, kWidth, CV_8UC1);
   for (int v = 0; v < kHeight; ++v)
     for (int u = 0; u < kWidth; ++u)
@@ -120,7 +120,7 @@ TEST(KeyframeMasks, AFrameIsLabelledOnce) {
   EXPECT_EQ(masks.apply(frame_of(1)).labels, first);
   const auto second = masks.apply(frame_of(2)).labels;
   EXPECT_NE(second, first);
-  EXPECT_EQ(second->frame, 2);
+  EXPECT_EQ(second->frame, FrameId(2));
 }
 
 TEST(KeyframeMasks, AModelOfSurfacesIsNeeded) {

@@ -32,7 +32,7 @@ struct Walk {
     map.add_keyframe(SE3(SO3(), Eigen::Vector3d(0, 0, unit * k)));
     map.update_poses({}, false);
     Frame frame;
-    frame.id = k;
+    frame.id = FrameId(k);
     frame.stamp_ns = k * kSecond;
     return scale.measure({frame, {}, nullptr}, {}, map);
   }
@@ -113,7 +113,7 @@ TEST(MetricScale, LawTheUnitOfTheMapChangesTheFactorAlone) {
       walk.map.add_keyframe(SE3(SO3(), Eigen::Vector3d(0, 0, unit * k)));
       walk.map.update_poses({}, false);
       Frame frame;
-      frame.id = k;
+      frame.id = FrameId(k);
       frame.stamp_ns = k * kSecond;
       rescale = walk.scale.measure({frame, {}, nullptr}, {}, walk.map);
     }

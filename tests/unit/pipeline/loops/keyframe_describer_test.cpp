@@ -32,7 +32,7 @@ TEST(KeyframeDescriber, ADepthImagePlacesTheFeaturesThatItCovers) {
   const auto keyframe =
       describer_of(Sensor::kRgbd).describe(7, street_of(true).frame(0, Sensor::kRgbd), {});
   EXPECT_EQ(keyframe.keyframe, 7);
-  EXPECT_EQ(keyframe.frame, 0);
+  EXPECT_EQ(keyframe.frame, FrameId(0));
   EXPECT_LT(off_the_street(keyframe, street_T_world_cam(0)), 0.02);
   EXPECT_GT(farthest_depth(keyframe), 10);
   EXPECT_LT(farthest_depth(keyframe), 40);

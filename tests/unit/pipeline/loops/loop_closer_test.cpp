@@ -30,7 +30,7 @@ class LoopCloserOnAStreet : public testing::Test {
   }
   static Frame frame(int keyframe) {
     Frame frame;
-    frame.id = keyframe < kFirst ? keyframe : 100 + keyframe;
+    frame.id = FrameId(keyframe < kFirst ? keyframe : 100 + keyframe);
     frame.image = image(keyframe);
     return frame;
   }
@@ -49,8 +49,8 @@ class LoopCloserOnAStreet : public testing::Test {
   static std::string stages(const LoopCloser& closer) {
     std::string text;
     for (const LoopRecord& r : closer.records())
-      text += std::to_string(r.query_frame) + "-" + std::to_string(r.match_frame) + " " +
-              to_string(r.stage) + " " + std::to_string(r.inliers) + "; ";
+      text += to_string(r.query_frame) + "-" + to_string(r.match_frame) + " " + to_string(r.stage) +
+              " " + std::to_string(r.inliers) + "; ";
     return text;
   }
   static SE3 T_previous_this(int k, double unit_m) {

@@ -47,9 +47,9 @@ TEST(MapLearner, EveryImageIsAKeyframeWithItsViewAndNoPose) {
     const auto id = static_cast<std::int64_t>(i);
     const Keyframe& keyframe = stored.map.keyframes[i];
     EXPECT_EQ(keyframe.id, id);
-    EXPECT_EQ(keyframe.frame, 100 + id);
+    EXPECT_EQ(keyframe.frame, FrameId(100 + id));
     EXPECT_FALSE(keyframe.view.empty());
-    EXPECT_EQ(stored.map.frames[i].frame, 100 + id);
+    EXPECT_EQ(stored.map.frames[i].frame, FrameId(100 + id));
     EXPECT_EQ(stored.map.frames[i].keyframe, id);
     EXPECT_FALSE(stored.map.frames[i].T_keyframe_frame);
     EXPECT_FALSE(stored.map.trajectory_online.poses[i].T_world_body);

@@ -47,7 +47,7 @@ TEST(MapLocalizer, PlacesViewsInTheirRoom) {
   for (std::size_t i = 0; i < kRooms; ++i) {
     ASSERT_TRUE(found[i].placed) << i << " " << found[i].stage << " " << found[i].probability;
     EXPECT_EQ(found[i].keyframe / kRoom, static_cast<std::int64_t>(i));
-    EXPECT_EQ(found[i].frame, 1000 + found[i].keyframe);
+    EXPECT_EQ(found[i].frame, FrameId(1000 + found[i].keyframe));
     EXPECT_EQ(found[i].place, stored.map.find_keyframe(found[i].keyframe)->place);
     EXPECT_EQ(found[i].stage, "appearance");
     EXPECT_FALSE(found[i].T_map_cam);
@@ -133,7 +133,8 @@ struct StreetMap {
     for (int i = 0; i < kFrames; ++i) {
       const Frame frame = dataset.frame(static_cast<std::size_t>(i), Sensor::kRgbd);
       Keyframe keyframe;
-      keyframe.id = keyframe.frame = keyframe.place = i;
+      keyframe.id = keyframe.place = i;
+      keyframe.frame = FrameId(i);
       keyframe.features = describer.describe(i, frame, {}).features;
       keyframe.view = describe_place(frame.image, {}, false);
       stored.map.keyframes.push_back(keyframe);

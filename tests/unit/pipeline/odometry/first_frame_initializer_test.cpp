@@ -33,7 +33,7 @@ struct Beginning {
   }
   Initialization add(std::int64_t id, const std::optional<SE3>& T_odom_cam_known = {}) {
     Frame frame;
-    frame.id = id;
+    frame.id = FrameId(id);
     return initializer.add(frame, T_odom_cam_known, map, mapping);
   }
 };
@@ -44,7 +44,7 @@ TEST(FirstFrameInitializer, BeginsWithItsFirstFrameWhereItWasToldTo) {
   EXPECT_EQ(begun.state, TrackingState::kTracking);
   ASSERT_EQ(begun.keyframes.size(), 1u);
   EXPECT_EQ(begun.keyframes[0].id, 0);
-  EXPECT_EQ(begun.keyframes[0].frame.id, 5);
+  EXPECT_EQ(begun.keyframes[0].frame.id, FrameId(5));
   EXPECT_TRUE(begun.posed.empty());
   EXPECT_FALSE(begun.T_last_cur);  // a single frame shows no velocity
   EXPECT_LT((b.map.pose(0).inverse() * b.T_odom_start).log().norm(), 1e-12);
@@ -100,7 +100,7 @@ TEST(Initialization, IsAnUpdateOfTheOdometry) {
   waits.is_reference = true;
   waits.T_odom_reference = SE3(SO3(), Eigen::Vector3d(1, 2, 3));
   waits.rotation = PureRotation{SO3::exp({0, 0.1, 0}), Eigen::Matrix3d::Identity()};
-  waits.posed = {{3, SE3()}};
+  waits.posed = {{FrameId(3), SE3()}};
   const OdometryUpdate update = waits.update();
   EXPECT_EQ(update.state, TrackingState::kWaiting);
   EXPECT_EQ(update.reason, "too dark");

@@ -47,7 +47,7 @@ struct Mapping {
   }
   std::optional<LocalMapping::Added> add(int k, const SE3& T_odom_cam) {
     Frame frame;
-    frame.id = k;
+    frame.id = FrameId(k);
     frame.stamp_ns = k * kSecond;
     return mapping->add(frame, T_odom_cam, tracker, *map);
   }
@@ -76,7 +76,7 @@ TEST(LocalMapping, AKeyframePassesThroughAllItsSteps) {
   const auto added = m.add(4, pose_of(0));
   ASSERT_TRUE(added);
   EXPECT_EQ(added->keyframe.id, 0);
-  EXPECT_EQ(added->keyframe.frame.id, 4);
+  EXPECT_EQ(added->keyframe.frame.id, FrameId(4));
   EXPECT_EQ(added->posed_again.size(), 1u);
   EXPECT_FALSE(added->rescale);
   EXPECT_EQ(m.tracker.asked, (Calls{"prepare", "observe", "prune", "settle", "finish"}));

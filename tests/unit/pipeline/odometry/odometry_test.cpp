@@ -75,8 +75,8 @@ TEST(Odometry, AMonocularCameraWaitsForParallaxAndThenPosesTheFramesThatWaited) 
   for (; i < 12 && update.state != TrackingState::kTracking; ++i) update = run.add(i);
   ASSERT_EQ(update.state, TrackingState::kTracking);
   ASSERT_EQ(update.new_keyframes.size(), 2u);
-  EXPECT_EQ(update.new_keyframes[0].frame.id, 0);
-  EXPECT_EQ(update.new_keyframes[1].frame.id, i - 1);
+  EXPECT_EQ(update.new_keyframes[0].frame.id, FrameId(0));
+  EXPECT_EQ(update.new_keyframes[1].frame.id, FrameId(i - 1));
   EXPECT_EQ(update.posed_again.size(), static_cast<std::size_t>(i - 2));
   EXPECT_FALSE(run.odometry.map().metric());
   // The direction of the motion is that of the street.
@@ -97,12 +97,13 @@ TEST(Odometry, FramesBetweenTheTwoViewsArePosedByTheirPoints) {
   for (; i < 16 && update.state != TrackingState::kTracking; ++i)
     update = odometry.add_frame(slow.frame(i, Sensor::kMono));
   ASSERT_EQ(update.state, TrackingState::kTracking);
-  std::map<std::int64_t, SE3> posed;  // later ones are better than by the rotation alone
+  std::map<FrameId, SE3> posed;  // later ones are better than by the rotation alone
   for (const PosedFrame& frame : update.posed_again) posed[frame.first] = frame.second;
   ASSERT_GE(i, 4);
   for (int k = 1; k + 1 < i; ++k) {
-    ASSERT_TRUE(posed.contains(k)) << k;
-    const double share = posed[k].translation().norm() / update.T_odom_cam.translation().norm();
+    ASSERT_TRUE(posed.contains(FrameId(k))) << k;
+    const double share =
+        posed[FrameId(k)].translation().norm() / update.T_odom_cam.translation().norm();
     EXPECT_NEAR(share, static_cast<double>(k) / (i - 1), 0.15) << k;
   }
 }

@@ -21,7 +21,8 @@ Map two_places(bool scaled = false) {
     if (p == 1 && scaled) place.scale = 2;
     for (std::int64_t k = 2 * p; k < 2 * p + 2; ++k) {
       Keyframe keyframe;
-      keyframe.id = keyframe.frame = k;
+      keyframe.id = k;
+      keyframe.frame = FrameId(k);
       keyframe.stamp_ns = 100 * k;
       keyframe.place = place.id;
       keyframe.T_place_keyframe = pose({0, 0, 0}, {0, 0, k % 2 == 0 ? 0.0 : 0.5});

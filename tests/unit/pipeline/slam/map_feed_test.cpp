@@ -64,7 +64,7 @@ TEST(MapFeed, ASnapshotHoldsEveryPart) {
   ASSERT_EQ(map.keyframes.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(map.keyframes[k].id, static_cast<std::int64_t>(k));
-    EXPECT_EQ(map.keyframes[k].frame, static_cast<std::int64_t>(k));
+    EXPECT_EQ(map.keyframes[k].frame, FrameId(k));
     EXPECT_EQ(map.keyframes[k].stamp_ns, drive().stamp_ns(k));
     EXPECT_FALSE(map.keyframes[k].features.empty());
     EXPECT_FALSE(map.keyframes[k].view.empty());

@@ -38,7 +38,7 @@ struct Scene {
   KnownMap known() const { return {closer, mapper, recorder}; }
   static Frame dark(std::int64_t id) {
     Frame f;
-    f.id = id;
+    f.id = FrameId(id);
     f.stamp_ns = id * 1'000'000'000;
     f.image = Image::zeros(street_camera().height, street_camera().width, CV_8UC1);
     f.right = f.image;
@@ -88,7 +88,7 @@ TEST(TrackRecovery, BeginsANewComponentAfterTooManyLostFrames) {
   EXPECT_FALSE(scene.recovery.take_link(scene.odometry.map(), scene.mapper));
   const StreetDataset street(1);
   Frame seen = street.frame(0, Sensor::kStereo);
-  seen.id = 9;
+  seen.id = FrameId(9);
   const OdometryUpdate begun = scene.odometry.add_frame(seen);
   ASSERT_EQ(begun.state, TrackingState::kTracking);
   EXPECT_LT(error(begun.T_odom_cam, scene.T_map_keyframe), 1e-9);  // where the last pose was

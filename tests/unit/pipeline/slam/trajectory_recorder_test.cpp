@@ -6,7 +6,7 @@ namespace {
 
 Frame frame(std::int64_t id) {
   Frame f;
-  f.id = id;
+  f.id = FrameId(id);
   f.stamp_ns = 100 * id;
   return f;
 }
@@ -40,7 +40,7 @@ TEST(TrajectoryRecorder, KeepsFramesRelativeToTheirKeyframe) {
   EXPECT_NEAR(r.recorder.records()[4].T_keyframe_frame->translation().z(), 1, 1e-12);
   EXPECT_EQ(r.recorder.records()[4].inliers, 50);
   EXPECT_EQ(r.recorder.newest_keyframe(), 1);
-  EXPECT_EQ(r.recorder.frame_of(1), 3);
+  EXPECT_EQ(r.recorder.frame_of(1), FrameId(3));
   EXPECT_EQ(r.recorder.stamp_ns_of(1), 300);
 }
 
@@ -56,7 +56,7 @@ TEST(TrajectoryRecorder, FramesMustBeInOrder) {
 
 TEST(TrajectoryRecorder, ACorrectionStaysWithTheKeyframeOfItsSegment) {
   Recorded r;
-  r.recorder.correct({{1, along(1.25)}, {4, along(4.5)}}, 1, r.map);
+  r.recorder.correct({{FrameId(1), along(1.25)}, {FrameId(4), along(4.5)}}, 1, r.map);
   EXPECT_EQ(r.recorder.records()[1].keyframe, 0);
   EXPECT_NEAR(r.recorder.records()[1].T_keyframe_frame->translation().z(), 1.25, 1e-12);
   EXPECT_NEAR(r.recorder.records()[4].T_keyframe_frame->translation().z(), 1.5, 1e-12);
@@ -70,7 +70,7 @@ TEST(TrajectoryRecorder, FramesFromBeforeASegmentHangOnItsFirstKeyframe) {
   r.map.restart(Scale::kMetric, std::nullopt);
   const std::int64_t first = r.map.add_keyframe(along(10));
   r.map.update_poses({}, false);
-  r.recorder.correct({{2, along(8)}}, first, r.map);
+  r.recorder.correct({{FrameId(2), along(8)}}, first, r.map);
   EXPECT_EQ(r.recorder.records()[2].keyframe, first);
   EXPECT_NEAR(r.recorder.records()[2].T_keyframe_frame->translation().z(), -2, 1e-12);
 }
@@ -102,10 +102,10 @@ TEST(TrajectoryRecorder, TakesUpASavedMapUpToItsLastKeyframe) {
   map.frames = r.recorder.records();
   map.trajectory_online = r.recorder.online();
   Keyframe keyframe;
-  keyframe.id = 1, keyframe.frame = 3, keyframe.stamp_ns = 300;
+  keyframe.id = 1, keyframe.frame = FrameId(3), keyframe.stamp_ns = 300;
   map.keyframes.push_back(keyframe);
   TrajectoryRecorder next;
-  next.take_up(map, 3);
+  next.take_up(map, FrameId(3));
   EXPECT_EQ(next.records().size(), 4u);
   EXPECT_EQ(next.online().poses.size(), 4u);
   EXPECT_EQ(next.newest_keyframe(), 1);

@@ -145,7 +145,7 @@ TEST(DirectTracker, AfterALossTheLastPosedFrameMayHelpAsAKeyframe) {
   EXPECT_FALSE(t.tracker.track(dark, t.map, t.motion, t.random).outcome);
   const auto retry = t.tracker.keyframe_to_retry_from();
   ASSERT_TRUE(retry);
-  EXPECT_EQ(retry->id, 1);
+  EXPECT_EQ(retry->id, FrameId(1));
 }
 
 TEST(DirectTracker, AFrameWithoutSurfacesIsNoKeyframe) {

@@ -125,7 +125,8 @@ TEST(FeatureTracker, FramesSinceTheLastKeyframeArePosedOnceMore) {
   const auto posed = t.keyframe(3, last.T_odom_cam);
   EXPECT_EQ(posed.size(), static_cast<std::size_t>(between));
   for (const PosedFrame& frame : posed)
-    EXPECT_LT(error(frame.second, T_odom_world * street_T_world_cam(static_cast<int>(frame.first))),
+    EXPECT_LT(error(frame.second,
+                    T_odom_world * street_T_world_cam(static_cast<int>(frame.first.value()))),
               0.02);
 }
 

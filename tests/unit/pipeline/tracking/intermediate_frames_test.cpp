@@ -34,10 +34,10 @@ TEST(IntermediateFrames, ArePosedByTheLandmarksAsTheyAreKnownNow) {
   const Scene scene;
   IntermediateFrames frames = scene.frames();
   const SE3 wrong = scene.T_keyframe_cam * SE3(SO3::exp({0, 0.01, 0}), {0.1, 0.05, -0.1});
-  frames.remember({5, wrong, scene.px, std::nullopt});
+  frames.remember({FrameId(5), wrong, scene.px, std::nullopt});
   const auto posed = frames.repose(scene.map, 0, 1);
   ASSERT_EQ(posed.size(), 1u);
-  EXPECT_EQ(posed[0].first, 5);
+  EXPECT_EQ(posed[0].first, FrameId(5));
   EXPECT_LT((posed[0].second.inverse() * scene.T_odom_keyframe * scene.T_keyframe_cam).log().norm(),
             1e-6);
   EXPECT_TRUE(frames.repose(scene.map, 0, 1).empty());  // they are forgotten
@@ -46,7 +46,7 @@ TEST(IntermediateFrames, ArePosedByTheLandmarksAsTheyAreKnownNow) {
 TEST(IntermediateFrames, StayAsTheyWereWithoutEnoughLandmarks) {
   const Scene scene(11);  // 12 are needed
   IntermediateFrames frames = scene.frames();
-  frames.remember({5, scene.T_keyframe_cam, scene.px, std::nullopt});
+  frames.remember({FrameId(5), scene.T_keyframe_cam, scene.px, std::nullopt});
   EXPECT_TRUE(frames.repose(scene.map, 0, 1).empty());
 }
 
@@ -54,7 +54,7 @@ TEST(IntermediateFrames, BeginWithinReachAfterTheMapHasBeenRescaled) {
   const Scene scene;
   IntermediateFrames frames = scene.frames();
   // When it was remembered, lengths were a hundred times as long: beyond all landmarks.
-  frames.remember({5, scene.T_keyframe_cam.scaled(100), scene.px, std::nullopt});
+  frames.remember({FrameId(5), scene.T_keyframe_cam.scaled(100), scene.px, std::nullopt});
   const auto posed = frames.repose(scene.map, 0, 0.01);
   ASSERT_EQ(posed.size(), 1u);
   EXPECT_LT((posed[0].second.inverse() * scene.T_odom_keyframe * scene.T_keyframe_cam).log().norm(),
@@ -69,7 +69,7 @@ TEST(IntermediateFrames, ShareTheDriftOfTheirTracksEvenly) {
   for (int k = 1; k <= 3; ++k) {
     auto drifted = scene.px;
     for (auto& [id, px] : drifted) px -= k / 4.0 * drift_px;
-    frames.remember({k, scene.T_keyframe_cam, drifted, std::nullopt});
+    frames.remember({FrameId(k), scene.T_keyframe_cam, drifted, std::nullopt});
   }
   std::map<std::int64_t, Eigen::Vector2d> drift;
   for (const auto& [id, px] : scene.px) drift[id] = drift_px;
@@ -88,7 +88,7 @@ TEST(IntermediateFrames, FollowTheManhattanFrameThatTheySaw) {
   const SO3 R_odom_cam =
       (scene.T_odom_keyframe * scene.T_keyframe_cam).rotation() * SO3::exp({0, 0, 0.02});
   const ManhattanCue::Heading heading{3, R_odom_cam.inverse(), 1e12 * Eigen::Matrix3d::Identity()};
-  frames.remember({5, scene.T_keyframe_cam, scene.px, heading});
+  frames.remember({FrameId(5), scene.T_keyframe_cam, scene.px, heading});
   const auto posed = frames.repose(scene.map, 0, 1);
   ASSERT_EQ(posed.size(), 1u);
   EXPECT_LT((posed[0].second.rotation().inverse() * R_odom_cam).log().norm(), 1e-4);
