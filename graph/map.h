@@ -9,7 +9,7 @@ namespace placegraph {
 
 /// A keyframe as the map keeps it: its pose hangs on its place's, see PlaceMember.
 struct Keyframe {
-  std::int64_t id = 0;
+  KeyframeId id;
   FrameId frame;
   std::int64_t stamp_ns = 0;
   std::int64_t place = 0;
@@ -23,7 +23,7 @@ struct Keyframe {
 struct FrameRecord {
   FrameId frame;
   std::int64_t stamp_ns = 0;
-  std::int64_t keyframe = -1;
+  std::optional<KeyframeId> keyframe;
   std::optional<SE3> T_keyframe_frame;
   /// Landmarks that the frame was posed by as it was tracked; 0 if it was posed otherwise.
   int inliers = 0;
@@ -54,10 +54,10 @@ struct Map {
   bool metric = false;           ///< whether its unit is the metre
   Trajectory trajectory_online;  ///< as each frame's pose stood when the frame had been processed
 
-  const Keyframe* find_keyframe(std::int64_t id) const;
+  const Keyframe* find_keyframe(KeyframeId id) const;
   /// p_map = S_map_keyframe * p for points and camera positions p in the keyframe's frame and unit.
   /// Throws ArgumentError if the keyframe or its place is not in the map.
-  Sim3 S_map_keyframe(std::int64_t keyframe) const;
+  Sim3 S_map_keyframe(KeyframeId keyframe) const;
   /// Where a landmark stands in the map; throws as S_map_keyframe.
   Eigen::Vector3d position(const PointLandmark& landmark) const {
     return S_map_keyframe(landmark.keyframe) * landmark.point_cam;

@@ -47,7 +47,7 @@ std::vector<LoopPrediction> map_revisits(const Map& map, const MapRevisitOptions
   const double least_cosine = std::cos(deg_to_rad(options.max_angle_deg));
   const Trajectory trajectory = map.trajectory_optimized();
   const Neighbours next_to = neighbours_of(map);
-  std::unordered_map<std::int64_t, std::int64_t> place_of;
+  std::unordered_map<KeyframeId, std::int64_t> place_of;
   for (const Keyframe& keyframe : map.keyframes) place_of[keyframe.id] = keyframe.place;
 
   std::unordered_map<std::int64_t, std::vector<SeenFrame>> seen_in;  // by place, oldest first
@@ -56,7 +56,7 @@ std::vector<LoopPrediction> map_revisits(const Map& map, const MapRevisitOptions
     const auto& T_map_cam = trajectory.poses[i].T_world_body;
     if (!T_map_cam) continue;
     const FrameId frame = map.frames[i].frame;
-    const std::int64_t here = place_of.at(map.frames[i].keyframe);
+    const std::int64_t here = place_of.at(*map.frames[i].keyframe);
     const SeenFrame* nearest = nullptr;
     double least = 0;
     for (const std::int64_t place : next_to.at(here)) {

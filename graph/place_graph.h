@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/landmark.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
@@ -11,7 +12,7 @@ namespace placegraph {
 /// A keyframe hangs on its place: moving the place moves the keyframe. Lengths that the keyframe
 /// measured (landmarks, the way to other frames) grow by `scale` to the place's unit.
 struct PlaceMember {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   SE3 T_place_keyframe;
   double scale = 1;
 
@@ -30,7 +31,7 @@ struct Appearance {
 /// map's.
 struct Place {
   std::int64_t id = 0;
-  std::int64_t anchor_keyframe = 0;
+  KeyframeId anchor_keyframe;
   SE3 T_map_place;    ///< pose of the anchor keyframe's camera
   int component = 0;  ///< sub-map; a new one begins after a loss that nothing bridged
   std::vector<PlaceMember> members;  ///< the anchor is the first, at identity

@@ -11,7 +11,7 @@ std::vector<PlaceTransition> place_transitions(const Map& map) {
   std::unordered_map<std::int64_t, int> component_of;
   for (std::size_t i = 0; i < components.size(); ++i)
     component_of[map.place_graph.places[i].id] = components[i];
-  std::unordered_map<std::int64_t, std::int64_t> place_of;
+  std::unordered_map<KeyframeId, std::int64_t> place_of;
   for (const Keyframe& keyframe : map.keyframes) place_of[keyframe.id] = keyframe.place;
 
   std::map<std::pair<std::int64_t, std::int64_t>, int> counts;
@@ -21,9 +21,11 @@ std::vector<PlaceTransition> place_transitions(const Map& map) {
       here.reset();
       continue;
     }
-    const auto place = place_of.find(frame.keyframe);
-    require(place != place_of.end(), "map: keyframe " + std::to_string(frame.keyframe) +
-                                         " of frame " + to_string(frame.frame) + " is not there");
+    require(frame.keyframe.has_value(),
+            "map: frame " + to_string(frame.frame) + " has a pose and no keyframe");
+    const auto place = place_of.find(*frame.keyframe);
+    require(place != place_of.end(), "map: keyframe " + to_string(*frame.keyframe) + " of frame " +
+                                         to_string(frame.frame) + " is not there");
     const std::int64_t next = place->second;
     if (here && *here != next && component_of[*here] == component_of[next]) ++counts[{*here, next}];
     here = next;

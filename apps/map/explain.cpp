@@ -44,7 +44,7 @@ json where(const Explanation& told, const Map& map) {
   json at = {{"posed", true},
              {"place", told.place},
              {"labels", told.labels},
-             {"keyframe", told.keyframe},
+             {"keyframe", *told.keyframe},
              {"way_to_keyframe", told.way_to_keyframe},
              {"component", told.component},
              {"unit", map.metric ? "m" : "arbitrary"},

@@ -37,8 +37,14 @@ LocalizerOptions options_of(const LocalizeArguments& arguments, const StoredMap&
   return options;
 }
 
+/// As files have it: -1 stands for none.
+template <class Id>
+std::int64_t number_of(const std::optional<Id>& id) {
+  return id ? id->value() : -1;
+}
+
 std::string line_of(std::int64_t image, const Localization& at) {
-  const std::int64_t frame = at.placed && at.frame ? at.frame->value() : -1;
+  const std::int64_t frame = at.placed ? number_of(at.frame) : -1;
   std::string line = fmt::format("{} {} {} {:.6f} {}", image, at.placed ? at.place : -1, frame,
                                  at.probability, at.placed ? at.stage : "refused:" + at.stage);
   if (at.T_map_cam) {
@@ -51,9 +57,12 @@ std::string line_of(std::int64_t image, const Localization& at) {
 }
 
 json json_of(std::int64_t image, const Localization& at) {
-  json entry = {{"image", image},          {"placed", at.placed},
-                {"place", at.place},       {"view", at.frame ? at.frame->value() : -1},
-                {"keyframe", at.keyframe}, {"probability", at.probability},
+  json entry = {{"image", image},
+                {"placed", at.placed},
+                {"place", at.place},
+                {"view", number_of(at.frame)},
+                {"keyframe", number_of(at.keyframe)},
+                {"probability", at.probability},
                 {"stage", at.stage}};
   if (at.T_map_cam) entry["T_map_cam"] = pose_json(*at.T_map_cam);
   if (!at.without_pose.empty()) entry["without_pose"] = at.without_pose;

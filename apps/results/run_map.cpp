@@ -18,13 +18,13 @@ using nlohmann::json;
 Place place_of(const json& entry, RunMap& map) {
   Place place;
   place.id = entry.at("id").get<std::int64_t>();
-  place.anchor_keyframe = entry.at("anchor_keyframe").get<std::int64_t>();
+  place.anchor_keyframe = entry.at("anchor_keyframe").get<KeyframeId>();
   place.component = entry.at("component").get<int>();
   place.T_map_place = pose_of(entry.at("T_map_place"));
   place.scale = entry.at("scale").get<double>();
   place.labels = entry.at("labels").get<std::vector<std::string>>();
   for (const json& member : entry.at("members")) {
-    place.members.push_back({member.at("keyframe").get<std::int64_t>(),
+    place.members.push_back({member.at("keyframe").get<KeyframeId>(),
                              pose_of(member.at("T_place_keyframe")),
                              member.at("scale").get<double>()});
     if (member.contains("frame"))

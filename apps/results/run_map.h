@@ -11,7 +11,7 @@ namespace placegraph::apps {
 /// map (map.db).
 struct RunMap {
   PlaceGraph graph;  ///< without appearances
-  std::map<std::int64_t, FrameId> frame_of_keyframe;
+  std::map<KeyframeId, FrameId> frame_of_keyframe;
 
   /// The frame that a place's anchor was seen in. Throws ArgumentError for a place without.
   FrameId anchor_frame(const Place& place) const;

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
@@ -10,7 +12,7 @@ namespace placegraph {
 /// A landmark seen in a keyframe. The inverse depth (1 / z in the camera frame) comes from stereo
 /// (disparity / (f b)) or a depth camera.
 struct WindowObservation {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   std::int64_t landmark = 0;
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double sigma_px = 1;
@@ -22,7 +24,7 @@ struct WindowObservation {
 
 /// A segment of a line landmark seen in a keyframe; its ends may lie anywhere along the line.
 struct LineObservation {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   std::int64_t line = 0;
   Eigen::Vector2d start_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d end_px = Eigen::Vector2d::Zero();

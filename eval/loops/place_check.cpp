@@ -42,12 +42,12 @@ const std::optional<Isometry>& true_pose(const Trajectory& truth, FrameId frame)
 }
 
 std::vector<PlacedFrame> placed_frames(const Map& map, const Trajectory& truth) {
-  std::map<std::int64_t, std::int64_t> place_of;
+  std::map<KeyframeId, std::int64_t> place_of;
   for (const Keyframe& keyframe : map.keyframes) place_of[keyframe.id] = keyframe.place;
   std::vector<PlacedFrame> frames;
   for (const FrameRecord& record : map.frames) {
     if (!record.T_keyframe_frame) continue;
-    const auto place = place_of.find(record.keyframe);
+    const auto place = record.keyframe ? place_of.find(*record.keyframe) : place_of.end();
     require(place != place_of.end(), "place check: a frame's keyframe is not in the map");
     if (const auto& T_world_frame = true_pose(truth, record.frame))
       frames.push_back({record.frame, place->second, *T_world_frame});

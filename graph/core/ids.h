@@ -6,4 +6,8 @@ namespace placegraph {
 /// A frame: its position in the sequence or folder of images that it was read from.
 using FrameId = Id<struct FrameTag>;
 
+/// A keyframe. They are numbered in the order of their frames, over all components of a map. The
+/// first keyframe of a part of a place, its anchor, names the part.
+using KeyframeId = Id<struct KeyframeTag>;
+
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/so3.h>
 
@@ -20,7 +21,7 @@ struct SurfacePoint {
 
 /// What one keyframe tells of the surfaces around it, and where it hangs. It moves with its place.
 struct SurfaceSight {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   std::vector<SurfacePoint> points;
 };
 

@@ -25,8 +25,8 @@ Keyframe& keyframe_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id
   auto& all = stored.map.keyframes;
   const auto found =
       std::lower_bound(all.begin(), all.end(), id,
-                       [](const Keyframe& k, std::int64_t value) { return k.id < value; });
-  if (found == all.end() || found->id != id)
+                       [](const Keyframe& k, std::int64_t value) { return k.id.value() < value; });
+  if (found == all.end() || found->id.value() != id)
     rows.refuse(std::string(column) + " " + std::to_string(id) + " is no keyframe of the map");
   return *found;
 }

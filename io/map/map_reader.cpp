@@ -65,7 +65,7 @@ void MapReader::read_keyframes() {
   SqliteRows rows(database_, "keyframe", "id, frame, stamp_ns, place, T_place_keyframe, scale");
   while (rows.next()) {
     Keyframe& keyframe = stored_.map.keyframes.emplace_back();
-    keyframe.id = rows.integer(0, 0);
+    keyframe.id = KeyframeId(rows.integer(0, 0));
     keyframe.frame = FrameId(rows.integer(1, 0));
     keyframe.stamp_ns = rows.integer(2);
     keyframe.place = rows.integer(3, 0);
@@ -103,7 +103,7 @@ void MapReader::read_places() {
     place.T_map_place = pose_column(rows, 3, "T_map_place");
     place.scale = rows.positive(4);
     if (rows.is_null(5)) continue;
-    stored_.history.places.push_back({place.id, rows.real(5), rows.integer(6)});
+    stored_.history.places.push_back({place.id, rows.real(5), KeyframeId(rows.integer(6))});
     (void)keyframe_of(stored_, rows, rows.integer(6), "last_keyframe");
   }
   if (!stored_.history.places.empty() && stored_.history.places.size() != places.size())
@@ -133,9 +133,10 @@ void MapReader::read_members() {
   SqliteRows places(database_, "place", "id");
   while (places.next()) {
     const Place& place = place_of(stored_, places, places.integer(0), "id");
-    const Keyframe& anchor = keyframe_of(stored_, places, place.anchor_keyframe, "anchor_keyframe");
+    const Keyframe& anchor =
+        keyframe_of(stored_, places, place.anchor_keyframe.value(), "anchor_keyframe");
     if (anchor.place != place.id)
-      places.refuse("anchor_keyframe " + std::to_string(anchor.id) + " hangs on place " +
+      places.refuse("anchor_keyframe " + to_string(anchor.id) + " hangs on place " +
                     std::to_string(anchor.place));
   }
 }
@@ -206,11 +207,12 @@ void MapReader::read_frames() {
     FrameRecord record;
     record.frame = FrameId(rows.integer(1, 0));
     record.stamp_ns = rows.integer(2);
-    record.keyframe = rows.integer(3, -1);
+    if (const std::int64_t keyframe = rows.integer(3, -1); keyframe >= 0)
+      record.keyframe = KeyframeId(keyframe);
     record.inliers = static_cast<int>(rows.integer(5, 0, kMost));
     if (!rows.is_null(4)) {
       record.T_keyframe_frame = pose_column(rows, 4, "T_keyframe_frame");
-      (void)keyframe_of(stored_, rows, record.keyframe, "keyframe");
+      (void)keyframe_of(stored_, rows, rows.integer(3), "keyframe");
     }
     if (!map.frames.empty() &&
         (record.frame <= map.frames.back().frame || record.stamp_ns <= map.frames.back().stamp_ns))
@@ -270,7 +272,7 @@ void MapReader::read_landmarks() {
     const auto more = decoded(rows, rows.blob(2, count * kLandmarkBytes), "data",
                               [&](BlobReader& reader) { return reader.landmarks(count); });
     for (const PointLandmark& landmark : more)
-      (void)keyframe_of(stored_, rows, landmark.keyframe, "keyframe");
+      (void)keyframe_of(stored_, rows, landmark.keyframe.value(), "keyframe");
     landmarks.insert(landmarks.end(), more.begin(), more.end());
   }
 }

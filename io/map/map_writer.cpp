@@ -18,10 +18,10 @@ void MapWriter::put_places(const MapChanges& changes) {
   for (const Place& place : changes.places) {
     ids.insert(place.id);
     MapRow row;
-    row.integer(place.anchor_keyframe).integer(place.component).pose(place.T_map_place);
+    row.id(place.anchor_keyframe).integer(place.component).pose(place.T_map_place);
     row.real(place.scale);
     if (const auto found = grown.find(place.id); found != grown.end())
-      row.real(found->second->reach).integer(found->second->last_keyframe);
+      row.real(found->second->reach).id(found->second->last_keyframe);
     else
       row.null().null();
     places.put(place.id, row);
@@ -51,25 +51,25 @@ void MapWriter::put_keyframes(const MapChanges& changes) {
     std::string bytes;
     BlobWriter(bytes).features(keyframe.features);
     features.write(
-        keyframe.id,
+        keyframe.id.value(),
         MapRow().integer(static_cast<std::int64_t>(keyframe.features.size())).blob(bytes));
     if (keyframe.view.empty()) continue;
     bytes.clear();
     BlobWriter(bytes).view(keyframe.view);
-    views.write(keyframe.id, MapRow().blob(bytes));
+    views.write(keyframe.id.value(), MapRow().blob(bytes));
   }
   for (const Place& place : changes.places)
     for (const PlaceMember& member : place.members) {
       const auto times = keyframe_times.find(member.keyframe);
-      require(times != keyframe_times.end(),
-              "map: place " + std::to_string(place.id) + " has keyframe " +
-                  std::to_string(member.keyframe) + ", which is not there");
-      keyframes.put(member.keyframe, MapRow()
-                                         .integer(times->second.first.value())
-                                         .integer(times->second.second)
-                                         .integer(place.id)
-                                         .pose(member.T_place_keyframe)
-                                         .real(member.scale));
+      require(times != keyframe_times.end(), "map: place " + std::to_string(place.id) +
+                                                 " has keyframe " + to_string(member.keyframe) +
+                                                 ", which is not there");
+      keyframes.put(member.keyframe.value(), MapRow()
+                                                 .id(times->second.first)
+                                                 .integer(times->second.second)
+                                                 .integer(place.id)
+                                                 .pose(member.T_place_keyframe)
+                                                 .real(member.scale));
     }
 }
 
@@ -77,7 +77,8 @@ void MapWriter::put_frames(const MapChanges& changes) {
   auto number = static_cast<std::int64_t>(changes.first_frame);
   for (const FrameRecord& record : changes.frames) {
     MapRow row;
-    row.integer(record.frame.value()).integer(record.stamp_ns).integer(record.keyframe);
+    row.id(record.frame).integer(record.stamp_ns);
+    row.integer(record.keyframe ? record.keyframe->value() : -1);
     record.T_keyframe_frame ? row.pose(*record.T_keyframe_frame) : row.null();
     row.integer(record.inliers);
     frames.write(number++, row);
@@ -94,8 +95,8 @@ void MapWriter::put_frames(const MapChanges& changes) {
   number = 0;
   for (const LoopRecord& loop : changes.loops)
     loops.put(number++, MapRow()
-                            .integer(loop.query_frame.value())
-                            .integer(loop.match_frame.value())
+                            .id(loop.query_frame)
+                            .id(loop.match_frame)
                             .integer(loop.inliers)
                             .integer(loop.accepted())
                             .text(to_string(loop.stage))

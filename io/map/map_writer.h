@@ -33,7 +33,7 @@ struct MapWriter {
     places.take_keys(database, "id place");
     SqliteRows known(database, "keyframe", "id, frame, stamp_ns");
     while (known.next())
-      keyframe_times[known.integer(0)] = {FrameId(known.integer(1)), known.integer(2)};
+      keyframe_times[KeyframeId(known.integer(0))] = {FrameId(known.integer(1)), known.integer(2)};
   }
 
   /// The file belongs to this connection alone. A write-ahead log: a commit appends to it without
@@ -61,7 +61,7 @@ struct MapWriter {
       landmarks;
   MapHistoryWriter history;
   SqliteStatement put_edge, erase_edge;
-  std::map<std::int64_t, std::pair<FrameId, std::int64_t>> keyframe_times;  // frame, stamp
+  std::map<KeyframeId, std::pair<FrameId, std::int64_t>> keyframe_times;  // frame, stamp
   std::map<std::int64_t, std::vector<std::string>> written_labels;
 };
 

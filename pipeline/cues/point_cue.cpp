@@ -10,7 +10,7 @@
 namespace placegraph {
 namespace {
 
-void add_observation(std::int64_t keyframe, std::int64_t landmark, const Eigen::Vector2d& px,
+void add_observation(KeyframeId keyframe, std::int64_t landmark, const Eigen::Vector2d& px,
                      const Eigen::Matrix2d& covariance_px, const std::optional<InverseDepth>& depth,
                      SlidingWindow& window) {
   WindowObservation observation;
@@ -193,11 +193,11 @@ std::optional<Eigen::Vector3d> PointCue::place_point(const Observation& now,
   return point.point_ref;
 }
 
-void PointCue::observe(std::int64_t keyframe, const Frame& frame,
+void PointCue::observe(KeyframeId keyframe, const Frame& frame,
                        const RectificationError& rectification, SlidingWindow& window) {
   const auto span = times_.measure("triangulation");
   const auto depths = measure_depth(frame, rectification, window.pose(keyframe), window);
-  const std::int64_t oldest = window.keyframes().front();
+  const KeyframeId oldest = window.keyframes().front();
   std::map<std::int64_t, std::vector<Observation>> all;
   for (std::size_t i = 0; i < tracks().size(); ++i) {
     const std::int64_t id = tracks()[i].id;
@@ -224,7 +224,7 @@ void PointCue::observe(std::int64_t keyframe, const Frame& frame,
   observations_ = std::move(all);
 }
 
-void PointCue::observe_two_views(std::int64_t ref, std::int64_t cur,
+void PointCue::observe_two_views(KeyframeId ref, KeyframeId cur,
                                  const std::vector<TwoViewPoint>& points, SlidingWindow& window) {
   for (const TwoViewPoint& p : points) {
     observations_[p.track] = {{ref, p.px_ref, p.covariance_px}, {cur, p.px_cur, p.covariance_px}};
@@ -235,7 +235,7 @@ void PointCue::observe_two_views(std::int64_t ref, std::int64_t cur,
   }
 }
 
-void PointCue::observe_new_tracks(std::int64_t keyframe) {
+void PointCue::observe_new_tracks(KeyframeId keyframe) {
   for (const PointTrack& track : tracks()) {
     auto& observations = observations_[track.id];
     if (observations.empty())
@@ -260,7 +260,7 @@ bool PointCue::contradicts_itself(std::int64_t landmark, const SlidingWindow& wi
          sum_sigmas > most_sigmas * most_sigmas * views;
 }
 
-std::vector<double> PointCue::prune(SlidingWindow& window, std::int64_t newest) {
+std::vector<double> PointCue::prune(SlidingWindow& window, KeyframeId newest) {
   std::map<std::int64_t, std::size_t> track_of;
   for (std::size_t i = 0; i < tracks().size(); ++i) track_of[tracks()[i].id] = i;
   std::vector<bool> keep(tracks().size(), true);
@@ -293,7 +293,7 @@ std::vector<std::pair<std::int64_t, Eigen::Vector2d>> PointCue::landmark_pixels(
 }
 
 std::vector<KnownPixel> PointCue::landmark_depths(const SlidingWindow& window,
-                                                  std::int64_t keyframe) const {
+                                                  KeyframeId keyframe) const {
   constexpr double kSigmaShare = 0.03;
   const SE3 T_cam_odom = window.pose(keyframe).inverse();
   std::vector<KnownPixel> known;

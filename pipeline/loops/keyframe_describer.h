@@ -10,7 +10,7 @@ namespace placegraph {
 
 /// A keyframe as place recognition and loop verification see it.
 struct DescribedKeyframe {
-  std::int64_t keyframe;
+  KeyframeId keyframe;
   FrameId frame;
   std::vector<Feature> features;
   std::vector<LineFeature> lines;  ///< not those of a map that was read
@@ -34,7 +34,7 @@ class KeyframeDescriber {
   /// [m].
   std::vector<Feature> features(const Frame& frame) const;
   /// The same with lines that the odometry follows there; their descriptors are made here.
-  DescribedKeyframe describe(std::int64_t keyframe, const Frame& frame,
+  DescribedKeyframe describe(KeyframeId keyframe, const Frame& frame,
                              std::vector<LineFeature> lines) const;
   /// Depth by parallax between neighbours, the same way for one camera and for two: of the features
   /// that both see, where the rays meet at 0.7 degrees or more and within 2 px. A feature of the

@@ -17,7 +17,7 @@ std::optional<Matrix6d> covariance_of(const PlaceGraph& places, std::int64_t pla
 }
 
 void place_frame(const Map& map, const FrameRecord& record, Explanation& told) {
-  const Keyframe& keyframe = *map.find_keyframe(record.keyframe);
+  const Keyframe& keyframe = *map.find_keyframe(record.keyframe.value());
   const Place& place = *map.place_graph.find(keyframe.place);
   const Sim3 S_map_keyframe = map.S_map_keyframe(keyframe.id);
   const Sim3 S_map_cam = S_map_keyframe * Sim3(*record.T_keyframe_frame);
@@ -59,7 +59,7 @@ std::optional<Explanation> explain_frame(const Map& map, FrameId frame) {
   FrameId frame_of_keyframe = frame;
   if (record->T_keyframe_frame) {
     place_frame(map, *record, told);
-    frame_of_keyframe = map.find_keyframe(record->keyframe)->frame;
+    frame_of_keyframe = map.find_keyframe(*record->keyframe)->frame;
   }
   const auto about = [&](FrameId other) { return other == frame || other == frame_of_keyframe; };
   for (const LoopRecord& loop : map.loops) {

@@ -16,7 +16,8 @@ struct Explanation {
   bool posed = false;
 
   // Where it is; of a posed frame.
-  std::int64_t keyframe = -1, place = -1;
+  std::optional<KeyframeId> keyframe;
+  std::int64_t place = -1;
   std::vector<std::string> labels;  ///< of the place
   int component = 0;
   SE3 T_map_cam;

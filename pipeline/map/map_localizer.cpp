@@ -164,7 +164,7 @@ Localization MapLocalizer::described(const ViewAnswer& answer, double probabilit
 std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames& frames,
                                                  bool sequence) const {
   std::vector<std::vector<PlaceLikeness>> lists;
-  std::vector<std::optional<Loop>> verified;
+  std::vector<std::optional<LocatedFrame>> verified;
   std::vector<std::string> hindrances;
   for (std::size_t i = 0; i < count; ++i) {
     const Frame frame = frames(i);
@@ -198,10 +198,10 @@ std::vector<Localization> MapLocalizer::localize(std::size_t count, const Frames
   return result;
 }
 
-std::optional<Loop> MapLocalizer::verify(const Frame& frame,
-                                         const std::vector<PlaceLikeness>& list) const {
+std::optional<LocatedFrame> MapLocalizer::verify(const Frame& frame,
+                                                 const std::vector<PlaceLikeness>& list) const {
   constexpr std::size_t kTries = 3;
-  std::vector<std::int64_t> tries;
+  std::vector<KeyframeId> tries;
   for (std::size_t i = 0; i < std::min(kTries, list.size()); ++i)
     tries.push_back(keyframe_of(list[i].view).id);
   return closer_->relocalize(frame, std::move(tries));
@@ -209,9 +209,9 @@ std::optional<Loop> MapLocalizer::verify(const Frame& frame,
 
 /// Features agree with a pose by chance once in a thousand images, or less; what whole views say
 /// counts beside that, for the same place or against another.
-void MapLocalizer::take_geometry(const Loop& loop, Localization& result) const {
+void MapLocalizer::take_geometry(const LocatedFrame& located, Localization& result) const {
   constexpr double kOddsOfVerified = 1000, kSurest = 1 - 1e-9;
-  const Keyframe& match = *stored_.map.find_keyframe(loop.match);
+  const Keyframe& match = *stored_.map.find_keyframe(located.match);
   const bool agree =
       result.place == match.place || adjacent_.count({result.place, match.place}) > 0;
   const double p = std::clamp(result.probability, 1 - kSurest, kSurest);
@@ -223,7 +223,7 @@ void MapLocalizer::take_geometry(const Loop& loop, Localization& result) const {
   result.frame = match.frame;
   result.stage = "geometry";
   if (!result.placed) return;
-  const Sim3 S_map_cam = stored_.map.S_map_keyframe(match.id) * Sim3(loop.T_match_query);
+  const Sim3 S_map_cam = stored_.map.S_map_keyframe(match.id) * Sim3(located.T_match_query);
   result.T_map_cam = SE3(S_map_cam.rotation(), S_map_cam.translation());
 }
 

@@ -25,7 +25,8 @@ void visit(OptionVisitor& field, LocalizerOptions& options);
 /// Where an image was taken, or why that is not said.
 struct Localization {
   bool placed = false;
-  std::int64_t place = -1, keyframe = -1;  ///< of the map; the best guess if refused
+  std::int64_t place = -1;  ///< of the map, as the next two; the best guess if refused
+  std::optional<KeyframeId> keyframe;
   std::optional<FrameId> frame;
   double probability = 0;
   /// The test that decided: "geometry" and "appearance" of placed ones; of others "blank" (there is
@@ -59,8 +60,9 @@ class MapLocalizer {
   std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
                                      bool sequence) const;
   Localization described(const ViewAnswer& answer, double probability) const;
-  std::optional<Loop> verify(const Frame& frame, const std::vector<PlaceLikeness>& list) const;
-  void take_geometry(const Loop& loop, Localization& result) const;
+  std::optional<LocatedFrame> verify(const Frame& frame,
+                                     const std::vector<PlaceLikeness>& list) const;
+  void take_geometry(const LocatedFrame& located, Localization& result) const;
   const Keyframe& keyframe_of(int view) const;
 
   LocalizerOptions options_;

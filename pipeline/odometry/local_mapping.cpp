@@ -49,7 +49,7 @@ std::optional<LocalMapping::Added> LocalMapping::add(const Frame& frame, const S
   const KeyframeImages images = masks_.apply(frame);
   const auto T_odom_keyframe = tracker.prepare_keyframe(images, T_odom_cam, map, random);
   if (!T_odom_keyframe) return std::nullopt;
-  const std::int64_t id = map.add_keyframe(*T_odom_keyframe);
+  const KeyframeId id = map.add_keyframe(*T_odom_keyframe);
   tracker.observe(images, rectification(), map, random);
   Added added{{id, images.frame, images.labels}, {}, measure_scale(images, tracker, map)};
   refine(tracker, map);

@@ -144,8 +144,8 @@ Initialization TwoViewInitializer::accept(const Frame& frame, const MonoInitiali
                                           LocalMapping& mapping) {
   PointCue& points = tracker_.points();
   const KeyframeImages newest = mapping.masks().apply(frame);
-  const std::int64_t ref = map.add_keyframe(T_odom_start_);
-  const std::int64_t cur = map.add_keyframe(
+  const KeyframeId ref = map.add_keyframe(T_odom_start_);
+  const KeyframeId cur = map.add_keyframe(
       T_odom_start_ * SE3(start.T_ref_cur.rotation(), scale * start.T_ref_cur.translation()));
   std::vector<PointCue::TwoViewPoint> pairs;
   for (std::size_t i = 0; i < points.tracks().size(); ++i) {

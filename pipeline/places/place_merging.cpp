@@ -58,7 +58,7 @@ std::vector<PlacePair> pairs_in_reach(const KeyframeChain& chain, const PlacePar
 
 std::optional<PlaceMerger> merger_of(const PlacePair& pair, const PlacePartition& partition,
                                      const PlaceOptions& options, const PlaceCovariance& covariance,
-                                     std::int64_t first_open) {
+                                     KeyframeId first_open) {
   const auto [older, younger] =
       std::minmax(pair.first, pair.second, [&](std::int64_t p, std::int64_t q) {
         return partition.places().at(p).anchor_keyframe < partition.places().at(q).anchor_keyframe;
@@ -98,7 +98,7 @@ struct MergerErrors {
 
 MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition& partition) {
   const std::vector<PlaceHistory::Merged>& merged = partition.merged();
-  std::map<std::int64_t, std::vector<std::size_t>> mergers_of_part;
+  std::map<KeyframeId, std::vector<std::size_t>> mergers_of_part;
   for (std::size_t i = 0; i < merged.size(); ++i)
     for (const auto& [anchor, covariance] : merged[i].covariance_of_part)
       mergers_of_part[anchor].push_back(i);
@@ -135,7 +135,7 @@ MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition&
 
 std::vector<PlaceMerger> find_mergers(const KeyframeChain& chain, const PlacePartition& partition,
                                       const std::vector<Loop>& loops, const PlaceOptions& options,
-                                      const PlaceCovariance& covariance, std::int64_t first_open) {
+                                      const PlaceCovariance& covariance, KeyframeId first_open) {
   std::vector<PlaceMerger> mergers;
   std::set<std::int64_t> taken;
   // Old loops have had their chances; they get a last one in the end.

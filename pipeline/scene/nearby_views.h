@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/floor_plan/plane_sweep.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/measurements/frame.h>
@@ -38,8 +39,8 @@ class NearbyViews {
   const Map& map_;
   std::function<Frame(const Keyframe&)> frame_of_;
   NearbyViewOptions options_;
-  std::set<std::int64_t> connected_;
-  std::deque<std::pair<std::int64_t, Frame>> read_;  ///< the last ones
+  std::set<KeyframeId> connected_;
+  std::deque<std::pair<KeyframeId, Frame>> read_;  ///< the last ones
 };
 
 }  // namespace placegraph

@@ -12,7 +12,7 @@ namespace placegraph {
 
 /// What one keyframe says of its surroundings.
 struct EnvironmentSight {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   FrameId frame;
   EnvironmentEvidence evidence;
   std::array<double, kEnvironmentCount> probabilities{};  ///< by this view alone
@@ -28,7 +28,7 @@ class EnvironmentMonitor {
   /// Classifies the newest keyframe. `shares`: of its surfaces in the image; null: not labelled.
   /// `points_cam`: landmarks in its camera's frame, in metres if `metric`. Returns whether the kind
   /// is another one now.
-  bool classify(std::int64_t keyframe, const Frame& frame, const SurfaceShares* shares,
+  bool classify(KeyframeId keyframe, const Frame& frame, const SurfaceShares* shares,
                 const std::vector<Eigen::Vector3d>& points_cam, bool metric);
   /// The kind that holds now; nothing while it is unknown.
   std::optional<Environment> kind() const { return filter_.kind(); }

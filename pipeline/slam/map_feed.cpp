@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-void MapFeed::keep_view(std::int64_t keyframe, const Frame& frame) {
+void MapFeed::keep_view(KeyframeId keyframe, const Frame& frame) {
   if (!views_in_colour_) views_in_colour_ = !frame.colour.empty();
   if (*views_in_colour_ && frame.colour.empty()) return;
   views_[keyframe] = describe_place(*views_in_colour_ ? frame.colour : frame.image, cues_, false);
@@ -40,7 +40,7 @@ Map MapFeed::snapshot(const MapSources& sources) const {
   Map map;
   map.place_graph = sources.mapper.place_graph();
   sources.environments.label(map.place_graph.places);
-  std::map<std::int64_t, std::pair<std::int64_t, PlaceMember>> members;
+  std::map<KeyframeId, std::pair<std::int64_t, PlaceMember>> members;
   for (Place& place : map.place_graph.places) {
     place.appearance = sources.closer.appearance(place.anchor_keyframe);
     for (const PlaceMember& member : place.members) members[member.keyframe] = {place.id, member};

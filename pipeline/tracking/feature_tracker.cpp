@@ -127,7 +127,7 @@ std::optional<SE3> FeatureTracker::prepare_keyframe(const KeyframeImages& images
 void FeatureTracker::observe(const KeyframeImages& images, const RectificationError& rectification,
                              LocalMap& map, Random& random) {
   const Frame& frame = images.frame;
-  const std::int64_t id = map.newest();
+  const KeyframeId id = map.newest();
   points_.observe(id, frame, rectification, map.window());
   if (lines_) {
     lines_->observe(id, frame, rectification, map.median_depth(), map.window());

@@ -13,8 +13,7 @@ void IntermediateFrames::correct_drift(const std::map<std::int64_t, Eigen::Vecto
 }
 
 std::vector<std::pair<FrameId, SE3>> IntermediateFrames::repose(const LocalMap& map,
-                                                                std::int64_t keyframe,
-                                                                double scale) {
+                                                                KeyframeId keyframe, double scale) {
   constexpr int kIterations = 10;
   constexpr double kSigmaPx = 1;  // of a track
   const SlidingWindow& window = map.window();

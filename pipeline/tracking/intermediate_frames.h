@@ -33,7 +33,7 @@ class IntermediateFrames {
   /// that see enough of them. `keyframe`: the last one before them. `scale`: what lengths have
   /// grown by since then. Forgets them.
   [[nodiscard]] std::vector<std::pair<FrameId, SE3>> repose(const LocalMap& map,
-                                                            std::int64_t keyframe, double scale);
+                                                            KeyframeId keyframe, double scale);
   void clear() { frames_.clear(); }
 
  private:

@@ -15,7 +15,7 @@ enum class TrackingState { kWaiting, kTracking, kLost };
 
 /// A frame that has become a keyframe.
 struct NewKeyframe {
-  std::int64_t id;
+  KeyframeId id;
   Frame frame;
   std::shared_ptr<const SceneSight> labels = nullptr;  ///< of its surfaces, where they are labelled
 };
@@ -32,8 +32,8 @@ using PosedFrame = std::pair<FrameId, SE3>;
 /// What one frame brought.
 struct OdometryUpdate {
   TrackingState state = TrackingState::kWaiting;
-  SE3 T_odom_cam;              ///< if tracking, or the first of the two views
-  std::int64_t keyframe = -1;  ///< reference keyframe, if tracking
+  SE3 T_odom_cam;                      ///< if tracking, or the first of the two views
+  std::optional<KeyframeId> keyframe;  ///< reference keyframe, if tracking
   int inliers = 0;
   std::string reason;      ///< why it is not tracking, or begins anew
   bool reference = false;  ///< while waiting: this frame is the first of the two views

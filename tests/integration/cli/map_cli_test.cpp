@@ -41,7 +41,7 @@ class MapCli : public test::CliTest {
     fs::create_directory(dir / "broken");
     StoredMap stored = read_map(whole() + "/map.db");
     ASSERT_GT(stored.map.place_graph.places.size(), places);
-    const std::int64_t last = stored.map.place_graph.places[places - 1].anchor_keyframe;
+    const KeyframeId last = stored.map.place_graph.places[places - 1].anchor_keyframe;
     Map& map = stored.map;
     map.place_graph.places.resize(places);
     map.place_graph.places.back().members.resize(1);

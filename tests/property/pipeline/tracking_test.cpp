@@ -50,7 +50,7 @@ struct Between {
     IntermediateFrames frames({}, camera);
     for (std::size_t f = 0; f < px.size(); ++f)
       frames.remember({FrameId(f), thought[f], px[f], std::nullopt});
-    return frames.repose(map, 0, grown);
+    return frames.repose(map, KeyframeId(0), grown);
   }
 };
 

@@ -20,12 +20,12 @@ Map walk(const std::vector<int>& places, const std::vector<double>& x) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
     Keyframe keyframe;
-    keyframe.id = id;
+    keyframe.id = KeyframeId(id);
     keyframe.frame = FrameId(id);
     keyframe.place = places[i];
     keyframe.T_place_keyframe = SE3(SO3(), {x[i], 0, 0});
     map.keyframes.push_back(keyframe);
-    map.frames.push_back({FrameId(id), 10 * id, id, SE3()});
+    map.frames.push_back({FrameId(id), 10 * id, KeyframeId(id), SE3()});
   }
   return map;
 }

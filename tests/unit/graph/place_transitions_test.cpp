@@ -16,14 +16,14 @@ Map map_of(const std::vector<int>& places, const std::vector<int>& components) {
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
-    FrameRecord frame{FrameId(id), 10 * id, -1, std::nullopt, 0};
+    FrameRecord frame{FrameId(id), 10 * id, std::nullopt, std::nullopt, 0};
     if (places[i] >= 0) {
       Keyframe keyframe;
-      keyframe.id = id;
+      keyframe.id = KeyframeId(id);
       keyframe.frame = FrameId(id);
       keyframe.place = places[i];
       map.keyframes.push_back(keyframe);
-      frame.keyframe = id;
+      frame.keyframe = KeyframeId(id);
       frame.T_keyframe_frame = SE3();
     }
     map.frames.push_back(frame);
@@ -51,7 +51,7 @@ TEST(PlaceTransitions, DoNotLeadOverLostFramesOrIntoAnotherComponent) {
 
 TEST(PlaceTransitions, RefuseAFrameWhoseKeyframeIsNotThere) {
   Map map = map_of({0, 0}, {0});
-  map.frames[1].keyframe = 7;
+  map.frames[1].keyframe = KeyframeId(7);
   EXPECT_THROW((void)place_transitions(map), ArgumentError);
 }
 

@@ -29,15 +29,17 @@ StoredMap two_places() {
   const auto at_z = [](double z) { return SE3(SO3(), Eigen::Vector3d(0, 0, z)); };
   for (int k = 0; k < 2; ++k) {
     Keyframe keyframe;
-    keyframe.id = keyframe.place = k;
+    keyframe.id = KeyframeId(k);
+    keyframe.place = k;
     keyframe.frame = FrameId(k);
     keyframe.stamp_ns = 100 * k;
     keyframe.features.resize(5);
     map.keyframes.push_back(keyframe);
     Place place;
-    place.id = place.anchor_keyframe = k;
+    place.id = k;
+    place.anchor_keyframe = KeyframeId(k);
     place.T_map_place = at_z(k);
-    place.members = {{k, SE3(), 1}};
+    place.members = {{KeyframeId(k), SE3(), 1}};
     if (k == 1) place.labels = {"corridor", "environment:corridor"};
     map.place_graph.places.push_back(place);
   }
@@ -46,10 +48,10 @@ StoredMap two_places() {
   edge.T_from_to = at_z(1);
   edge.information = 100 * Matrix6d::Identity();
   map.place_graph.constraints.push_back(edge);
-  map.frames = {{FrameId(0), 0, 0, SE3(), 20},
-                {FrameId(1), 100, 1, SE3(), 30},
-                {FrameId(2), 1'500'000'000, 1, at_z(0.5), 40},
-                {FrameId(3), 2'000'000'000, -1, std::nullopt, 0}};
+  map.frames = {{FrameId(0), 0, KeyframeId(0), SE3(), 20},
+                {FrameId(1), 100, KeyframeId(1), SE3(), 30},
+                {FrameId(2), 1'500'000'000, KeyframeId(1), at_z(0.5), 40},
+                {FrameId(3), 2'000'000'000, std::nullopt, std::nullopt, 0}};
   for (const FrameRecord& frame : map.frames)
     map.trajectory_online.poses.push_back({frame.stamp_ns, std::nullopt});
   LoopRecord accepted, refused;

@@ -34,8 +34,9 @@ class LocalizeCommand : public testing::Test {
   LocalizeCommand() {
     Random random(9);
     for (int i = 0; i < 6; ++i)
-      test::write_image(folder, "new/00000" + std::to_string(i) + ".png",
-                        test::wall_view(i / 2, 4 * frame_of(i) % 80 + 2, random));
+      test::write_image(
+          folder, "new/00000" + std::to_string(i) + ".png",
+          test::wall_view(i / 2, 4 * frame_of(KeyframeId(i).value()) % 80 + 2, random));
     arguments.map = *made / "walk.db";
     arguments.images = folder / "new";
     arguments.out = folder / "placed.txt";

@@ -44,9 +44,9 @@ TEST(MapInfoCommand, TheWayLeadsOverFramesThatHaveAPose) {
   map.place_graph.places[0].T_map_place = SE3();
   map.frames.clear();
   for (int i = 0; i < 4; ++i) {  // at x = 0, 3, nowhere, 5
-    FrameRecord record{FrameId(i), 100 * i, 0,
+    FrameRecord record{FrameId(i), 100 * i, KeyframeId(0),
                        SE3(SO3(), Eigen::Vector3d(i == 3 ? 5 : 3 * i, 0, 0)), 9};
-    if (i == 2) record = {FrameId(i), 100 * i, -1, std::nullopt, 0};
+    if (i == 2) record = {FrameId(i), 100 * i, std::nullopt, std::nullopt, 0};
     map.frames.push_back(record);
   }
   map.keyframes.resize(1);

@@ -31,7 +31,7 @@ SlidingWindow look_about(double k1, bool depth, int views) {
   for (int k = 0; k < 8; ++k) {
     T_map_cam.emplace_back(SO3::exp({0.02 * (k % 3), 0.06 * k - 0.2, 0.03 * (k % 2)}),
                            Eigen::Vector3d(0.1 * k, 0.05 * (k % 3), 0.04 * (k % 2)));
-    window.add_keyframe(k, T_map_cam.back());
+    window.add_keyframe(KeyframeId(k), T_map_cam.back());
   }
   Random random(3);
   for (std::int64_t id = 0; id < 150; ++id) {
@@ -45,7 +45,7 @@ SlidingWindow look_about(double k1, bool depth, int views) {
       if (!added) window.add_landmark(id, p_map);
       added = true;
       WindowObservation o;
-      o.keyframe = k;
+      o.keyframe = KeyframeId(k);
       o.landmark = id;
       o.px = *px;
       o.sigma_px = 0.5;

@@ -13,15 +13,17 @@ Map two_places() {
   Map map;
   for (int k = 0; k < 2; ++k) {
     Keyframe keyframe;
-    keyframe.id = keyframe.place = k;
+    keyframe.id = KeyframeId(k);
+    keyframe.place = k;
     keyframe.frame = FrameId(k);
     keyframe.features.resize(5);
     keyframe.features[0].point_cam = Eigen::Vector3f(0, 0, 4);
     map.keyframes.push_back(keyframe);
     Place place;
-    place.id = place.anchor_keyframe = k;
+    place.id = k;
+    place.anchor_keyframe = KeyframeId(k);
     place.T_map_place = pose({0, 0.1 * k, 0}, {0, 0, 1.0 * k});
-    place.members = {{k, SE3(), 1}};
+    place.members = {{KeyframeId(k), SE3(), 1}};
     if (k == 1) place.labels = {"corridor"};
     map.place_graph.places.push_back(place);
   }
@@ -31,10 +33,10 @@ Map two_places() {
   edge.information = 100 * Matrix6d::Identity();
   edge.source = ConstraintSource::kOdometry;
   map.place_graph.constraints.push_back(edge);
-  map.frames = {{FrameId(0), 0, 0, SE3(), 20},
-                {FrameId(1), 10, 1, SE3(), 30},
-                {FrameId(2), 20, 1, pose({0, 0, 0}, {0, 0, 0.5}), 40},
-                {FrameId(3), 30, -1, std::nullopt, 0}};
+  map.frames = {{FrameId(0), 0, KeyframeId(0), SE3(), 20},
+                {FrameId(1), 10, KeyframeId(1), SE3(), 30},
+                {FrameId(2), 20, KeyframeId(1), pose({0, 0, 0}, {0, 0, 0.5}), 40},
+                {FrameId(3), 30, std::nullopt, std::nullopt, 0}};
   map.metric = true;
   LoopRecord accepted, refused;
   accepted.query_frame = FrameId(1), accepted.match_frame = FrameId(0);

@@ -43,7 +43,7 @@ Map three_places() {
   }
   for (int i = 0; i < 8; ++i) {
     Keyframe keyframe;
-    keyframe.id = i;
+    keyframe.id = KeyframeId(i);
     keyframe.place = i < 5 ? 0 : 10;
     map.keyframes.push_back(keyframe);
   }

@@ -75,11 +75,13 @@ TEST(LineViewInitializer, SeveralViewsOfLinesBeginAMap) {
   ASSERT_GE(begun.keyframes.size(), 3u);
   EXPECT_EQ(begun.keyframes.front().frame.id, FrameId(0));
   EXPECT_EQ(begun.keyframes.back().frame.id, FrameId(last));
-  EXPECT_LT(distance_m(b.map.pose(0), b.T_odom_start), 1e-6);
+  EXPECT_LT(distance_m(b.map.pose(KeyframeId(0)), b.T_odom_start), 1e-6);
   EXPECT_GE(begun.inliers, 9);
   // A map begins only where the ratio of the lengths of its two halves is known.
   const std::int64_t middle = static_cast<std::int64_t>(begun.keyframes.size() / 2);
-  EXPECT_LT(sigma_log_length_ratio(b.map.window(), 0, middle, b.map.newest()), 0.021);
+  EXPECT_LT(
+      sigma_log_length_ratio(b.map.window(), KeyframeId(0), KeyframeId(middle), b.map.newest()),
+      0.021);
   EXPECT_FALSE(b.initializer.started());
   // Every frame is posed: as a keyframe, or between keyframes; up to the scale as it was driven.
   std::map<FrameId, SE3> posed(begun.posed.begin(), begun.posed.end());

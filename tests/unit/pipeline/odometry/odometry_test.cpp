@@ -80,7 +80,7 @@ TEST(Odometry, AMonocularCameraWaitsForParallaxAndThenPosesTheFramesThatWaited) 
   EXPECT_EQ(update.posed_again.size(), static_cast<std::size_t>(i - 2));
   EXPECT_FALSE(run.odometry.map().metric());
   // The direction of the motion is that of the street.
-  const SE3 found = run.odometry.map().pose(0).inverse() * update.T_odom_cam;
+  const SE3 found = run.odometry.map().pose(KeyframeId(0)).inverse() * update.T_odom_cam;
   const SE3 truth = street_T_world_cam(0).inverse() * street_T_world_cam(i - 1);
   EXPECT_GT(found.translation().normalized().dot(truth.translation().normalized()), 0.998);
 }
@@ -114,7 +114,7 @@ TEST(Odometry, TheHeightOfAMonocularCameraGivesItsScale) {
   int i = 0;
   for (; i < 12 && !run.odometry.map().metric(); ++i) update = run.add(i);
   ASSERT_TRUE(run.odometry.map().metric());
-  const SE3 found = run.odometry.map().pose(0).inverse() * update.T_odom_cam;
+  const SE3 found = run.odometry.map().pose(KeyframeId(0)).inverse() * update.T_odom_cam;
   const SE3 truth = street_T_world_cam(0).inverse() * street_T_world_cam(i - 1);
   EXPECT_NEAR(found.translation().norm() / truth.translation().norm(), 1, 0.05);
 }
@@ -163,14 +163,14 @@ TEST(Odometry, AnEmptyFirstFrameIsNothingToBeginWith) {
 TEST(Odometry, ARestartCountsKeyframesOnAndKeepsLandmarks) {
   Street run(Sensor::kStereo, "points");
   for (int i = 0; i < 4; ++i) (void)run.add(i);
-  const std::int64_t newest = run.odometry.map().newest();
+  const KeyframeId newest = run.odometry.map().newest();
   const std::size_t landmarks = run.odometry.map().landmarks().size();
   run.odometry.restart(street_T_world_cam(5), true);
   EXPECT_FALSE(run.odometry.started());
   EXPECT_EQ(run.odometry.map().settled_landmarks(), landmarks);
   const OdometryUpdate update = run.add(5);
   ASSERT_EQ(update.state, TrackingState::kTracking);
-  EXPECT_EQ(update.keyframe, newest + 1);
+  EXPECT_EQ(update.keyframe, ++KeyframeId(newest));
   EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(5)), 1e-9);
 }
 

@@ -60,7 +60,7 @@ TEST(TwoViewInitializer, TwoViewsWithParallaxBeginAMap) {
   ASSERT_EQ(begun.keyframes.size(), 2u);
   EXPECT_EQ(begun.keyframes[0].frame.id, FrameId(0));
   EXPECT_EQ(begun.keyframes[1].frame.id, FrameId(1));
-  EXPECT_LT(distance_m(b.map.pose(0), b.T_odom_start), 1e-9);
+  EXPECT_LT(distance_m(b.map.pose(KeyframeId(0)), b.T_odom_start), 1e-9);
   const SE3 truth = forward(0).inverse() * forward(1);
   // Tracks of 0.25 px at 330 px, hundreds of them.
   EXPECT_LT(angle_rad(b.motion(), truth), 0.003);
@@ -179,7 +179,7 @@ TEST(TwoViewInitializer, AnotherFrameTakesThePlaceOfAReferenceThatIsOutOfView) {
   EXPECT_TRUE(anew.is_reference);
   EXPECT_LT(distance_m(anew.T_odom_reference, b.T_odom_start), 1e-12);
   ASSERT_EQ(b.add(3).state, TrackingState::kTracking);
-  EXPECT_TRUE(b.map.pose(0).translation().isApprox(b.T_odom_start.translation(), 1e-9));
+  EXPECT_TRUE(b.map.pose(KeyframeId(0)).translation().isApprox(b.T_odom_start.translation(), 1e-9));
 }
 
 TEST(TwoViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {

@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
 
+#include "tests/support/ids.h"
+
 namespace placegraph {
 namespace {
 
@@ -72,10 +74,10 @@ TEST(IndoorPlan, TheCeilingIsTheMedianOfWhatHangsAboveARoom) {
 TEST(IndoorPlan, WallsLookToTheSideTheyAreSeenFrom) {
   const TwoRooms two;
   PlacedSights sights = two.sights;
-  sights.keyframes = {7, 9};
+  sights.keyframes = test::ids<KeyframeId>({7, 9});
   Map map = two.map;
   Keyframe keyframe;
-  keyframe.id = 9, keyframe.place = 5;
+  keyframe.id = KeyframeId(9), keyframe.place = 5;
   map.keyframes = {keyframe};
   WallPiece piece;
   piece.axis = 0, piece.sign = 1, piece.offset_m = 2, piece.from_m = 1, piece.to_m = 4;

@@ -241,9 +241,9 @@ TEST(FeatureTracker, IntensitiesOfSurfacesJoinKeyframesThatPointsPose) {
   (void)t.keyframe(1, t.motion.T_odom_cam());
   ASSERT_EQ(t.map.window().factors().size(), 1u);
   EXPECT_EQ(t.map.window().factors()[0].variables,
-            (std::vector{keyframe_variable(0), keyframe_variable(1)}));
+            (std::vector{keyframe_variable(KeyframeId(0)), keyframe_variable(KeyframeId(1))}));
   EXPECT_FALSE(t.tracker.view(t.map, t.motion.T_odom_cam()).surfaces.empty());
-  EXPECT_LT(error(t.map.pose(1), street_T_world_cam(1)), 0.02);
+  EXPECT_LT(error(t.map.pose(KeyframeId(1)), street_T_world_cam(1)), 0.02);
 }
 
 }  // namespace

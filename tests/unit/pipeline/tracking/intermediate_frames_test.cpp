@@ -35,19 +35,19 @@ TEST(IntermediateFrames, ArePosedByTheLandmarksAsTheyAreKnownNow) {
   IntermediateFrames frames = scene.frames();
   const SE3 wrong = scene.T_keyframe_cam * SE3(SO3::exp({0, 0.01, 0}), {0.1, 0.05, -0.1});
   frames.remember({FrameId(5), wrong, scene.px, std::nullopt});
-  const auto posed = frames.repose(scene.map, 0, 1);
+  const auto posed = frames.repose(scene.map, KeyframeId(0), 1);
   ASSERT_EQ(posed.size(), 1u);
   EXPECT_EQ(posed[0].first, FrameId(5));
   EXPECT_LT((posed[0].second.inverse() * scene.T_odom_keyframe * scene.T_keyframe_cam).log().norm(),
             1e-6);
-  EXPECT_TRUE(frames.repose(scene.map, 0, 1).empty());  // they are forgotten
+  EXPECT_TRUE(frames.repose(scene.map, KeyframeId(0), 1).empty());  // they are forgotten
 }
 
 TEST(IntermediateFrames, StayAsTheyWereWithoutEnoughLandmarks) {
   const Scene scene(11);  // 12 are needed
   IntermediateFrames frames = scene.frames();
   frames.remember({FrameId(5), scene.T_keyframe_cam, scene.px, std::nullopt});
-  EXPECT_TRUE(frames.repose(scene.map, 0, 1).empty());
+  EXPECT_TRUE(frames.repose(scene.map, KeyframeId(0), 1).empty());
 }
 
 TEST(IntermediateFrames, BeginWithinReachAfterTheMapHasBeenRescaled) {
@@ -55,7 +55,7 @@ TEST(IntermediateFrames, BeginWithinReachAfterTheMapHasBeenRescaled) {
   IntermediateFrames frames = scene.frames();
   // When it was remembered, lengths were a hundred times as long: beyond all landmarks.
   frames.remember({FrameId(5), scene.T_keyframe_cam.scaled(100), scene.px, std::nullopt});
-  const auto posed = frames.repose(scene.map, 0, 0.01);
+  const auto posed = frames.repose(scene.map, KeyframeId(0), 0.01);
   ASSERT_EQ(posed.size(), 1u);
   EXPECT_LT((posed[0].second.inverse() * scene.T_odom_keyframe * scene.T_keyframe_cam).log().norm(),
             1e-6);
@@ -74,7 +74,7 @@ TEST(IntermediateFrames, ShareTheDriftOfTheirTracksEvenly) {
   std::map<std::int64_t, Eigen::Vector2d> drift;
   for (const auto& [id, px] : scene.px) drift[id] = drift_px;
   frames.correct_drift(drift);
-  const auto posed = frames.repose(scene.map, 0, 1);
+  const auto posed = frames.repose(scene.map, KeyframeId(0), 1);
   ASSERT_EQ(posed.size(), 3u);
   for (const auto& [frame, T_odom_cam] : posed)
     EXPECT_LT((T_odom_cam.inverse() * scene.T_odom_keyframe * scene.T_keyframe_cam).log().norm(),
@@ -89,7 +89,7 @@ TEST(IntermediateFrames, FollowTheManhattanFrameThatTheySaw) {
       (scene.T_odom_keyframe * scene.T_keyframe_cam).rotation() * SO3::exp({0, 0, 0.02});
   const ManhattanCue::Heading heading{3, R_odom_cam.inverse(), 1e12 * Eigen::Matrix3d::Identity()};
   frames.remember({FrameId(5), scene.T_keyframe_cam, scene.px, heading});
-  const auto posed = frames.repose(scene.map, 0, 1);
+  const auto posed = frames.repose(scene.map, KeyframeId(0), 1);
   ASSERT_EQ(posed.size(), 1u);
   EXPECT_LT((posed[0].second.rotation().inverse() * R_odom_cam).log().norm(), 1e-4);
 }
