@@ -33,7 +33,7 @@ struct Feature {
 
 /// A point of the scene, as the map keeps it: relative to the keyframe that first saw it.
 struct PointLandmark {
-  std::int64_t id = 0;
+  LandmarkId id;
   KeyframeId keyframe;
   Eigen::Vector3d point_cam = Eigen::Vector3d::Zero();  ///< [m], in that keyframe's camera frame
   int observations = 0;

@@ -21,7 +21,7 @@ Sim3 Map::S_map_keyframe(KeyframeId id) const {
   const Place* place = place_graph.find(keyframe->place);
   if (!place)
     throw ArgumentError("map: keyframe " + to_string(id) + " hangs on place " +
-                        std::to_string(keyframe->place) + ", which is not there");
+                        to_string(keyframe->place) + ", which is not there");
   return place->S_map_place() *
          PlaceMember{id, keyframe->T_place_keyframe, keyframe->scale}.S_place_keyframe();
 }
@@ -29,8 +29,8 @@ Sim3 Map::S_map_keyframe(KeyframeId id) const {
 Trajectory Map::trajectory_optimized() const {
   // Poses of other components than the first are in frames of their own.
   const std::vector<int> component = place_graph.joined_components();
-  std::unordered_map<std::int64_t, const Place*> place_by_id;
-  std::unordered_map<std::int64_t, bool> belongs;
+  std::unordered_map<PlaceId, const Place*> place_by_id;
+  std::unordered_map<PlaceId, bool> belongs;
   for (std::size_t i = 0; i < component.size(); ++i) {
     place_by_id.emplace(place_graph.places[i].id, &place_graph.places[i]);
     belongs.emplace(place_graph.places[i].id, component[i] == 0);
@@ -53,7 +53,7 @@ Trajectory Map::trajectory_optimized() const {
     const auto place = place_by_id.find(keyframe->second->place);
     if (place == place_by_id.end())
       throw ArgumentError("map: keyframe " + to_string(*record.keyframe) + " hangs on place " +
-                          std::to_string(keyframe->second->place) + ", which is not there");
+                          to_string(keyframe->second->place) + ", which is not there");
     if (!belongs.at(place->first)) continue;
     // The scale moves positions; a camera's own pose has none.
     const Keyframe& at = *keyframe->second;

@@ -12,7 +12,7 @@ struct Keyframe {
   KeyframeId id;
   FrameId frame;
   std::int64_t stamp_ns = 0;
-  std::int64_t place = 0;
+  PlaceId place;
   SE3 T_place_keyframe;
   std::vector<Feature> features;
   double scale = 1;  ///< length at the place of one unit of length at the keyframe

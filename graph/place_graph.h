@@ -30,7 +30,7 @@ struct Appearance {
 /// nothing measures lengths (a single eye), every place has a unit of its own; `scale` makes it the
 /// map's.
 struct Place {
-  std::int64_t id = 0;
+  PlaceId id;
   KeyframeId anchor_keyframe;
   SE3 T_map_place;    ///< pose of the anchor keyframe's camera
   int component = 0;  ///< sub-map; a new one begins after a loss that nothing bridged
@@ -42,13 +42,17 @@ struct Place {
   Sim3 S_map_place() const { return {T_map_place.rotation(), T_map_place.translation(), scale}; }
 };
 
+/// A place graph's constraints name places as the nodes of the graph: both have one number.
+inline std::int64_t node_of_place(PlaceId place) { return place.value(); }
+inline PlaceId place_of_node(std::int64_t node) { return PlaceId(node); }
+
 /// Places and the constraints between them; ids of constraint nodes are place ids. Constraints are
 /// over SE(3), or, where scales are to be estimated too, all over Sim(3).
 struct PlaceGraph {
   std::vector<Place> places;
   std::vector<RelativePoseConstraint> constraints;
 
-  const Place* find(std::int64_t id) const;
+  const Place* find(PlaceId id) const;
   /// For every place the number of its component after joining: places of one `component` and
   /// places that a constraint joins belong together. Numbers count from 0 in the order of `places`.
   std::vector<int> joined_components() const;

@@ -33,13 +33,13 @@ struct PlaceHistory {
   /// A stretch of keyframes within reach of its first one, the anchor.
   struct Part {
     KeyframeId anchor;
-    std::int64_t place = 0;
+    PlaceId place;
     Sim3 S_place_part;
     Matrix7d covariance = Matrix7d::Zero();     ///< of that, in its right tangent
     std::optional<Matrix6d> motion_covariance;  ///< of the motion from the previous anchor
   };
   struct Place {
-    std::int64_t id = 0;
+    PlaceId id;
     double reach = 0;  ///< in its own unit
     KeyframeId last_keyframe;
   };

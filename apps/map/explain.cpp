@@ -42,7 +42,7 @@ json where(const Explanation& told, const Map& map) {
   const Eigen::Vector3d& t = told.T_map_cam.translation();
   const Eigen::Quaterniond q = told.T_map_cam.rotation().quaternion();
   json at = {{"posed", true},
-             {"place", told.place},
+             {"place", *told.place},
              {"labels", told.labels},
              {"keyframe", *told.keyframe},
              {"way_to_keyframe", told.way_to_keyframe},
@@ -115,7 +115,7 @@ json assumed_by(const StoredMap& stored, const RunOptions& options, const Explan
                   {"cues", options.slam.odometry.cues},
                   {"metric", stored.map.metric}};
   if (one_eye && height_m > 0) assumed["ground_below_camera_m"] = height_m;
-  const Place* place = told.posed ? stored.map.place_graph.find(told.place) : nullptr;
+  const Place* place = told.posed ? stored.map.place_graph.find(*told.place) : nullptr;
   if (const auto kind = place ? environment_of(*place) : std::nullopt) {
     const Assumptions there = assumptions_of(*kind);
     assumed["environment"] = {{"kind", environment_name(*kind)},

@@ -44,9 +44,10 @@ std::int64_t number_of(const std::optional<Id>& id) {
 }
 
 std::string line_of(std::int64_t image, const Localization& at) {
+  const std::int64_t place = at.placed ? number_of(at.place) : -1;
   const std::int64_t frame = at.placed ? number_of(at.frame) : -1;
-  std::string line = fmt::format("{} {} {} {:.6f} {}", image, at.placed ? at.place : -1, frame,
-                                 at.probability, at.placed ? at.stage : "refused:" + at.stage);
+  std::string line = fmt::format("{} {} {} {:.6f} {}", image, place, frame, at.probability,
+                                 at.placed ? at.stage : "refused:" + at.stage);
   if (at.T_map_cam) {
     const auto& t = at.T_map_cam->translation();
     const auto& q = at.T_map_cam->rotation().quaternion();
@@ -59,7 +60,7 @@ std::string line_of(std::int64_t image, const Localization& at) {
 json json_of(std::int64_t image, const Localization& at) {
   json entry = {{"image", image},
                 {"placed", at.placed},
-                {"place", at.place},
+                {"place", number_of(at.place)},
                 {"view", number_of(at.frame)},
                 {"keyframe", number_of(at.keyframe)},
                 {"probability", at.probability},

@@ -50,10 +50,10 @@ json check_json(const SemanticMapCheck& check, const SemanticMap& map) {
           {"confusion", confusion}};
 }
 
-std::vector<std::pair<std::int64_t, std::vector<float>>> shares_by_place(const UrbanMapper& mapper,
-                                                                         const Map& map) {
+std::vector<std::pair<PlaceId, std::vector<float>>> shares_by_place(const UrbanMapper& mapper,
+                                                                    const Map& map) {
   const std::vector<std::vector<float>> shares = class_shares(mapper, map);
-  std::vector<std::pair<std::int64_t, std::vector<float>>> result;
+  std::vector<std::pair<PlaceId, std::vector<float>>> result;
   for (std::size_t i = 0; i < shares.size(); ++i)
     result.emplace_back(map.place_graph.places[i].id, shares[i]);
   return result;

@@ -110,9 +110,9 @@ PlaceClassifier learn(const MapLabelArguments& arguments, bool colour, int& plac
 json relabelled(const PlaceLabel& of, const std::vector<std::string>& names, Place& place) {
   std::vector<std::string>& written = place.labels;
   written.clear();
-  if (of.label >= 0)
-    written.push_back(names.empty() ? std::to_string(of.label)
-                                    : names[static_cast<std::size_t>(of.label)]);
+  if (of.label)
+    written.push_back(names.empty() ? std::to_string(*of.label)
+                                    : names[static_cast<std::size_t>(*of.label)]);
   return {{"place", of.place},
           {"label", written.empty() ? json(nullptr) : json(written.front())},
           {"probability", of.probability},
@@ -148,7 +148,7 @@ MapLabelResult map_label(const MapLabelArguments& arguments) {
   result.accuracy = classifier.cross_validated_accuracy();
   for (std::size_t i = 0; i < labels.size(); ++i) {
     result.list.push_back(relabelled(labels[i], names, map.place_graph.places[i]));
-    result.labelled += labels[i].label >= 0;
+    result.labelled += labels[i].label.has_value();
   }
   write_map(result.map, stored);
   return result;

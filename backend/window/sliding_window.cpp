@@ -102,7 +102,7 @@ void SlidingWindow::add_keyframe(KeyframeId id, const SE3& T_map_cam) {
   state.keyframes.emplace(id, T_map_cam);
 }
 
-void SlidingWindow::add_landmark(std::int64_t id, const Eigen::Vector3d& p_map) {
+void SlidingWindow::add_landmark(LandmarkId id, const Eigen::Vector3d& p_map) {
   require(p_map.allFinite(), name_of("landmark", id) + " is not finite");
   insert(change().landmarks, id, WindowLandmark{p_map, {}, {}}, "landmark");
 }
@@ -174,12 +174,12 @@ void SlidingWindow::add(const WindowFactor& factor) {
     state.fixed.reset();
 }
 
-void SlidingWindow::remove_landmark(std::int64_t id) {
+void SlidingWindow::remove_landmark(LandmarkId id) {
   find(state_->landmarks, id, "landmark");
   change().landmarks.erase(id);
 }
 
-void SlidingWindow::remove_observation(KeyframeId keyframe, std::int64_t landmark) {
+void SlidingWindow::remove_observation(KeyframeId keyframe, LandmarkId landmark) {
   const std::size_t removed =
       std::erase_if(find(change().landmarks, landmark, "landmark").observations,
                     [&](const WindowObservation& o) { return o.keyframe == keyframe; });
@@ -213,7 +213,7 @@ void SlidingWindow::remove(const WindowFactor& factor) {
   require(removed > 0, "sliding window: a measurement that is to be removed is not there");
 }
 
-void SlidingWindow::revise_inverse_depth(KeyframeId keyframe, std::int64_t landmark,
+void SlidingWindow::revise_inverse_depth(KeyframeId keyframe, LandmarkId landmark,
                                          double inverse_depth) {
   require(std::isfinite(inverse_depth), "sliding window: inverse_depth must be finite");
   for (WindowObservation& o : find(change().landmarks, landmark, "landmark").observations)
@@ -261,7 +261,7 @@ void SlidingWindow::rescale(double scale) {
 }
 
 std::vector<KeyframeId> SlidingWindow::keyframes() const { return ids_of(state_->keyframes); }
-std::vector<std::int64_t> SlidingWindow::landmarks() const { return ids_of(state_->landmarks); }
+std::vector<LandmarkId> SlidingWindow::landmarks() const { return ids_of(state_->landmarks); }
 std::vector<std::int64_t> SlidingWindow::lines() const { return ids_of(state_->lines); }
 std::vector<std::int64_t> SlidingWindow::planes() const { return ids_of(state_->planes); }
 std::vector<std::int64_t> SlidingWindow::worlds() const { return ids_of(state_->worlds); }
@@ -270,7 +270,7 @@ SE3 SlidingWindow::pose(KeyframeId keyframe) const {
   return find(state_->keyframes, keyframe, "keyframe");
 }
 
-std::optional<Eigen::Vector3d> SlidingWindow::landmark(std::int64_t id) const {
+std::optional<Eigen::Vector3d> SlidingWindow::landmark(LandmarkId id) const {
   const auto it = state_->landmarks.find(id);
   if (it == state_->landmarks.end()) return std::nullopt;
   return it->second.p_map;
@@ -290,7 +290,7 @@ std::optional<SO3> SlidingWindow::world(std::int64_t id) const {
   return value_if_there(state_->worlds, id);
 }
 
-const std::vector<WindowObservation>& SlidingWindow::observations(std::int64_t landmark) const {
+const std::vector<WindowObservation>& SlidingWindow::observations(LandmarkId landmark) const {
   return find(state_->landmarks, landmark, "landmark").observations;
 }
 

@@ -37,7 +37,7 @@ class SlidingWindow {
   /// held). When neither depth nor a distance says otherwise, the scale is held where it is: by a
   /// soft distance to the farthest keyframe, and by the prior once that has gone into it.
   void add_keyframe(KeyframeId id, const SE3& T_map_cam);
-  void add_landmark(std::int64_t id, const Eigen::Vector3d& p_map);
+  void add_landmark(LandmarkId id, const Eigen::Vector3d& p_map);
   void add_observation(const WindowObservation& observation);
   /// A line counts from three images on, of two keyframes or more: fewer say nothing of the poses
   /// (two planes always meet in a line). Its planes through the cameras should have turned by a few
@@ -60,8 +60,8 @@ class SlidingWindow {
   void add(const WindowFactor& factor);
 
   /// Forgets a landmark with its observations (an outlier).
-  void remove_landmark(std::int64_t id);
-  void remove_observation(KeyframeId keyframe, std::int64_t landmark);
+  void remove_landmark(LandmarkId id);
+  void remove_observation(KeyframeId keyframe, LandmarkId landmark);
   void remove_line(std::int64_t id);
   /// Forgets a plane with all that was measured of it in the window; what went into the prior is
   /// integrated over it.
@@ -70,7 +70,7 @@ class SlidingWindow {
   void remove(const WindowFactor& factor);
   /// The inverse depth [1/m] of an observation that has one, as it is measured by a better
   /// calibration.
-  void revise_inverse_depth(KeyframeId keyframe, std::int64_t landmark, double inverse_depth);
+  void revise_inverse_depth(KeyframeId keyframe, LandmarkId landmark, double inverse_depth);
   /// What a second eye saw is known better now, as after its calibration. It must be there.
   void revise_second_eye(KeyframeId keyframe, std::int64_t line,
                          const LineObservation::SecondEye& second);
@@ -93,17 +93,17 @@ class SlidingWindow {
   /// window measures it already: a distance, an inverse depth, a height, pose priors, a motion.
   void rescale(double scale);
 
-  std::vector<KeyframeId> keyframes() const;    ///< ascending
-  std::vector<std::int64_t> landmarks() const;  ///< ascending
-  std::vector<std::int64_t> lines() const;      ///< ascending
-  std::vector<std::int64_t> planes() const;     ///< ascending
-  std::vector<std::int64_t> worlds() const;     ///< ascending
-  SE3 pose(KeyframeId keyframe) const;          ///< T_map_cam
-  std::optional<Eigen::Vector3d> landmark(std::int64_t id) const;
+  std::vector<KeyframeId> keyframes() const;  ///< ascending
+  std::vector<LandmarkId> landmarks() const;  ///< ascending
+  std::vector<std::int64_t> lines() const;    ///< ascending
+  std::vector<std::int64_t> planes() const;   ///< ascending
+  std::vector<std::int64_t> worlds() const;   ///< ascending
+  SE3 pose(KeyframeId keyframe) const;        ///< T_map_cam
+  std::optional<Eigen::Vector3d> landmark(LandmarkId id) const;
   std::optional<Line3> line(std::int64_t id) const;
   std::optional<Plane3> plane(std::int64_t id) const;
   std::optional<SO3> world(std::int64_t id) const;  ///< R_map_world
-  const std::vector<WindowObservation>& observations(std::int64_t landmark) const;
+  const std::vector<WindowObservation>& observations(LandmarkId landmark) const;
   const std::vector<LineObservation>& line_observations(std::int64_t line) const;
   /// Those of one type together, and these in the order in which they came.
   const std::vector<WindowFactor>& factors() const;

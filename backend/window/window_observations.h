@@ -13,7 +13,7 @@ namespace placegraph {
 /// (disparity / (f b)) or a depth camera.
 struct WindowObservation {
   KeyframeId keyframe;
-  std::int64_t landmark = 0;
+  LandmarkId landmark;
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double sigma_px = 1;
   std::optional<double> inverse_depth;  ///< [1/m]
@@ -44,7 +44,7 @@ struct LineObservation {
 /// A point landmark that lies on a plane landmark.
 struct PlanePoint {
   std::int64_t plane = 0;
-  std::int64_t landmark = 0;
+  LandmarkId landmark;
   double sigma_m = 1;  ///< how uneven the plane is
 };
 

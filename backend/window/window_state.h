@@ -30,7 +30,7 @@ struct WindowState {
   SlidingWindowOptions options;
   Camera camera;
   std::map<KeyframeId, SE3> keyframes;  ///< T_map_cam
-  std::map<std::int64_t, WindowLandmark> landmarks;
+  std::map<LandmarkId, WindowLandmark> landmarks;
   std::map<std::int64_t, WindowLine> lines;
   std::map<std::int64_t, Plane3> planes;  ///< planes of the map
   std::map<std::int64_t, SO3> worlds;     ///< R_map_world

@@ -15,14 +15,14 @@ namespace {
 using Isometry = Eigen::Isometry3d;
 
 struct Anchor {
-  std::int64_t place;
+  PlaceId place;
   Isometry T_world_anchor;
 };
 
 /// The map's frames with their true poses and places.
 struct PlacedFrame {
   FrameId frame;
-  std::int64_t place;
+  PlaceId place;
   Isometry T_world_frame;
 };
 
@@ -42,7 +42,7 @@ const std::optional<Isometry>& true_pose(const Trajectory& truth, FrameId frame)
 }
 
 std::vector<PlacedFrame> placed_frames(const Map& map, const Trajectory& truth) {
-  std::map<KeyframeId, std::int64_t> place_of;
+  std::map<KeyframeId, PlaceId> place_of;
   for (const Keyframe& keyframe : map.keyframes) place_of[keyframe.id] = keyframe.place;
   std::vector<PlacedFrame> frames;
   for (const FrameRecord& record : map.frames) {
@@ -57,7 +57,7 @@ std::vector<PlacedFrame> placed_frames(const Map& map, const Trajectory& truth) 
 
 void count_pure_pairs(const Map& map, const Trajectory& truth, const PlaceCheckOptions& options,
                       PlaceCheck& check) {
-  std::map<std::int64_t, std::vector<Isometry>> views;
+  std::map<PlaceId, std::vector<Isometry>> views;
   for (const Keyframe& keyframe : map.keyframes)
     if (const auto& T_world_view = true_pose(truth, keyframe.frame))
       views[keyframe.place].push_back(*T_world_view);
@@ -75,8 +75,8 @@ void count_pure_pairs(const Map& map, const Trajectory& truth, const PlaceCheckO
 void count_growth(const std::vector<PlacedFrame>& frames, const Trajectory& truth,
                   const PlaceCheckOptions& options, PlaceCheck& check) {
   const LoopTruth revisits = loop_truth_from_poses(truth, options.revisit);
-  std::map<FrameId, std::int64_t> place_of_frame;
-  std::set<std::int64_t> founded_first, revisited, of_revisits;
+  std::map<FrameId, PlaceId> place_of_frame;
+  std::set<PlaceId> founded_first, revisited, of_revisits;
   for (const PlacedFrame& frame : frames) {
     place_of_frame[frame.frame] = frame.place;
     const auto query = revisits.queries.find(frame.frame);
@@ -89,14 +89,14 @@ void count_growth(const std::vector<PlacedFrame>& frames, const Trajectory& trut
       if (const auto place = place_of_frame.find(match); place != place_of_frame.end())
         revisited.insert(place->second);
   }
-  for (const std::int64_t place : revisited) check.revisited_places += founded_first.count(place);
-  for (const std::int64_t place : of_revisits) check.added_places += !founded_first.count(place);
+  for (const PlaceId place : revisited) check.revisited_places += founded_first.count(place);
+  for (const PlaceId place : of_revisits) check.added_places += !founded_first.count(place);
 }
 
-std::set<std::pair<std::int64_t, std::int64_t>> true_adjacency(
-    const std::vector<Anchor>& anchors, const std::vector<PlacedFrame>& frames,
-    const PlaceCheckOptions& options) {
-  std::set<std::pair<std::int64_t, std::int64_t>> pairs;
+std::set<std::pair<PlaceId, PlaceId>> true_adjacency(const std::vector<Anchor>& anchors,
+                                                     const std::vector<PlacedFrame>& frames,
+                                                     const PlaceCheckOptions& options) {
+  std::set<std::pair<PlaceId, PlaceId>> pairs;
   const Anchor* before = nullptr;
   std::optional<FrameId> last;
   for (const PlacedFrame& frame : frames) {
@@ -142,7 +142,7 @@ PlaceCheck check_places(const Map& map, const Trajectory& truth, const PlaceChec
       if (const auto& T_world_anchor = true_pose(truth, keyframe->frame))
         anchors.push_back({place.id, *T_world_anchor});
   const auto expected = true_adjacency(anchors, frames, options);
-  std::set<std::pair<std::int64_t, std::int64_t>> found;
+  std::set<std::pair<PlaceId, PlaceId>> found;
   for (const PlaceTransition& transition : place_transitions(map))
     found.insert(std::minmax(transition.from, transition.to));
   check.adjacent = static_cast<int>(found.size());

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/flow/anchored_patch.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/image.h>
 #include <placegraph/graph/core/options.h>
 
@@ -29,9 +30,9 @@ struct PointTrackerOptions {
 };
 void visit(OptionVisitor& field, PointTrackerOptions& options);
 
-/// One image point followed over time.
+/// One image point followed over time; the landmark that it becomes has its id.
 struct PointTrack {
-  std::int64_t id = 0;
+  LandmarkId id;
   Eigen::Vector2f px = Eigen::Vector2f::Zero();
   Eigen::Vector2f px_previous = Eigen::Vector2f::Zero();
   int age = 0;  ///< frames since detection
@@ -82,7 +83,7 @@ class PointTracker {
   std::vector<PointTrack> tracks_;
   Image image_;
   std::vector<Image> pyramid_;
-  std::int64_t next_id_ = 0;
+  LandmarkId next_id_;
 };
 
 }  // namespace placegraph

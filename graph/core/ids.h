@@ -10,4 +10,10 @@ using FrameId = Id<struct FrameTag>;
 /// first keyframe of a part of a place, its anchor, names the part.
 using KeyframeId = Id<struct KeyframeTag>;
 
+/// A topological place: a node of the place graph.
+using PlaceId = Id<struct PlaceTag>;
+
+/// A point of the scene. The track of image points that it is seen by has the same id.
+using LandmarkId = Id<struct LandmarkTag>;
+
 }  // namespace placegraph

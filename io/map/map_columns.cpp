@@ -33,9 +33,10 @@ Keyframe& keyframe_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id
 
 Place& place_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id, const char* column) {
   auto& all = stored.map.place_graph.places;
-  const auto found = std::lower_bound(
-      all.begin(), all.end(), id, [](const Place& p, std::int64_t value) { return p.id < value; });
-  if (found == all.end() || found->id != id)
+  const auto found =
+      std::lower_bound(all.begin(), all.end(), id,
+                       [](const Place& p, std::int64_t value) { return p.id.value() < value; });
+  if (found == all.end() || found->id.value() != id)
     rows.refuse(std::string(column) + " " + std::to_string(id) + " is no place of the map");
   return *found;
 }

@@ -46,7 +46,7 @@ void MapHistoryWriter::put_parts(const PlaceHistory& history) {
     std::string S_place_part;
     BlobWriter(S_place_part).similarity(part.S_place_part);
     MapRow row;
-    row.integer(part.place).blob(S_place_part).symmetric(part.covariance);
+    row.id(part.place).blob(S_place_part).symmetric(part.covariance);
     part.motion_covariance ? row.symmetric(*part.motion_covariance) : row.null();
     parts_.put(part.anchor.value(), row);
   }

@@ -68,7 +68,7 @@ void MapReader::read_keyframes() {
     keyframe.id = KeyframeId(rows.integer(0, 0));
     keyframe.frame = FrameId(rows.integer(1, 0));
     keyframe.stamp_ns = rows.integer(2);
-    keyframe.place = rows.integer(3, 0);
+    keyframe.place = PlaceId(rows.integer(3, 0));
     keyframe.T_place_keyframe = pose_column(rows, 4, "T_place_keyframe");
     keyframe.scale = rows.positive(5);
   }
@@ -97,7 +97,7 @@ void MapReader::read_places() {
                   "id, anchor_keyframe, component, T_map_place, scale, reach, last_keyframe");
   while (rows.next()) {
     Place& place = places.emplace_back();
-    place.id = rows.integer(0, 0);
+    place.id = PlaceId(rows.integer(0, 0));
     place.anchor_keyframe = keyframe_of(stored_, rows, rows.integer(1), "anchor_keyframe").id;
     place.component = static_cast<int>(rows.integer(2, 0, kMost));
     place.T_map_place = pose_column(rows, 3, "T_map_place");
@@ -137,7 +137,7 @@ void MapReader::read_members() {
         keyframe_of(stored_, places, place.anchor_keyframe.value(), "anchor_keyframe");
     if (anchor.place != place.id)
       places.refuse("anchor_keyframe " + to_string(anchor.id) + " hangs on place " +
-                    std::to_string(anchor.place));
+                    to_string(anchor.place));
   }
 }
 
@@ -177,8 +177,8 @@ void MapReader::read_edges() {
   std::optional<std::size_t> motion_bytes;
   while (rows.next()) {
     RelativePoseConstraint edge;
-    edge.from = place_of(stored_, rows, rows.integer(1), "from_place").id;
-    edge.to = place_of(stored_, rows, rows.integer(2), "to_place").id;
+    edge.from = node_of_place(place_of(stored_, rows, rows.integer(1), "from_place").id);
+    edge.to = node_of_place(place_of(stored_, rows, rows.integer(2), "to_place").id);
     edge.source = static_cast<ConstraintSource>(rows.integer(3, 0, 2));
     edge.kernel.kind = static_cast<RobustKernel::Kind>(rows.integer(4, 0, kernels - 1));
     edge.kernel.width = rows.positive(5);

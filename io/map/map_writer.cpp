@@ -12,11 +12,11 @@ constexpr std::size_t kLandmarksARow = 1000;
 }  // namespace
 
 void MapWriter::put_places(const MapChanges& changes) {
-  std::map<std::int64_t, const PlaceHistory::Place*> grown;
+  std::map<PlaceId, const PlaceHistory::Place*> grown;
   for (const PlaceHistory::Place& place : changes.history.places) grown[place.id] = &place;
   std::set<std::int64_t> ids;
   for (const Place& place : changes.places) {
-    ids.insert(place.id);
+    ids.insert(place.id.value());
     MapRow row;
     row.id(place.anchor_keyframe).integer(place.component).pose(place.T_map_place);
     row.real(place.scale);
@@ -24,24 +24,26 @@ void MapWriter::put_places(const MapChanges& changes) {
       row.real(found->second->reach).id(found->second->last_keyframe);
     else
       row.null().null();
-    places.put(place.id, row);
+    places.put(place.id.value(), row);
     if (place.labels == written_labels[place.id]) continue;
-    labels.erase(place.id);
+    labels.erase(place.id.value());
     for (std::size_t i = 0; i < place.labels.size(); ++i)
-      labels.write(place.id, MapRow().integer(static_cast<std::int64_t>(i)).text(place.labels[i]));
+      labels.write(place.id.value(),
+                   MapRow().integer(static_cast<std::int64_t>(i)).text(place.labels[i]));
     written_labels[place.id] = place.labels;
   }
   for (const std::int64_t id : places.keep(ids)) {
     labels.erase(id);
     appearances.erase(id);
-    written_labels.erase(id);
+    written_labels.erase(PlaceId(id));
   }
   for (const auto& [place, appearance] : changes.appearances) {
-    if (!ids.count(place)) continue;
+    if (!ids.count(place.value())) continue;
     std::string bytes;
     BlobWriter(bytes).words(appearance);
     appearances.write(
-        place, MapRow().integer(static_cast<std::int64_t>(appearance.words.size())).blob(bytes));
+        place.value(),
+        MapRow().integer(static_cast<std::int64_t>(appearance.words.size())).blob(bytes));
   }
 }
 
@@ -61,13 +63,13 @@ void MapWriter::put_keyframes(const MapChanges& changes) {
   for (const Place& place : changes.places)
     for (const PlaceMember& member : place.members) {
       const auto times = keyframe_times.find(member.keyframe);
-      require(times != keyframe_times.end(), "map: place " + std::to_string(place.id) +
+      require(times != keyframe_times.end(), "map: place " + to_string(place.id) +
                                                  " has keyframe " + to_string(member.keyframe) +
                                                  ", which is not there");
       keyframes.put(member.keyframe.value(), MapRow()
                                                  .id(times->second.first)
                                                  .integer(times->second.second)
-                                                 .integer(place.id)
+                                                 .id(place.id)
                                                  .pose(member.T_place_keyframe)
                                                  .real(member.scale));
     }

@@ -62,7 +62,7 @@ struct MapWriter {
   MapHistoryWriter history;
   SqliteStatement put_edge, erase_edge;
   std::map<KeyframeId, std::pair<FrameId, std::int64_t>> keyframe_times;  // frame, stamp
-  std::map<std::int64_t, std::vector<std::string>> written_labels;
+  std::map<PlaceId, std::vector<std::string>> written_labels;
 };
 
 }  // namespace placegraph

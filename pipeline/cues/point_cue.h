@@ -56,7 +56,7 @@ class PointCue {
 
   /// Moves the tracks to where their reference patches are found in the newest image. Returns what
   /// each was moved by [px]: the drift that it had accumulated.
-  std::map<std::int64_t, Eigen::Vector2d> anchor();
+  std::map<LandmarkId, Eigen::Vector2d> anchor();
   /// Drops tracks where `still` is 0 (CV_8UC1, the image's size), if enough others are left.
   void leave_moving_objects(const Image& still);
   /// Detects new points in the newest image where `mask` allows them. If it was made from semantic
@@ -68,7 +68,7 @@ class PointCue {
                SlidingWindow& window);
   /// A point of two views that start a map.
   struct TwoViewPoint {
-    std::int64_t track = 0;
+    LandmarkId track;
     Eigen::Vector2d px_ref, px_cur;
     Eigen::Matrix2d covariance_px;
     std::optional<Eigen::Vector3d> point_odom;  ///< nothing: not triangulated
@@ -84,7 +84,7 @@ class PointCue {
   std::vector<double> prune(SlidingWindow& window, KeyframeId newest);
 
   /// Landmarks that are tracked, with their pixel in the newest image.
-  std::vector<std::pair<std::int64_t, Eigen::Vector2d>> landmark_pixels(
+  std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_pixels(
       const SlidingWindow& window) const;
   /// The same with their depths in keyframe `keyframe`, which the newest image is, for a cue that
   /// needs depths: they are taken to be certain to a few per cent.
@@ -114,15 +114,15 @@ class PointCue {
                                              const std::vector<Observation>& before,
                                              const std::optional<InverseDepth>& depth,
                                              const SlidingWindow& window) const;
-  bool contradicts_itself(std::int64_t landmark, const SlidingWindow& window) const;
+  bool contradicts_itself(LandmarkId landmark, const SlidingWindow& window) const;
 
   PointCueOptions options_;
   Camera camera_;
   DepthSensor depth_;
   StageTimes& times_;
   PointTracker tracker_;
-  std::map<std::int64_t, std::vector<Observation>> observations_;  // of live tracks, in the window
-  double prediction_error_px_ = 0;                                 // median, of the last frame
+  std::map<LandmarkId, std::vector<Observation>> observations_;  // of live tracks, in the window
+  double prediction_error_px_ = 0;                               // median, of the last frame
 };
 
 }  // namespace placegraph

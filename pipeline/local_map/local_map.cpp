@@ -69,7 +69,7 @@ void LocalMap::marginalize() {
   for (std::size_t i = 0; i + 1 < keyframes.size() && keyframes.size() - i > size; ++i)
     links_[keyframes[i]] = {motion_information(keyframes[i], keyframes[i + 1]), scale_drift()};
   std::vector<PointLandmark> before;
-  for (const std::int64_t id : window_.landmarks())
+  for (const LandmarkId id : window_.landmarks())
     if (window_.observations(id).size() > 1) before.push_back(describe(id));
   window_.marginalize();
   for (const PointLandmark& landmark : before)
@@ -130,7 +130,7 @@ int LocalMap::landmarks_in_window() const {
   return static_cast<int>(window_.landmarks().size() + window_.lines().size());
 }
 
-PointLandmark LocalMap::describe(std::int64_t id) const {
+PointLandmark LocalMap::describe(LandmarkId id) const {
   const auto& observations = window_.observations(id);
   PointLandmark landmark;
   landmark.id = id;
@@ -145,7 +145,7 @@ std::vector<PointLandmark> LocalMap::landmarks(std::size_t first) const {
           "LocalMap::landmarks: those of the window have no order");
   std::vector<PointLandmark> result(past_landmarks_.begin() + static_cast<std::ptrdiff_t>(first),
                                     past_landmarks_.end());
-  for (const std::int64_t id : window_.landmarks())
+  for (const LandmarkId id : window_.landmarks())
     if (!window_.observations(id).empty()) result.push_back(describe(id));
   return result;
 }

@@ -98,7 +98,7 @@ class LocalMap {
  private:
   /// So many keyframes before the next one.
   KeyframeId back(int keyframes) const { return KeyframeId(next_.value() - keyframes); }
-  PointLandmark describe(std::int64_t landmark) const;
+  PointLandmark describe(LandmarkId landmark) const;
   double scale_drift() const;
   void widen_link_to_oldest();
 

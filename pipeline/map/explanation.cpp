@@ -8,12 +8,12 @@ namespace placegraph {
 namespace {
 
 /// Of a place's pose; nothing where the graph does not hold it, or is over similarities.
-std::optional<Matrix6d> covariance_of(const PlaceGraph& places, std::int64_t place) {
+std::optional<Matrix6d> covariance_of(const PlaceGraph& places, PlaceId place) {
   const PoseGraph graph = places.pose_graph();
   if (graph.kind() != PoseKind::kSE3) return std::nullopt;
   const PoseMarginals marginals(graph);
   if (!marginals.outcome()) return std::nullopt;
-  return Matrix6d(marginals.covariance(place));
+  return Matrix6d(marginals.covariance(node_of_place(place)));
 }
 
 void place_frame(const Map& map, const FrameRecord& record, Explanation& told) {
@@ -41,7 +41,7 @@ void place_frame(const Map& map, const FrameRecord& record, Explanation& told) {
       std::count_if(keyframe.features.begin(), keyframe.features.end(),
                     [](const Feature& feature) { return feature.point_cam.has_value(); }));
   for (const RelativePoseConstraint& constraint : map.place_graph.constraints)
-    if (constraint.from == place.id || constraint.to == place.id)
+    if (place_of_node(constraint.from) == place.id || place_of_node(constraint.to) == place.id)
       ++told.constraints[to_string(constraint.source)];
 }
 

@@ -17,7 +17,7 @@ struct Explanation {
 
   // Where it is; of a posed frame.
   std::optional<KeyframeId> keyframe;
-  std::int64_t place = -1;
+  std::optional<PlaceId> place;
   std::vector<std::string> labels;  ///< of the place
   int component = 0;
   SE3 T_map_cam;

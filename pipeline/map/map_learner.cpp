@@ -48,7 +48,7 @@ StoredMap learn_map(std::size_t count, const std::function<Image(std::size_t)>& 
     if (i == 0 || (i > anchor + 1 && alike(i, anchor) < options.alike * alike(i, i - 1))) {
       anchor = i;
       Place& place = places.emplace_back();
-      place.id = static_cast<std::int64_t>(places.size()) - 1;
+      place.id = PlaceId(places.size() - 1);
       place.anchor_keyframe = id;
     }
     places.back().members.push_back({id, SE3(), 1});

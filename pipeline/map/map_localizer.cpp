@@ -70,8 +70,9 @@ std::vector<PlaceLikeness> MapLocalizer::likenesses(const PlaceView& view) const
 
 void MapLocalizer::learn_near() {
   for (const RelativePoseConstraint& edge : stored_.map.place_graph.constraints) {
-    adjacent_.emplace(edge.from, edge.to);
-    adjacent_.emplace(edge.to, edge.from);
+    const PlaceId from = place_of_node(edge.from), to = place_of_node(edge.to);
+    adjacent_.emplace(from, to);
+    adjacent_.emplace(to, from);
   }
   lag_ = lag_of_likeness();
 }
@@ -100,7 +101,7 @@ int MapLocalizer::lag_of_likeness() const {
 
 bool MapLocalizer::near(int a, int b) const {
   if (std::abs(a - b) <= lag_) return true;
-  const std::int64_t at = keyframe_of(a).place, other = keyframe_of(b).place;
+  const PlaceId at = keyframe_of(a).place, other = keyframe_of(b).place;
   return at == other || adjacent_.count({at, other}) > 0;
 }
 
@@ -212,8 +213,8 @@ std::optional<LocatedFrame> MapLocalizer::verify(const Frame& frame,
 void MapLocalizer::take_geometry(const LocatedFrame& located, Localization& result) const {
   constexpr double kOddsOfVerified = 1000, kSurest = 1 - 1e-9;
   const Keyframe& match = *stored_.map.find_keyframe(located.match);
-  const bool agree =
-      result.place == match.place || adjacent_.count({result.place, match.place}) > 0;
+  const bool agree = result.place && (*result.place == match.place ||
+                                      adjacent_.contains({*result.place, match.place}));
   const double p = std::clamp(result.probability, 1 - kSurest, kSurest);
   const double odds = kOddsOfVerified * (agree ? p / (1 - p) : (1 - p) / p);
   result.probability = odds / (1 + odds);

@@ -25,7 +25,7 @@ void visit(OptionVisitor& field, LocalizerOptions& options);
 /// Where an image was taken, or why that is not said.
 struct Localization {
   bool placed = false;
-  std::int64_t place = -1;  ///< of the map, as the next two; the best guess if refused
+  std::optional<PlaceId> place;  ///< of the map, as the next two; the best guess if refused
   std::optional<KeyframeId> keyframe;
   std::optional<FrameId> frame;
   double probability = 0;
@@ -69,9 +69,9 @@ class MapLocalizer {
   StoredMap stored_;
   bool in_colour_ = false;
   PlaceRecognizer recognizer_;
-  std::vector<int> keyframes_;  ///< of the views, indices in the map's
-  int lag_ = 1;                 ///< views so far apart look like any others
-  std::set<std::pair<std::int64_t, std::int64_t>> adjacent_;  ///< places
+  std::vector<int> keyframes_;                      ///< of the views, indices in the map's
+  int lag_ = 1;                                     ///< views so far apart look like any others
+  std::set<std::pair<PlaceId, PlaceId>> adjacent_;  ///< places
   std::optional<LoopCloser> closer_;
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 #include <placegraph/frontend/places/classifiers/place_classifier.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 
 #include <functional>
+#include <optional>
 
 namespace placegraph {
 
@@ -14,9 +16,9 @@ void visit(OptionVisitor& field, PlaceLabelOptions& options);
 
 /// What a classifier says of a place.
 struct PlaceLabel {
-  std::int64_t place = 0;
-  int label = -1;          ///< -1: none is probable enough
-  double probability = 0;  ///< of the likeliest, mean over its views
+  PlaceId place;
+  std::optional<int> label;  ///< nothing: none is probable enough
+  double probability = 0;    ///< of the likeliest, mean over its views
   int views = 0;
 };
 

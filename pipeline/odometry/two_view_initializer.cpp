@@ -99,7 +99,7 @@ Initialization TwoViewInitializer::try_second_view(const Frame& frame,
 /// however long the camera stood still, a few are enough.
 std::vector<PartialView> TwoViewInitializer::views_between() const {
   constexpr std::size_t kJudges = 16;
-  std::map<std::int64_t, int> index;
+  std::map<LandmarkId, int> index;
   const auto& tracks = tracker_.points().tracks();
   for (std::size_t i = 0; i < tracks.size(); ++i) index[tracks[i].id] = static_cast<int>(i);
   std::vector<PartialView> between;

@@ -22,7 +22,7 @@ class TwoViewInitializer : public Initializer {
  private:
   struct View {
     FrameId frame;
-    std::map<std::int64_t, Eigen::Vector2d> px;  // of its tracks
+    std::map<LandmarkId, Eigen::Vector2d> px;  // of its tracks
   };
   Initialization begin(const Frame& frame, LocalMapping& mapping);
   Initialization try_second_view(const Frame& frame, const std::optional<SE3>& T_known,

@@ -117,8 +117,8 @@ RelativePoseConstraint constraint_between_places(const PlacePartition& partition
   covariance = transported(to.S_place_part.adjoint(), covariance);
 
   RelativePoseConstraint constraint;
-  constraint.from = from.place;
-  constraint.to = to.place;
+  constraint.from = node_of_place(from.place);
+  constraint.to = node_of_place(to.place);
   constraint.source = edge.source;
   constexpr double kLeastVariance = 1e-18;
   if (all_scales_known) {

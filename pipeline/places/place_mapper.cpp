@@ -135,7 +135,8 @@ IncrementalStep PlaceMapper::update_optimizer() {
   for (const auto& [number, place] : partition_.places()) {
     if (!begin && optimizer_.knows(number)) continue;
     const Sim3& S = place.S_map_place;
-    nodes.push_back({number, kind == PoseKind::kSim3 ? Pose(S) : Pose(rigid_part(S)), false});
+    nodes.push_back(
+        {node_of_place(number), kind == PoseKind::kSim3 ? Pose(S) : Pose(rigid_part(S)), false});
   }
   const IncrementalStep step = begin ? optimizer_.begin(nodes, constraints(kBeforeAll))
                                      : optimizer_.follow(nodes, constraints(unoptimized_from_));
@@ -151,7 +152,7 @@ void PlaceMapper::take_poses() {
 /// Merges places that are one; whether there were any.
 bool PlaceMapper::merge(KeyframeId first_open) {
   if (!options_.merge) return false;
-  const auto covariance = [&](std::int64_t from, std::int64_t to) {
+  const auto covariance = [&](PlaceId from, PlaceId to) {
     return optimizer_.relative_covariance(from, to);
   };
   const auto mergers = find_mergers(chain_, partition_, loops_, options_, covariance, first_open);
@@ -214,7 +215,7 @@ std::optional<TrackedMotion> PlaceMapper::odometry(KeyframeId from, KeyframeId t
 }
 
 std::optional<PredictedMotion> PlaceMapper::predicted(KeyframeId from, KeyframeId to) const {
-  const std::int64_t a = place_of(from), b = place_of(to);
+  const PlaceId a = place_of(from), b = place_of(to);
   if (component_of(from) != component_of(to) || !optimizer_.knows(a) || !optimizer_.knows(b))
     return std::nullopt;
   const Sim3 S_map_to = S_map_keyframe(to);

@@ -56,7 +56,7 @@ class PlaceMapper {
   /// Takes points and camera positions in the keyframe's frame and scale into the map.
   Sim3 S_map_keyframe(KeyframeId id) const { return partition_.S_map_keyframe(chain_, id); }
   SE3 T_map_keyframe(KeyframeId id) const { return rigid_part(S_map_keyframe(id)); }
-  std::int64_t place_of(KeyframeId keyframe) const { return partition_.place_of(keyframe); }
+  PlaceId place_of(KeyframeId keyframe) const { return partition_.place_of(keyframe); }
   /// Whether a part of a place begins with the keyframe.
   bool is_anchor(KeyframeId keyframe) const { return partition_.is_anchor(keyframe); }
   int component_of(KeyframeId keyframe) const { return partition_.state_of(keyframe).component; }

@@ -11,12 +11,12 @@ namespace placegraph {
 
 /// Two places that are one.
 struct PlaceMerger {
-  std::int64_t older = 0, younger = 0;
+  PlaceId older, younger;
   Matrix7d covariance = Matrix7d::Zero();  ///< of S_older_younger in its right tangent
 };
 
 /// Covariance of S_from_to of two places in its right tangent.
-using PlaceCovariance = std::function<Matrix7d(std::int64_t from, std::int64_t to)>;
+using PlaceCovariance = std::function<Matrix7d(PlaceId from, PlaceId to)>;
 
 /// As `first_open`: no keyframe is being refined any more.
 inline constexpr KeyframeId kNoneOpen = kAfterAll;

@@ -36,7 +36,7 @@ PlacePartition::PlacePartition(const std::vector<Place>& places, const PlaceHist
     for (const auto& [anchor, covariance] : merged.covariance_of_part) known &= is_anchor(anchor);
     require(known, "PlacePartition: an unknown part was merged");
   }
-  require(places_.empty() || founded_ > places_.rbegin()->first,
+  require(places_.empty() || founded_ > places_.rbegin()->first.value(),
           "PlacePartition: fewer places were founded than there are");
 }
 
@@ -53,7 +53,7 @@ void PlacePartition::save(PlaceHistory& history) const {
 
 void PlacePartition::found(KeyframeId keyframe, const Sim3& S_map_place, int component,
                            double reach) {
-  const std::int64_t number = founded_++;
+  const PlaceId number(founded_++);
   part_of_[keyframe] = keyframe;
   parts_[keyframe] = {number, Sim3()};
   places_[number] = {keyframe, S_map_place, component, reach, keyframe};
@@ -68,8 +68,7 @@ void PlacePartition::set_motion_covariance(KeyframeId anchor, const Matrix6d& co
   parts_.at(anchor).motion_covariance = covariance;
 }
 
-KeyframeId PlacePartition::merge(std::int64_t older, std::int64_t younger,
-                                 const Matrix7d& covariance) {
+KeyframeId PlacePartition::merge(PlaceId older, PlaceId younger, const Matrix7d& covariance) {
   require(older != younger, "PlacePartition::merge: a place with itself");
   PlaceState& into = places_.at(older);
   const PlaceState& from = places_.at(younger);
@@ -92,7 +91,7 @@ KeyframeId PlacePartition::merge(std::int64_t older, std::int64_t younger,
 
 KeyframeId PlacePartition::separate(std::size_t number) {
   const PlaceHistory::Merged merged = merged_.at(number);
-  const std::int64_t former = parts_.at(merged.anchor).place, again = founded_++;
+  const PlaceId former = parts_.at(merged.anchor).place, again(founded_++);
   const Sim3 S_former_place = parts_.at(merged.anchor).S_place_part;
   PlaceState place = places_.at(former);
   parted_.insert({place.anchor_keyframe, merged.anchor});
@@ -116,14 +115,14 @@ KeyframeId PlacePartition::separate(std::size_t number) {
   return first;
 }
 
-bool PlacePartition::have_parted(std::int64_t one, std::int64_t other) const {
+bool PlacePartition::have_parted(PlaceId one, PlaceId other) const {
   return std::any_of(parted_.begin(), parted_.end(), [&](const auto& anchors) {
     return std::minmax(parts_.at(anchors.first).place, parts_.at(anchors.second).place) ==
            std::minmax(one, other);
   });
 }
 
-void PlacePartition::set_pose(std::int64_t place, const Sim3& S_map_place) {
+void PlacePartition::set_pose(PlaceId place, const Sim3& S_map_place) {
   places_.at(place).S_map_place = S_map_place;
 }
 
@@ -194,7 +193,7 @@ Sim3 PlacePartition::S_map_keyframe(const KeyframeChain& chain, KeyframeId keyfr
 
 std::vector<Place> PlacePartition::graph_places(const KeyframeChain& chain) const {
   std::vector<Place> places;
-  std::map<std::int64_t, std::size_t> index;
+  std::map<PlaceId, std::size_t> index;
   for (const auto& [number, state] : places_) {
     index[number] = places.size();
     Place place;

@@ -19,7 +19,7 @@ namespace placegraph {
 class PlacePartition {
  public:
   struct Part {  // named after its anchor
-    std::int64_t place = 0;
+    PlaceId place;
     Sim3 S_place_part;                            ///< identity if it founded the place
     Matrix7d covariance = Matrix7d::Zero();       ///< of that, in its right tangent
     std::optional<Matrix6d> motion_covariance{};  ///< of the motion from the previous anchor
@@ -46,14 +46,14 @@ class PlacePartition {
   /// The parts of place `younger` become parts of `older`, where the map has them now;
   /// `covariance` is that of S_older_younger in its right tangent. Returns the first anchor that
   /// has changed its place. Throws ArgumentError if the two are one.
-  KeyframeId merge(std::int64_t older, std::int64_t younger, const Matrix7d& covariance);
+  KeyframeId merge(PlaceId older, PlaceId younger, const Matrix7d& covariance);
   /// Undoes entry `number` of merged(): its parts are a place again, where they stand in the map.
   /// Returns as merge().
   KeyframeId separate(std::size_t number);
   /// Whether the two places hold parts whose merger was undone.
-  bool have_parted(std::int64_t one, std::int64_t other) const;
+  bool have_parted(PlaceId one, PlaceId other) const;
 
-  void set_pose(std::int64_t place, const Sim3& S_map_place);
+  void set_pose(PlaceId place, const Sim3& S_map_place);
   /// The places of component `from` move by `S_new_old` and join component `to`.
   void move_component(int from, int to, const Sim3& S_new_old);
   /// All scales become 1: those of places, and those of parts in their place.
@@ -64,10 +64,10 @@ class PlacePartition {
   void rescale(const KeyframeChain& chain, KeyframeId first, double factor);
 
   const std::map<KeyframeId, Part>& parts() const { return parts_; }
-  const std::map<std::int64_t, PlaceState>& places() const { return places_; }
+  const std::map<PlaceId, PlaceState>& places() const { return places_; }
   const std::vector<PlaceHistory::Merged>& merged() const { return merged_; }
   KeyframeId part_of(KeyframeId keyframe) const { return part_of_.at(keyframe); }
-  std::int64_t place_of(KeyframeId keyframe) const { return parts_.at(part_of(keyframe)).place; }
+  PlaceId place_of(KeyframeId keyframe) const { return parts_.at(part_of(keyframe)).place; }
   const PlaceState& state_of(KeyframeId keyframe) const { return places_.at(place_of(keyframe)); }
   bool is_anchor(KeyframeId keyframe) const { return parts_.count(keyframe) != 0; }
   /// The anchor before `anchor` in its run of tracking; nothing if `anchor` is none or the first.
@@ -84,7 +84,7 @@ class PlacePartition {
  private:
   std::map<KeyframeId, KeyframeId> part_of_;  // of every keyframe
   std::map<KeyframeId, Part> parts_;
-  std::map<std::int64_t, PlaceState> places_;
+  std::map<PlaceId, PlaceState> places_;
   std::vector<PlaceHistory::Merged> merged_;
   std::set<std::pair<KeyframeId, KeyframeId>> parted_;  // anchors that are not one place
   std::int64_t founded_ = 0;                            // places so far

@@ -5,12 +5,12 @@
 
 namespace placegraph {
 
-std::optional<std::int64_t> earlier_place_in_reach(const KeyframeChain& chain,
-                                                   const PlacePartition& partition,
-                                                   const PlaceOptions& options, KeyframeId keyframe,
-                                                   const Sim3& S_map_here, double reach) {
+std::optional<PlaceId> earlier_place_in_reach(const KeyframeChain& chain,
+                                              const PlacePartition& partition,
+                                              const PlaceOptions& options, KeyframeId keyframe,
+                                              const Sim3& S_map_here, double reach) {
   const PlacePartition::PlaceState& own = partition.state_of(keyframe);
-  std::optional<std::int64_t> nearest;
+  std::optional<PlaceId> nearest;
   double least = reach;
   for (const auto& [number, place] : partition.places()) {
     if (place.anchor_keyframe >= own.anchor_keyframe || place.component != own.component) continue;

@@ -22,7 +22,7 @@ SE3 camera_pose(const Map& map, KeyframeId keyframe) {
 
 std::set<KeyframeId> connected_keyframes(const Map& map) {
   const std::vector<int> components = map.place_graph.joined_components();
-  std::set<std::int64_t> places;
+  std::set<PlaceId> places;
   std::set<KeyframeId> keyframes;
   for (std::size_t i = 0; i < components.size(); ++i)
     if (components[i] == 0) places.insert(map.place_graph.places[i].id);

@@ -132,7 +132,7 @@ void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions
 
 std::vector<std::vector<float>> class_shares(const UrbanMapper& mapper, const Map& map) {
   const std::size_t n = mapper.classes().size();
-  std::map<std::int64_t, std::vector<float>> by_place;
+  std::map<PlaceId, std::vector<float>> by_place;
   for (const SemanticSight& sight : mapper.sights()) {
     const Keyframe* keyframe = map.find_keyframe(sight.keyframe);
     if (!keyframe) continue;

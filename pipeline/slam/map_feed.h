@@ -49,7 +49,7 @@ class MapFeed {
   std::optional<bool> views_in_colour_;
   std::vector<PointLandmark> earlier_landmarks_;     // of a saved map
   std::int64_t first_landmark_id_ = 0;               // after theirs
-  std::set<std::int64_t> described_places_;          // whose appearance has been told
+  std::set<PlaceId> described_places_;               // whose appearance has been told
   std::size_t first_view_ = 0, first_landmark_ = 0;  // from here on nothing has been told
   std::size_t told_training_ = 0;  // views that the vocabulary of the told appearances is of
 };

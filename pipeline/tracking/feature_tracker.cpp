@@ -99,7 +99,7 @@ bool FeatureTracker::keyframe_due(const SE3& T_odom_cam, int inliers, const Loca
 }
 
 std::optional<PureRotation> FeatureTracker::rotation_since(
-    const std::map<std::int64_t, Eigen::Vector2d>& px_before, Random& random) const {
+    const std::map<LandmarkId, Eigen::Vector2d>& px_before, Random& random) const {
   if (metric_from_start(cues_, calibration_) || !cues_.points) return std::nullopt;
   std::vector<Eigen::Vector2d> px_ref, px_cur;
   for (const PointTrack& track : points_.tracks())

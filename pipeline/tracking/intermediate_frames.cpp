@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-void IntermediateFrames::correct_drift(const std::map<std::int64_t, Eigen::Vector2d>& drift_px) {
+void IntermediateFrames::correct_drift(const std::map<LandmarkId, Eigen::Vector2d>& drift_px) {
   const double steps = static_cast<double>(frames_.size()) + 1;
   for (std::size_t k = 0; k < frames_.size(); ++k)
     for (auto& [id, px] : frames_[k].landmark_px)

@@ -22,13 +22,13 @@ class IntermediateFrames {
   struct Tracked {
     FrameId frame;
     SE3 T_keyframe_cam;  ///< from the last keyframe
-    std::vector<std::pair<std::int64_t, Eigen::Vector2d>> landmark_px;
+    std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_px;
     std::optional<ManhattanCue::Heading> heading;  ///< what it sees of a Manhattan frame
   };
   void remember(Tracked frame) { frames_.push_back(std::move(frame)); }
   /// Reference patches show at the next keyframe how far tracks have drifted since the last one: by
   /// equal parts in every frame. `drift_px`: of each track.
-  void correct_drift(const std::map<std::int64_t, Eigen::Vector2d>& drift_px);
+  void correct_drift(const std::map<LandmarkId, Eigen::Vector2d>& drift_px);
   /// Poses the frames again, by the landmarks as they are now known: id and T_odom_cam of those
   /// that see enough of them. `keyframe`: the last one before them. `scale`: what lengths have
   /// grown by since then. Forgets them.

@@ -26,8 +26,8 @@ void tell(const std::string& figure, double value) { fmt::print("{}\t{:.5g}\n", 
 
 /// Places by what became of them on the way back; a step of a way is one of them.
 struct Replay {
-  std::map<std::int64_t, ViewOnTheWay> views;
-  std::map<std::int64_t, Recognition> recognitions;
+  std::map<PlaceId, ViewOnTheWay> views;
+  std::map<PlaceId, Recognition> recognitions;
 };
 
 Replay replay_places(const Map& map, const WayBack& back) {

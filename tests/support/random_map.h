@@ -72,7 +72,7 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   map.metric = !scaled;
   std::int64_t id = 0;
   for (int p = 0; p < places; ++p) {
-    Place place{p,
+    Place place{PlaceId(p),
                 KeyframeId(id),
                 random_pose(random),
                 p == 3 ? 1 : 0,
@@ -88,7 +88,7 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
       Keyframe keyframe{KeyframeId(id),
                         FrameId(3 * id + 1),
                         1000 * id,
-                        p,
+                        PlaceId(p),
                         k == 0 ? SE3() : random_pose(random),
                         random_features(random, random.index(20)),
                         1,
@@ -102,10 +102,10 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
       map.keyframes.push_back(std::move(keyframe));
     }
     PlaceHistory::Part part{
-        anchor, p, Sim3(random_pose(random)), random_information<7>(random), {}};
+        anchor, PlaceId(p), Sim3(random_pose(random)), random_information<7>(random), {}};
     if (p % 2 == 1) part.motion_covariance = random_information<6>(random);
     stored.history.parts.push_back(part);
-    stored.history.places.push_back({p, random.uniform(1, 2), KeyframeId(id - 1)});
+    stored.history.places.push_back({PlaceId(p), random.uniform(1, 2), KeyframeId(id - 1)});
     map.place_graph.places.push_back(std::move(place));
   }
   for (int p = 1; p < places; ++p) {
@@ -133,7 +133,7 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
     if (record.T_keyframe_frame) online.T_world_body = random_pose(random).isometry();
   }
   for (int l = 0; l < 2500; ++l)
-    map.landmarks.push_back({l, KeyframeId(random.index(static_cast<int>(id))),
+    map.landmarks.push_back({LandmarkId(l), KeyframeId(random.index(static_cast<int>(id))),
                              Eigen::Vector3d::Random(), random.index(9)});
   map.loops.push_back({FrameId(9), FrameId(1), 33, LoopStage::kAccepted, random_pose(random),
                        LoopModel::kPoints3d2d, 4, 0.7, 0.9});

@@ -254,14 +254,16 @@ TEST(LocalMapLaws, RescalingTwiceIsRescalingOnceByTheProduct) {
     }
     const Eigen::Vector3d point(1, 2, 9);
     for (LocalMap* map : {&twice, &once}) {
-      map->window().add_landmark(5, point);
+      map->window().add_landmark(LandmarkId(5), point);
       map->update_poses({4}, false);
     }
     (void)twice.rescale(a);
     (void)twice.rescale(b);
     (void)once.rescale(a * b);
     EXPECT_NEAR(twice.median_depth(), once.median_depth(), 1e-9 * once.median_depth());
-    EXPECT_LT((*twice.window().landmark(5) - *once.window().landmark(5)).norm(), 1e-9);
+    EXPECT_LT(
+        (*twice.window().landmark(LandmarkId(5)) - *once.window().landmark(LandmarkId(5))).norm(),
+        1e-9);
     for (std::int64_t k = 0; k < 4; ++k)
       EXPECT_LT(error(twice.pose(KeyframeId(k)), once.pose(KeyframeId(k))), 1e-9) << k;
   }
@@ -282,7 +284,7 @@ TEST(LocalMapLaws, RelativePosesDoNotDependOnTheFrame) {
       LocalMap map({}, world.camera, Scale::kArbitrary);
       for (const SE3& T : world.T_map_cam) map.add_keyframe(T_odom_world * T);
       for (std::size_t i = 0; i < world.points.size(); ++i)
-        map.window().add_landmark(static_cast<std::int64_t>(i), T_odom_world * world.points[i]);
+        map.window().add_landmark(LandmarkId(i), T_odom_world * world.points[i]);
       for (const WindowObservation& o : world.observations) map.window().add_observation(o);
       ASSERT_TRUE(map.optimize());
       map.update_poses({}, false);

@@ -137,11 +137,11 @@ TEST(PlaceGraphLaw, SeparatingUndoesMerging) {
         EXPECT_LT(difference(partition.S_map_keyframe(chain, KeyframeId(id)), before[id]), 1e-9)
             << trial;
     };
-    partition.merge(3, 5, random.uniform(0, 1) * Matrix7d::Identity());
+    partition.merge(PlaceId(3), PlaceId(5), random.uniform(0, 1) * Matrix7d::Identity());
     const Matrix7d covariance = partition.parts().at(KeyframeId(5)).covariance;
-    partition.merge(1, 3, random.uniform(0, 1) * Matrix7d::Identity());
+    partition.merge(PlaceId(1), PlaceId(3), random.uniform(0, 1) * Matrix7d::Identity());
     unmoved();
-    EXPECT_EQ(partition.place_of(KeyframeId(5)), 1);
+    EXPECT_EQ(partition.place_of(KeyframeId(5)), PlaceId(1));
     partition.separate(1);
     unmoved();
     EXPECT_EQ(partition.place_of(KeyframeId(5)), partition.place_of(KeyframeId(3)));

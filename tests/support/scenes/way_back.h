@@ -11,8 +11,8 @@
 namespace placegraph::test {
 
 /// The line of the sequence that every place's anchor was seen at.
-inline std::map<std::int64_t, FrameId> frames_of_places(const Map& map) {
-  std::map<std::int64_t, FrameId> frames;
+inline std::map<PlaceId, FrameId> frames_of_places(const Map& map) {
+  std::map<PlaceId, FrameId> frames;
   for (const Place& place : map.place_graph.places)
     frames[place.id] = map.find_keyframe(place.anchor_keyframe)->frame;
   return frames;

@@ -134,7 +134,7 @@ inline WindowWorld make_window_world(const WindowWorldOptions& options, Random& 
       p_map -= (world.ground.distance_to(p_map) +
                 (options.noise_px > 0 ? options.sigma_ground_m * random.normal() : 0)) *
                world.ground.normal();
-    const auto landmark = static_cast<std::int64_t>(world.points.size());
+    const LandmarkId landmark(world.points.size());
     for (int k = first; k <= last; ++k) {
       const Eigen::Vector3d p = world.T_map_cam[static_cast<std::size_t>(k)].inverse() * p_map;
       WindowObservation o;
@@ -175,7 +175,7 @@ inline void fill_window(SlidingWindow& window, const WindowWorld& world, Random&
                                : world.T_map_cam[k] * random_motion(random, sigma_m, sigma_rad));
   for (std::size_t i = 0; i < world.points.size(); ++i)
     window.add_landmark(
-        static_cast<std::int64_t>(i),
+        LandmarkId(i),
         world.points[i] +
             sigma_point_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
   for (const WindowObservation& o : world.observations) window.add_observation(o);
@@ -205,10 +205,10 @@ inline void add_view(SlidingWindow& window, const WindowWorld& world, KeyframeId
   for (const WindowObservation& o : world.observations) {
     if (o.keyframe != id) continue;
     if (!window.landmark(o.landmark)) {
-      Eigen::Vector3d p_map = world.points[static_cast<std::size_t>(o.landmark)];
+      Eigen::Vector3d p_map = world.points[static_cast<std::size_t>(o.landmark.value())];
       for (int i = 0; i < 3; ++i) p_map[i] += 0.1 * disturbance * random.normal();
       window.add_landmark(o.landmark, p_map);
-      if (o.landmark < world.ground_points && !world.heights.empty())
+      if (o.landmark.value() < world.ground_points && !world.heights.empty())
         window.add_plane_point({0, o.landmark, world.sigma_ground_m});
     }
     window.add_observation(o);

@@ -14,7 +14,7 @@ Map walk(const std::vector<int>& places, const std::vector<double>& x) {
   Map map;
   for (int id = 0; id <= *std::max_element(places.begin(), places.end()); ++id) {
     Place place;
-    place.id = id;
+    place.id = PlaceId(id);
     map.place_graph.places.push_back(place);
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -22,7 +22,7 @@ Map walk(const std::vector<int>& places, const std::vector<double>& x) {
     Keyframe keyframe;
     keyframe.id = KeyframeId(id);
     keyframe.frame = FrameId(id);
-    keyframe.place = places[i];
+    keyframe.place = PlaceId(places[i]);
     keyframe.T_place_keyframe = SE3(SO3(), {x[i], 0, 0});
     map.keyframes.push_back(keyframe);
     map.frames.push_back({FrameId(id), 10 * id, KeyframeId(id), SE3()});

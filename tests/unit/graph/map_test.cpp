@@ -12,18 +12,23 @@ namespace {
 Map make_map(int component) {
   Map map;
   const SE3 T_place_101(SO3(), {0, 0, 1});
-  map.place_graph.places = {
-      {0,
-       KeyframeId(100),
-       SE3(),
-       0,
-       {{KeyframeId(100), SE3()}, {KeyframeId(101), T_place_101}},
-       {},
-       {}},
-      {1, KeyframeId(200), SE3(SO3(), {50, 0, 0}), component, {{KeyframeId(200), SE3()}}, {}, {}}};
-  map.keyframes = {{KeyframeId(100), FrameId(0), 0, 0, SE3(), {}, 1, {}},
-                   {KeyframeId(101), FrameId(1), 100, 0, T_place_101, {}, 1, {}},
-                   {KeyframeId(200), FrameId(3), 300, 1, SE3(), {}, 1, {}}};
+  map.place_graph.places = {{PlaceId(0),
+                             KeyframeId(100),
+                             SE3(),
+                             0,
+                             {{KeyframeId(100), SE3()}, {KeyframeId(101), T_place_101}},
+                             {},
+                             {}},
+                            {PlaceId(1),
+                             KeyframeId(200),
+                             SE3(SO3(), {50, 0, 0}),
+                             component,
+                             {{KeyframeId(200), SE3()}},
+                             {},
+                             {}}};
+  map.keyframes = {{KeyframeId(100), FrameId(0), 0, PlaceId(0), SE3(), {}, 1, {}},
+                   {KeyframeId(101), FrameId(1), 100, PlaceId(0), T_place_101, {}, 1, {}},
+                   {KeyframeId(200), FrameId(3), 300, PlaceId(1), SE3(), {}, 1, {}}};
   map.frames = {{FrameId(0), 0, KeyframeId(100), SE3()},
                 {FrameId(1), 100, KeyframeId(101), SE3(SO3(), {0.5, 0, 0})},
                 {FrameId(2), 200, std::nullopt, std::nullopt},
@@ -84,10 +89,12 @@ TEST(Map, FramesAndLandmarksGrowWithTheUnitsOfPlaceAndKeyframe) {
   const Trajectory trajectory = map.trajectory_optimized();
   EXPECT_EQ(trajectory.poses[1].T_world_body->translation(), Eigen::Vector3d(13, 0, 2));
   EXPECT_NEAR(trajectory.poses[1].T_world_body->linear().determinant(), 1, 1e-14);
-  EXPECT_EQ(map.position({7, KeyframeId(101), {0, 1, 0}, 2}), Eigen::Vector3d(10, 6, 2));
-  EXPECT_EQ(map.position({8, KeyframeId(100), {0, 1, 0}, 2}), Eigen::Vector3d(10, 2, 0));
-  EXPECT_THROW((void)map.position({9, KeyframeId(300), {0, 1, 0}, 2}), ArgumentError);
-  map.keyframes[1].place = 9;
+  EXPECT_EQ(map.position({LandmarkId(7), KeyframeId(101), {0, 1, 0}, 2}),
+            Eigen::Vector3d(10, 6, 2));
+  EXPECT_EQ(map.position({LandmarkId(8), KeyframeId(100), {0, 1, 0}, 2}),
+            Eigen::Vector3d(10, 2, 0));
+  EXPECT_THROW((void)map.position({LandmarkId(9), KeyframeId(300), {0, 1, 0}, 2}), ArgumentError);
+  map.keyframes[1].place = PlaceId(9);
   EXPECT_THROW((void)map.S_map_keyframe(KeyframeId(101)), ArgumentError);
 }
 
@@ -104,7 +111,7 @@ TEST(Map, RefusesFramesAndKeyframesThatHangOnNothing) {
   map.frames[1].keyframe = KeyframeId(999);
   EXPECT_THROW(map.trajectory_optimized(), ArgumentError);
   map = make_map(0);
-  map.keyframes[1].place = 999;
+  map.keyframes[1].place = PlaceId(999);
   EXPECT_THROW(map.trajectory_optimized(), ArgumentError);
 }
 

@@ -10,7 +10,7 @@ Map map_of(const std::vector<int>& places, const std::vector<int>& components) {
   Map map;
   for (std::size_t i = 0; i < components.size(); ++i) {
     Place place;
-    place.id = static_cast<std::int64_t>(i);
+    place.id = PlaceId(i);
     place.component = components[i];
     map.place_graph.places.push_back(place);
   }
@@ -21,7 +21,7 @@ Map map_of(const std::vector<int>& places, const std::vector<int>& components) {
       Keyframe keyframe;
       keyframe.id = KeyframeId(id);
       keyframe.frame = FrameId(id);
-      keyframe.place = places[i];
+      keyframe.place = PlaceId(places[i]);
       map.keyframes.push_back(keyframe);
       frame.keyframe = KeyframeId(id);
       frame.T_keyframe_frame = SE3();
@@ -37,8 +37,8 @@ TEST(PlaceTransitions, CountsEveryWayFromPlaceToPlaceByDirection) {
   const std::vector<std::array<std::int64_t, 3>> expected{
       {0, 1, 1}, {1, 2, 2}, {2, 0, 1}, {2, 1, 1}};
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(found[i].from, expected[i][0]);
-    EXPECT_EQ(found[i].to, expected[i][1]);
+    EXPECT_EQ(found[i].from, PlaceId(expected[i][0]));
+    EXPECT_EQ(found[i].to, PlaceId(expected[i][1]));
     EXPECT_EQ(found[i].count, expected[i][2]);
   }
 }

@@ -30,13 +30,13 @@ StoredMap two_places() {
   for (int k = 0; k < 2; ++k) {
     Keyframe keyframe;
     keyframe.id = KeyframeId(k);
-    keyframe.place = k;
+    keyframe.place = PlaceId(k);
     keyframe.frame = FrameId(k);
     keyframe.stamp_ns = 100 * k;
     keyframe.features.resize(5);
     map.keyframes.push_back(keyframe);
     Place place;
-    place.id = k;
+    place.id = PlaceId(k);
     place.anchor_keyframe = KeyframeId(k);
     place.T_map_place = at_z(k);
     place.members = {{KeyframeId(k), SE3(), 1}};

@@ -35,7 +35,7 @@ TEST_F(MapLearnCommand, EveryRoomHasPlacesOfItsOwn) {
   ASSERT_EQ(stored.map.keyframes.size(), 36u);
   EXPECT_FALSE(stored.origin.calibration);
   EXPECT_EQ(stored.origin.sequence, arguments.images);
-  std::map<std::int64_t, std::set<std::size_t>> rooms_of;
+  std::map<PlaceId, std::set<std::size_t>> rooms_of;
   for (std::size_t i = 0; i < 36; ++i) {
     EXPECT_EQ(stored.map.keyframes[i].frame, FrameId(i));
     const std::size_t view = i % 12;  // a place may end a view too late

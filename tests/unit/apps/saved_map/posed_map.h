@@ -24,12 +24,12 @@ inline StoredMap posed_map(const SyntheticWorld& world, const std::string& seque
     if (frame % step == 0) {
       Keyframe keyframe;
       keyframe.id = KeyframeId(id);
-      keyframe.place = id;
+      keyframe.place = PlaceId(id);
       keyframe.frame = FrameId(frame);
       keyframe.stamp_ns = truth.poses[i].stamp_ns;
       map.keyframes.push_back(keyframe);
       Place place;
-      place.id = id;
+      place.id = PlaceId(id);
       place.anchor_keyframe = KeyframeId(id);
       place.T_map_place = T_map_cam;
       place.members = {{KeyframeId(id), SE3(), 1}};

@@ -42,11 +42,11 @@ SlidingWindow look_about(double k1, bool depth, int views) {
       const Eigen::Vector3d p_cam = T_map_cam[static_cast<std::size_t>(k)].inverse() * p_map;
       const auto px = lens.project(p_cam);
       if (!px || !lens.contains(*px)) continue;
-      if (!added) window.add_landmark(id, p_map);
+      if (!added) window.add_landmark(LandmarkId(id), p_map);
       added = true;
       WindowObservation o;
       o.keyframe = KeyframeId(k);
-      o.landmark = id;
+      o.landmark = LandmarkId(id);
       o.px = *px;
       o.sigma_px = 0.5;
       if (depth) {

@@ -45,7 +45,7 @@ TEST(SlidingWindow, RecoversAnExactMonoWindowFromOneDistance) {
   EXPECT_LT(summary.cost_final, 1e-12);
   expect_poses(window, world, 1e-7, 1e-8);
   for (std::size_t i = 0; i < world.points.size(); ++i)
-    EXPECT_LT((*window.landmark(static_cast<std::int64_t>(i)) - world.points[i]).norm(), 1e-5);
+    EXPECT_LT((*window.landmark(LandmarkId(i)) - world.points[i]).norm(), 1e-5);
 }
 
 TEST(SlidingWindow, RecoversAnExactStereoWindow) {
@@ -93,8 +93,8 @@ TEST(SlidingWindow, RelativeInformationIsThatOfAllMeasurementsWithTheRestMargina
       const SE3 T_map_cam = world.T_map_cam[static_cast<std::size_t>(o.keyframe.value())] *
                             SE3::exp(x.segment<6>(6 * o.keyframe.value()));
       const Eigen::Vector3d p =
-          T_map_cam.inverse() *
-          (world.points[static_cast<std::size_t>(o.landmark)] + x.segment<3>(24 + 3 * o.landmark));
+          T_map_cam.inverse() * (world.points[static_cast<std::size_t>(o.landmark.value())] +
+                                 x.segment<3>(24 + 3 * o.landmark.value()));
       r.segment<2>(3 * static_cast<Eigen::Index>(i)) =
           (*world.camera.project(p) - o.px) / o.sigma_px;
       r[3 * static_cast<Eigen::Index>(i) + 2] =
@@ -246,17 +246,17 @@ TEST(SlidingWindow, RemovedObservationsAndLandmarksNoLongerCount) {
   world.observations[0].px += Eigen::Vector2d(30, 0);  // landmark 0, keyframe 0
   SlidingWindow window(exact_options(), world.camera);
   fill_window(window, world, random, 0.02, 0.002, 0.1);
-  window.add_landmark(1000, world.points[0]);
+  window.add_landmark(LandmarkId(1000), world.points[0]);
   for (int k = 0; k < 3; ++k) {
     WindowObservation wrong = world.observations[static_cast<std::size_t>(k)];
-    wrong.landmark = 1000;
+    wrong.landmark = LandmarkId(1000);
     wrong.px += Eigen::Vector2d(50 * k, 20);
     window.add_observation(wrong);
   }
-  window.remove_observation(KeyframeId(0), 0);
-  window.remove_landmark(1000);
-  EXPECT_EQ(window.observations(0).front().keyframe, KeyframeId(1));
-  EXPECT_FALSE(window.landmark(1000));
+  window.remove_observation(KeyframeId(0), LandmarkId(0));
+  window.remove_landmark(LandmarkId(1000));
+  EXPECT_EQ(window.observations(LandmarkId(0)).front().keyframe, KeyframeId(1));
+  EXPECT_FALSE(window.landmark(LandmarkId(1000)));
   ASSERT_TRUE(window.optimize().outcome);
   expect_poses(window, world, 1e-7, 1e-8);
 }
@@ -277,9 +277,10 @@ TEST(SlidingWindow, ARevisedInverseDepthTakesTheMeasuredOnesPlace) {
   expect_poses(window, world, 1e-7, 1e-8);
   EXPECT_NE(relative_information(window, KeyframeId(0), KeyframeId(1)),
             before);  // of the new state, not the old one's
-  EXPECT_THROW(window.revise_inverse_depth(KeyframeId(0), 0, std::nan("")), ArgumentError);
-  EXPECT_THROW(window.revise_inverse_depth(KeyframeId(99), 0, 0.1), ArgumentError);
-  EXPECT_THROW(window.revise_inverse_depth(KeyframeId(0), 9999, 0.1), ArgumentError);
+  EXPECT_THROW(window.revise_inverse_depth(KeyframeId(0), LandmarkId(0), std::nan("")),
+               ArgumentError);
+  EXPECT_THROW(window.revise_inverse_depth(KeyframeId(99), LandmarkId(0), 0.1), ArgumentError);
+  EXPECT_THROW(window.revise_inverse_depth(KeyframeId(0), LandmarkId(9999), 0.1), ArgumentError);
 }
 
 TEST(SlidingWindow, APointSeenOnceMovesWithItsKeyframe) {
@@ -290,10 +291,10 @@ TEST(SlidingWindow, APointSeenOnceMovesWithItsKeyframe) {
   SlidingWindow window(exact_options(), world.camera);
   fill_window(window, world, random, 0.05, 0.01, 0.1);
   const Eigen::Vector3d p_cam(1, 0.5, 12);
-  window.add_landmark(500, window.pose(KeyframeId(4)) * p_cam);
-  window.add_observation({KeyframeId(4), 500, *world.camera.project(p_cam), 1, {}, 1});
+  window.add_landmark(LandmarkId(500), window.pose(KeyframeId(4)) * p_cam);
+  window.add_observation({KeyframeId(4), LandmarkId(500), *world.camera.project(p_cam), 1, {}, 1});
   ASSERT_TRUE(window.optimize().outcome);
-  EXPECT_LT((*window.landmark(500) - window.pose(KeyframeId(4)) * p_cam).norm(), 1e-9);
+  EXPECT_LT((*window.landmark(LandmarkId(500)) - window.pose(KeyframeId(4)) * p_cam).norm(), 1e-9);
 }
 
 TEST(SlidingWindow, APointBehindItsCamerasDisturbsNothing) {
@@ -303,16 +304,17 @@ TEST(SlidingWindow, APointBehindItsCamerasDisturbsNothing) {
   const WindowWorld world = make_window_world(options, random);
   SlidingWindow window(exact_options(), world.camera);
   fill_window(window, world, random, 0.05, 0.01, 0.1);
-  window.add_landmark(500, {0, 0, -40});
-  window.add_landmark(501, world.T_map_cam[3].translation());  // in a camera's centre
+  window.add_landmark(LandmarkId(500), {0, 0, -40});
+  window.add_landmark(LandmarkId(501), world.T_map_cam[3].translation());  // in a camera's centre
   for (const std::int64_t landmark : {500, 501})
     for (const std::int64_t k : {2, 3, 4})
-      window.add_observation({KeyframeId(k), landmark, Eigen::Vector2d(600, 180), 1, {}, 1});
+      window.add_observation(
+          {KeyframeId(k), LandmarkId(landmark), Eigen::Vector2d(600, 180), 1, {}, 1});
   ASSERT_TRUE(window.optimize().outcome);
   expect_poses(window, world, 0.05, 0.005);
-  EXPECT_FALSE(residual_px(window, window.observations(500).front()));
-  EXPECT_TRUE(window.landmark(500)->allFinite());
-  EXPECT_TRUE(window.landmark(501)->allFinite());
+  EXPECT_FALSE(residual_px(window, window.observations(LandmarkId(500)).front()));
+  EXPECT_TRUE(window.landmark(LandmarkId(500))->allFinite());
+  EXPECT_TRUE(window.landmark(LandmarkId(501))->allFinite());
   EXPECT_TRUE(relative_information(window, KeyframeId(2), KeyframeId(4)).allFinite());
 }
 
@@ -323,9 +325,9 @@ TEST(SlidingWindow, TellsWhenTheDataAreTooFew) {
   EXPECT_EQ(window.optimize().outcome.code, Outcome::Code::kTooFewData);
   const SE3 T_map_cam(SO3(), Eigen::Vector3d(0, 0, 1));
   window.add_keyframe(KeyframeId(1), T_map_cam);
-  window.add_landmark(7, {0, 0, 10});
-  window.add_observation({KeyframeId(0), 7, {600, 180}, 1, {}, 1});
-  window.add_observation({KeyframeId(1), 7, {600, 180}, 1, {}, 1});
+  window.add_landmark(LandmarkId(7), {0, 0, 10});
+  window.add_observation({KeyframeId(0), LandmarkId(7), {600, 180}, 1, {}, 1});
+  window.add_observation({KeyframeId(1), LandmarkId(7), {600, 180}, 1, {}, 1});
   const WindowSummary summary = window.optimize();
   EXPECT_EQ(summary.outcome.code, Outcome::Code::kTooFewData);
   EXPECT_NE(summary.outcome.reason.find("keyframe 1 sees 1"), std::string::npos);
@@ -343,19 +345,19 @@ TEST(SlidingWindow, CoincidentKeyframesGiveFiniteResults) {
   fill_window(window, world, random, 0, 0.001, 0);
   EXPECT_NE(window.optimize().outcome.code, Outcome::Code::kNotAttempted);
   for (const KeyframeId id : window.keyframes()) EXPECT_TRUE(window.pose(id).matrix().allFinite());
-  for (const std::int64_t id : window.landmarks()) EXPECT_TRUE(window.landmark(id)->allFinite());
+  for (const LandmarkId id : window.landmarks()) EXPECT_TRUE(window.landmark(id)->allFinite());
   EXPECT_TRUE(relative_information(window, KeyframeId(0), KeyframeId(7)).allFinite());
 }
 
 TEST(SlidingWindow, ResidualIsTheReprojectionErrorInPixels) {
   SlidingWindow window({}, test::window_camera());
   window.add_keyframe(KeyframeId(3), SE3());
-  window.add_landmark(9, {1, 0.5, 10});
-  WindowObservation o{KeyframeId(3), 9, {0, 0}, 2, {}, 1};
+  window.add_landmark(LandmarkId(9), {1, 0.5, 10});
+  WindowObservation o{KeyframeId(3), LandmarkId(9), {0, 0}, 2, {}, 1};
   o.px = *test::window_camera().project({1, 0.5, 10}) - Eigen::Vector2d(3, -4);
   window.add_observation(o);
   EXPECT_LT((*residual_px(window, o) - Eigen::Vector2d(3, -4)).norm(), 1e-10);
-  o.landmark = 10;
+  o.landmark = LandmarkId(10);
   EXPECT_FALSE(residual_px(window, o));
 }
 
@@ -370,30 +372,36 @@ TEST(SlidingWindow, RefusesWhatItsContractExcludes) {
   SlidingWindow window({}, test::window_camera());
   window.add_keyframe(KeyframeId(5), SE3());
   window.add_keyframe(KeyframeId(6), SE3());
-  window.add_landmark(1, {0, 0, 5});
-  window.add_observation({KeyframeId(5), 1, {600, 180}, 1, {}, 1});
+  window.add_landmark(LandmarkId(1), {0, 0, 5});
+  window.add_observation({KeyframeId(5), LandmarkId(1), {600, 180}, 1, {}, 1});
   const double nan = std::nan("");
   EXPECT_THROW(window.add_keyframe(KeyframeId(6), SE3()), ArgumentError);
   EXPECT_THROW(window.add_keyframe(KeyframeId(7), SE3(SO3(), Eigen::Vector3d(nan, 0, 0))),
                ArgumentError);
-  EXPECT_THROW(window.add_landmark(1, {0, 0, 5}), ArgumentError);
-  EXPECT_THROW(window.add_landmark(2, {0, nan, 5}), ArgumentError);
-  EXPECT_THROW(window.add_observation({KeyframeId(5), 1, {600, 180}, 1, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({KeyframeId(4), 1, {600, 180}, 1, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({KeyframeId(6), 2, {600, 180}, 1, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({KeyframeId(6), 1, {600, nan}, 1, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({KeyframeId(6), 1, {600, 180}, 0, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({KeyframeId(6), 1, {600, 180}, 1, nan, 1}), ArgumentError);
-  EXPECT_THROW(
-      window.add_observation({KeyframeId(6), 1, {600, 180}, 1, {}, 1, Eigen::Matrix2d::Ones()}),
-      ArgumentError);
+  EXPECT_THROW(window.add_landmark(LandmarkId(1), {0, 0, 5}), ArgumentError);
+  EXPECT_THROW(window.add_landmark(LandmarkId(2), {0, nan, 5}), ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(5), LandmarkId(1), {600, 180}, 1, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(4), LandmarkId(1), {600, 180}, 1, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(6), LandmarkId(2), {600, 180}, 1, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(6), LandmarkId(1), {600, nan}, 1, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(6), LandmarkId(1), {600, 180}, 0, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(6), LandmarkId(1), {600, 180}, 1, nan, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation(
+                   {KeyframeId(6), LandmarkId(1), {600, 180}, 1, {}, 1, Eigen::Matrix2d::Ones()}),
+               ArgumentError);
   EXPECT_THROW(add_distance(window, {KeyframeId(5), KeyframeId(5), 1, 1}), ArgumentError);
   EXPECT_THROW(add_distance(window, {KeyframeId(5), KeyframeId(6), -1, 1}), ArgumentError);
   EXPECT_THROW(add_distance(window, {KeyframeId(5), KeyframeId(7), 1, 1}), ArgumentError);
-  EXPECT_THROW(window.remove_landmark(2), ArgumentError);
-  EXPECT_THROW(window.remove_observation(KeyframeId(6), 1), ArgumentError);
+  EXPECT_THROW(window.remove_landmark(LandmarkId(2)), ArgumentError);
+  EXPECT_THROW(window.remove_observation(KeyframeId(6), LandmarkId(1)), ArgumentError);
   EXPECT_THROW(window.pose(KeyframeId(4)), ArgumentError);
-  EXPECT_THROW(window.observations(4), ArgumentError);
+  EXPECT_THROW(window.observations(LandmarkId(4)), ArgumentError);
   EXPECT_THROW((void)relative_information(window, KeyframeId(5), KeyframeId(5)), ArgumentError);
 }
 

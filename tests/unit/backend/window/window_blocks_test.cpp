@@ -15,8 +15,8 @@ SlidingWindow window_with_landmarks() {
   window.add_world(3, SO3::exp({0.5, 0, 0}));
   window.add_line(8, Line3::from_direction({1, 2, 3}, {0, 1, 0}));
   window.add_line(5, Line3::from_direction({-1, 2, 4}, {1, 1, 0}));
-  window.add_landmark(30, {1, 2, 9});
-  window.add_landmark(4, {-1, 0, 7});
+  window.add_landmark(LandmarkId(30), {1, 2, 9});
+  window.add_landmark(LandmarkId(4), {-1, 0, 7});
   return window;
 }
 

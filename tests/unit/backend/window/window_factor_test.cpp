@@ -330,8 +330,8 @@ TEST(WindowFactor, SaysWhetherItMeasuresTheUnitOfLength) {
   window.add(factors_of_every_kind(scene)[1].second);
   for (int i = 0; i < 3; ++i) {
     EXPECT_FALSE(has_metric_observation(window.state()));
-    window.add_landmark(i, Eigen::Vector3d(i, 0, 5));
-    window.add_plane_point({FactorScene::kPlane, i, 0.02});
+    window.add_landmark(LandmarkId(i), Eigen::Vector3d(i, 0, 5));
+    window.add_plane_point({FactorScene::kPlane, LandmarkId(i), 0.02});
   }
   EXPECT_TRUE(has_metric_observation(window.state()));
 }

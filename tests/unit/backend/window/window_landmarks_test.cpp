@@ -144,10 +144,10 @@ TEST(WindowGround, LeavesWithTheLastKeyframeAndPointThatSpeakOfIt) {
       const std::int64_t landmark = 1000 + i;
       const Eigen::Vector3d p_map =
           world.T_map_cam.back() * Eigen::Vector3d(i % 4 - 1.5, i % 3 - 1, 14 + i);
-      if (id == 10) window.add_landmark(landmark, p_map);
+      if (id == 10) window.add_landmark(LandmarkId(landmark), p_map);
       const Eigen::Vector3d p_cam = window.pose(KeyframeId(id)).inverse() * p_map;
-      window.add_observation(
-          {KeyframeId(id), landmark, *world.camera.project(p_cam), 1, 1 / p_cam.z(), 1e-3});
+      window.add_observation({KeyframeId(id), LandmarkId(landmark), *world.camera.project(p_cam), 1,
+                              1 / p_cam.z(), 1e-3});
     }
     window.marginalize();
   }
@@ -244,7 +244,7 @@ TEST(WindowKeep, LeavesAnAnchorInTheWindowUntilItIsReleased) {
 TEST(WindowLandmarks, RefuseWhatTheirContractExcludes) {
   SlidingWindow window({}, test::window_camera());
   window.add_keyframe(KeyframeId(5), SE3());
-  window.add_landmark(1, {0, 0, 5});
+  window.add_landmark(LandmarkId(1), {0, 0, 5});
   window.add_line(2, Line3());
   window.add_plane(3, Plane3());
   const double nan = std::nan("");
@@ -262,11 +262,11 @@ TEST(WindowLandmarks, RefuseWhatTheirContractExcludes) {
   EXPECT_THROW(add_height(window, {KeyframeId(6), 3, 1.65, 0.1}), ArgumentError);
   EXPECT_THROW(add_height(window, {KeyframeId(5), 3, -1.65, 0.1}), ArgumentError);
   EXPECT_THROW(add_height(window, {KeyframeId(5), 3, 1.65, 0}), ArgumentError);
-  EXPECT_THROW(window.add_plane_point({7, 1, 0.1}), ArgumentError);
-  EXPECT_THROW(window.add_plane_point({3, 7, 0.1}), ArgumentError);
-  EXPECT_THROW(window.add_plane_point({3, 1, 0}), ArgumentError);
-  window.add_plane_point({3, 1, 0.1});
-  EXPECT_THROW(window.add_plane_point({3, 1, 0.1}), ArgumentError);
+  EXPECT_THROW(window.add_plane_point({7, LandmarkId(1), 0.1}), ArgumentError);
+  EXPECT_THROW(window.add_plane_point({3, LandmarkId(7), 0.1}), ArgumentError);
+  EXPECT_THROW(window.add_plane_point({3, LandmarkId(1), 0}), ArgumentError);
+  window.add_plane_point({3, LandmarkId(1), 0.1});
+  EXPECT_THROW(window.add_plane_point({3, LandmarkId(1), 0.1}), ArgumentError);
   EXPECT_THROW(add_pose_prior(window, {KeyframeId(6), SE3(), Matrix6d::Identity()}), ArgumentError);
   EXPECT_THROW(add_pose_prior(window, {KeyframeId(5), SE3(), Matrix6d::Zero()}), ArgumentError);
   EXPECT_THROW(add_pose_prior(window, {KeyframeId(5), SE3(), -Matrix6d::Identity()}),

@@ -98,13 +98,13 @@ TEST(WindowMarginalization, TakesTheOldestAndWhatOnlyItAndOthersButTheNewestSaw)
   fill_window(window, world, random, 0, 0, 0);
   // Landmark 0 (keyframes 0 to 2) is seen by the newest too: it stays, without its oldest view.
   const Eigen::Vector3d p_cam = world.T_map_cam[4].inverse() * world.points[0];
-  window.add_observation({KeyframeId(4), 0, *world.camera.project(p_cam), 1, {}, 1});
+  window.add_observation({KeyframeId(4), LandmarkId(0), *world.camera.project(p_cam), 1, {}, 1});
   EXPECT_EQ(window.marginalize(), test::ids<KeyframeId>({0}));
   EXPECT_EQ(window.keyframes(), test::ids<KeyframeId>({1, 2, 3, 4}));
-  EXPECT_EQ(window.observations(0).size(), 3u);
-  EXPECT_EQ(window.observations(0).front().keyframe, KeyframeId(1));
+  EXPECT_EQ(window.observations(LandmarkId(0)).size(), 3u);
+  EXPECT_EQ(window.observations(LandmarkId(0)).front().keyframe, KeyframeId(1));
   for (std::int64_t id = 1; id < 60; ++id)
-    EXPECT_EQ(window.landmark(id).has_value(), id % 3 != 0) << id;
+    EXPECT_EQ(window.landmark(LandmarkId(id)).has_value(), id % 3 != 0) << id;
   EXPECT_TRUE(window.marginalize().empty());
 }
 
@@ -253,7 +253,7 @@ TEST(WindowRescale, MovesEverythingAboutTheOldestKeyframeAndKeepsTheCost) {
   const double cost = window.optimize().cost_final;
   const SE3 oldest = window.pose(KeyframeId(7));
   const double length_m = distance_m(oldest, window.pose(KeyframeId(11)));
-  const std::int64_t landmark = window.landmarks().front();
+  const LandmarkId landmark = window.landmarks().front();
   const Eigen::Vector3d offset_map = *window.landmark(landmark) - oldest.translation();
   window.rescale(2.5);
   EXPECT_EQ(distance_m(oldest, window.pose(KeyframeId(7))), 0);

@@ -27,10 +27,10 @@ Rounds drive(int stations, int rounds, PlaceOf place_of) {
     Keyframe keyframe;
     keyframe.id = KeyframeId(i);
     keyframe.frame = FrameId(i);
-    keyframe.place = place_of(i);
+    keyframe.place = PlaceId(place_of(i));
     if (!result.map.place_graph.find(keyframe.place)) {
       Place place;
-      place.id = keyframe.place;
+      place.id = PlaceId(keyframe.place);
       place.anchor_keyframe = KeyframeId(i);
       result.map.place_graph.places.push_back(place);
     }

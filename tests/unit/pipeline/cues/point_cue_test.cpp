@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/median.h>
 #include <placegraph/pipeline/cues/point_cue.h>
 
+#include "tests/support/ids.h"
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
@@ -36,7 +37,7 @@ TEST(PointCue, PointsOfAStereoKeyframeBecomeLandmarksAtTheirDepth) {
   Street street;
   ASSERT_GT(street.points.tracked_landmarks(street.window), 100);
   std::vector<double> heights;
-  for (const std::int64_t id : street.window.landmarks()) {
+  for (const LandmarkId id : street.window.landmarks()) {
     const Eigen::Vector3d p = *street.window.landmark(id);
     // On the road, a house front or the end wall.
     heights.push_back(
@@ -60,7 +61,7 @@ TEST(PointCue, TracksThatContradictThePoseAreMarked) {
   Street street;
   Random random(1);
   // A landmark that is not where its track sees it.
-  const std::int64_t moved = street.window.landmarks().front();
+  const LandmarkId moved = street.window.landmarks().front();
   const auto px = street.points.landmark_pixels(street.window);
   street.window.remove_landmark(moved);
   street.window.add_landmark(moved, T_world_cam(0) * Eigen::Vector3d(0.5, 0.1, 3));
@@ -103,7 +104,7 @@ TEST(PointCue, WithoutDepthAPointIsPlacedByItsParallax) {
   points.observe(KeyframeId(1), frames().frame(3, Sensor::kMono), {}, window);
   ASSERT_GT(window.landmarks().size(), 30u);
   std::vector<double> off_px;
-  for (const std::int64_t id : window.landmarks()) {
+  for (const LandmarkId id : window.landmarks()) {
     EXPECT_EQ(window.observations(id).size(), 2u);
     off_px.push_back(residual_px(window, window.observations(id).front())->norm());
   }
@@ -117,7 +118,7 @@ TEST(PointCue, ObservationsOfOneTrackCountForLessTheMoreThereAre) {
   street.window.add_keyframe(KeyframeId(1), T_world_cam(1));
   street.points.observe(KeyframeId(1), second, {}, street.window);
   int seen_twice = 0;
-  for (const std::int64_t id : street.window.landmarks()) {
+  for (const LandmarkId id : street.window.landmarks()) {
     const auto& observations = street.window.observations(id);
     if (observations.size() != 2) continue;
     for (const PointTrack& track : street.points.tracks()) {
@@ -132,8 +133,8 @@ TEST(PointCue, ObservationsOfOneTrackCountForLessTheMoreThereAre) {
 
 TEST(PointCue, LandmarksThatMissTheirPixelAreDropped) {
   Street street;
-  const std::int64_t good = street.window.landmarks().back();
-  const std::int64_t wrong = street.window.landmarks().front();
+  const LandmarkId good = street.window.landmarks().back();
+  const LandmarkId wrong = street.window.landmarks().front();
   const WindowObservation seen = street.window.observations(wrong).front();
   const Eigen::Vector3d true_cam = T_world_cam(0).inverse() * *street.window.landmark(wrong);
   street.window.remove_landmark(wrong);
@@ -160,14 +161,14 @@ TEST(PointCue, TwoViewsStartAMapAndNewTracksWaitForDepth) {
   const Eigen::Vector2d ref = *mono.camera.project(point);
   const Eigen::Vector2d cur = *mono.camera.project(point - Eigen::Vector3d(1, 0, 0));
   points.observe_two_views(KeyframeId(0), KeyframeId(1),
-                           {{4, ref, cur, Eigen::Matrix2d::Identity(), point},
-                            {5, ref, cur, Eigen::Matrix2d::Identity(), std::nullopt}},
+                           {{LandmarkId(4), ref, cur, Eigen::Matrix2d::Identity(), point},
+                            {LandmarkId(5), ref, cur, Eigen::Matrix2d::Identity(), std::nullopt}},
                            window);
-  ASSERT_EQ(window.landmarks(), std::vector<std::int64_t>{4});
-  ASSERT_EQ(window.observations(4).size(), 2u);
-  EXPECT_EQ(window.observations(4)[0].px, ref);
-  EXPECT_EQ(window.observations(4)[1].px, cur);
-  EXPECT_EQ(window.observations(4)[1].keyframe, KeyframeId(1));
+  ASSERT_EQ(window.landmarks(), test::ids<LandmarkId>({4}));
+  ASSERT_EQ(window.observations(LandmarkId(4)).size(), 2u);
+  EXPECT_EQ(window.observations(LandmarkId(4))[0].px, ref);
+  EXPECT_EQ(window.observations(LandmarkId(4))[1].px, cur);
+  EXPECT_EQ(window.observations(LandmarkId(4))[1].keyframe, KeyframeId(1));
 }
 
 TEST(PointCue, MasksFromLabelsAreIgnoredWhereTheyLeaveTooFewPoints) {

@@ -33,8 +33,8 @@ struct Drive {
       WindowObservation of_map = o;
       of_map.keyframe = id;
       if (!map.window().landmark(o.landmark))
-        map.window().add_landmark(o.landmark,
-                                  scale * world.points[static_cast<std::size_t>(o.landmark)]);
+        map.window().add_landmark(
+            o.landmark, scale * world.points[static_cast<std::size_t>(o.landmark.value())]);
       map.window().add_observation(of_map);
     }
     map.update_poses({4.0}, false);
@@ -143,7 +143,8 @@ TEST(LocalMap, LandmarksStandWhereTheKeyframeThatFirstSawThemHasThem) {
     const Eigen::Vector3d there =
         drive.world.T_map_cam[static_cast<std::size_t>(landmark.keyframe.value())] *
         landmark.point_cam;
-    EXPECT_LT((there - drive.world.points[static_cast<std::size_t>(landmark.id)]).norm(), 1e-9);
+    EXPECT_LT((there - drive.world.points[static_cast<std::size_t>(landmark.id.value())]).norm(),
+              1e-9);
     EXPECT_EQ(landmark.observations, 5);
   }
 }

@@ -22,12 +22,12 @@ SlidingWindow window_of(const RectificationError& error, int first_landmark = 0)
     const std::int64_t id = first_landmark + i;
     const Eigen::Vector3d point(random.uniform(-3, 6), random.uniform(-1.5, 1.5),
                                 random.uniform(4, 25));
-    window.add_landmark(id, point);
+    window.add_landmark(LandmarkId(id), point);
     for (int k = 0; k < 5; ++k) {
       const Eigen::Vector3d p_cam = window.pose(KeyframeId(k)).inverse() * point;
       WindowObservation o;
       o.keyframe = KeyframeId(k);
-      o.landmark = id;
+      o.landmark = LandmarkId(id);
       o.px = *camera.project(p_cam);
       o.inverse_depth =
           1 / p_cam.z() + error.at(p_cam.head<2>() / p_cam.z()) / (camera.fx * kBaseline_m);
@@ -63,7 +63,7 @@ TEST(StereoRectifier, CorrectsTheDisparitiesOfTheWindowByIt) {
   StereoRectifier r = rectifier();
   r.calibrate(window, nullptr);
   const double per_px = 1 / (window_camera().fx * kBaseline_m);
-  for (const std::int64_t id : window.landmarks())
+  for (const LandmarkId id : window.landmarks())
     for (const WindowObservation& o : window.observations(id)) {
       const double true_depth = (window.pose(o.keyframe).inverse() * *window.landmark(id)).z();
       EXPECT_LT(std::abs(*o.inverse_depth - 1 / true_depth), 0.2 * per_px);
@@ -82,7 +82,7 @@ TEST(StereoRectifier, HearsEachLandmarkOnce) {
 
 TEST(StereoRectifier, LandmarksOfTooFewViewsTellNothing) {
   SlidingWindow window = window_of({-0.4, 0, 0});
-  for (const std::int64_t id : window.landmarks())
+  for (const LandmarkId id : window.landmarks())
     for (int k = 0; k < 2; ++k) window.remove_observation(KeyframeId(k), id);
   StereoRectifier r = rectifier();
   r.calibrate(window, nullptr);

@@ -14,13 +14,13 @@ Map two_places() {
   for (int k = 0; k < 2; ++k) {
     Keyframe keyframe;
     keyframe.id = KeyframeId(k);
-    keyframe.place = k;
+    keyframe.place = PlaceId(k);
     keyframe.frame = FrameId(k);
     keyframe.features.resize(5);
     keyframe.features[0].point_cam = Eigen::Vector3f(0, 0, 4);
     map.keyframes.push_back(keyframe);
     Place place;
-    place.id = k;
+    place.id = PlaceId(k);
     place.anchor_keyframe = KeyframeId(k);
     place.T_map_place = pose({0, 0.1 * k, 0}, {0, 0, 1.0 * k});
     place.members = {{KeyframeId(k), SE3(), 1}};
@@ -52,7 +52,7 @@ TEST(Explanation, TellsWhereAFrameIsAndHowThatIsKnown) {
   const auto told = explain_frame(map, FrameId(2));
   ASSERT_TRUE(told);
   EXPECT_TRUE(told->posed);
-  EXPECT_EQ(told->place, 1);
+  EXPECT_EQ(told->place, PlaceId(1));
   EXPECT_EQ(told->labels, std::vector<std::string>{"corridor"});
   EXPECT_LT(
       distance_m(told->T_map_cam, pose({0, 0.1, 0}, {0, 0, 1}) * pose({0, 0, 0}, {0, 0, 0.5})),

@@ -26,7 +26,7 @@ TEST(MapLearner, APlaceIsAStretchOfImagesThatLookAlike) {
   const auto& places = stored.map.place_graph.places;
   ASSERT_EQ(places.size(), 3u);
   for (std::size_t p = 0; p < 3; ++p) {
-    EXPECT_EQ(places[p].id, static_cast<std::int64_t>(p));
+    EXPECT_EQ(places[p].id, PlaceId(p));
     // The first image of a room is like neither the room before nor any other: it may still count
     // among those before.
     const std::int64_t late =

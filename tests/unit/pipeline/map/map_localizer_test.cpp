@@ -134,13 +134,13 @@ struct StreetMap {
       const Frame frame = dataset.frame(static_cast<std::size_t>(i), Sensor::kRgbd);
       Keyframe keyframe;
       keyframe.id = KeyframeId(i);
-      keyframe.place = i;
+      keyframe.place = PlaceId(i);
       keyframe.frame = FrameId(i);
       keyframe.features = describer.describe(KeyframeId(i), frame, {}).features;
       keyframe.view = describe_place(frame.image, {}, false);
       stored.map.keyframes.push_back(keyframe);
       Place place;
-      place.id = i;
+      place.id = PlaceId(i);
       place.anchor_keyframe = KeyframeId(i);
       place.T_map_place = street_T_world_cam(i);
       place.members = {{KeyframeId(i), SE3(), 1}};

@@ -22,7 +22,7 @@ struct Beginning {
   Beginning() {
     initializer.restart(T_odom_start);
     tracker.observation = [](const RectificationError&, LocalMap& of) {
-      of.window().add_landmark(of.newest().value(), {0, 0, 8});
+      of.window().add_landmark(LandmarkId(of.newest().value()), {0, 0, 8});
     };
   }
   static Calibration with_baseline() {

@@ -63,7 +63,7 @@ struct Mapping {
       for (std::size_t i = 0; i < points.size(); ++i) {
         WindowObservation o = seen(T_cam_odom * points[i], rectification);
         o.keyframe = of.newest();
-        o.landmark = first_id + static_cast<std::int64_t>(i);
+        o.landmark = LandmarkId(first_id + static_cast<std::int64_t>(i));
         if (!of.window().landmark(o.landmark)) of.window().add_landmark(o.landmark, points[i]);
         of.window().add_observation(o);
       }

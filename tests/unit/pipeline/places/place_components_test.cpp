@@ -65,7 +65,7 @@ TEST(PlaceComponents, TheFirstPlaceTellsTheScaleAloneIfItKnowsIt) {
   TwoComponents map(true, true);
   map.chain.add(KeyframeId(4), std::nullopt, false);  // the graph is over similarities
   map.partition.found(KeyframeId(4), Sim3(), 2, 3);
-  map.partition.set_pose(1, Sim3(SO3(), Eigen::Vector3d(1, 0, 0), 1.2));
+  map.partition.set_pose(PlaceId(1), Sim3(SO3(), Eigen::Vector3d(1, 0, 0), 1.2));
   normalize_scales(map.chain, map.partition);
   EXPECT_NEAR(map.S_map(0).scale(), 1, kRounding);
   EXPECT_NEAR(map.S_map(1).scale(), 1.2, kRounding);
@@ -74,7 +74,7 @@ TEST(PlaceComponents, TheFirstPlaceTellsTheScaleAloneIfItKnowsIt) {
 TEST(PlaceComponents, NoPlaceHasAScaleWhereAllAreKnown) {
   TwoComponents map(true, true);
   const Eigen::Vector3d before = map.S_map(1).translation();
-  map.partition.set_pose(1, Sim3(SO3(), before, 1.2));
+  map.partition.set_pose(PlaceId(1), Sim3(SO3(), before, 1.2));
   normalize_scales(map.chain, map.partition);
   EXPECT_EQ(map.S_map(1).scale(), 1);
   EXPECT_LT((map.S_map(1).translation() - before).norm(), kRounding);

@@ -157,10 +157,11 @@ TEST(PlaceConstraints, BetweenPlacesTheCovariancesOfTheirPartsAreAdded) {
   // Part 4 stands in place 1 turned by a right angle about y, 2 m to its right.
   Line line;
   const Sim3 S_1_4(pose({0, std::numbers::pi / 2, 0}, {2, 0, 0}));
-  line.partition.set_pose(2, S_1_4);
+  line.partition.set_pose(PlaceId(2), S_1_4);
   Matrix7d of_part = Matrix7d::Zero();
-  of_part(2, 2) = 0.5;                  // along the part's z, which is the place's x
-  line.partition.merge(1, 2, of_part);  // the place of part 4 is the younger one: in its frame
+  of_part(2, 2) = 0.5;  // along the part's z, which is the place's x
+  line.partition.merge(PlaceId(1), PlaceId(2),
+                       of_part);  // the place of part 4 is the younger one: in its frame
   ASSERT_LT((line.partition.parts().at(KeyframeId(4)).covariance - of_part).norm(), kRounding);
   PlaceEdge edge;
   edge.from_part = KeyframeId(0);
@@ -186,7 +187,7 @@ TEST(PlaceConstraints, TheCovarianceOfTheFirstPartIsSeenFromTheSecond) {
   Line line;
   Matrix7d of_part = Matrix7d::Zero();
   of_part(4, 4) = 0.01;  // rotation of part 2 in place 0 about y
-  line.partition.merge(0, 1, of_part);
+  line.partition.merge(PlaceId(0), PlaceId(1), of_part);
   PlaceEdge edge;
   edge.from_part = KeyframeId(2);
   edge.to_part = KeyframeId(4);

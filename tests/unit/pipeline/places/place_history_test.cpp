@@ -86,7 +86,7 @@ TEST(PlaceHistory, WhatContradictsItselfIsRefused) {
   history.places.pop_back();
   refused(history);
   history = mapper.history();
-  history.parts.front().place = 99;
+  history.parts.front().place = PlaceId(99);
   refused(history);
   history = mapper.history();
   history.keyframes.back().part = KeyframeId(99);

@@ -86,8 +86,8 @@ TEST(PlaceOptimization, MergesPlacesThatALoopShowsToBeOne) {
   const PlaceGraph graph = mapper.place_graph();
   // Five corners were places; the fifth is the first, and what hung on it came along.
   ASSERT_EQ(graph.places.size(), 4u);
-  EXPECT_EQ(mapper.place_of(KeyframeId(4)), 0);
-  EXPECT_EQ(mapper.place_of(KeyframeId(5)), 0);
+  EXPECT_EQ(mapper.place_of(KeyframeId(4)), PlaceId(0));
+  EXPECT_EQ(mapper.place_of(KeyframeId(5)), PlaceId(0));
   ASSERT_EQ(graph.places[0].members.size(), 3u);
   EXPECT_EQ(graph.places[0].members[0].keyframe, KeyframeId(0));
   EXPECT_EQ(graph.places[0].members[1].keyframe, KeyframeId(4));

@@ -24,9 +24,9 @@ TEST(PlaceMapper, GathersNearKeyframesInOnePlace) {
   EXPECT_EQ(graph.places[0].anchor_keyframe, KeyframeId(0));
   EXPECT_LT(distance_m(graph.places[0].members[0].T_place_keyframe, SE3()), 1e-12);
   EXPECT_LT(distance_m(graph.places[0].members[2].T_place_keyframe, kShort * kShort), 1e-12);
-  EXPECT_EQ(mapper.place_of(KeyframeId(2)), 0);
-  EXPECT_EQ(mapper.place_of(KeyframeId(3)), 1);
-  EXPECT_EQ(mapper.place_of(KeyframeId(4)), 2);
+  EXPECT_EQ(mapper.place_of(KeyframeId(2)), PlaceId(0));
+  EXPECT_EQ(mapper.place_of(KeyframeId(3)), PlaceId(1));
+  EXPECT_EQ(mapper.place_of(KeyframeId(4)), PlaceId(2));
   EXPECT_LT(distance_m(mapper.T_map_keyframe(KeyframeId(3)), T_map_first * kShort * kShort * kLong),
             1e-12);
   EXPECT_LT(distance_m(mapper.odometry(KeyframeId(1), KeyframeId(3))->T_a_b, kShort * kLong),

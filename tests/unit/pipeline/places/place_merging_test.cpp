@@ -29,7 +29,7 @@ TEST(PlaceMerging, MergesWhatTheMapKnowsToBeOneThoughNoLoopShowsIt) {
   mapper.add_loop(loop(4, 0, SE3(), 0.01, 0.001));
   mapper.add_loop(loop(6, 2, SE3(), 0.01, 0.001));
   EXPECT_EQ(optimized(mapper).places.size(), 4u);
-  for (int i = 4; i < 8; ++i) EXPECT_EQ(mapper.place_of(KeyframeId(i)), i - 4) << i;
+  for (int i = 4; i < 8; ++i) EXPECT_EQ(mapper.place_of(KeyframeId(i)), PlaceId(i - 4)) << i;
 }
 
 TEST(PlaceMerging, KeepsNeighboursApartThatAreWithinReachOfEachOther) {
@@ -59,15 +59,15 @@ PlaceMapper fooled() {
 TEST(PlaceMerging, IsUndoneWhenTheEvidenceFalls) {
   PlaceMapper mapper = fooled();
   ASSERT_EQ(optimized(mapper).places.size(), 8u);
-  ASSERT_EQ(mapper.place_of(KeyframeId(8)), 0);
+  ASSERT_EQ(mapper.place_of(KeyframeId(8)), PlaceId(0));
   // The way turns out to be known to centimetres.
   for (int i = 1; i <= 8; ++i) mapper.inform_link(KeyframeId(i), information_of(0.05, 0.001));
   const PlaceGraph graph = optimized(mapper);
   ASSERT_EQ(graph.places.size(), 9u);
-  EXPECT_NE(mapper.place_of(KeyframeId(8)), 0);
+  EXPECT_NE(mapper.place_of(KeyframeId(8)), PlaceId(0));
   EXPECT_EQ(graph.find(mapper.place_of(KeyframeId(8)))->anchor_keyframe, KeyframeId(8));
   EXPECT_EQ(graph.find(mapper.place_of(KeyframeId(8)))->members.size(), 1u);
-  EXPECT_EQ(graph.find(0)->members.size(), 1u);
+  EXPECT_EQ(graph.find(PlaceId(0))->members.size(), 1u);
   // The loop is an edge again, and its kernel holds it off.
   EXPECT_LT(distance_m(mapper.T_map_keyframe(KeyframeId(8)), pose({0, 0, 0}, {0, 0, 40})), 0.1);
   (void)optimized(mapper);
@@ -97,7 +97,7 @@ struct ClosedRow {
     }
   }
   std::size_t mergers(double sigma_m = 0.1, KeyframeId first_open = kNoneOpen) const {
-    const auto covariance = [&](std::int64_t from, std::int64_t to) {
+    const auto covariance = [&](PlaceId from, PlaceId to) {
       EXPECT_LT(from, to);
       Matrix7d result = Matrix7d::Zero();
       result(1, 1) = sigma_m * sigma_m;
@@ -149,7 +149,7 @@ TEST(PlaceMerging, APlaceTakesPartInOneMergerAtATime) {
 
 TEST(PlaceMerging, PlacesThatWereSeparatedAreNotMergedAgain) {
   ClosedRow row;
-  row.partition.merge(0, 4, Matrix7d::Zero());
+  row.partition.merge(PlaceId(0), PlaceId(4), Matrix7d::Zero());
   row.partition.separate(0);
   EXPECT_EQ(row.mergers(), 0u);
 }
@@ -159,7 +159,7 @@ TEST(PlaceMerging, OdometryContradictsAMergerThatItsEdgesCannotReach) {
   // them all the same, the edge 3 to 4 is off by 20 m.
   ClosedRow row;
   EXPECT_TRUE(contradicted_mergers(row.chain, row.partition).empty());
-  row.partition.merge(0, 4, 0.01 * Matrix7d::Identity());
+  row.partition.merge(PlaceId(0), PlaceId(4), 0.01 * Matrix7d::Identity());
   EXPECT_EQ(contradicted_mergers(row.chain, row.partition), std::vector<std::size_t>{0});
   // The same where odometry knows nothing of that side.
   row.chain.inform_link(KeyframeId(4), information_of(20, 1), 0);

@@ -11,7 +11,7 @@ using namespace test;
 
 TEST(PlacePartition, AKeyframeStandsWhereItsPartHasIt) {
   const Row row;
-  EXPECT_EQ(row.partition.place_of(KeyframeId(3)), 1);
+  EXPECT_EQ(row.partition.place_of(KeyframeId(3)), PlaceId(1));
   EXPECT_EQ(row.partition.part_of(KeyframeId(3)), KeyframeId(2));
   EXPECT_EQ(row.partition.state_of(KeyframeId(3)).last_keyframe, KeyframeId(3));
   EXPECT_TRUE(row.partition.is_anchor(KeyframeId(2)));
@@ -28,10 +28,10 @@ TEST(PlacePartition, AMergerMovesNoKeyframe) {
   for (int id = 0; id <= 4; ++id) before.push_back(row.S_map(id));
   Matrix7d covariance = Matrix7d::Identity();
   covariance.diagonal() << 1, 2, 3, 0, 0, 0, 0;
-  EXPECT_EQ(row.partition.merge(0, 1, covariance), KeyframeId(2));
+  EXPECT_EQ(row.partition.merge(PlaceId(0), PlaceId(1), covariance), KeyframeId(2));
   for (int id = 0; id <= 4; ++id) EXPECT_LT(difference(row.S_map(id), before[id]), kRounding) << id;
   EXPECT_EQ(row.partition.places().size(), 2u);
-  EXPECT_EQ(row.partition.place_of(KeyframeId(3)), 0);
+  EXPECT_EQ(row.partition.place_of(KeyframeId(3)), PlaceId(0));
   EXPECT_EQ(row.partition.state_of(KeyframeId(0)).last_keyframe, KeyframeId(3));
   EXPECT_LT((row.partition.parts().at(KeyframeId(2)).covariance - covariance).norm(), kRounding);
   const auto listed = row.partition.graph_places(row.chain);
@@ -40,19 +40,19 @@ TEST(PlacePartition, AMergerMovesNoKeyframe) {
   EXPECT_LT(
       difference(listed[0].S_map_place() * listed[0].members[3].S_place_keyframe(), before[3]),
       kRounding);
-  EXPECT_THROW(row.partition.merge(0, 0, covariance), ArgumentError);
+  EXPECT_THROW(row.partition.merge(PlaceId(0), PlaceId(0), covariance), ArgumentError);
 }
 
 TEST(PlacePartition, ASecondMergerAddsItsCovarianceInTheFrameOfThePart) {
   Row row;
   Matrix7d first = Matrix7d::Zero();
   first(2, 2) = 0.5;
-  row.partition.merge(1, 2, first);
+  row.partition.merge(PlaceId(1), PlaceId(2), first);
   const Sim3 S_place_part = row.partition.parts().at(KeyframeId(4)).S_place_part;
   Matrix7d covariance = Matrix7d::Zero();
   covariance(1, 1) = 1;  // about the y axis alone: a lateral shift
   covariance(4, 4) = 0.01;
-  row.partition.merge(0, 1, covariance);
+  row.partition.merge(PlaceId(0), PlaceId(1), covariance);
   // A rotation w of the place about y moves the part, 5 m ahead, sideways by w times 5 m.
   const double ahead = S_place_part.translation().z();
   const SO3 R = S_place_part.rotation();
@@ -68,31 +68,31 @@ TEST(PlacePartition, ASecondMergerAddsItsCovarianceInTheFrameOfThePart) {
 TEST(PlacePartition, SeparatingUndoesAMergerWhereThePlacesStandNow) {
   Row row;
   const Matrix7d covariance = 0.1 * Matrix7d::Identity();
-  row.partition.merge(0, 1, covariance);
+  row.partition.merge(PlaceId(0), PlaceId(1), covariance);
   const Sim3 S_new_old(pose({0, 1, 0}, {7, 0, 0}));
-  row.partition.set_pose(0, S_new_old * row.partition.state_of(KeyframeId(0)).S_map_place);
+  row.partition.set_pose(PlaceId(0), S_new_old * row.partition.state_of(KeyframeId(0)).S_map_place);
   const Sim3 S_map_0 = row.S_map(0), S_map_3 = row.S_map(3);
   EXPECT_EQ(row.partition.separate(0), KeyframeId(2));
   EXPECT_TRUE(row.partition.merged().empty());
-  EXPECT_EQ(row.partition.place_of(KeyframeId(2)), 3);  // number 1 is not given again
-  EXPECT_EQ(row.partition.place_of(KeyframeId(3)), 3);
-  EXPECT_EQ(row.partition.place_of(KeyframeId(1)), 0);
+  EXPECT_EQ(row.partition.place_of(KeyframeId(2)), PlaceId(3));  // number 1 is not given again
+  EXPECT_EQ(row.partition.place_of(KeyframeId(3)), PlaceId(3));
+  EXPECT_EQ(row.partition.place_of(KeyframeId(1)), PlaceId(0));
   const auto& place = row.partition.state_of(KeyframeId(2));
-  EXPECT_EQ(place.anchor_keyframe, 2);
+  EXPECT_EQ(place.anchor_keyframe, KeyframeId(2));
   EXPECT_EQ(place.last_keyframe, KeyframeId(3));
   EXPECT_LT(difference(row.S_map(0), S_map_0), kRounding);
   EXPECT_LT(difference(row.S_map(3), S_map_3), kRounding);
   EXPECT_LT(difference(place.S_map_place, row.S_map(2)), kRounding);
   EXPECT_LT(difference(row.partition.parts().at(KeyframeId(2)).S_place_part, Sim3()), kRounding);
   EXPECT_EQ(row.partition.parts().at(KeyframeId(2)).covariance.norm(), 0);
-  EXPECT_TRUE(row.partition.have_parted(0, 3));
-  EXPECT_TRUE(row.partition.have_parted(3, 0));
-  EXPECT_FALSE(row.partition.have_parted(0, 2));
+  EXPECT_TRUE(row.partition.have_parted(PlaceId(0), PlaceId(3)));
+  EXPECT_TRUE(row.partition.have_parted(PlaceId(3), PlaceId(0)));
+  EXPECT_FALSE(row.partition.have_parted(PlaceId(0), PlaceId(2)));
 }
 
 TEST(PlacePartition, AComponentOfOneRunGrowsAboutItsFirstKeyframe) {
   Row row(false);
-  row.partition.merge(0, 1, 0.1 * Matrix7d::Identity());
+  row.partition.merge(PlaceId(0), PlaceId(1), 0.1 * Matrix7d::Identity());
   const Sim3 S_map_0 = row.S_map(0), S_map_3 = row.S_map(3), S_map_4 = row.S_map(4);
   row.partition.rescale(row.chain, KeyframeId(0), 2);
   row.chain.rescale(KeyframeId(0), 2);
@@ -127,9 +127,9 @@ TEST(PlacePartition, ARunInACompanyOfOthersStaysWhereItIsAndShrinksItsScale) {
 
 TEST(PlacePartition, ASavedPartitionIsTheSameWhenItIsRestored) {
   Row row;
-  row.partition.merge(0, 1, 0.1 * Matrix7d::Identity());
+  row.partition.merge(PlaceId(0), PlaceId(1), 0.1 * Matrix7d::Identity());
   row.partition.separate(0);
-  row.partition.merge(0, 2, 0.1 * Matrix7d::Identity());
+  row.partition.merge(PlaceId(0), PlaceId(2), 0.1 * Matrix7d::Identity());
   row.partition.set_motion_covariance(KeyframeId(2), Matrix6d::Identity());
   PlaceHistory history;
   row.partition.save(history);
@@ -146,7 +146,7 @@ TEST(PlacePartition, ASavedPartitionIsTheSameWhenItIsRestored) {
   EXPECT_EQ(restored.state_of(KeyframeId(2)).last_keyframe, KeyframeId(3));
   EXPECT_EQ(restored.state_of(KeyframeId(2)).reach, row.partition.state_of(KeyframeId(2)).reach);
   EXPECT_EQ(restored.merged().size(), 1u);
-  EXPECT_TRUE(restored.have_parted(0, 3));
+  EXPECT_TRUE(restored.have_parted(PlaceId(0), PlaceId(3)));
   EXPECT_TRUE(restored.parts().at(KeyframeId(2)).motion_covariance);
   history.founded = 0;
   EXPECT_THROW(PlacePartition(row.partition.graph_places(row.chain), history), ArgumentError);

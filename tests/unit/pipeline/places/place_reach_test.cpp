@@ -25,10 +25,10 @@ TEST(PlaceReach, TheEarlierPlaceIsTheNearestInReachThatLooksTheSameWay) {
   const auto earlier = [&](const Sim3& S, double reach) {
     return earlier_place_in_reach(chain, partition, {}, KeyframeId(4), S, reach);
   };
-  EXPECT_EQ(earlier(S_map_here, 3), 0);
+  EXPECT_EQ(earlier(S_map_here, 3), PlaceId(0));
   EXPECT_FALSE(earlier(S_map_here, 0.9));
-  EXPECT_FALSE(earlier(S_map_here * Sim3(pose({0, 0.4, 0}, {0, 0, 0})), 3));  // 23 deg
-  EXPECT_EQ(earlier(S_map_here * Sim3(pose({0, 0.3, 0}, {0, 0, 0})), 3), 0);  // 17 deg
+  EXPECT_FALSE(earlier(S_map_here * Sim3(pose({0, 0.4, 0}, {0, 0, 0})), 3));           // 23 deg
+  EXPECT_EQ(earlier(S_map_here * Sim3(pose({0, 0.3, 0}, {0, 0, 0})), 3), PlaceId(0));  // 17 deg
   // A path of 20 m that leads no further than twice the reach is no way round.
   EXPECT_FALSE(earlier(S_map_here, 10.1));
   // No place is earlier than the first.
@@ -46,7 +46,7 @@ TEST(PlaceReach, OfTwoEarlierPlacesInReachTheNearerOneCounts) {
   }
   EXPECT_EQ(earlier_place_in_reach(chain, partition, {}, KeyframeId(2),
                                    partition.state_of(KeyframeId(2)).S_map_place, 3),
-            0);
+            PlaceId(0));
 }
 
 TEST(PlaceReach, AKeyframeWithinReachOfTheAnchorBelongsToItsPart) {

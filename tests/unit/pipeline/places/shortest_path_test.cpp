@@ -23,13 +23,13 @@ TEST(ShortestPath, LeadsAlongLinksAndLoops) {
   partition.join(KeyframeId(4), KeyframeId(3));
   chain.add(KeyframeId(5), std::nullopt);
   partition.found(KeyframeId(5), Sim3(), 1, 3);
-  EXPECT_NEAR(shortest_path(chain, partition, {}, 0, 3), 15, 1e-12);
-  EXPECT_NEAR(shortest_path(chain, partition, {}, 3, 1), 10, 1e-12);
-  EXPECT_EQ(shortest_path(chain, partition, {}, 2, 2), 0);
-  EXPECT_TRUE(std::isinf(shortest_path(chain, partition, {}, 0, 4)));
+  EXPECT_NEAR(shortest_path(chain, partition, {}, PlaceId(0), PlaceId(3)), 15, 1e-12);
+  EXPECT_NEAR(shortest_path(chain, partition, {}, PlaceId(3), PlaceId(1)), 10, 1e-12);
+  EXPECT_EQ(shortest_path(chain, partition, {}, PlaceId(2), PlaceId(2)), 0);
+  EXPECT_TRUE(std::isinf(shortest_path(chain, partition, {}, PlaceId(0), PlaceId(4))));
   const std::vector<Loop> loops{loop(4, 0, SE3(), 0.1, 0.01)};  // a member of place 3
-  EXPECT_NEAR(shortest_path(chain, partition, loops, 0, 3), 5, 1e-12);
-  EXPECT_NEAR(shortest_path(chain, partition, loops, 0, 2), 10, 1e-12);
+  EXPECT_NEAR(shortest_path(chain, partition, loops, PlaceId(0), PlaceId(3)), 5, 1e-12);
+  EXPECT_NEAR(shortest_path(chain, partition, loops, PlaceId(0), PlaceId(2)), 10, 1e-12);
 }
 
 }  // namespace

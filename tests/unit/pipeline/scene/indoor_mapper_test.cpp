@@ -294,10 +294,10 @@ TEST(IndoorMapper, RefusesOptionsThatCannotBe) {
 TEST(IndoorMapper, LabelsPlacesOncePerRoom) {
   IndoorMap plan;
   plan.rooms.resize(2);
-  plan.rooms[0].label = "room 1", plan.rooms[0].places = {4};
-  plan.rooms[1].label = "corridor 1", plan.rooms[1].places = {4, 5};
+  plan.rooms[0].label = "room 1", plan.rooms[0].places = test::ids<PlaceId>({4});
+  plan.rooms[1].label = "corridor 1", plan.rooms[1].places = test::ids<PlaceId>({4, 5});
   PlaceGraph graph;
-  for (const std::int64_t id : {4, 5, 6}) graph.places.emplace_back().id = id;
+  for (const PlaceId id : test::ids<PlaceId>({4, 5, 6})) graph.places.emplace_back().id = id;
   graph.places[1].labels = {"kitchen"};
   label_places(plan, graph);
   label_places(plan, graph);

@@ -15,7 +15,7 @@ Map two_places(bool scaled = false) {
   Map map;
   for (std::int64_t p = 0; p < 2; ++p) {
     Place place;
-    place.id = 10 * p;
+    place.id = PlaceId(10 * p);
     place.anchor_keyframe = KeyframeId(2 * p);
     place.component = static_cast<int>(p);
     place.T_map_place = pose({0, 0.2, 0}, {5.0 * static_cast<double>(p), 0, 1});
@@ -89,9 +89,9 @@ TEST(MapKeyframes, ApartAreThoseThatMovedOrTurnedEnoughSinceTheOneBefore) {
   for (std::int64_t k = 0; k < 6; ++k) {
     Keyframe keyframe;
     keyframe.id = KeyframeId(k);
-    keyframe.place = k;
+    keyframe.place = PlaceId(k);
     Place place;
-    place.id = k;
+    place.id = PlaceId(k);
     place.anchor_keyframe = KeyframeId(k);
     place.T_map_place = pose({0, yaw[k], 0}, {0, 0, z[k]});
     place.members = {{KeyframeId(k), SE3(), 1}};

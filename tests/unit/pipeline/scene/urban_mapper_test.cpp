@@ -194,7 +194,7 @@ TEST(UrbanMapper, SharesOfClassesAreOfAllPointsOfAPlace) {
   mapper.add(wall);
   mapper.add(road);
   Map map = posed_map({SE3(), SE3()});
-  map.keyframes[1].place = 0;  // both are of one place
+  map.keyframes[1].place = PlaceId(0);  // both are of one place
   map.place_graph.places[0].members.push_back({KeyframeId(1), SE3(), 1});
   map.place_graph.places[1].members.clear();
   const auto shares = class_shares(mapper, map);

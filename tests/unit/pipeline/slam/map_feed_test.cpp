@@ -154,8 +154,8 @@ TEST(MapFeed, ViewsAreInColourIfTheFirstIs) {
 /// A map of two landmarks, one place and the view of one keyframe.
 Map earlier_map() {
   Map map;
-  map.landmarks = {{4, KeyframeId(0), Eigen::Vector3d(0, 0, 1), 3},
-                   {9, KeyframeId(0), Eigen::Vector3d(0, 0, 2), 3}};
+  map.landmarks = {{LandmarkId(4), KeyframeId(0), Eigen::Vector3d(0, 0, 1), 3},
+                   {LandmarkId(9), KeyframeId(0), Eigen::Vector3d(0, 0, 2), 3}};
   Keyframe keyframe;
   keyframe.view = describe_place(Image(120, 160, CV_8UC3, cv::Scalar(9, 99, 200)), {}, false);
   map.keyframes.push_back(keyframe);
@@ -169,10 +169,10 @@ TEST(MapFeed, LandmarksOfATakenUpMapComeFirstAndIdsGoOn) {
   run.add();
   const Map map = run.feed.snapshot(run.sources());
   ASSERT_EQ(map.landmarks.size(), run.odometry.map().landmarks().size() + 2);
-  EXPECT_EQ(map.landmarks[0].id, 4);
-  EXPECT_EQ(map.landmarks[1].id, 9);
+  EXPECT_EQ(map.landmarks[0].id, LandmarkId(4));
+  EXPECT_EQ(map.landmarks[1].id, LandmarkId(9));
   for (std::size_t i = 2; i < map.landmarks.size(); ++i)
-    EXPECT_EQ(map.landmarks[i].id, run.odometry.map().landmarks()[i - 2].id + 10);
+    EXPECT_EQ(map.landmarks[i].id.value(), run.odometry.map().landmarks()[i - 2].id.value() + 10);
 }
 
 TEST(MapFeed, ATakenUpMapIsNotToldAgain) {
@@ -185,7 +185,7 @@ TEST(MapFeed, ATakenUpMapIsNotToldAgain) {
   ASSERT_EQ(changes.keyframes.size(), 1u);
   EXPECT_EQ(changes.keyframes[0].id, KeyframeId(1));
   ASSERT_EQ(changes.places.size(), 1u);
-  EXPECT_EQ(changes.places[0].id, 0);
+  EXPECT_EQ(changes.places[0].id, PlaceId(0));
   EXPECT_TRUE(changes.appearances.empty());
 }
 

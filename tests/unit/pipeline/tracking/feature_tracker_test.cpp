@@ -172,7 +172,7 @@ TEST(FeatureTracker, ASingleCameraKnowsItsRotation) {
     PointCue& points = t.tracker.points();
     points.track(stereo_drive().frame(0, Sensor::kMono).image);
     points.detect({}, false, {});
-    std::map<std::int64_t, Eigen::Vector2d> px;
+    std::map<LandmarkId, Eigen::Vector2d> px;
     for (const PointTrack& track : points.tracks()) px[track.id] = track.px.cast<double>();
     points.track((rotates ? turns : stereo_drive()).frame(1, Sensor::kMono).image);
     const auto rotation = t.tracker.rotation_since(px, t.random);
@@ -186,7 +186,7 @@ TEST(FeatureTracker, ASingleCameraKnowsItsRotation) {
 TEST(FeatureTracker, ACameraThatMeasuresDepthIsNotAskedForRotations) {
   Tracking t;
   (void)t.keyframe(0, street_T_world_cam(0));
-  std::map<std::int64_t, Eigen::Vector2d> px;
+  std::map<LandmarkId, Eigen::Vector2d> px;
   for (const PointTrack& track : t.tracker.points().tracks())
     px[track.id] = track.px.cast<double>();
   EXPECT_FALSE(t.tracker.rotation_since(px, t.random));  // though nothing has moved

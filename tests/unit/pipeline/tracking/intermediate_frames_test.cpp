@@ -14,7 +14,7 @@ struct Scene {
   LocalMap map{{}, camera, Scale::kMetric};
   SE3 T_odom_keyframe{SO3::exp({0, 0.1, 0}), Eigen::Vector3d(1, 0, 2)};
   SE3 T_keyframe_cam{SO3::exp({0.01, -0.02, 0}), Eigen::Vector3d(0.05, 0, 0.3)};
-  std::vector<std::pair<std::int64_t, Eigen::Vector2d>> px;
+  std::vector<std::pair<LandmarkId, Eigen::Vector2d>> px;
 
   explicit Scene(int landmarks = 40) {
     map.add_keyframe(T_odom_keyframe);
@@ -23,7 +23,7 @@ struct Scene {
     for (int i = 0; i < landmarks; ++i) {
       const Eigen::Vector3d p_cam(random.uniform(-3, 3), random.uniform(-1, 1),
                                   random.uniform(5, 15));
-      map.window().add_landmark(i, T_odom_keyframe * T_keyframe_cam * p_cam);
+      map.window().add_landmark(LandmarkId(i), T_odom_keyframe * T_keyframe_cam * p_cam);
       px.emplace_back(i, *camera.project(p_cam));
     }
   }
@@ -71,7 +71,7 @@ TEST(IntermediateFrames, ShareTheDriftOfTheirTracksEvenly) {
     for (auto& [id, px] : drifted) px -= k / 4.0 * drift_px;
     frames.remember({FrameId(k), scene.T_keyframe_cam, drifted, std::nullopt});
   }
-  std::map<std::int64_t, Eigen::Vector2d> drift;
+  std::map<LandmarkId, Eigen::Vector2d> drift;
   for (const auto& [id, px] : scene.px) drift[id] = drift_px;
   frames.correct_drift(drift);
   const auto posed = frames.repose(scene.map, KeyframeId(0), 1);
