@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -31,8 +33,8 @@ struct Feature {
 
 /// A point of the scene, as the map keeps it: relative to the keyframe that first saw it.
 struct PointLandmark {
-  std::int64_t id = 0;
-  std::int64_t keyframe = 0;
+  LandmarkId id;
+  KeyframeId keyframe;
   Eigen::Vector3d point_cam = Eigen::Vector3d::Zero();  ///< [m], in that keyframe's camera frame
   int observations = 0;
 };

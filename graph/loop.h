@@ -1,14 +1,13 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/sim3.h>
-
-#include <cstdint>
 
 namespace placegraph {
 
 /// A verified revisit between two keyframes.
 struct Loop {
-  std::int64_t query = 0, match = 0;  ///< keyframe ids
-  SE3 T_match_query;                  ///< in the match's unit of length
+  KeyframeId query, match;
+  SE3 T_match_query;  ///< in the match's unit of length
   /// Of S_match_query in its right tangent; where the scale was given, that of T_match_query in the
   /// upper left 6x6 block and zero elsewhere.
   Matrix7d information = Matrix7d::Zero();

@@ -1,13 +1,14 @@
 #pragma once
-#include <cstdint>
+#include <placegraph/graph/core/ids.h>
+
 #include <string>
 
 namespace placegraph {
 
 /// What a place recognizer says of one image: that it shows what an older one showed.
 struct LoopPrediction {
-  std::int64_t query = 0;
-  std::int64_t candidate = 0;
+  FrameId query;
+  FrameId candidate;
   double score = 0;   ///< larger is surer, comparable over all queries
   std::string stage;  ///< that rejected it, or "accepted", where the recognizer says so
   int line = 0;       ///< of the file it was read from

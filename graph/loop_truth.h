@@ -1,6 +1,7 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
+
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <vector>
 
@@ -8,14 +9,14 @@ namespace placegraph {
 
 /// Which images show the place of one image, among the candidates first..last.
 struct LoopQuery {
-  std::int64_t first = 0;
-  std::int64_t last = std::numeric_limits<std::int64_t>::max();
-  std::vector<std::int64_t> matches;  ///< ascending; empty: any detection is false
+  FrameId first;
+  FrameId last = FrameId::highest();
+  std::vector<FrameId> matches;  ///< ascending; empty: any detection is false
 };
 
 /// Which images of a set show the same place.
 struct LoopTruth {
-  std::map<std::int64_t, LoopQuery> queries;
+  std::map<FrameId, LoopQuery> queries;
   /// Whether images that are not listed have no true match (so that any detection there is false);
   /// else they are not judged.
   bool unlisted_have_none = false;

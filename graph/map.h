@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/loop_stage.h>
 #include <placegraph/graph/place_graph.h>
@@ -8,10 +9,10 @@ namespace placegraph {
 
 /// A keyframe as the map keeps it: its pose hangs on its place's, see PlaceMember.
 struct Keyframe {
-  std::int64_t id = 0;
-  std::int64_t frame = 0;
+  KeyframeId id;
+  FrameId frame;
   std::int64_t stamp_ns = 0;
-  std::int64_t place = 0;
+  PlaceId place;
   SE3 T_place_keyframe;
   std::vector<Feature> features;
   double scale = 1;  ///< length at the place of one unit of length at the keyframe
@@ -20,9 +21,9 @@ struct Keyframe {
 
 /// Every input frame, relative to its keyframe; nothing where it is lost.
 struct FrameRecord {
-  std::int64_t frame = 0;
+  FrameId frame;
   std::int64_t stamp_ns = 0;
-  std::int64_t keyframe = -1;
+  std::optional<KeyframeId> keyframe;
   std::optional<SE3> T_keyframe_frame;
   /// Landmarks that the frame was posed by as it was tracked; 0 if it was posed otherwise.
   int inliers = 0;
@@ -30,7 +31,7 @@ struct FrameRecord {
 
 /// What became of a loop candidate.
 struct LoopRecord {
-  std::int64_t query_frame = 0, match_frame = 0;
+  FrameId query_frame, match_frame;
   int inliers = 0;  ///< points that agree with the pose
   LoopStage stage = LoopStage::kRetrieval;
   SE3 T_match_query;  ///< of accepted ones
@@ -53,10 +54,10 @@ struct Map {
   bool metric = false;           ///< whether its unit is the metre
   Trajectory trajectory_online;  ///< as each frame's pose stood when the frame had been processed
 
-  const Keyframe* find_keyframe(std::int64_t id) const;
+  const Keyframe* find_keyframe(KeyframeId id) const;
   /// p_map = S_map_keyframe * p for points and camera positions p in the keyframe's frame and unit.
   /// Throws ArgumentError if the keyframe or its place is not in the map.
-  Sim3 S_map_keyframe(std::int64_t keyframe) const;
+  Sim3 S_map_keyframe(KeyframeId keyframe) const;
   /// Where a landmark stands in the map; throws as S_map_keyframe.
   Eigen::Vector3d position(const PointLandmark& landmark) const {
     return S_map_keyframe(landmark.keyframe) * landmark.point_cam;

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/place_history.h>
 
@@ -15,7 +16,7 @@ struct MapChanges {
   };
 
   std::vector<Place> places;  ///< all, with their members, without appearances
-  std::vector<std::pair<std::int64_t, Appearance>> appearances;  ///< new or changed, by place
+  std::vector<std::pair<PlaceId, Appearance>> appearances;  ///< new or changed, by place
   std::vector<ConstraintChange> constraints;
   /// New, or their features have changed; their view is empty where it has not. The places of the
   /// others stand in `places`.

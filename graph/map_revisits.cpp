@@ -14,22 +14,22 @@ using Isometry = Eigen::Isometry3d;
 
 /// Frames as they are known when a later one asks.
 struct SeenFrame {
-  std::int64_t frame;
+  FrameId frame;
   Isometry T_map_cam;
 };
 
-using Neighbours = std::unordered_map<std::int64_t, std::set<std::int64_t>>;
+using Neighbours = std::unordered_map<PlaceId, std::set<PlaceId>>;
 
 /// Of every place: itself, and those next to it.
 Neighbours neighbours_of(const Map& map) {
   Neighbours next_to;
-  const auto join = [&](std::int64_t a, std::int64_t b) {
+  const auto join = [&](PlaceId a, PlaceId b) {
     next_to[a].insert(b);
     next_to[b].insert(a);
   };
   for (const Place& place : map.place_graph.places) join(place.id, place.id);
   for (const RelativePoseConstraint& constraint : map.place_graph.constraints)
-    join(constraint.from, constraint.to);
+    join(place_of_node(constraint.from), place_of_node(constraint.to));
   for (const PlaceTransition& transition : place_transitions(map))
     join(transition.from, transition.to);
   return next_to;
@@ -47,21 +47,21 @@ std::vector<LoopPrediction> map_revisits(const Map& map, const MapRevisitOptions
   const double least_cosine = std::cos(deg_to_rad(options.max_angle_deg));
   const Trajectory trajectory = map.trajectory_optimized();
   const Neighbours next_to = neighbours_of(map);
-  std::unordered_map<std::int64_t, std::int64_t> place_of;
+  std::unordered_map<KeyframeId, PlaceId> place_of;
   for (const Keyframe& keyframe : map.keyframes) place_of[keyframe.id] = keyframe.place;
 
-  std::unordered_map<std::int64_t, std::vector<SeenFrame>> seen_in;  // by place, oldest first
+  std::unordered_map<PlaceId, std::vector<SeenFrame>> seen_in;  // by place, oldest first
   std::vector<LoopPrediction> revisits;
   for (std::size_t i = 0; i < map.frames.size(); ++i) {
     const auto& T_map_cam = trajectory.poses[i].T_world_body;
     if (!T_map_cam) continue;
-    const std::int64_t frame = map.frames[i].frame;
-    const std::int64_t here = place_of.at(map.frames[i].keyframe);
+    const FrameId frame = map.frames[i].frame;
+    const PlaceId here = place_of.at(*map.frames[i].keyframe);
     const SeenFrame* nearest = nullptr;
     double least = 0;
-    for (const std::int64_t place : next_to.at(here)) {
+    for (const PlaceId place : next_to.at(here)) {
       for (const SeenFrame& older : seen_in[place]) {
-        if (older.frame > frame - options.min_age) break;
+        if (older.frame.value() > frame.value() - options.min_age) break;
         const Isometry T_older_cam = older.T_map_cam.inverse() * *T_map_cam;
         const double distance = T_older_cam.translation().norm();
         // The angle of a rotation by its trace.

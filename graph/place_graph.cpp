@@ -7,10 +7,11 @@
 
 namespace placegraph {
 
-const Place* PlaceGraph::find(std::int64_t id) const {
+const Place* PlaceGraph::find(PlaceId id) const {
   // Ids usually count from 0.
-  if (id >= 0 && id < static_cast<std::int64_t>(places.size()) && places[id].id == id)
-    return &places[id];
+  const std::int64_t at = id.value();
+  if (at >= 0 && at < static_cast<std::int64_t>(places.size()) && places[at].id == id)
+    return &places[at];
   for (const Place& place : places)
     if (place.id == id) return &place;
   return nullptr;
@@ -19,10 +20,10 @@ const Place* PlaceGraph::find(std::int64_t id) const {
 std::vector<int> PlaceGraph::joined_components() const {
   DisjointSets sets(places.size());
   std::unordered_map<int, int> first_of_component;
-  std::unordered_map<std::int64_t, int> index;
+  std::unordered_map<std::int64_t, int> index;  // by node
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
     sets.join(first_of_component.emplace(places[i].component, i).first->second, i);
-    index.emplace(places[i].id, i);
+    index.emplace(node_of_place(places[i].id), i);
   }
   for (const RelativePoseConstraint& constraint : constraints) {
     const auto from = index.find(constraint.from), to = index.find(constraint.to);
@@ -44,7 +45,7 @@ PoseGraph PlaceGraph::pose_graph() const {
     const bool first = component[i] == seen;
     seen += first;
     const Pose pose = scaled ? Pose(places[i].S_map_place()) : Pose(places[i].T_map_place);
-    graph.nodes.push_back({places[i].id, pose, first});
+    graph.nodes.push_back({node_of_place(places[i].id), pose, first});
   }
   graph.constraints.assign(constraints.begin(), constraints.end());
   return graph;
@@ -53,9 +54,9 @@ PoseGraph PlaceGraph::pose_graph() const {
 void PlaceGraph::set_poses(const PoseGraph& optimized) {
   const NodeIndex index = optimized.index_by_id();
   for (Place& place : places) {
-    const int node = index.find(place.id);
+    const int node = index.find(node_of_place(place.id));
     if (node == NodeIndex::kNone)
-      throw ArgumentError("place graph: the pose graph lacks place " + std::to_string(place.id));
+      throw ArgumentError("place graph: the pose graph lacks place " + to_string(place.id));
     const Pose& pose = optimized.nodes[node].T_world_node;
     if (const Sim3* S_map_place = std::get_if<Sim3>(&pose)) {
       place.T_map_place = SE3(S_map_place->rotation(), S_map_place->translation());

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/landmark.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
@@ -11,7 +12,7 @@ namespace placegraph {
 /// A keyframe hangs on its place: moving the place moves the keyframe. Lengths that the keyframe
 /// measured (landmarks, the way to other frames) grow by `scale` to the place's unit.
 struct PlaceMember {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   SE3 T_place_keyframe;
   double scale = 1;
 
@@ -29,8 +30,8 @@ struct Appearance {
 /// nothing measures lengths (a single eye), every place has a unit of its own; `scale` makes it the
 /// map's.
 struct Place {
-  std::int64_t id = 0;
-  std::int64_t anchor_keyframe = 0;
+  PlaceId id;
+  KeyframeId anchor_keyframe;
   SE3 T_map_place;    ///< pose of the anchor keyframe's camera
   int component = 0;  ///< sub-map; a new one begins after a loss that nothing bridged
   std::vector<PlaceMember> members;  ///< the anchor is the first, at identity
@@ -41,13 +42,17 @@ struct Place {
   Sim3 S_map_place() const { return {T_map_place.rotation(), T_map_place.translation(), scale}; }
 };
 
+/// A place graph's constraints name places as the nodes of the graph: both have one number.
+inline std::int64_t node_of_place(PlaceId place) { return place.value(); }
+inline PlaceId place_of_node(std::int64_t node) { return PlaceId(node); }
+
 /// Places and the constraints between them; ids of constraint nodes are place ids. Constraints are
 /// over SE(3), or, where scales are to be estimated too, all over Sim(3).
 struct PlaceGraph {
   std::vector<Place> places;
   std::vector<RelativePoseConstraint> constraints;
 
-  const Place* find(std::int64_t id) const;
+  const Place* find(PlaceId id) const;
   /// For every place the number of its component after joining: places of one `component` and
   /// places that a constraint joins belong together. Numbers count from 0 in the order of `places`.
   std::vector<int> joined_components() const;

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/graph/pose_graph/constraint.h>
 
@@ -12,7 +13,7 @@ namespace placegraph {
 /// The motion to a keyframe from the one before it in the same run of tracking, or from where the
 /// run hangs on an earlier one.
 struct KeyframeLink {
-  std::int64_t from = 0;
+  KeyframeId from;
   SE3 T_from_this;  ///< in the unit of `from`
   Matrix6d information = Matrix6d::Zero();
   ConstraintSource source = ConstraintSource::kOdometry;
@@ -24,34 +25,35 @@ struct KeyframeLink {
 /// that goes on has to know.
 struct PlaceHistory {
   struct Keyframe {
-    std::int64_t id = 0;
-    std::int64_t part = 0;  ///< anchor of the stretch of keyframes that it belongs to
-    int run = 0;            ///< of tracking
+    KeyframeId id;
+    KeyframeId part;  ///< anchor of the stretch of keyframes that it belongs to
+    int run = 0;      ///< of tracking
     std::optional<KeyframeLink> link;
   };
   /// A stretch of keyframes within reach of its first one, the anchor.
   struct Part {
-    std::int64_t anchor = 0, place = 0;
+    KeyframeId anchor;
+    PlaceId place;
     Sim3 S_place_part;
     Matrix7d covariance = Matrix7d::Zero();     ///< of that, in its right tangent
     std::optional<Matrix6d> motion_covariance;  ///< of the motion from the previous anchor
   };
   struct Place {
-    std::int64_t id = 0;
+    PlaceId id;
     double reach = 0;  ///< in its own unit
-    std::int64_t last_keyframe = 0;
+    KeyframeId last_keyframe;
   };
   /// Between two anchors, by other sensors.
   struct Motion {
-    std::int64_t from = 0, to = 0;
+    KeyframeId from, to;
     SE3 T_from_to;
     Matrix6d covariance = Matrix6d::Zero();
   };
 
   /// Parts that came into a place with a younger one, and what they knew of each other there.
   struct Merged {
-    std::int64_t anchor = 0;  ///< of the younger place
-    std::map<std::int64_t, Matrix7d> covariance_of_part;
+    KeyframeId anchor;  ///< of the younger place
+    std::map<KeyframeId, Matrix7d> covariance_of_part;
   };
 
   std::vector<Keyframe> keyframes;  ///< by ascending id, as the next two
@@ -59,12 +61,12 @@ struct PlaceHistory {
   std::vector<Place> places;
   std::vector<Motion> motions;
   std::vector<Loop> loops;
-  std::vector<Merged> merged;                              ///< in the order it was done
-  std::set<std::pair<std::int64_t, std::int64_t>> parted;  ///< anchors that are not one place
-  std::int64_t founded = 0;                                ///< places so far, with those gone
-  std::size_t judged_loops = 0;                            ///< that mergers were judged with
-  std::vector<bool> unit_measured;                         ///< of every run of tracking
-  double median_depth_m = 10;                              ///< of the scene at the last keyframe
+  std::vector<Merged> merged;                          ///< in the order it was done
+  std::set<std::pair<KeyframeId, KeyframeId>> parted;  ///< anchors that are not one place
+  std::int64_t founded = 0;                            ///< places so far, with those gone
+  std::size_t judged_loops = 0;                        ///< that mergers were judged with
+  std::vector<bool> unit_measured;                     ///< of every run of tracking
+  double median_depth_m = 10;                          ///< of the scene at the last keyframe
 };
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 
 #include <vector>
@@ -7,7 +8,7 @@ namespace placegraph {
 
 /// How often the camera went straight from one place to another.
 struct PlaceTransition {
-  std::int64_t from = 0, to = 0;
+  PlaceId from, to;
   int count = 0;
 };
 

@@ -9,35 +9,35 @@
 namespace placegraph {
 namespace {
 
-const Place& place_of(const PlaceGraph& graph, std::int64_t id) {
+const Place& place_of(const PlaceGraph& graph, PlaceId id) {
   const Place* place = graph.find(id);
-  require(place != nullptr, "route: there is no place " + std::to_string(id));
+  require(place != nullptr, "route: there is no place " + to_string(id));
   return *place;
 }
 
 /// Lengths of the roads from every place.
-using Roads = std::unordered_map<std::int64_t, std::vector<std::pair<std::int64_t, double>>>;
+using Roads = std::unordered_map<PlaceId, std::vector<std::pair<PlaceId, double>>>;
 
 Roads roads_of(const PlaceGraph& graph) {
   Roads roads;
   for (const RelativePoseConstraint& edge : graph.constraints) {
-    const double length = (place_of(graph, edge.from).T_map_place.translation() -
-                           place_of(graph, edge.to).T_map_place.translation())
+    const PlaceId from = place_of_node(edge.from), to = place_of_node(edge.to);
+    const double length = (place_of(graph, from).T_map_place.translation() -
+                           place_of(graph, to).T_map_place.translation())
                               .norm();
-    roads[edge.from].emplace_back(edge.to, length);
-    roads[edge.to].emplace_back(edge.from, length);
+    roads[from].emplace_back(to, length);
+    roads[to].emplace_back(from, length);
   }
   return roads;
 }
 
 /// Before which place each lies on the shortest way to `to`; nothing for places it cannot be
 /// reached from.
-std::unordered_map<std::int64_t, std::int64_t> next_places(const Roads& roads, std::int64_t from,
-                                                           std::int64_t to) {
-  using Open = std::pair<double, std::int64_t>;  // equal lengths: the lower id first
+std::unordered_map<PlaceId, PlaceId> next_places(const Roads& roads, PlaceId from, PlaceId to) {
+  using Open = std::pair<double, PlaceId>;  // equal lengths: the lower id first
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  std::unordered_map<std::int64_t, double> length;
-  std::unordered_map<std::int64_t, std::int64_t> next;
+  std::unordered_map<PlaceId, double> length;
+  std::unordered_map<PlaceId, PlaceId> next;
   open.emplace(0, to);
   length[to] = 0;
   while (!open.empty()) {
@@ -60,15 +60,15 @@ std::unordered_map<std::int64_t, std::int64_t> next_places(const Roads& roads, s
 
 }  // namespace
 
-Route shortest_route(const PlaceGraph& graph, std::int64_t from, std::int64_t to) {
+Route shortest_route(const PlaceGraph& graph, PlaceId from, PlaceId to) {
   Route route;
   const Place* place = &place_of(graph, from);
   place_of(graph, to);
   const auto next = next_places(roads_of(graph), from, to);
   if (from != to && !next.count(from)) {
     route.outcome =
-        Outcome::failure(Outcome::Code::kDegenerate, "nothing joins place " + std::to_string(from) +
-                                                         " to place " + std::to_string(to));
+        Outcome::failure(Outcome::Code::kDegenerate,
+                         "nothing joins place " + to_string(from) + " to place " + to_string(to));
     return route;
   }
   route.outcome = Outcome::ok();

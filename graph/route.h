@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/place_graph.h>
 
@@ -6,7 +7,7 @@ namespace placegraph {
 
 /// A place on a way.
 struct RouteStep {
-  std::int64_t place = 0;
+  PlaceId place;
   SE3 T_previous_place;    ///< seen from the place before, in the map's unit; identity at the first
   double leg_m = 0;        ///< from the place before, in the map's unit, as all lengths here
   double travelled_m = 0;  ///< from the first place on
@@ -23,7 +24,7 @@ struct Route {
 /// long as its places lie apart in the map. What makes motion memory one is that it leads back
 /// (Siddiqui 2014, 2.4). Outcomes: degenerate (nothing joins the two). Throws ArgumentError for
 /// places that are not there.
-Route shortest_route(const PlaceGraph& graph, std::int64_t from, std::int64_t to);
+Route shortest_route(const PlaceGraph& graph, PlaceId from, PlaceId to);
 
 /// The same places the other way round.
 Route backtracked(const Route& route);

@@ -60,9 +60,9 @@ std::optional<DataNote> odd_posture(const Camera& camera, const Turns& turns) {
 namespace {
 
 /// Keyframes that move along their optical axis, by their ids.
-std::set<std::int64_t> keyframes_that_go_ahead(const Map& map) {
+std::set<KeyframeId> keyframes_that_go_ahead(const Map& map) {
   constexpr double kAhead = 0.9;  // cosine
-  std::set<std::int64_t> ahead;
+  std::set<KeyframeId> ahead;
   for (std::size_t i = 1; i < map.keyframes.size(); ++i) {
     const Sim3 S_map_cam = map.S_map_keyframe(map.keyframes[i].id);
     const Eigen::Vector3d way =
@@ -88,7 +88,7 @@ NearestSides nearest_sides(const Map& map, double camera_height_m) {
   constexpr int kViews = 4;
   enum { kBelow, kAbove, kLeft, kRight };
   std::array<std::vector<double>, 4> distances;
-  const std::set<std::int64_t> ahead = keyframes_that_go_ahead(map);
+  const std::set<KeyframeId> ahead = keyframes_that_go_ahead(map);
   for (const PointLandmark& landmark : map.landmarks) {
     const Eigen::Vector3d& p = landmark.point_cam;
     if (landmark.observations < kViews || p.z() <= 0 || !ahead.contains(landmark.keyframe))

@@ -152,7 +152,7 @@ std::string without_numbers(std::string text) {
 }
 
 std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map& map,
-                                          const std::map<std::int64_t, std::string>& reasons) {
+                                          const std::map<FrameId, std::string>& reasons) {
   std::map<std::string, UnposedFrames> kinds;
   for (std::size_t i = 0; i < map.frames.size() && i < optimized.size(); ++i) {
     const auto reason = reasons.find(map.frames[i].frame);
@@ -212,7 +212,7 @@ class SequenceRun {
   RunResult as_saved(StoredMap stored) {
     result_.calibration = lens_.calibration();
     result_.lens_k1 = lens_.k1();
-    result_.resumed_at = static_cast<std::int64_t>(begin_ + stored.map.frames.size());
+    result_.resumed_at = FrameId(begin_ + stored.map.frames.size());
     result_.map = std::move(stored.map);
     return std::move(result_);
   }
@@ -272,14 +272,14 @@ class SequenceRun {
   /// Takes up what was saved; the index of the next frame.
   std::size_t go_on(const StoredMap& stored, Slam& slam) {
     if (stored.map.keyframes.empty()) return begin_;
-    const auto last = static_cast<std::size_t>(stored.map.keyframes.back().frame);
+    const auto last = static_cast<std::size_t>(stored.map.keyframes.back().frame.value());
     require(last >= begin_ && last < end_, map_file_->path + ": its last keyframe is frame " +
                                                std::to_string(last) +
                                                ", which is not of the sequence");
     Frame frame = dataset_.frame(last, result_.sensor);
     lens_.apply(frame);
     slam.go_on_from(stored.map, stored.history, frame);
-    result_.resumed_at = static_cast<std::int64_t>(last) + 1;
+    result_.resumed_at = FrameId(last + 1);
     return last + 1;
   }
 
@@ -303,7 +303,7 @@ class SequenceRun {
   int pass_ = 0;
   std::optional<MapDatabase> database_;
   StageTimes times_;
-  std::map<std::int64_t, std::string> reasons_;  ///< of every frame, if it has no pose in the end
+  std::map<FrameId, std::string> reasons_;  ///< of every frame, if it has no pose in the end
   RunResult result_;
 };
 

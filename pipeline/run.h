@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/pipeline/run_options.h>
 #include <placegraph/pipeline/slam.h>
@@ -31,7 +32,7 @@ struct RunResult {
   /// A frame could not be read: the map holds the frames before it. The message of its FileError.
   std::optional<std::string> broken_off;
   /// The first frame that was worked on, where the run went on with one that had been broken off.
-  std::optional<std::int64_t> resumed_at;
+  std::optional<FrameId> resumed_at;
   /// Reading and the stages of Slam. With more than one thread the next frame is read while the
   /// last is worked on, and counts for the stage that is open then.
   std::vector<StageTimes::Stage> stages;

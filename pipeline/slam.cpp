@@ -27,14 +27,14 @@ struct Slam::Impl {
 
   void check_frame(const Frame& frame) const;
   FrameResult add_frame(const Frame& frame);
-  void place(const Frame& frame, const std::optional<Loop>& located, const OdometryUpdate& update,
-             FrameResult& result);
-  void record(std::int64_t keyframe, const SE3& T_keyframe_frame, FrameResult& result);
+  void place(const Frame& frame, const std::optional<LocatedFrame>& located,
+             const OdometryUpdate& update, FrameResult& result);
+  void record(KeyframeId keyframe, const SE3& T_keyframe_frame, FrameResult& result);
   void rescale(double factor);
   void add_keyframes(const OdometryUpdate& update, FrameResult& result);
   void add_keyframe(const NewKeyframe& keyframe, FrameResult& result);
-  void refresh_links(std::int64_t newest);
-  void add_motion(std::int64_t keyframe);
+  void refresh_links(KeyframeId newest);
+  void add_motion(KeyframeId keyframe);
   void classify_environment(const NewKeyframe& keyframe);
   void close_loops(FrameResult& result);
   void report(const IncrementalStep& step) const;
@@ -42,7 +42,7 @@ struct Slam::Impl {
   KnownMap known() const { return {closer, mapper, recorder}; }
   MapSources sources() { return {odometry, closer, mapper, recorder, environments}; }
   /// Keyframes from here on are still being refined: their places are not merged.
-  std::int64_t first_open() const { return odometry.map().window_begin().value_or(-1); }
+  KeyframeId first_open() const { return odometry.map().window_begin().value_or(kBeforeAll); }
 
   SlamOptions options;
   Calibration calibration;
@@ -110,18 +110,18 @@ void Slam::Impl::check_frame(const Frame& frame) const {
   const Camera& camera = calibration.camera;
   require(frame.image.type() == CV_8UC1 && frame.image.cols == camera.width &&
               frame.image.rows == camera.height,
-          "frame " + std::to_string(frame.id) + ": grey image of " + std::to_string(camera.width) +
-              "x" + std::to_string(camera.height) + " needed");
+          "frame " + to_string(frame.id) + ": grey image of " + std::to_string(camera.width) + "x" +
+              std::to_string(camera.height) + " needed");
   const auto fits = [&](const Image& image, int type, const Camera& of) {
     return image.empty() ||
            (image.type() == type && image.cols == of.width && image.rows == of.height);
   };
   require(fits(frame.right, CV_8UC1, camera) && fits(frame.mask, CV_8UC1, camera) &&
               (!calibration.depth || fits(frame.depth, CV_32FC1, calibration.depth->camera)),
-          "frame " + std::to_string(frame.id) +
+          "frame " + to_string(frame.id) +
               ": right eye, mask or depth image of another size or type than calibrated");
   require(recorder.accepts(frame),
-          "frame " + std::to_string(frame.id) + ": ids and stamps must increase");
+          "frame " + to_string(frame.id) + ": ids and stamps must increase");
 }
 
 FrameResult Slam::Impl::add_frame(const Frame& frame) {
@@ -129,10 +129,10 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   recorder.begin(frame);
 
   // 1. Visual odometry; where no track segment hangs on the map, with the place where the frame is.
-  const std::optional<Loop> expected = recovery.expect(frame, known(), odometry);
+  const std::optional<LocatedFrame> expected = recovery.expect(frame, known(), odometry);
   OdometryUpdate update = odometry.add_frame(
       frame, expected ? std::optional(known().T_map_frame(*expected)) : std::nullopt);
-  const std::optional<Loop> located = recovery.locate(expected, update, known(), odometry);
+  const std::optional<LocatedFrame> located = recovery.locate(expected, update, known(), odometry);
 
   // 2. Lost: relocalize, go on by a rotation or other sensors, or begin a new component of the map.
   if (recovery.needed(update, known()))
@@ -150,13 +150,13 @@ FrameResult Slam::Impl::add_frame(const Frame& frame) {
   return result;
 }
 
-void Slam::Impl::place(const Frame& frame, const std::optional<Loop>& located,
+void Slam::Impl::place(const Frame& frame, const std::optional<LocatedFrame>& located,
                        const OdometryUpdate& update, FrameResult& result) {
   if (update.state == TrackingState::kTracking) {
     recovery.tracked();
     result.inliers = update.inliers;
-    record(update.keyframe, odometry.map().pose(update.keyframe).inverse() * update.T_odom_cam,
-           result);
+    const KeyframeId reference = update.keyframe.value();
+    record(reference, odometry.map().pose(reference).inverse() * update.T_odom_cam, result);
   } else if (const auto at =
                  recovery.pose_without_tracking(frame, located, update, known(), odometry)) {
     record(at->match, at->T_match_query, result);
@@ -176,7 +176,7 @@ void Slam::Impl::place(const Frame& frame, const std::optional<Loop>& located,
     result.reason = update.reason.empty() ? "waits for a second view" : update.reason;
 }
 
-void Slam::Impl::record(std::int64_t keyframe, const SE3& T_keyframe_frame, FrameResult& result) {
+void Slam::Impl::record(KeyframeId keyframe, const SE3& T_keyframe_frame, FrameResult& result) {
   recorder.record(keyframe, T_keyframe_frame, result.inliers);
   result.T_map_cam = rigid_part(mapper.S_map_keyframe(keyframe) * Sim3(T_keyframe_frame));
   result.component = mapper.component_of(keyframe);
@@ -184,7 +184,7 @@ void Slam::Impl::record(std::int64_t keyframe, const SE3& T_keyframe_frame, Fram
 }
 
 void Slam::Impl::rescale(double factor) {
-  const std::int64_t first = odometry.map().first();
+  const KeyframeId first = odometry.map().first();
   mapper.rescale(first, factor);
   closer.rescale(factor, first);
   recorder.rescale(first, factor);
@@ -206,7 +206,7 @@ void Slam::Impl::add_keyframe(const NewKeyframe& keyframe, FrameResult& result) 
   if (keyframe.id == map.first()) {
     link = recovery.take_link(map, mapper);
   } else {
-    const std::int64_t previous = *recorder.newest_keyframe();
+    const KeyframeId previous = *recorder.newest_keyframe();
     T_previous_this = map.pose(previous).inverse() * map.pose(keyframe.id);
     link = PlaceMapper::Link{previous, *T_previous_this};
   }
@@ -239,7 +239,7 @@ void Slam::Impl::add_keyframe(const NewKeyframe& keyframe, FrameResult& result) 
 }
 
 /// From anchor to anchor. What a monocular camera took its lengths from does not count again.
-void Slam::Impl::add_motion(std::int64_t keyframe) {
+void Slam::Impl::add_motion(KeyframeId keyframe) {
   const auto previous = mapper.previous_anchor(keyframe);
   if (!previous) return;
   const auto motion =
@@ -267,28 +267,29 @@ void Slam::Impl::classify_environment(const NewKeyframe& keyframe) {
 
 /// The window goes on refining its last keyframes: their links follow. Information of the motion
 /// from an anchor to the next one comes from the window as a whole while it holds both.
-void Slam::Impl::refresh_links(std::int64_t newest) {
-  const std::int64_t from =
-      std::max(odometry.map().first(), newest - options.odometry.window.max_keyframes - 2);
-  for (std::int64_t id = from; id < newest; ++id) {
-    mapper.update_link(id + 1, odometry.map().pose(id).inverse() * odometry.map().pose(id + 1));
-    const LocalMap::Link link = odometry.map().link(id);
-    mapper.inform_link(id + 1, link.information, link.sigma_log_scale);
+void Slam::Impl::refresh_links(KeyframeId newest) {
+  const LocalMap& map = odometry.map();
+  const KeyframeId oldest(newest.value() - options.odometry.window.max_keyframes - 2);
+  for (KeyframeId id = std::max(map.first(), oldest), next = id; id < newest; id = next) {
+    ++next;
+    mapper.update_link(next, map.pose(id).inverse() * map.pose(next));
+    const LocalMap::Link link = map.link(id);
+    mapper.inform_link(next, link.information, link.sigma_log_scale);
   }
-  const auto begin = odometry.map().window_begin();
+  const auto begin = map.window_begin();
   if (!begin) return;
-  for (std::int64_t id = *begin + 1; id <= newest; ++id) {
+  for (KeyframeId id = ++KeyframeId(*begin); id <= newest; ++id) {
     const auto previous = mapper.previous_anchor(id);
     if (previous && *previous >= *begin)
-      mapper.inform_anchor(id, odometry.map().motion_information(*previous, id));
+      mapper.inform_anchor(id, map.motion_information(*previous, id));
   }
 }
 
 void Slam::Impl::close_loops(FrameResult& result) {
   const KnownMotions motions{
-      [&](std::int64_t a, std::int64_t b) { return mapper.odometry(a, b); },
-      [&](std::int64_t a, std::int64_t b) { return mapper.predicted(a, b); },
-      [&](std::int64_t a, std::int64_t b) { return mapper.scale_unknown(a, b); }};
+      [&](KeyframeId a, KeyframeId b) { return mapper.odometry(a, b); },
+      [&](KeyframeId a, KeyframeId b) { return mapper.predicted(a, b); },
+      [&](KeyframeId a, KeyframeId b) { return mapper.scale_unknown(a, b); }};
   const auto loops = [&] {
     const auto span = times.measure("loop closure");
     return closer.find_loops(motions, odometry.map().median_depth());
@@ -314,9 +315,9 @@ void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Fram
   recorder.take_up(map, last.id);
   feed.take_up(map, closer);
   report(mapper.optimize());
-  const std::int64_t newest = map.keyframes.back().id;
+  const KeyframeId newest = map.keyframes.back().id;
   recovery.take_up(newest, history.median_depth_m, known());
-  odometry.go_on_from(newest + 1, history.median_depth_m);
+  odometry.go_on_from(++KeyframeId(newest), history.median_depth_m);
   odometry.restart(recovery.T_map_last(), true);
   FrameResult seen_again;
   add_keyframes(odometry.add_frame(last, recovery.T_map_last()), seen_again);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/frontend/lines/track_consistency.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/core/median.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -19,7 +20,7 @@ namespace placegraph::apps {
 namespace {
 
 struct TrackedLine {
-  std::int64_t frame = 0;
+  FrameId frame;
   FrameView::Line line;
 };
 using LineTracks = std::map<std::int64_t, std::vector<TrackedLine>>;
@@ -39,7 +40,7 @@ LineTracksJudgement judge(const LineTracks& tracks, const Camera& camera, const 
   for (const auto& [id, track] : tracks) {
     std::vector<LineSighting> sightings;
     for (const TrackedLine& s : track) {
-      const auto index = static_cast<std::size_t>(s.frame);
+      const auto index = static_cast<std::size_t>(s.frame.value());
       if (index >= truth.poses.size() || !truth.poses[index].T_world_body) continue;
       const Eigen::Isometry3d& T = *truth.poses[index].T_world_body;
       sightings.push_back(

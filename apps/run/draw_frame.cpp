@@ -41,7 +41,7 @@ std::string caption(const FrameResult& result, const FrameView& view) {
                                                                : "waiting";
   const auto mapped = std::count_if(view.tracks.begin(), view.tracks.end(),
                                     [](const auto& track) { return track.px_projected; });
-  return std::to_string(result.frame) + " " + state + (result.keyframe ? ", keyframe" : "") + ", " +
+  return to_string(result.frame) + " " + state + (result.keyframe ? ", keyframe" : "") + ", " +
          std::to_string(view.tracks.size()) + " tracks, " + std::to_string(mapped) + " landmarks" +
          (view.lines.empty() ? "" : ", " + std::to_string(view.lines.size()) + " lines") +
          directions(view) + (result.loops_accepted > 0 ? ", loop" : "");
@@ -84,7 +84,7 @@ Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView&
 void write_frame_drawing(const std::string& folder, const Frame& frame, const FrameResult& result,
                          const FrameView& view) {
   char name[32];
-  std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(frame.id));
+  std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(frame.id.value()));
   write_png((std::filesystem::path(folder) / name).string(), draw_frame(frame, result, view),
             {.level = 3});
 }

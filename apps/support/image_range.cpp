@@ -29,7 +29,8 @@ ImageRange images_of(const std::string& folder, const std::vector<int>& range) {
 Frame read_frame(const ImageRange& images, std::size_t index) {
   const GreyAndColour image = read_image(images.paths.at(index));
   Frame frame;
-  frame.id = frame.stamp_ns = images.first + static_cast<std::int64_t>(index);
+  frame.stamp_ns = images.first + static_cast<std::int64_t>(index);
+  frame.id = FrameId(frame.stamp_ns);
   frame.image = image.grey;
   frame.colour = image.colour;
   return frame;

@@ -92,7 +92,7 @@ class LensEquations {
 
   const WindowState& state_;
   RobustKernel kernel_;
-  std::map<std::int64_t, Eigen::Index> column_;
+  std::map<KeyframeId, Eigen::Index> column_;
   Eigen::MatrixXd H_;
   Eigen::VectorXd b_;
   // Of one point: rows of its residuals, columns of the keyframes that see it.

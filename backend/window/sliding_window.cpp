@@ -26,7 +26,7 @@ void insert_observation(std::vector<Observation>& list, const Observation& o,
                         const std::string& name) {
   const auto at = std::lower_bound(
       list.begin(), list.end(), o.keyframe,
-      [](const Observation& a, std::int64_t keyframe) { return a.keyframe < keyframe; });
+      [](const Observation& a, KeyframeId keyframe) { return a.keyframe < keyframe; });
   require(at == list.end() || at->keyframe != o.keyframe, name + " is there already");
   list.insert(at, o);
 }
@@ -38,31 +38,33 @@ void require_sound(const LineObservation::SecondEye& eye, const std::string& nam
 }
 
 /// "sliding window: landmark 3"
-std::string name_of(const char* what, std::int64_t id) {
-  return std::string("sliding window: ") + what + " " + std::to_string(id);
+template <class Key>
+std::string name_of(const char* what, Key id) {
+  using std::to_string;
+  return std::string("sliding window: ") + what + " " + to_string(id);
 }
 
 template <class Map>
-auto& find(Map& all, std::int64_t id, const char* what) {
+auto& find(Map& all, typename Map::key_type id, const char* what) {
   const auto it = all.find(id);
   require(it != all.end(), name_of(what, id) + " is not in the window");
   return it->second;
 }
 
-template <class T>
-void insert(std::map<std::int64_t, T>& all, std::int64_t id, const T& value, const char* what) {
+template <class Key, class T>
+void insert(std::map<Key, T>& all, Key id, const T& value, const char* what) {
   require(all.try_emplace(id, value).second, name_of(what, id) + " is there already");
 }
 
-template <class T>
-std::vector<std::int64_t> ids_of(const std::map<std::int64_t, T>& all) {
-  std::vector<std::int64_t> ids;
+template <class Key, class T>
+std::vector<Key> ids_of(const std::map<Key, T>& all) {
+  std::vector<Key> ids;
   for (const auto& [id, value] : all) ids.push_back(id);
   return ids;
 }
 
-template <class T>
-std::optional<T> value_if_there(const std::map<std::int64_t, T>& all, std::int64_t id) {
+template <class Key, class T>
+std::optional<T> value_if_there(const std::map<Key, T>& all, Key id) {
   const auto it = all.find(id);
   return it == all.end() ? std::nullopt : std::optional(it->second);
 }
@@ -91,7 +93,7 @@ const WindowInformation& SlidingWindow::information() const {
   return *information_;
 }
 
-void SlidingWindow::add_keyframe(std::int64_t id, const SE3& T_map_cam) {
+void SlidingWindow::add_keyframe(KeyframeId id, const SE3& T_map_cam) {
   WindowState& state = change();
   require(state.keyframes.empty() || id > state.keyframes.rbegin()->first,
           name_of("keyframe", id) + " is not newer than the last one");
@@ -100,7 +102,7 @@ void SlidingWindow::add_keyframe(std::int64_t id, const SE3& T_map_cam) {
   state.keyframes.emplace(id, T_map_cam);
 }
 
-void SlidingWindow::add_landmark(std::int64_t id, const Eigen::Vector3d& p_map) {
+void SlidingWindow::add_landmark(LandmarkId id, const Eigen::Vector3d& p_map) {
   require(p_map.allFinite(), name_of("landmark", id) + " is not finite");
   insert(change().landmarks, id, WindowLandmark{p_map, {}, {}}, "landmark");
 }
@@ -109,7 +111,7 @@ void SlidingWindow::add_observation(const WindowObservation& o) {
   require_variable(*state_, keyframe_variable(o.keyframe));
   WindowLandmark& landmark = find(change().landmarks, o.landmark, "landmark");
   const std::string name =
-      name_of("observation of landmark", o.landmark) + " in keyframe " + std::to_string(o.keyframe);
+      name_of("observation of landmark", o.landmark) + " in keyframe " + to_string(o.keyframe);
   require(o.px.allFinite() && positive(o.sigma_px),
           name + ": px must be finite and sigma_px positive");
   require(!o.covariance_px || is_positive_definite(*o.covariance_px),
@@ -128,7 +130,7 @@ void SlidingWindow::add_line_observation(const LineObservation& o) {
   require_variable(*state_, keyframe_variable(o.keyframe));
   WindowLine& line = find(change().lines, o.line, "line");
   const std::string name =
-      name_of("observation of line", o.line) + " in keyframe " + std::to_string(o.keyframe);
+      name_of("observation of line", o.line) + " in keyframe " + to_string(o.keyframe);
   require(o.start_px.allFinite() && o.end_px.allFinite() && positive(o.sigma_px),
           name + ": its ends must be finite and sigma_px positive");
   if (o.second) require_sound(*o.second, name);
@@ -172,17 +174,17 @@ void SlidingWindow::add(const WindowFactor& factor) {
     state.fixed.reset();
 }
 
-void SlidingWindow::remove_landmark(std::int64_t id) {
+void SlidingWindow::remove_landmark(LandmarkId id) {
   find(state_->landmarks, id, "landmark");
   change().landmarks.erase(id);
 }
 
-void SlidingWindow::remove_observation(std::int64_t keyframe, std::int64_t landmark) {
+void SlidingWindow::remove_observation(KeyframeId keyframe, LandmarkId landmark) {
   const std::size_t removed =
       std::erase_if(find(change().landmarks, landmark, "landmark").observations,
                     [&](const WindowObservation& o) { return o.keyframe == keyframe; });
-  require(removed > 0, name_of("landmark", landmark) + " has no observation in keyframe " +
-                           std::to_string(keyframe));
+  require(removed > 0,
+          name_of("landmark", landmark) + " has no observation in keyframe " + to_string(keyframe));
 }
 
 void SlidingWindow::remove_line(std::int64_t id) {
@@ -211,7 +213,7 @@ void SlidingWindow::remove(const WindowFactor& factor) {
   require(removed > 0, "sliding window: a measurement that is to be removed is not there");
 }
 
-void SlidingWindow::revise_inverse_depth(std::int64_t keyframe, std::int64_t landmark,
+void SlidingWindow::revise_inverse_depth(KeyframeId keyframe, LandmarkId landmark,
                                          double inverse_depth) {
   require(std::isfinite(inverse_depth), "sliding window: inverse_depth must be finite");
   for (WindowObservation& o : find(change().landmarks, landmark, "landmark").observations)
@@ -220,12 +222,12 @@ void SlidingWindow::revise_inverse_depth(std::int64_t keyframe, std::int64_t lan
       return;
     }
   throw ArgumentError(name_of("landmark", landmark) + " has no inverse depth in keyframe " +
-                      std::to_string(keyframe));
+                      to_string(keyframe));
 }
 
-void SlidingWindow::revise_second_eye(std::int64_t keyframe, std::int64_t line,
+void SlidingWindow::revise_second_eye(KeyframeId keyframe, std::int64_t line,
                                       const LineObservation::SecondEye& second) {
-  const std::string in_keyframe = " in keyframe " + std::to_string(keyframe);
+  const std::string in_keyframe = " in keyframe " + to_string(keyframe);
   require_sound(second, name_of("line", line) + in_keyframe);
   for (LineObservation& o : find(change().lines, line, "line").observations)
     if (o.keyframe == keyframe && o.second) {
@@ -250,7 +252,7 @@ void SlidingWindow::hold_world(std::optional<std::int64_t> id) {
 
 WindowSummary SlidingWindow::optimize() { return optimize_window(change()); }
 
-std::vector<std::int64_t> SlidingWindow::marginalize() { return marginalize_window(change()); }
+std::vector<KeyframeId> SlidingWindow::marginalize() { return marginalize_window(change()); }
 
 void SlidingWindow::rescale(double scale) {
   require(!has_metric_observation(*state_) && !state_->prior_is_metric,
@@ -258,17 +260,17 @@ void SlidingWindow::rescale(double scale) {
   rescale_window(change(), scale);
 }
 
-std::vector<std::int64_t> SlidingWindow::keyframes() const { return ids_of(state_->keyframes); }
-std::vector<std::int64_t> SlidingWindow::landmarks() const { return ids_of(state_->landmarks); }
+std::vector<KeyframeId> SlidingWindow::keyframes() const { return ids_of(state_->keyframes); }
+std::vector<LandmarkId> SlidingWindow::landmarks() const { return ids_of(state_->landmarks); }
 std::vector<std::int64_t> SlidingWindow::lines() const { return ids_of(state_->lines); }
 std::vector<std::int64_t> SlidingWindow::planes() const { return ids_of(state_->planes); }
 std::vector<std::int64_t> SlidingWindow::worlds() const { return ids_of(state_->worlds); }
 
-SE3 SlidingWindow::pose(std::int64_t keyframe) const {
+SE3 SlidingWindow::pose(KeyframeId keyframe) const {
   return find(state_->keyframes, keyframe, "keyframe");
 }
 
-std::optional<Eigen::Vector3d> SlidingWindow::landmark(std::int64_t id) const {
+std::optional<Eigen::Vector3d> SlidingWindow::landmark(LandmarkId id) const {
   const auto it = state_->landmarks.find(id);
   if (it == state_->landmarks.end()) return std::nullopt;
   return it->second.p_map;
@@ -288,7 +290,7 @@ std::optional<SO3> SlidingWindow::world(std::int64_t id) const {
   return value_if_there(state_->worlds, id);
 }
 
-const std::vector<WindowObservation>& SlidingWindow::observations(std::int64_t landmark) const {
+const std::vector<WindowObservation>& SlidingWindow::observations(LandmarkId landmark) const {
   return find(state_->landmarks, landmark, "landmark").observations;
 }
 

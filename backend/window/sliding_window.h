@@ -4,6 +4,7 @@
 #include <placegraph/backend/window/window_information.h>
 #include <placegraph/backend/window/window_measurements.h>
 #include <placegraph/backend/window/window_observations.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/backend/window/window_summary.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line3.h>
@@ -36,8 +37,8 @@ class SlidingWindow {
   /// marginalized, then the prior it leaves does so (or, if it leaves none, the next oldest is
   /// held). When neither depth nor a distance says otherwise, the scale is held where it is: by a
   /// soft distance to the farthest keyframe, and by the prior once that has gone into it.
-  void add_keyframe(std::int64_t id, const SE3& T_map_cam);
-  void add_landmark(std::int64_t id, const Eigen::Vector3d& p_map);
+  void add_keyframe(KeyframeId id, const SE3& T_map_cam);
+  void add_landmark(LandmarkId id, const Eigen::Vector3d& p_map);
   void add_observation(const WindowObservation& observation);
   /// A line counts from three images on, of two keyframes or more: fewer say nothing of the poses
   /// (two planes always meet in a line). Its planes through the cameras should have turned by a few
@@ -60,8 +61,8 @@ class SlidingWindow {
   void add(const WindowFactor& factor);
 
   /// Forgets a landmark with its observations (an outlier).
-  void remove_landmark(std::int64_t id);
-  void remove_observation(std::int64_t keyframe, std::int64_t landmark);
+  void remove_landmark(LandmarkId id);
+  void remove_observation(KeyframeId keyframe, LandmarkId landmark);
   void remove_line(std::int64_t id);
   /// Forgets a plane with all that was measured of it in the window; what went into the prior is
   /// integrated over it.
@@ -70,9 +71,9 @@ class SlidingWindow {
   void remove(const WindowFactor& factor);
   /// The inverse depth [1/m] of an observation that has one, as it is measured by a better
   /// calibration.
-  void revise_inverse_depth(std::int64_t keyframe, std::int64_t landmark, double inverse_depth);
+  void revise_inverse_depth(KeyframeId keyframe, LandmarkId landmark, double inverse_depth);
   /// What a second eye saw is known better now, as after its calibration. It must be there.
-  void revise_second_eye(std::int64_t keyframe, std::int64_t line,
+  void revise_second_eye(KeyframeId keyframe, std::int64_t line,
                          const LineObservation::SecondEye& second);
 
   /// What is kept is not marginalized, however old it is: a keyframe as an anchor to which later
@@ -87,23 +88,23 @@ class SlidingWindow {
   /// Marginalizes the oldest keyframes until at most max_keyframes are left: landmarks and lines
   /// that the newest keyframe no longer sees are marginalized with them, observations of the others
   /// in the leaving keyframe are dropped. Returns the ids of keyframes that left.
-  std::vector<std::int64_t> marginalize();
+  std::vector<KeyframeId> marginalize();
   /// Multiplies all positions, landmarks and the prior's linearization by `scale` (> 0) about the
   /// oldest keyframe: for a mono map whose metric scale becomes known. Throws if something in the
   /// window measures it already: a distance, an inverse depth, a height, pose priors, a motion.
   void rescale(double scale);
 
-  std::vector<std::int64_t> keyframes() const;  ///< ascending
-  std::vector<std::int64_t> landmarks() const;  ///< ascending
-  std::vector<std::int64_t> lines() const;      ///< ascending
-  std::vector<std::int64_t> planes() const;     ///< ascending
-  std::vector<std::int64_t> worlds() const;     ///< ascending
-  SE3 pose(std::int64_t keyframe) const;        ///< T_map_cam
-  std::optional<Eigen::Vector3d> landmark(std::int64_t id) const;
+  std::vector<KeyframeId> keyframes() const;  ///< ascending
+  std::vector<LandmarkId> landmarks() const;  ///< ascending
+  std::vector<std::int64_t> lines() const;    ///< ascending
+  std::vector<std::int64_t> planes() const;   ///< ascending
+  std::vector<std::int64_t> worlds() const;   ///< ascending
+  SE3 pose(KeyframeId keyframe) const;        ///< T_map_cam
+  std::optional<Eigen::Vector3d> landmark(LandmarkId id) const;
   std::optional<Line3> line(std::int64_t id) const;
   std::optional<Plane3> plane(std::int64_t id) const;
   std::optional<SO3> world(std::int64_t id) const;  ///< R_map_world
-  const std::vector<WindowObservation>& observations(std::int64_t landmark) const;
+  const std::vector<WindowObservation>& observations(LandmarkId landmark) const;
   const std::vector<LineObservation>& line_observations(std::int64_t line) const;
   /// Those of one type together, and these in the order in which they came.
   const std::vector<WindowFactor>& factors() const;

@@ -33,7 +33,7 @@ WindowBlocks::WindowBlocks(const WindowState& state)
     VariableBlock<Eigen::Vector3d>::store(landmark.p_map, point(k++));
 }
 
-std::size_t WindowBlocks::position(std::int64_t keyframe) const {
+std::size_t WindowBlocks::position(KeyframeId keyframe) const {
   const auto end = variables_.begin() + static_cast<std::ptrdiff_t>(keyframes_);
   return static_cast<std::size_t>(
       std::lower_bound(variables_.begin(), end, keyframe_variable(keyframe)) - variables_.begin());

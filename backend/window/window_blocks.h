@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/window/window_state.h>
+#include <placegraph/graph/core/ids.h>
 
 namespace placegraph {
 
@@ -15,7 +16,7 @@ class WindowBlocks {
   const std::vector<WindowVariable>& variables() const { return variables_; }
   std::size_t keyframes() const { return keyframes_; }
   /// Place of a keyframe among variables(). It must be in the window.
-  std::size_t position(std::int64_t keyframe) const;
+  std::size_t position(KeyframeId keyframe) const;
 
   double* variable(std::size_t k) { return &blocks_[offsets_[k]]; }
   const double* variable(std::size_t k) const { return &blocks_[offsets_[k]]; }

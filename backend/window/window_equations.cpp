@@ -10,9 +10,9 @@ namespace placegraph {
 namespace {
 
 /// The first estimate of a variable if the prior holds one.
-template <class T>
-std::optional<Variable> first_estimate(const std::vector<std::int64_t>& in_prior,
-                                       const std::vector<T>& lin, std::int64_t id) {
+template <class Key, class T>
+std::optional<Variable> first_estimate(const std::vector<Key>& in_prior, const std::vector<T>& lin,
+                                       Key id) {
   const auto k = std::lower_bound(in_prior.begin(), in_prior.end(), id);
   if (k == in_prior.end() || *k != id) return std::nullopt;
   return lin[static_cast<std::size_t>(k - in_prior.begin())];
@@ -25,7 +25,7 @@ std::optional<Variable> first_estimate(const MarginalPrior& prior, const WindowV
     case WindowVariable::Kind::kWorld:
       return first_estimate(prior.worlds, prior.R_map_world_lin, variable.id);
     default:
-      return first_estimate(prior.keyframes, prior.T_map_cam_lin, variable.id);
+      return first_estimate(prior.keyframes, prior.T_map_cam_lin, variable.keyframe());
   }
 }
 

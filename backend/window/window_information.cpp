@@ -16,11 +16,11 @@ namespace {
 using Kind = WindowVariable::Kind;
 
 bool is_held(const WindowState& state, const WindowVariable& variable) {
-  return variable.kind == Kind::kKeyframe && state.fixed == variable.id;
+  return variable.kind == Kind::kKeyframe && state.fixed == variable.keyframe();
 }
 
 /// The information of a keyframe's pose in the map, all else marginalized.
-Matrix6d absolute_information(const SlidingWindow& window, std::int64_t keyframe) {
+Matrix6d absolute_information(const SlidingWindow& window, KeyframeId keyframe) {
   return clamp_to_semidefinite(
       joint_information(window.state(), window.information(), {keyframe_variable(keyframe)}), 1e-9);
 }
@@ -84,9 +84,9 @@ Eigen::MatrixXd joint_information(const WindowState& state, const WindowInformat
   return marginalize_first(form, others).H;
 }
 
-Matrix6d relative_information(const SlidingWindow& window, std::int64_t from, std::int64_t to) {
+Matrix6d relative_information(const SlidingWindow& window, KeyframeId from, KeyframeId to) {
   const WindowState& state = window.state();
-  for (const std::int64_t id : {from, to}) require_variable(state, keyframe_variable(id));
+  for (const KeyframeId id : {from, to}) require_variable(state, keyframe_variable(id));
   require(from != to, "sliding window: a relative pose needs two keyframes");
   const SE3 T_from_to = state.keyframes.at(from).inverse() * state.keyframes.at(to);
   // The held keyframe is the map's frame: what the prior knows, it knows from there.
@@ -110,12 +110,12 @@ Matrix6d relative_information(const SlidingWindow& window, std::int64_t from, st
   return clamp_to_semidefinite(relative.H, 1e-9);
 }
 
-std::optional<Matrix6d> relative_covariance(const SlidingWindow& window, std::int64_t from,
-                                            std::int64_t to) {
+std::optional<Matrix6d> relative_covariance(const SlidingWindow& window, KeyframeId from,
+                                            KeyframeId to) {
   return inverse_if_full(relative_information(window, from, to));
 }
 
-std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, std::int64_t keyframe) {
+std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, KeyframeId keyframe) {
   require_variable(window.state(), keyframe_variable(keyframe));
   if (!window.state().tied_to_map) return std::nullopt;
   if (window.state().fixed == keyframe) return Matrix6d(Matrix6d::Zero());
@@ -123,7 +123,7 @@ std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, std::in
 }
 
 std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, std::int64_t world,
-                                                std::int64_t keyframe) {
+                                                KeyframeId keyframe) {
   const WindowState& state = window.state();
   require_variable(state, keyframe_variable(keyframe));
   require_variable(state, world_variable(world));
@@ -144,7 +144,7 @@ std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, std
 }
 
 std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, std::int64_t plane,
-                                                std::int64_t keyframe) {
+                                                KeyframeId keyframe) {
   const WindowState& state = window.state();
   require_variable(state, keyframe_variable(keyframe));
   require_variable(state, plane_variable(plane));
@@ -180,11 +180,10 @@ std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, std
   return Eigen::Matrix3d(root * root.transpose());
 }
 
-double sigma_log_length_ratio(const SlidingWindow& window, std::int64_t first, std::int64_t middle,
-                              std::int64_t last) {
+double sigma_log_length_ratio(const SlidingWindow& window, KeyframeId first, KeyframeId middle,
+                              KeyframeId last) {
   const WindowState& state = window.state();
-  for (const std::int64_t id : {first, middle, last})
-    require_variable(state, keyframe_variable(id));
+  for (const KeyframeId id : {first, middle, last}) require_variable(state, keyframe_variable(id));
   require(first != middle && middle != last && first != last,
           "sliding window: a ratio of lengths needs three keyframes");
   const SE3 &T_a = state.keyframes.at(first), &T_b = state.keyframes.at(middle),

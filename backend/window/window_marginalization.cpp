@@ -9,7 +9,7 @@ namespace placegraph {
 namespace {
 
 template <class Landmark>
-bool sees(const Landmark& landmark, std::int64_t keyframe) {
+bool sees(const Landmark& landmark, KeyframeId keyframe) {
   return std::any_of(landmark.observations.begin(), landmark.observations.end(),
                      [&](const auto& o) { return o.keyframe == keyframe; });
 }
@@ -17,7 +17,7 @@ bool sees(const Landmark& landmark, std::int64_t keyframe) {
 /// Whether a point or line is seen from the leaving keyframe and no longer from the newest one: it
 /// goes into the prior.
 template <class Landmark>
-bool ends(const Landmark& landmark, std::int64_t leaving, std::int64_t newest) {
+bool ends(const Landmark& landmark, KeyframeId leaving, KeyframeId newest) {
   return sees(landmark, leaving) && !sees(landmark, newest);
 }
 
@@ -28,8 +28,8 @@ bool touches_any(const WindowFactor& factor, const std::set<WindowVariable>& var
 
 /// The keyframe, and the planes and worlds that nothing in the window but what leaves with it ties
 /// to keyframes, and that nobody wants kept.
-std::set<WindowVariable> leaving_variables(const WindowState& state, std::int64_t leaving,
-                                           std::int64_t newest) {
+std::set<WindowVariable> leaving_variables(const WindowState& state, KeyframeId leaving,
+                                           KeyframeId newest) {
   const WindowVariable keyframe = keyframe_variable(leaving);
   std::set<WindowVariable> touched, staying = state.kept;
   for (const std::int64_t id : state.prior.planes) touched.insert(plane_variable(id));
@@ -54,8 +54,8 @@ std::set<WindowVariable> leaving_variables(const WindowState& state, std::int64_
 
 /// Adds what leaves with the keyframe and the other variables, and the prior. Returns whether
 /// something among it measures the unit of length.
-bool add_leaving(const WindowState& state, const std::set<WindowVariable>& gone,
-                 std::int64_t leaving, std::int64_t newest, WindowEquations& equations) {
+bool add_leaving(const WindowState& state, const std::set<WindowVariable>& gone, KeyframeId leaving,
+                 KeyframeId newest, WindowEquations& equations) {
   bool metric = false;
   for (const auto& [id, landmark] : state.landmarks) {
     if (!ends(landmark, leaving, newest)) continue;
@@ -94,7 +94,7 @@ MarginalPrior make_prior(const QuadraticForm& form, const std::vector<WindowVari
         prior.worlds.push_back(variable.id);
         prior.R_map_world_lin.push_back(std::get<SO3>(lin));
       } else {
-        prior.keyframes.push_back(variable.id);
+        prior.keyframes.push_back(variable.keyframe());
         prior.T_map_cam_lin.push_back(std::get<SE3>(lin));
       }
       for (int i = 0; i < size; ++i) columns.push_back(column + i);
@@ -109,8 +109,8 @@ MarginalPrior make_prior(const QuadraticForm& form, const std::vector<WindowVari
 }
 
 /// Takes out of the window what has gone into the prior.
-void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, std::int64_t leaving,
-                   std::int64_t newest) {
+void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, KeyframeId leaving,
+                   KeyframeId newest) {
   const auto erase_from = [&](auto& landmarks) {
     for (auto it = landmarks.begin(); it != landmarks.end();) {
       auto& landmark = it->second;
@@ -126,7 +126,8 @@ void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, std
   for (const WindowVariable& variable : gone) {
     state.kept.erase(variable);
     if (variable.kind == WindowVariable::Kind::kPlane) state.planes.erase(variable.id);
-    if (variable.kind == WindowVariable::Kind::kKeyframe) state.keyframes.erase(variable.id);
+    if (variable.kind == WindowVariable::Kind::kKeyframe)
+      state.keyframes.erase(variable.keyframe());
     if (variable.kind != WindowVariable::Kind::kWorld) continue;
     state.worlds.erase(variable.id);
     if (state.held_world == variable.id) state.held_world.reset();
@@ -152,12 +153,12 @@ void settle_gauge(WindowState& state, bool was_fixed) {
 
 }  // namespace
 
-void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
-  const std::int64_t newest = state.keyframes.rbegin()->first;
+void marginalize_keyframe(WindowState& state, KeyframeId leaving) {
+  const KeyframeId newest = state.keyframes.rbegin()->first;
   const std::set<WindowVariable> gone = leaving_variables(state, leaving, newest);
   // What leaves comes first; a keyframe that is held has no columns.
   const auto is_constant = [&](const WindowVariable& variable) {
-    return variable.kind == WindowVariable::Kind::kKeyframe && state.fixed == variable.id;
+    return variable.kind == WindowVariable::Kind::kKeyframe && state.fixed == variable.keyframe();
   };
   std::vector<WindowVariable> order, staying;
   for (const WindowVariable& variable : gone)
@@ -177,8 +178,8 @@ void marginalize_keyframe(WindowState& state, std::int64_t leaving) {
   settle_gauge(state, was_fixed);
 }
 
-std::vector<std::int64_t> marginalize_window(WindowState& state) {
-  std::vector<std::int64_t> left;
+std::vector<KeyframeId> marginalize_window(WindowState& state) {
+  std::vector<KeyframeId> left;
   while (static_cast<int>(state.keyframes.size()) > state.options.max_keyframes) {
     // The newest stays in any case.
     const auto newest = std::prev(state.keyframes.end());

@@ -61,7 +61,7 @@ WindowFactor window_factor(const PlaneObservation& o) {
   const Eigen::LLT<Eigen::Matrix3d> llt(o.information);
   require(is_symmetric(o.information) && llt.info() == Eigen::Success,
           "sliding window: plane " + std::to_string(o.plane) + " in keyframe " +
-              std::to_string(o.keyframe) +
+              to_string(o.keyframe) +
               ": the information must be symmetric, finite and positive definite");
   return {std::make_shared<PlaneObservationFactor>(o.plane_cam, llt.matrixU()),
           {keyframe_variable(o.keyframe), plane_variable(o.plane)},
@@ -71,7 +71,7 @@ WindowFactor window_factor(const PlaneObservation& o) {
 
 WindowFactor window_factor(const WorldObservation& o) {
   const std::string name = "sliding window: sighting of world " + std::to_string(o.world) +
-                           " in keyframe " + std::to_string(o.keyframe);
+                           " in keyframe " + to_string(o.keyframe);
   require(o.R_cam_world.matrix().allFinite(), name + ": the rotation must be finite");
   require_information(o.information, name);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(o.information);
@@ -84,8 +84,7 @@ WindowFactor window_factor(const WorldObservation& o) {
 }
 
 WindowFactor window_factor(const PosePrior& prior) {
-  const std::string name =
-      "sliding window: pose prior of keyframe " + std::to_string(prior.keyframe);
+  const std::string name = "sliding window: pose prior of keyframe " + to_string(prior.keyframe);
   require(prior.T_map_cam.matrix().allFinite(), name + ": the pose must be finite");
   require_information(prior.information, name);
   // What is known of a rotation alone has no unit.
@@ -97,8 +96,8 @@ WindowFactor window_factor(const PosePrior& prior) {
 }
 
 WindowFactor window_factor(const MotionObservation& motion) {
-  const std::string name = "sliding window: motion from keyframe " + std::to_string(motion.from) +
-                           " to " + std::to_string(motion.to);
+  const std::string name = "sliding window: motion from keyframe " + to_string(motion.from) +
+                           " to " + to_string(motion.to);
   require(motion.T_from_to.matrix().allFinite(), name + ": the pose must be finite");
   require_information(motion.information, name);
   // What holds a direction of the way only does so in any unit.
@@ -131,7 +130,7 @@ void add_plane_observation(SlidingWindow& window, const PlaneObservation& observ
   for (const WindowFactor& other : window.factors())
     require(!is_plane_observation(other) || other.variables != factor.variables,
             "sliding window: plane " + std::to_string(observation.plane) + " in keyframe " +
-                std::to_string(observation.keyframe) + " is there already");
+                to_string(observation.keyframe) + " is there already");
   window.add(factor);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/window/window_factor.h>
+#include <placegraph/graph/core/ids.h>
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -13,14 +14,14 @@ class SlidingWindow;
 
 /// A metric length: |t| of T_from_to, as the ground plane under a camera of known height gives it.
 struct DistanceObservation {
-  std::int64_t from = 0, to = 0;
+  KeyframeId from, to;
   double distance_m = 0;
   double sigma_m = 1;
 };
 
 /// A camera at a known height above a plane landmark, as above the ground a vehicle drives on.
 struct HeightObservation {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   std::int64_t plane = 0;
   double height_m = 0;
   double sigma_m = 1;
@@ -29,7 +30,7 @@ struct HeightObservation {
 /// A plane landmark as a keyframe measures it, by its depth image: error log(q_measured^-1 q_cam),
 /// see PlaneObservationFactor.
 struct PlaneObservation {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   std::int64_t plane = 0;
   Plane3 plane_cam;
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< of its tangent, of full rank
@@ -38,7 +39,7 @@ struct PlaneObservation {
 /// A rectangular world, a rotation of the window, as a keyframe sees it: error
 /// log(R_map_world^-1 R_map_cam R_cam_world), see AbsoluteRotationFactor.
 struct WorldObservation {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   std::int64_t world = 0;
   SO3 R_cam_world;
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< right tangent, of any rank
@@ -46,7 +47,7 @@ struct WorldObservation {
 
 /// What is known of a keyframe's pose from elsewhere: error log(T_map_cam_measured^-1 T_map_cam).
 struct PosePrior {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   SE3 T_map_cam;
   Matrix6d information = Matrix6d::Identity();  ///< of any rank
 };
@@ -55,7 +56,7 @@ struct PosePrior {
 /// aligning grey values: error log(T_from_to_measured^-1 T_map_from^-1 T_map_to). Not robust: its
 /// owner judges it.
 struct MotionObservation {
-  std::int64_t from = 0, to = 0;
+  KeyframeId from, to;
   SE3 T_from_to;
   Matrix6d information = Matrix6d::Identity();  ///< right tangent of T_from_to; of any rank
 };

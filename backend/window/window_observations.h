@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
+
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
@@ -10,8 +12,8 @@ namespace placegraph {
 /// A landmark seen in a keyframe. The inverse depth (1 / z in the camera frame) comes from stereo
 /// (disparity / (f b)) or a depth camera.
 struct WindowObservation {
-  std::int64_t keyframe = 0;
-  std::int64_t landmark = 0;
+  KeyframeId keyframe;
+  LandmarkId landmark;
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   double sigma_px = 1;
   std::optional<double> inverse_depth;  ///< [1/m]
@@ -22,7 +24,7 @@ struct WindowObservation {
 
 /// A segment of a line landmark seen in a keyframe; its ends may lie anywhere along the line.
 struct LineObservation {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   std::int64_t line = 0;
   Eigen::Vector2d start_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d end_px = Eigen::Vector2d::Zero();
@@ -42,7 +44,7 @@ struct LineObservation {
 /// A point landmark that lies on a plane landmark.
 struct PlanePoint {
   std::int64_t plane = 0;
-  std::int64_t landmark = 0;
+  LandmarkId landmark;
   double sigma_m = 1;  ///< how uneven the plane is
 };
 

@@ -155,7 +155,7 @@ void WindowProblem::add_factor(const WindowFactor& factor) {
 void WindowProblem::add_prior() {
   if (state_.prior.empty()) return;
   std::vector<double*> blocks;
-  for (const std::int64_t id : state_.prior.keyframes)
+  for (const KeyframeId id : state_.prior.keyframes)
     blocks.push_back(blocks_.at(keyframe_variable(id)));
   for (const std::int64_t id : state_.prior.planes)
     blocks.push_back(blocks_.at(plane_variable(id)));
@@ -181,7 +181,7 @@ void WindowProblem::add_variables() {
     if (!problem_.HasParameterBlock(block)) continue;
     problem_.SetManifold(block, manifold_of(blocks_.variables()[k]));
     ordering_->AddElementToGroup(block, 1);
-    if (k < blocks_.keyframes() && state_.fixed == blocks_.variables()[k].id)
+    if (k < blocks_.keyframes() && state_.fixed == blocks_.variables()[k].keyframe())
       problem_.SetParameterBlockConstant(block);
   }
 }
@@ -189,10 +189,11 @@ void WindowProblem::add_variables() {
 /// Whether something says where the k-th keyframe is.
 bool WindowProblem::is_determined(std::size_t k) const {
   const WindowVariable& keyframe = blocks_.variables()[k];
-  if (state_.fixed == keyframe.id || points_by_keyframe_[k] >= kMinPointsPerKeyframe) return true;
+  if (state_.fixed == keyframe.keyframe() || points_by_keyframe_[k] >= kMinPointsPerKeyframe)
+    return true;
   // While a keyframe is held, the prior is too weak to determine others.
   const auto& in_prior = state_.prior.keyframes;
-  if (!state_.fixed && std::binary_search(in_prior.begin(), in_prior.end(), keyframe.id))
+  if (!state_.fixed && std::binary_search(in_prior.begin(), in_prior.end(), keyframe.keyframe()))
     return true;
   return std::any_of(state_.factors.begin(), state_.factors.end(), [&](const WindowFactor& factor) {
     return touches(factor, keyframe) && determines(state_, factor, keyframe);
@@ -236,7 +237,7 @@ ceres::Solver::Summary WindowProblem::solve() {
 }
 
 void WindowProblem::read_back(WindowState& state) const {
-  const std::map<std::int64_t, SE3> before = state.keyframes;
+  const std::map<KeyframeId, SE3> before = state.keyframes;
   std::size_t k = 0;
   for (auto& [id, T_map_cam] : state.keyframes) {
     double const* const pose = blocks_.variable(k++);
@@ -248,7 +249,7 @@ void WindowProblem::read_back(WindowState& state) const {
   for (auto& [id, R_map_world] : state.worlds)
     R_map_world = VariableBlock<SO3>::load(blocks_.variable(k++));
   const auto motion_of = [&](const auto& landmark) {
-    const std::int64_t seen = landmark.observations.back().keyframe;
+    const KeyframeId seen = landmark.observations.back().keyframe;
     return std::pair(state.keyframes.at(seen), before.at(seen).inverse());
   };
   std::size_t i = 0;

@@ -17,7 +17,7 @@ bool contains(const WindowState& state, const WindowVariable& variable) {
     case Kind::kWorld:
       return state.worlds.contains(variable.id);
     default:
-      return state.keyframes.contains(variable.id);
+      return state.keyframes.contains(variable.keyframe());
   }
 }
 
@@ -64,7 +64,7 @@ Variable value_of(const WindowState& state, const WindowVariable& variable) {
     case Kind::kWorld:
       return state.worlds.at(variable.id);
     default:
-      return state.keyframes.at(variable.id);
+      return state.keyframes.at(variable.keyframe());
   }
 }
 
@@ -154,9 +154,9 @@ std::optional<WindowFactor> scale_reference(const WindowState& state) {
   const bool free = !state.fixed && !state.prior.empty();
   if (free || state.keyframes.empty() || state.prior_holds_scale || has_metric_observation(state))
     return std::nullopt;
-  const std::int64_t reference = state.fixed.value_or(state.keyframes.begin()->first);
+  const KeyframeId reference = state.fixed.value_or(state.keyframes.begin()->first);
   const Eigen::Vector3d first = state.keyframes.at(reference).translation();
-  std::int64_t farthest = reference;
+  KeyframeId farthest = reference;
   double distance_m = 0;
   for (const auto& [id, T_map_cam] : state.keyframes) {
     const double to_id_m = (T_map_cam.translation() - first).norm();

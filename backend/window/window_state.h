@@ -5,6 +5,7 @@
 #include <placegraph/backend/window/sliding_window_options.h>
 #include <placegraph/backend/window/window_factor.h>
 #include <placegraph/backend/window/window_observations.h>
+#include <placegraph/graph/core/ids.h>
 
 #include <map>
 #include <optional>
@@ -28,8 +29,8 @@ struct WindowLine {
 struct WindowState {
   SlidingWindowOptions options;
   Camera camera;
-  std::map<std::int64_t, SE3> keyframes;  ///< T_map_cam
-  std::map<std::int64_t, WindowLandmark> landmarks;
+  std::map<KeyframeId, SE3> keyframes;  ///< T_map_cam
+  std::map<LandmarkId, WindowLandmark> landmarks;
   std::map<std::int64_t, WindowLine> lines;
   std::map<std::int64_t, Plane3> planes;  ///< planes of the map
   std::map<std::int64_t, SO3> worlds;     ///< R_map_world
@@ -43,7 +44,7 @@ struct WindowState {
   bool prior_is_metric = false;  ///< what measures the scale went into the prior
   bool prior_holds_scale = false;
   /// The oldest keyframe, while no prior holds position and heading of the window.
-  std::optional<std::int64_t> fixed;
+  std::optional<KeyframeId> fixed;
   /// Nothing but the prior leads back to the keyframe that set the map's frame; once another has to
   /// be held instead, what is known is known from there only.
   bool tied_to_map = true;

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/factors/variable.h>
+#include <placegraph/graph/core/ids.h>
 
 #include <compare>
 #include <cstdint>
@@ -15,10 +16,13 @@ struct WindowVariable {
   Kind kind = Kind::kKeyframe;
   std::int64_t id = 0;
   auto operator<=>(const WindowVariable&) const = default;
+
+  /// The id of a variable of that kind.
+  KeyframeId keyframe() const { return KeyframeId(id); }
 };
 
-inline WindowVariable keyframe_variable(std::int64_t id) {
-  return {WindowVariable::Kind::kKeyframe, id};
+inline WindowVariable keyframe_variable(KeyframeId id) {
+  return {WindowVariable::Kind::kKeyframe, id.value()};
 }
 inline WindowVariable plane_variable(std::int64_t id) { return {WindowVariable::Kind::kPlane, id}; }
 inline WindowVariable world_variable(std::int64_t id) { return {WindowVariable::Kind::kWorld, id}; }

@@ -9,28 +9,28 @@ namespace {
 
 enum class RangeTest { kInside, kTooYoung, kOutOfRange };
 
-RangeTest range_test_of(std::int64_t min_age, std::int64_t id, const LoopQuery& query,
-                        std::int64_t candidate) {
-  if (min_age > 0 && id - candidate < min_age) return RangeTest::kTooYoung;
+RangeTest range_test_of(std::int64_t min_age, FrameId id, const LoopQuery& query,
+                        FrameId candidate) {
+  if (min_age > 0 && id.value() - candidate.value() < min_age) return RangeTest::kTooYoung;
   const bool inside = candidate >= query.first && candidate <= query.last;
   return inside ? RangeTest::kInside : RangeTest::kOutOfRange;
 }
 
 /// What the truth says of an image, matches that are no candidates left out.
-LoopQuery query_of(const LoopTruth& truth, std::int64_t id) {
+LoopQuery query_of(const LoopTruth& truth, FrameId id) {
   const auto listed = truth.queries.find(id);
   if (listed == truth.queries.end()) return {};
   LoopQuery query = listed->second;
-  std::erase_if(query.matches, [&](std::int64_t match) {
+  std::erase_if(query.matches, [&](FrameId match) {
     return range_test_of(truth.min_age, id, query, match) != RangeTest::kInside;
   });
   return query;
 }
 
-bool is_true(const LoopQuery& query, std::int64_t candidate, int tolerance) {
-  const auto next =
-      std::lower_bound(query.matches.begin(), query.matches.end(), candidate - tolerance);
-  return next != query.matches.end() && *next <= candidate + tolerance;
+bool is_true(const LoopQuery& query, FrameId candidate, int tolerance) {
+  const auto next = std::lower_bound(query.matches.begin(), query.matches.end(),
+                                     FrameId(candidate.value() - tolerance));
+  return next != query.matches.end() && next->value() <= candidate.value() + tolerance;
 }
 
 struct Candidate {
@@ -51,7 +51,7 @@ struct Gathered {
   bool too_young = false, out_of_range = false;
 };
 
-JudgedQuery judge(std::int64_t id, Gathered& gathered) {
+JudgedQuery judge(FrameId id, Gathered& gathered) {
   JudgedQuery judged;
   judged.query = id;
   judged.has_match = !gathered.query.matches.empty();
@@ -92,7 +92,7 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
                           int tolerance) {
   require(tolerance >= 0, "judge_loops: tolerance is negative");
   LoopBenchmark result;
-  std::map<std::int64_t, Gathered> gathered;
+  std::map<FrameId, Gathered> gathered;
   for (const auto& [id, query] : truth.queries) gathered[id].query = query_of(truth, id);
   for (const LoopPrediction& prediction : predictions) {
     if (!truth.unlisted_have_none && !truth.queries.contains(prediction.query)) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/eval/loops/precision_recall.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop_prediction.h>
 #include <placegraph/graph/loop_truth.h>
 
@@ -20,7 +21,7 @@ enum class LoopVerdict {
 std::string to_string(LoopVerdict verdict);
 
 struct JudgedQuery {
-  std::int64_t query = 0;
+  FrameId query;
   LoopVerdict verdict = LoopVerdict::kSilent;
   bool has_match = false;  ///< whether there was one to be found
   LoopPrediction best;     ///< of a hit or a miss

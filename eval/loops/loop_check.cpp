@@ -10,9 +10,9 @@
 namespace placegraph {
 namespace {
 
-const Eigen::Isometry3d* pose_of(const Trajectory& truth, std::int64_t frame) {
-  if (frame < 0 || frame >= static_cast<std::int64_t>(truth.size())) return nullptr;
-  const auto& T_world_cam = truth.poses[static_cast<std::size_t>(frame)].T_world_body;
+const Eigen::Isometry3d* pose_of(const Trajectory& truth, FrameId frame) {
+  if (frame.value() < 0 || frame.value() >= static_cast<std::int64_t>(truth.size())) return nullptr;
+  const auto& T_world_cam = truth.poses[static_cast<std::size_t>(frame.value())].T_world_body;
   return T_world_cam ? &*T_world_cam : nullptr;
 }
 
@@ -32,7 +32,7 @@ LoopCheck check_loops(const Trajectory& truth, const std::vector<LoopRecord>& lo
   LoopCheck result;
   for (const LoopRecord& loop : loops) {
     if (!loop.accepted()) continue;
-    if (std::abs(loop.query_frame - loop.match_frame) < options.min_frames_apart) {
+    if (std::abs(loop.query_frame.value() - loop.match_frame.value()) < options.min_frames_apart) {
       ++result.too_near;
       continue;
     }
@@ -45,8 +45,8 @@ LoopCheck check_loops(const Trajectory& truth, const std::vector<LoopRecord>& lo
     const Eigen::Matrix4d error =
         relative_pose(*T_world_match, *T_world_query).inverse() * loop.T_match_query.matrix();
     CheckedLoop checked;
-    checked.query_frame = static_cast<int>(loop.query_frame);
-    checked.match_frame = static_cast<int>(loop.match_frame);
+    checked.query_frame = loop.query_frame;
+    checked.match_frame = loop.match_frame;
     checked.translation_error_m = error.topRightCorner<3, 1>().norm();
     checked.rotation_error_deg = rad_to_deg(rotation_angle(error.topLeftCorner<3, 3>()));
     checked.correct = checked.translation_error_m <= options.max_translation_m &&

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/map.h>
@@ -19,7 +20,7 @@ void visit(OptionVisitor& field, LoopCheckOptions& options);
 
 /// An accepted loop against the true relative pose.
 struct CheckedLoop {
-  int query_frame = 0, match_frame = 0;
+  FrameId query_frame, match_frame;
   double translation_error_m = 0;
   double rotation_error_deg = 0;
   bool correct = false;

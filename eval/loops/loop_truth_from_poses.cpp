@@ -21,13 +21,13 @@ LoopTruth loop_truth_from_poses(const Trajectory& truth, const RevisitOptions& o
     const auto& T_world_query = pose_at(i);
     if (!T_world_query) continue;
     LoopQuery query;
-    query.last = i - options.min_age;
-    for (std::int64_t j = 0; j <= query.last; ++j) {
+    query.last = FrameId(i - options.min_age);
+    for (std::int64_t j = 0; j <= query.last.value(); ++j) {
       const auto& T_world_match = pose_at(j);
       if (T_world_match && options.same.holds(*T_world_match, *T_world_query))
-        query.matches.push_back(j);
+        query.matches.push_back(FrameId(j));
     }
-    result.queries.emplace(i, std::move(query));
+    result.queries.emplace(FrameId(i), std::move(query));
   }
   return result;
 }

@@ -15,13 +15,14 @@ namespace {
 using Isometry = Eigen::Isometry3d;
 
 struct Anchor {
-  std::int64_t place;
+  PlaceId place;
   Isometry T_world_anchor;
 };
 
 /// The map's frames with their true poses and places.
 struct PlacedFrame {
-  std::int64_t frame, place;
+  FrameId frame;
+  PlaceId place;
   Isometry T_world_frame;
 };
 
@@ -33,20 +34,20 @@ double angle_between(const Isometry& a, const Isometry& b) {
   return rad_to_deg(rotation_angle(a.linear().transpose() * b.linear()));
 }
 
-const std::optional<Isometry>& true_pose(const Trajectory& truth, std::int64_t frame) {
-  require(frame >= 0 && frame < static_cast<std::int64_t>(truth.size()),
-          "place check: frame " + std::to_string(frame) + " is beyond the truth's " +
+const std::optional<Isometry>& true_pose(const Trajectory& truth, FrameId frame) {
+  require(frame.value() >= 0 && frame.value() < static_cast<std::int64_t>(truth.size()),
+          "place check: frame " + to_string(frame) + " is beyond the truth's " +
               std::to_string(truth.size()) + " poses");
-  return truth.poses[static_cast<std::size_t>(frame)].T_world_body;
+  return truth.poses[static_cast<std::size_t>(frame.value())].T_world_body;
 }
 
 std::vector<PlacedFrame> placed_frames(const Map& map, const Trajectory& truth) {
-  std::map<std::int64_t, std::int64_t> place_of;
+  std::map<KeyframeId, PlaceId> place_of;
   for (const Keyframe& keyframe : map.keyframes) place_of[keyframe.id] = keyframe.place;
   std::vector<PlacedFrame> frames;
   for (const FrameRecord& record : map.frames) {
     if (!record.T_keyframe_frame) continue;
-    const auto place = place_of.find(record.keyframe);
+    const auto place = record.keyframe ? place_of.find(*record.keyframe) : place_of.end();
     require(place != place_of.end(), "place check: a frame's keyframe is not in the map");
     if (const auto& T_world_frame = true_pose(truth, record.frame))
       frames.push_back({record.frame, place->second, *T_world_frame});
@@ -56,7 +57,7 @@ std::vector<PlacedFrame> placed_frames(const Map& map, const Trajectory& truth) 
 
 void count_pure_pairs(const Map& map, const Trajectory& truth, const PlaceCheckOptions& options,
                       PlaceCheck& check) {
-  std::map<std::int64_t, std::vector<Isometry>> views;
+  std::map<PlaceId, std::vector<Isometry>> views;
   for (const Keyframe& keyframe : map.keyframes)
     if (const auto& T_world_view = true_pose(truth, keyframe.frame))
       views[keyframe.place].push_back(*T_world_view);
@@ -74,8 +75,8 @@ void count_pure_pairs(const Map& map, const Trajectory& truth, const PlaceCheckO
 void count_growth(const std::vector<PlacedFrame>& frames, const Trajectory& truth,
                   const PlaceCheckOptions& options, PlaceCheck& check) {
   const LoopTruth revisits = loop_truth_from_poses(truth, options.revisit);
-  std::map<std::int64_t, std::int64_t> place_of_frame;
-  std::set<std::int64_t> founded_first, revisited, of_revisits;
+  std::map<FrameId, PlaceId> place_of_frame;
+  std::set<PlaceId> founded_first, revisited, of_revisits;
   for (const PlacedFrame& frame : frames) {
     place_of_frame[frame.frame] = frame.place;
     const auto query = revisits.queries.find(frame.frame);
@@ -84,20 +85,20 @@ void count_growth(const std::vector<PlacedFrame>& frames, const Trajectory& trut
       continue;
     }
     of_revisits.insert(frame.place);
-    for (const std::int64_t match : query->second.matches)
+    for (const FrameId match : query->second.matches)
       if (const auto place = place_of_frame.find(match); place != place_of_frame.end())
         revisited.insert(place->second);
   }
-  for (const std::int64_t place : revisited) check.revisited_places += founded_first.count(place);
-  for (const std::int64_t place : of_revisits) check.added_places += !founded_first.count(place);
+  for (const PlaceId place : revisited) check.revisited_places += founded_first.count(place);
+  for (const PlaceId place : of_revisits) check.added_places += !founded_first.count(place);
 }
 
-std::set<std::pair<std::int64_t, std::int64_t>> true_adjacency(
-    const std::vector<Anchor>& anchors, const std::vector<PlacedFrame>& frames,
-    const PlaceCheckOptions& options) {
-  std::set<std::pair<std::int64_t, std::int64_t>> pairs;
+std::set<std::pair<PlaceId, PlaceId>> true_adjacency(const std::vector<Anchor>& anchors,
+                                                     const std::vector<PlacedFrame>& frames,
+                                                     const PlaceCheckOptions& options) {
+  std::set<std::pair<PlaceId, PlaceId>> pairs;
   const Anchor* before = nullptr;
-  std::int64_t last = -2;
+  std::optional<FrameId> last;
   for (const PlacedFrame& frame : frames) {
     const Anchor* nearest = nullptr;
     double least = options.max_distance_m;
@@ -109,7 +110,7 @@ std::set<std::pair<std::int64_t, std::int64_t>> true_adjacency(
       least = distance;
       nearest = &anchor;
     }
-    if (before && nearest && before != nearest && last + 1 == frame.frame)
+    if (before && nearest && before != nearest && last->value() + 1 == frame.frame.value())
       pairs.insert(std::minmax(before->place, nearest->place));
     before = nearest;
     last = frame.frame;
@@ -141,7 +142,7 @@ PlaceCheck check_places(const Map& map, const Trajectory& truth, const PlaceChec
       if (const auto& T_world_anchor = true_pose(truth, keyframe->frame))
         anchors.push_back({place.id, *T_world_anchor});
   const auto expected = true_adjacency(anchors, frames, options);
-  std::set<std::pair<std::int64_t, std::int64_t>> found;
+  std::set<std::pair<PlaceId, PlaceId>> found;
   for (const PlaceTransition& transition : place_transitions(map))
     found.insert(std::minmax(transition.from, transition.to));
   check.adjacent = static_cast<int>(found.size());

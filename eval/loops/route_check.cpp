@@ -12,10 +12,10 @@ namespace {
 /// Two frames are of different passes if more than so much was driven between them.
 constexpr double kWayBetweenPasses = 4;  // in radii of SameView
 
-void join(PlaceGraph& graph, std::int64_t from, std::int64_t to, ConstraintSource source) {
+void join(PlaceGraph& graph, PlaceId from, PlaceId to, ConstraintSource source) {
   RelativePoseConstraint edge;
-  edge.from = from;
-  edge.to = to;
+  edge.from = node_of_place(from);
+  edge.to = node_of_place(to);
   edge.source = source;
   graph.constraints.push_back(edge);
 }
@@ -62,7 +62,7 @@ PlaceGraph driven_roads(const Trajectory& truth, const RouteCheckOptions& option
   for (std::size_t i = 0; i < truth.size(); ++i) {
     if (!truth.poses[i].T_world_body) continue;
     Place place;
-    place.id = static_cast<std::int64_t>(i);
+    place.id = PlaceId(i);
     place.T_map_place = SE3(*truth.poses[i].T_world_body);
     const Place* last = roads.places.empty() ? nullptr : &roads.places.back();
     const double step =
@@ -92,23 +92,23 @@ PlaceGraph driven_roads(const Trajectory& truth, const RouteCheckOptions& option
   return roads;
 }
 
-RouteCheck check_routes(const PlaceGraph& graph,
-                        const std::map<std::int64_t, std::int64_t>& frame_of_place,
+RouteCheck check_routes(const PlaceGraph& graph, const std::map<PlaceId, FrameId>& frame_of_place,
                         const Trajectory& truth, const RouteCheckOptions& options) {
   const PlaceGraph roads = driven_roads(truth, options);
   PlaceGraph true_graph = graph;
   for (Place& place : true_graph.places) {
     const auto frame = frame_of_place.find(place.id);
-    const bool known = frame != frame_of_place.end() && frame->second >= 0 &&
-                       frame->second < static_cast<std::int64_t>(truth.size()) &&
-                       truth.poses[static_cast<std::size_t>(frame->second)].T_world_body;
-    require(known, "place " + std::to_string(place.id) + " has no true pose");
-    place.T_map_place = SE3(*truth.poses[static_cast<std::size_t>(frame->second)].T_world_body);
+    const bool known = frame != frame_of_place.end() && frame->second.value() >= 0 &&
+                       frame->second.value() < static_cast<std::int64_t>(truth.size()) &&
+                       truth.poses[static_cast<std::size_t>(frame->second.value())].T_world_body;
+    require(known, "place " + to_string(place.id) + " has no true pose");
+    place.T_map_place =
+        SE3(*truth.poses[static_cast<std::size_t>(frame->second.value())].T_world_body);
   }
   RouteCheck result;
   std::vector<double> excesses, detours, length_errors;
   for (const auto& [i, j] : pairs_of(graph.places.size(), options.max_pairs)) {
-    const std::int64_t from = graph.places[i].id, to = graph.places[j].id;
+    const PlaceId from = graph.places[i].id, to = graph.places[j].id;
     const Route way = shortest_route(graph, from, to);
     if (!way.outcome) {
       ++result.apart;
@@ -116,7 +116,8 @@ RouteCheck check_routes(const PlaceGraph& graph,
     }
     ++result.pairs;
     const Route best = shortest_route(true_graph, from, to);
-    const Route driven = shortest_route(roads, frame_of_place.at(from), frame_of_place.at(to));
+    const Route driven = shortest_route(roads, PlaceId(frame_of_place.at(from).value()),
+                                        PlaceId(frame_of_place.at(to).value()));
     const double length = true_length(way, true_graph);
     if (same_places(way, best)) ++result.same_places;
     if (!(best.length_m() > 0 && driven.length_m() > 0)) continue;

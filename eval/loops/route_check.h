@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/eval/loops/same_view.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/place_graph.h>
 
@@ -38,8 +39,7 @@ PlaceGraph driven_roads(const Trajectory& truth, const RouteCheckOptions& option
 
 /// `frame_of_place`: the line of `truth` that a place's anchor was seen at. The map must be metric
 /// for the length errors to mean anything. Throws ArgumentError for places without a true pose.
-RouteCheck check_routes(const PlaceGraph& graph,
-                        const std::map<std::int64_t, std::int64_t>& frame_of_place,
+RouteCheck check_routes(const PlaceGraph& graph, const std::map<PlaceId, FrameId>& frame_of_place,
                         const Trajectory& truth, const RouteCheckOptions& options = {});
 
 }  // namespace placegraph

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/frontend/features/feature_options.h>
 #include <placegraph/frontend/flow/anchored_patch.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/image.h>
 
@@ -12,9 +13,9 @@
 
 namespace placegraph {
 
-/// One image point followed over time.
+/// One image point followed over time; the landmark that it becomes has its id.
 struct PointTrack {
-  std::int64_t id = 0;
+  LandmarkId id;
   Eigen::Vector2f px = Eigen::Vector2f::Zero();
   Eigen::Vector2f px_previous = Eigen::Vector2f::Zero();
   int age = 0;  ///< frames since detection
@@ -65,7 +66,7 @@ class PointTracker {
   std::vector<PointTrack> tracks_;
   Image image_;
   std::vector<Image> pyramid_;
-  std::int64_t next_id_ = 0;
+  LandmarkId next_id_;
 };
 
 }  // namespace placegraph

@@ -20,10 +20,11 @@ class OnlineBow final : public CodeMemory {
     const std::vector<Feature> features = corners_of_view(grey, options_.corners);
     std::vector<PlaceLikeness> list;
     if (among)
-      for (const PlaceCandidate& candidate : database_.query(
-               features, options_.listed,
-               [&](std::int64_t id) { return id >= among->first && id <= among->last; }))
-        list.push_back({static_cast<int>(candidate.id), candidate.score});
+      for (const PlaceCandidate& candidate :
+           database_.query(features, options_.listed, [&](KeyframeId id) {
+             return id >= KeyframeId(among->first) && id <= KeyframeId(among->last);
+           }))
+        list.push_back({static_cast<int>(candidate.id.value()), candidate.score});
     database_.add(next_++, features);
     return list;
   }
@@ -31,7 +32,7 @@ class OnlineBow final : public CodeMemory {
  private:
   PlaceCodeOptions options_;
   PlaceDatabase database_;
-  std::int64_t next_ = 0;
+  KeyframeId next_;  ///< the images are its keyframes
 };
 
 class Bow : public CodeMemory {

@@ -21,7 +21,7 @@ PlaceDatabase::PlaceDatabase(const PlaceDatabaseOptions& options, std::uint64_t 
   options_.check();
 }
 
-void PlaceDatabase::add(std::int64_t id, const std::vector<Feature>& features) {
+void PlaceDatabase::add(KeyframeId id, const std::vector<Feature>& features) {
   index_of_[id] = views_.size();
   views_.push_back({id, descriptors_of(features), {}});
   const bool first =
@@ -91,7 +91,7 @@ Appearance PlaceDatabase::describe(const std::vector<Feature>& features) const {
 
 std::vector<PlaceCandidate> PlaceDatabase::query(
     const std::vector<Feature>& features, int count,
-    const std::function<bool(std::int64_t)>& allowed) const {
+    const std::function<bool(KeyframeId)>& allowed) const {
   std::vector<double> scores(views_.size(), 0);
   for (const auto& [word, weight] : describe(features).words)
     for (const auto& [view, other] : inverted_[word]) scores[view] += std::min(weight, other);
@@ -104,13 +104,13 @@ std::vector<PlaceCandidate> PlaceDatabase::query(
   return candidates;
 }
 
-const Appearance& PlaceDatabase::appearance(std::int64_t id) const {
+const Appearance& PlaceDatabase::appearance(KeyframeId id) const {
   const auto index = index_of_.find(id);
-  require(index != index_of_.end(), "PlaceDatabase: unknown view " + std::to_string(id));
+  require(index != index_of_.end(), "PlaceDatabase: unknown view " + to_string(id));
   return views_[index->second].appearance;
 }
 
-double PlaceDatabase::similarity(const std::vector<Feature>& features, std::int64_t id) const {
+double PlaceDatabase::similarity(const std::vector<Feature>& features, KeyframeId id) const {
   const auto index = index_of_.find(id);
   if (index == index_of_.end()) return 0;
   const View* view = &views_[index->second];

@@ -1,5 +1,6 @@
 #pragma once
 #include <fmt/core.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/core/log.h>
 
 #include <utility>

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
 
@@ -9,7 +10,7 @@ namespace placegraph {
 /// One moment's measurements, as a data set or a driver hands them over. Images are those of the
 /// Calibration's cameras: undistorted (and, for stereo, rectified). Absent images are empty.
 struct Frame {
-  std::int64_t id = 0;        ///< index in its sequence
+  FrameId id;                 ///< index in its sequence
   std::int64_t stamp_ns = 0;  ///< strictly increasing
   Image image;                ///< CV_8UC1, the left or only eye
   Image right;                ///< CV_8UC1, rectified right eye

@@ -1,10 +1,12 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/so3.h>
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,7 @@ struct SurfacePoint {
 
 /// What one keyframe tells of the surfaces around it, and where it hangs. It moves with its place.
 struct SurfaceSight {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   std::vector<SurfacePoint> points;
 };
 
@@ -31,7 +33,7 @@ struct IndoorWall {
   double sigma_m = 0;            ///< of its position along the normal
   double low_m = 0, high_m = 0;  ///< heights above the floor between which it was seen
   int sights = 0;                ///< surface points that it was fitted to
-  std::int64_t place = -1;       ///< the place that saw most of it
+  std::optional<PlaceId> place;  ///< the place that saw most of it
   double length() const { return (b - a).norm(); }
 };
 
@@ -51,7 +53,7 @@ struct IndoorRoom {
   double area_m2 = 0;
   double ceiling_m = 0;  ///< above the floor; 0: not seen
   bool entered = false;  ///< the camera was in it
-  std::vector<std::int64_t> places;
+  std::vector<PlaceId> places;
 };
 
 /// Walls, doors and rooms seen from above. Plan coordinates are x and z of a frame with y straight

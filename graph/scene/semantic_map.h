@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
@@ -22,7 +23,7 @@ struct SemanticPoint {
 
 /// What one keyframe tells of the things around it, and where it hangs: it moves with its place.
 struct SemanticSight {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   std::vector<float> shares;  ///< regions x classes, probabilities
   std::vector<SemanticPoint> points;
   Eigen::Vector3f down = Eigen::Vector3f::UnitY();  ///< unit, camera frame

@@ -52,7 +52,7 @@ class RecordedDataset : public Dataset {
     check_index(index);
     calibration_for(sensor, s_.calibration, s_.name);
     Frame frame;
-    frame.id = static_cast<std::int64_t>(index);
+    frame.id = FrameId(index);
     frame.stamp_ns = s_.stamps_ns[index];
     const GreyAndColour left = read_eye(s_.left[index], s_.left_remap);
     frame.image = left.grey;

@@ -77,7 +77,7 @@ class VideoDataset : public Dataset {
     const Image raw = decode(index);
     require_size(path_, raw, raw_.width, raw_.height);
     Frame frame;
-    frame.id = static_cast<std::int64_t>(index);
+    frame.id = FrameId(index);
     frame.stamp_ns = stamps_ns_[index];
     const Image image = undistorted_.remap.bilinear(raw);
     if (image.channels() == 3) frame.colour = image;

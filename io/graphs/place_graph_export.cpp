@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/io/graphs/place_graph_export.h>
 
 #include <algorithm>
@@ -40,17 +41,17 @@ std::string labels_of(const Place& place) {
   return fmt::format("{}", fmt::join(place.labels, ","));
 }
 
-double length_between(const PlaceGraph& graph, std::int64_t a, std::int64_t b) {
+double length_between(const PlaceGraph& graph, PlaceId a, PlaceId b) {
   return (graph.find(a)->T_map_place.translation() - graph.find(b)->T_map_place.translation())
       .norm();
 }
 
 /// Pairs of places that loop closures join, each once.
-std::set<std::pair<std::int64_t, std::int64_t>> loops_of(const PlaceGraph& graph) {
-  std::set<std::pair<std::int64_t, std::int64_t>> loops;
+std::set<std::pair<PlaceId, PlaceId>> loops_of(const PlaceGraph& graph) {
+  std::set<std::pair<PlaceId, PlaceId>> loops;
   for (const RelativePoseConstraint& constraint : graph.constraints)
     if (constraint.source == ConstraintSource::kLoop && constraint.from != constraint.to)
-      loops.insert(std::minmax(constraint.from, constraint.to));
+      loops.insert(std::minmax(place_of_node(constraint.from), place_of_node(constraint.to)));
   return loops;
 }
 
@@ -93,7 +94,7 @@ std::string to_graphml(const PlaceGraph& graph, const std::vector<PlaceTransitio
     data(out, "labels", escaped_xml(labels_of(place)));
     fmt::format_to(out, "</node>\n");
   }
-  const auto edge = [&](std::int64_t from, std::int64_t to, const char* kind, int count) {
+  const auto edge = [&](PlaceId from, PlaceId to, const char* kind, int count) {
     fmt::format_to(out, "  <edge source=\"{}\" target=\"{}\" directed=\"{}\">", from, to,
                    kind == std::string_view("transition"));
     data(out, "kind", kind), data(out, "count", count);
@@ -120,12 +121,12 @@ std::string to_dot(const PlaceGraph& graph, const std::vector<PlaceTransition>& 
   fmt::format_to(out, "digraph places {{\n node [shape=ellipse fontsize=10];\n");
   for (const Place& place : graph.places) {
     const Eigen::Vector3d& t = place.T_map_place.translation();
-    std::string label = std::to_string(place.id);
+    std::string label = to_string(place.id);
     if (!place.labels.empty()) label += ": " + labels_of(place);
     fmt::format_to(out, " {} [label=\"{}\" pos=\"{:.2f},{:.2f}\"];\n", place.id, escaped_dot(label),
                    points_per_unit * t.x(), points_per_unit * t.z());
   }
-  std::map<std::pair<std::int64_t, std::int64_t>, int> counts;
+  std::map<std::pair<PlaceId, PlaceId>, int> counts;
   for (const PlaceTransition& t : transitions) counts[{t.from, t.to}] = t.count;
   for (const auto& [ends, count] : counts) {
     const auto back = counts.find({ends.second, ends.first});

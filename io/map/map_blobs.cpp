@@ -39,8 +39,8 @@ void BlobWriter::features(const std::vector<Feature>& features) {
 
 void BlobWriter::landmarks(const PointLandmark* begin, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
-    number(begin[i].id);
-    number(begin[i].keyframe);
+    number(begin[i].id.value());
+    number(begin[i].keyframe.value());
     for (int k = 0; k < 3; ++k) number(double{begin[i].point_cam[k]});
     number(static_cast<std::int32_t>(begin[i].observations));
   }
@@ -151,8 +151,8 @@ std::vector<PointLandmark> BlobReader::landmarks(std::size_t count) {
   require_left(count, kLandmarkBytes);
   std::vector<PointLandmark> landmarks(count);
   for (PointLandmark& landmark : landmarks) {
-    landmark.id = number<std::int64_t>();
-    landmark.keyframe = number<std::int64_t>();
+    landmark.id = LandmarkId(number<std::int64_t>());
+    landmark.keyframe = KeyframeId(number<std::int64_t>());
     for (int i = 0; i < 3; ++i) landmark.point_cam[i] = finite<double>("a landmark");
     landmark.observations = number<std::int32_t>();
   }

@@ -25,17 +25,18 @@ Keyframe& keyframe_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id
   auto& all = stored.map.keyframes;
   const auto found =
       std::lower_bound(all.begin(), all.end(), id,
-                       [](const Keyframe& k, std::int64_t value) { return k.id < value; });
-  if (found == all.end() || found->id != id)
+                       [](const Keyframe& k, std::int64_t value) { return k.id.value() < value; });
+  if (found == all.end() || found->id.value() != id)
     rows.refuse(std::string(column) + " " + std::to_string(id) + " is no keyframe of the map");
   return *found;
 }
 
 Place& place_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id, const char* column) {
   auto& all = stored.map.place_graph.places;
-  const auto found = std::lower_bound(
-      all.begin(), all.end(), id, [](const Place& p, std::int64_t value) { return p.id < value; });
-  if (found == all.end() || found->id != id)
+  const auto found =
+      std::lower_bound(all.begin(), all.end(), id,
+                       [](const Place& p, std::int64_t value) { return p.id.value() < value; });
+  if (found == all.end() || found->id.value() != id)
     rows.refuse(std::string(column) + " " + std::to_string(id) + " is no place of the map");
   return *found;
 }

@@ -28,7 +28,7 @@ Sim3 similarity_column(const SqliteRows& rows, int column, const char* name);
 /// A symmetric matrix of `size` rows.
 Information symmetric_column(const SqliteRows& rows, int column, const char* name, int size);
 
-/// The keyframe, or place, of the map that a column names by its id.
+/// The keyframe, or place, of the map that a column names by its id, a number of the file.
 Keyframe& keyframe_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id,
                       const char* column);
 Place& place_of(StoredMap& stored, const SqliteRows& rows, std::int64_t id, const char* column);

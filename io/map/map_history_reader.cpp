@@ -39,8 +39,8 @@ void read_links(SqliteDatabase& database, StoredMap& stored) {
   }
 }
 
-std::set<std::int64_t> read_parts(SqliteDatabase& database, StoredMap& stored) {
-  std::set<std::int64_t> parts;
+std::set<KeyframeId> read_parts(SqliteDatabase& database, StoredMap& stored) {
+  std::set<KeyframeId> parts;
   PlaceHistory& history = stored.history;
   SqliteRows rows(database, "part", "anchor, place, S_place_part, covariance, motion_covariance");
   while (rows.next()) {
@@ -59,20 +59,19 @@ std::set<std::int64_t> read_parts(SqliteDatabase& database, StoredMap& stored) {
                                          " rows for " + std::to_string(keyframes) + " keyframes");
   SqliteRows links(database, "link", "keyframe, part");
   while (links.next())
-    if (!parts.count(links.integer(1)))
+    if (!parts.count(KeyframeId(links.integer(1))))
       links.refuse("part " + std::to_string(links.integer(1)) + " is no part of the map");
   return parts;
 }
 
-void read_motions(SqliteDatabase& database, StoredMap& stored,
-                  const std::set<std::int64_t>& parts) {
+void read_motions(SqliteDatabase& database, StoredMap& stored, const std::set<KeyframeId>& parts) {
   PlaceHistory& history = stored.history;
   SqliteRows motions(database, "motion", "number, from_part, to_part, T_from_to, covariance");
   while (motions.next()) {
     require_next(motions, history.motions.size());
     PlaceHistory::Motion& motion = history.motions.emplace_back();
-    motion.from = motions.integer(1);
-    motion.to = motions.integer(2);
+    motion.from = KeyframeId(motions.integer(1));
+    motion.to = KeyframeId(motions.integer(2));
     if (!parts.count(motion.from) || !parts.count(motion.to))
       motions.refuse("its ends are no parts of the map");
     motion.T_from_to = pose_column(motions, 3, "T_from_to");
@@ -91,22 +90,22 @@ void read_motions(SqliteDatabase& database, StoredMap& stored,
   }
 }
 
-void read_mergers(SqliteDatabase& database, StoredMap& stored,
-                  const std::set<std::int64_t>& parts) {
+void read_mergers(SqliteDatabase& database, StoredMap& stored, const std::set<KeyframeId>& parts) {
   PlaceHistory& history = stored.history;
   {
     SqliteRows rows(database, "merged", "number, anchor");
     while (rows.next()) {
       require_next(rows, history.merged.size());
-      history.merged.push_back({rows.integer(1), {}});
-      if (!parts.count(rows.integer(1))) rows.refuse("anchor is no part of the map");
+      const KeyframeId anchor(rows.integer(1));
+      history.merged.push_back({anchor, {}});
+      if (!parts.count(anchor)) rows.refuse("anchor is no part of the map");
     }
   }
   const auto mergers = static_cast<std::int64_t>(history.merged.size());
   SqliteRows rows(database, "merged_part", "number, merged, part, covariance");
   while (rows.next()) {
-    const std::int64_t part = rows.integer(2);
-    if (!parts.count(part)) rows.refuse("part " + std::to_string(part) + " is none of the map");
+    const KeyframeId part(rows.integer(2));
+    if (!parts.count(part)) rows.refuse("part " + to_string(part) + " is none of the map");
     history.merged[static_cast<std::size_t>(rows.integer(1, 0, mergers - 1))]
         .covariance_of_part[part] = symmetric_column(rows, 3, "covariance", 7);
   }
@@ -120,7 +119,7 @@ void read_mergers(SqliteDatabase& database, StoredMap& stored,
 
 void read_history(SqliteDatabase& database, StoredMap& stored) {
   read_links(database, stored);
-  const std::set<std::int64_t> parts = read_parts(database, stored);
+  const std::set<KeyframeId> parts = read_parts(database, stored);
   read_motions(database, stored, parts);
   read_mergers(database, stored, parts);
 }

@@ -27,9 +27,9 @@ void MapHistoryWriter::put(const PlaceHistory& history) {
 void MapHistoryWriter::put_keyframes(const PlaceHistory& history) {
   for (const PlaceHistory::Keyframe& keyframe : history.keyframes) {
     MapRow row;
-    row.integer(keyframe.part).integer(keyframe.run);
+    row.id(keyframe.part).integer(keyframe.run);
     if (const auto& link = keyframe.link)
-      row.integer(link->from)
+      row.id(link->from)
           .pose(link->T_from_this)
           .symmetric(link->information)
           .integer(static_cast<std::int64_t>(link->source))
@@ -37,7 +37,7 @@ void MapHistoryWriter::put_keyframes(const PlaceHistory& history) {
           .real(link->scale);
     else
       row.null().null().null().null().null().null();
-    links_.put(keyframe.id, row);
+    links_.put(keyframe.id.value(), row);
   }
 }
 
@@ -46,9 +46,9 @@ void MapHistoryWriter::put_parts(const PlaceHistory& history) {
     std::string S_place_part;
     BlobWriter(S_place_part).similarity(part.S_place_part);
     MapRow row;
-    row.integer(part.place).blob(S_place_part).symmetric(part.covariance);
+    row.id(part.place).blob(S_place_part).symmetric(part.covariance);
     part.motion_covariance ? row.symmetric(*part.motion_covariance) : row.null();
-    parts_.put(part.anchor, row);
+    parts_.put(part.anchor.value(), row);
   }
 }
 
@@ -58,36 +58,30 @@ void MapHistoryWriter::put_mergers(const PlaceHistory& history) {
   for (const PlaceHistory::Merged& merger : history.merged) {
     for (const auto& [part, covariance] : merger.covariance_of_part) {
       parts_kept.insert(part_number);
-      merged_parts_.put(part_number++,
-                        MapRow().integer(number).integer(part).symmetric(covariance));
+      merged_parts_.put(part_number++, MapRow().integer(number).id(part).symmetric(covariance));
     }
     kept.insert(number);
-    merged_.put(number++, MapRow().integer(merger.anchor));
+    merged_.put(number++, MapRow().id(merger.anchor));
   }
   merged_.keep(kept);
   merged_parts_.keep(parts_kept);
   number = 0;
-  for (const auto& [one, other] : history.parted)
-    parted_.put(number++, MapRow().integer(one).integer(other));
+  for (const auto& [one, other] : history.parted) parted_.put(number++, MapRow().id(one).id(other));
 }
 
 void MapHistoryWriter::put_motions(const PlaceHistory& history) {
   std::int64_t number = 0;
   for (const PlaceHistory::Motion& motion : history.motions)
-    motions_.put(number++, MapRow()
-                               .integer(motion.from)
-                               .integer(motion.to)
-                               .pose(motion.T_from_to)
-                               .symmetric(motion.covariance));
+    motions_.put(
+        number++,
+        MapRow().id(motion.from).id(motion.to).pose(motion.T_from_to).symmetric(motion.covariance));
   number = 0;
   for (const Loop& loop : history.loops) {
     std::string S_match_query;
     BlobWriter(S_match_query).similarity(loop.S_match_query());
-    revisits_.put(number++, MapRow()
-                                .integer(loop.query)
-                                .integer(loop.match)
-                                .blob(S_match_query)
-                                .symmetric(loop.information));
+    revisits_.put(
+        number++,
+        MapRow().id(loop.query).id(loop.match).blob(S_match_query).symmetric(loop.information));
   }
   number = 0;
   for (const bool measured : history.unit_measured) runs_.put(number++, MapRow().integer(measured));

@@ -65,10 +65,10 @@ void MapReader::read_keyframes() {
   SqliteRows rows(database_, "keyframe", "id, frame, stamp_ns, place, T_place_keyframe, scale");
   while (rows.next()) {
     Keyframe& keyframe = stored_.map.keyframes.emplace_back();
-    keyframe.id = rows.integer(0, 0);
-    keyframe.frame = rows.integer(1, 0);
+    keyframe.id = KeyframeId(rows.integer(0, 0));
+    keyframe.frame = FrameId(rows.integer(1, 0));
     keyframe.stamp_ns = rows.integer(2);
-    keyframe.place = rows.integer(3, 0);
+    keyframe.place = PlaceId(rows.integer(3, 0));
     keyframe.T_place_keyframe = pose_column(rows, 4, "T_place_keyframe");
     keyframe.scale = rows.positive(5);
   }
@@ -97,13 +97,13 @@ void MapReader::read_places() {
                   "id, anchor_keyframe, component, T_map_place, scale, reach, last_keyframe");
   while (rows.next()) {
     Place& place = places.emplace_back();
-    place.id = rows.integer(0, 0);
+    place.id = PlaceId(rows.integer(0, 0));
     place.anchor_keyframe = keyframe_of(stored_, rows, rows.integer(1), "anchor_keyframe").id;
     place.component = static_cast<int>(rows.integer(2, 0, kMost));
     place.T_map_place = pose_column(rows, 3, "T_map_place");
     place.scale = rows.positive(4);
     if (rows.is_null(5)) continue;
-    stored_.history.places.push_back({place.id, rows.real(5), rows.integer(6)});
+    stored_.history.places.push_back({place.id, rows.real(5), KeyframeId(rows.integer(6))});
     (void)keyframe_of(stored_, rows, rows.integer(6), "last_keyframe");
   }
   if (!stored_.history.places.empty() && stored_.history.places.size() != places.size())
@@ -133,10 +133,11 @@ void MapReader::read_members() {
   SqliteRows places(database_, "place", "id");
   while (places.next()) {
     const Place& place = place_of(stored_, places, places.integer(0), "id");
-    const Keyframe& anchor = keyframe_of(stored_, places, place.anchor_keyframe, "anchor_keyframe");
+    const Keyframe& anchor =
+        keyframe_of(stored_, places, place.anchor_keyframe.value(), "anchor_keyframe");
     if (anchor.place != place.id)
-      places.refuse("anchor_keyframe " + std::to_string(anchor.id) + " hangs on place " +
-                    std::to_string(anchor.place));
+      places.refuse("anchor_keyframe " + to_string(anchor.id) + " hangs on place " +
+                    to_string(anchor.place));
   }
 }
 
@@ -176,8 +177,8 @@ void MapReader::read_edges() {
   std::optional<std::size_t> motion_bytes;
   while (rows.next()) {
     RelativePoseConstraint edge;
-    edge.from = place_of(stored_, rows, rows.integer(1), "from_place").id;
-    edge.to = place_of(stored_, rows, rows.integer(2), "to_place").id;
+    edge.from = node_of_place(place_of(stored_, rows, rows.integer(1), "from_place").id);
+    edge.to = node_of_place(place_of(stored_, rows, rows.integer(2), "to_place").id);
     edge.source = static_cast<ConstraintSource>(rows.integer(3, 0, 2));
     edge.kernel.kind = static_cast<RobustKernel::Kind>(rows.integer(4, 0, kernels - 1));
     edge.kernel.width = rows.positive(5);
@@ -204,13 +205,14 @@ void MapReader::read_frames() {
   while (rows.next()) {
     require_next(rows, map.frames.size());
     FrameRecord record;
-    record.frame = rows.integer(1, 0);
+    record.frame = FrameId(rows.integer(1, 0));
     record.stamp_ns = rows.integer(2);
-    record.keyframe = rows.integer(3, -1);
+    if (const std::int64_t keyframe = rows.integer(3, -1); keyframe >= 0)
+      record.keyframe = KeyframeId(keyframe);
     record.inliers = static_cast<int>(rows.integer(5, 0, kMost));
     if (!rows.is_null(4)) {
       record.T_keyframe_frame = pose_column(rows, 4, "T_keyframe_frame");
-      (void)keyframe_of(stored_, rows, record.keyframe, "keyframe");
+      (void)keyframe_of(stored_, rows, rows.integer(3), "keyframe");
     }
     if (!map.frames.empty() &&
         (record.frame <= map.frames.back().frame || record.stamp_ns <= map.frames.back().stamp_ns))
@@ -240,8 +242,8 @@ void MapReader::read_loops() {
   while (rows.next()) {
     require_next(rows, stored_.map.loops.size());
     LoopRecord& loop = stored_.map.loops.emplace_back();
-    loop.query_frame = rows.integer(1, 0);
-    loop.match_frame = rows.integer(2, 0);
+    loop.query_frame = FrameId(rows.integer(1, 0));
+    loop.match_frame = FrameId(rows.integer(2, 0));
     loop.inliers = static_cast<int>(rows.integer(3, 0, kMost));
     loop.T_match_query = pose_column(rows, 6, "T_match_query");
     const auto model = loop_model(rows.text(7));
@@ -270,7 +272,7 @@ void MapReader::read_landmarks() {
     const auto more = decoded(rows, rows.blob(2, count * kLandmarkBytes), "data",
                               [&](BlobReader& reader) { return reader.landmarks(count); });
     for (const PointLandmark& landmark : more)
-      (void)keyframe_of(stored_, rows, landmark.keyframe, "keyframe");
+      (void)keyframe_of(stored_, rows, landmark.keyframe.value(), "keyframe");
     landmarks.insert(landmarks.end(), more.begin(), more.end());
   }
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/id.h>
 #include <placegraph/io/map/map_blobs.h>
 #include <placegraph/io/map/sqlite.h>
 
@@ -18,6 +19,10 @@ namespace placegraph {
 class MapRow {
  public:
   MapRow& integer(std::int64_t value) { return put(value); }
+  template <class Tag>
+  MapRow& id(Id<Tag> id) {
+    return put(id.value());
+  }
   MapRow& real(double value) { return put(Real{value}); }
   MapRow& text(std::string_view value) { return put(Text{std::string(value)}); }
   MapRow& blob(std::string_view value) { return put(Blob{std::string(value)}); }

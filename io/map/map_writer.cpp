@@ -12,36 +12,38 @@ constexpr std::size_t kLandmarksARow = 1000;
 }  // namespace
 
 void MapWriter::put_places(const MapChanges& changes) {
-  std::map<std::int64_t, const PlaceHistory::Place*> grown;
+  std::map<PlaceId, const PlaceHistory::Place*> grown;
   for (const PlaceHistory::Place& place : changes.history.places) grown[place.id] = &place;
   std::set<std::int64_t> ids;
   for (const Place& place : changes.places) {
-    ids.insert(place.id);
+    ids.insert(place.id.value());
     MapRow row;
-    row.integer(place.anchor_keyframe).integer(place.component).pose(place.T_map_place);
+    row.id(place.anchor_keyframe).integer(place.component).pose(place.T_map_place);
     row.real(place.scale);
     if (const auto found = grown.find(place.id); found != grown.end())
-      row.real(found->second->reach).integer(found->second->last_keyframe);
+      row.real(found->second->reach).id(found->second->last_keyframe);
     else
       row.null().null();
-    places.put(place.id, row);
+    places.put(place.id.value(), row);
     if (place.labels == written_labels[place.id]) continue;
-    labels.erase(place.id);
+    labels.erase(place.id.value());
     for (std::size_t i = 0; i < place.labels.size(); ++i)
-      labels.write(place.id, MapRow().integer(static_cast<std::int64_t>(i)).text(place.labels[i]));
+      labels.write(place.id.value(),
+                   MapRow().integer(static_cast<std::int64_t>(i)).text(place.labels[i]));
     written_labels[place.id] = place.labels;
   }
   for (const std::int64_t id : places.keep(ids)) {
     labels.erase(id);
     appearances.erase(id);
-    written_labels.erase(id);
+    written_labels.erase(PlaceId(id));
   }
   for (const auto& [place, appearance] : changes.appearances) {
-    if (!ids.count(place)) continue;
+    if (!ids.count(place.value())) continue;
     std::string bytes;
     BlobWriter(bytes).words(appearance);
     appearances.write(
-        place, MapRow().integer(static_cast<std::int64_t>(appearance.words.size())).blob(bytes));
+        place.value(),
+        MapRow().integer(static_cast<std::int64_t>(appearance.words.size())).blob(bytes));
   }
 }
 
@@ -51,25 +53,25 @@ void MapWriter::put_keyframes(const MapChanges& changes) {
     std::string bytes;
     BlobWriter(bytes).features(keyframe.features);
     features.write(
-        keyframe.id,
+        keyframe.id.value(),
         MapRow().integer(static_cast<std::int64_t>(keyframe.features.size())).blob(bytes));
     if (keyframe.view.empty()) continue;
     bytes.clear();
     BlobWriter(bytes).view(keyframe.view);
-    views.write(keyframe.id, MapRow().blob(bytes));
+    views.write(keyframe.id.value(), MapRow().blob(bytes));
   }
   for (const Place& place : changes.places)
     for (const PlaceMember& member : place.members) {
       const auto times = keyframe_times.find(member.keyframe);
-      require(times != keyframe_times.end(),
-              "map: place " + std::to_string(place.id) + " has keyframe " +
-                  std::to_string(member.keyframe) + ", which is not there");
-      keyframes.put(member.keyframe, MapRow()
-                                         .integer(times->second.first)
-                                         .integer(times->second.second)
-                                         .integer(place.id)
-                                         .pose(member.T_place_keyframe)
-                                         .real(member.scale));
+      require(times != keyframe_times.end(), "map: place " + to_string(place.id) +
+                                                 " has keyframe " + to_string(member.keyframe) +
+                                                 ", which is not there");
+      keyframes.put(member.keyframe.value(), MapRow()
+                                                 .id(times->second.first)
+                                                 .integer(times->second.second)
+                                                 .id(place.id)
+                                                 .pose(member.T_place_keyframe)
+                                                 .real(member.scale));
     }
 }
 
@@ -77,7 +79,8 @@ void MapWriter::put_frames(const MapChanges& changes) {
   auto number = static_cast<std::int64_t>(changes.first_frame);
   for (const FrameRecord& record : changes.frames) {
     MapRow row;
-    row.integer(record.frame).integer(record.stamp_ns).integer(record.keyframe);
+    row.id(record.frame).integer(record.stamp_ns);
+    row.integer(record.keyframe ? record.keyframe->value() : -1);
     record.T_keyframe_frame ? row.pose(*record.T_keyframe_frame) : row.null();
     row.integer(record.inliers);
     frames.write(number++, row);
@@ -94,8 +97,8 @@ void MapWriter::put_frames(const MapChanges& changes) {
   number = 0;
   for (const LoopRecord& loop : changes.loops)
     loops.put(number++, MapRow()
-                            .integer(loop.query_frame)
-                            .integer(loop.match_frame)
+                            .id(loop.query_frame)
+                            .id(loop.match_frame)
                             .integer(loop.inliers)
                             .integer(loop.accepted())
                             .text(to_string(loop.stage))

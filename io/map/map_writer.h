@@ -1,5 +1,6 @@
 #pragma once
 // Inside io only.
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/io/map/map_blobs.h>
 #include <placegraph/io/map/map_history_writer.h>
 #include <placegraph/io/map/map_schema.h>
@@ -31,7 +32,8 @@ struct MapWriter {
         erase_edge(database, "DELETE FROM edge WHERE kind = ? AND number = ?") {
     places.take_keys(database, "id place");
     SqliteRows known(database, "keyframe", "id, frame, stamp_ns");
-    while (known.next()) keyframe_times[known.integer(0)] = {known.integer(1), known.integer(2)};
+    while (known.next())
+      keyframe_times[KeyframeId(known.integer(0))] = {FrameId(known.integer(1)), known.integer(2)};
   }
 
   /// The file belongs to this connection alone. A write-ahead log: a commit appends to it without
@@ -59,8 +61,8 @@ struct MapWriter {
       landmarks;
   MapHistoryWriter history;
   SqliteStatement put_edge, erase_edge;
-  std::map<std::int64_t, std::pair<std::int64_t, std::int64_t>> keyframe_times;  // frame, stamp
-  std::map<std::int64_t, std::vector<std::string>> written_labels;
+  std::map<KeyframeId, std::pair<FrameId, std::int64_t>> keyframe_times;  // frame, stamp
+  std::map<PlaceId, std::vector<std::string>> written_labels;
 };
 
 }  // namespace placegraph

@@ -6,10 +6,10 @@
 
 namespace placegraph {
 
-std::map<std::int64_t, int> read_labels(const std::string& path) {
+std::map<FrameId, int> read_labels(const std::string& path) {
   constexpr std::int64_t kLargest = 1'000'000'000;
   TextFile file(path);
-  std::map<std::int64_t, int> labels;
+  std::map<FrameId, int> labels;
   std::string_view line;
   std::vector<std::string_view> fields;
   while (file.next_data(line)) {
@@ -20,7 +20,7 @@ std::map<std::int64_t, int> read_labels(const std::string& path) {
     const std::int64_t label = file.integer(fields[1], "label");
     if (image < 0 || image > kLargest) file.fail("image: " + in_quotes(fields[0]) + " is none");
     if (label < 0 || label > kLargest) file.fail("label: " + in_quotes(fields[1]) + " is none");
-    if (!labels.emplace(image, static_cast<int>(label)).second)
+    if (!labels.emplace(FrameId(image), static_cast<int>(label)).second)
       file.fail("image " + std::to_string(image) + " is labelled already");
   }
   if (labels.empty()) throw FileError(path, "no label in it");

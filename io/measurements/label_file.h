@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
+
 #include <cstdint>
 #include <map>
 #include <string>
@@ -8,6 +10,6 @@ namespace placegraph {
 /// Which place each image of a set shows, as `image label` lines, both whole numbers from 0. Throws
 /// FileError with the line: another form, numbers beyond 1e9, an image labelled twice; or if there
 /// is no label.
-std::map<std::int64_t, int> read_labels(const std::string& path);
+std::map<FrameId, int> read_labels(const std::string& path);
 
 }  // namespace placegraph

@@ -13,16 +13,16 @@ namespace {
 
 constexpr std::int64_t kMaxImages = 1'000'000'000;
 
-std::int64_t image_of(const TextFile& file, std::string_view field, const char* what) {
+FrameId image_of(const TextFile& file, std::string_view field, const char* what) {
   const std::int64_t image = file.integer(field, what);
   if (image < 0 || image >= kMaxImages)
     file.fail(std::string(what) + ": " + in_quotes(field) + " is no image");
-  return image;
+  return FrameId(image);
 }
 
 std::vector<LoopPrediction> read_scores(TextFile& file) {
   std::vector<LoopPrediction> predictions;
-  std::set<std::pair<std::int64_t, std::int64_t>> seen;
+  std::set<std::pair<FrameId, FrameId>> seen;
   std::string_view line;
   std::vector<std::string_view> fields;
   while (file.next_data(line)) {
@@ -37,8 +37,8 @@ std::vector<LoopPrediction> read_scores(TextFile& file) {
     if (fields.size() == 4) prediction.stage = fields[3];
     prediction.line = file.line();
     if (!seen.emplace(prediction.query, prediction.candidate).second)
-      file.fail("query " + std::to_string(prediction.query) + " has candidate " +
-                std::to_string(prediction.candidate) + " already");
+      file.fail("query " + to_string(prediction.query) + " has candidate " +
+                to_string(prediction.candidate) + " already");
     predictions.push_back(std::move(prediction));
   }
   return predictions;
@@ -49,20 +49,20 @@ std::vector<LoopPrediction> read_ibow(TextFile& file) {
   std::vector<LoopPrediction> predictions;
   std::string_view line;
   std::vector<std::string_view> fields;
-  for (std::int64_t query = 0; file.next(line); ++query) {
+  for (FrameId query; file.next(line); ++query) {
     split_blank(line, fields);
     if (fields.size() != kColumns)
       file.fail(std::to_string(fields.size()) +
                 " columns, expected 7: first last matched consistent inliers words seconds");
-    const std::int64_t first = image_of(file, fields[0], "first");
-    const std::int64_t last = image_of(file, fields[1], "last");
+    const FrameId first = image_of(file, fields[0], "first");
+    const FrameId last = image_of(file, fields[1], "last");
     LoopPrediction prediction;
     prediction.query = query;
     prediction.candidate = image_of(file, fields[2], "matched");
-    const std::int64_t inliers = image_of(file, fields[4], "inliers");
+    const std::int64_t inliers = image_of(file, fields[4], "inliers").value();
     prediction.score = static_cast<double>(inliers);
     prediction.line = file.line();
-    if ((first == 0 && last == 0) || inliers == 0) continue;
+    if ((first == FrameId(0) && last == FrameId(0)) || inliers == 0) continue;
     predictions.push_back(std::move(prediction));
   }
   return predictions;
@@ -124,7 +124,7 @@ Table read_table(TextFile& file) {
         table.has_none = true;
         row.push_back(kNone);
       } else {
-        row.push_back(image_of(file, field, "image"));
+        row.push_back(image_of(file, field, "image").value());
       }
     }
     table.rows.push_back(std::move(row));
@@ -163,9 +163,9 @@ LoopTruth read_matrix(const Table& table, const std::string& path) {
     for (std::size_t m = 0; m < row.size(); ++m) {
       if (row[m] != 0 && row[m] != 1)
         throw FileError(path, table.lines[q], std::to_string(row[m]) + " in a matrix of 0 and 1");
-      if (row[m] == 1 && m != q) query.matches.push_back(static_cast<std::int64_t>(m));
+      if (row[m] == 1 && m != q) query.matches.push_back(FrameId(m));
     }
-    truth.queries.emplace(static_cast<std::int64_t>(q), std::move(query));
+    truth.queries.emplace(FrameId(q), std::move(query));
   }
   return truth;
 }
@@ -174,20 +174,21 @@ LoopQuery query_of_row(const LoopRow& row, bool ranges, const std::string& path,
   LoopQuery query;
   if (ranges) {
     if (row.size() < 4) throw FileError(path, line, "expected: query first last matches, or -");
-    query.first = row[1];
-    query.last = row[2];
+    query.first = FrameId(row[1]);
+    query.last = FrameId(row[2]);
     if (query.last < query.first)
       throw FileError(path, line, "the candidates end before they begin");
   }
   for (std::size_t i = ranges ? 3 : 1; i < row.size(); ++i) {
     if (row[i] == kNone) continue;
-    if (row[i] < query.first || row[i] > query.last)
+    const FrameId match(row[i]);
+    if (match < query.first || match > query.last)
       throw FileError(path, line,
-                      "match " + std::to_string(row[i]) + " is none of the candidates " +
-                          std::to_string(query.first) + " to " + std::to_string(query.last));
-    if (!query.matches.empty() && row[i] <= query.matches.back())
+                      "match " + to_string(match) + " is none of the candidates " +
+                          to_string(query.first) + " to " + to_string(query.last));
+    if (!query.matches.empty() && match <= query.matches.back())
       throw FileError(path, line, "the matches do not ascend");
-    query.matches.push_back(row[i]);
+    query.matches.push_back(match);
   }
   return query;
 }
@@ -211,7 +212,7 @@ void write_loop_predictions(const std::string& path,
                             const std::vector<LoopPrediction>& predictions) {
   AtomicFile file(path);
   for (const LoopPrediction& p : predictions)
-    file.stream() << fmt::format("{} {} {:.9g}\n", p.query, p.candidate, p.score);
+    file.stream() << fmt::format("{} {} {:.9g}\n", p.query.value(), p.candidate.value(), p.score);
   file.commit();
 }
 
@@ -229,7 +230,7 @@ LoopTruthFile read_loop_truth(const std::string& path) {
   result.truth.unlisted_have_none = !ranges;
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     LoopQuery query = query_of_row(table.rows[i], ranges, path, table.lines[i]);
-    if (!result.truth.queries.emplace(table.rows[i][0], std::move(query)).second)
+    if (!result.truth.queries.emplace(FrameId(table.rows[i][0]), std::move(query)).second)
       throw FileError(path, table.lines[i],
                       "image " + std::to_string(table.rows[i][0]) + " is listed already");
   }

@@ -80,7 +80,7 @@ std::string to_json(const IndoorMap& plan) {
                                  {"low_m", rounded(wall.low_m)},
                                  {"high_m", rounded(wall.high_m)},
                                  {"points", wall.sights},
-                                 {"place", wall.place}});
+                                 {"place", wall.place ? wall.place->value() : -1}});
   document["doors"] = ordered_json::array();
   for (const IndoorDoor& door : plan.doors)
     document["doors"].push_back({{"a", point_json(door.a)},
@@ -119,7 +119,8 @@ IndoorMap read_indoor_map(const std::string& path) {
       wall.sigma_m = entry.at("sigma_m").get<double>();
       wall.low_m = entry.at("low_m").get<double>(), wall.high_m = entry.at("high_m").get<double>();
       wall.sights = entry.at("points").get<int>();
-      wall.place = entry.at("place").get<std::int64_t>();
+      if (const auto place = entry.at("place").get<std::int64_t>(); place >= 0)
+        wall.place = PlaceId(place);
       plan.walls.push_back(wall);
     }
     for (const json& entry : document.at("doors"))
@@ -132,7 +133,7 @@ IndoorMap read_indoor_map(const std::string& path) {
       room.area_m2 = entry.at("area_m2").get<double>();
       room.ceiling_m = entry.at("ceiling_m").get<double>();
       room.entered = entry.at("entered").get<bool>();
-      room.places = entry.at("places").get<std::vector<std::int64_t>>();
+      room.places = entry.at("places").get<std::vector<PlaceId>>();
       room.outline = polygon_of(entry.at("outline"));
       for (const json& hole : entry.at("holes")) room.holes.push_back(polygon_of(hole));
       plan.rooms.push_back(std::move(room));

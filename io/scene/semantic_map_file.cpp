@@ -158,7 +158,7 @@ SemanticMap read_semantic_map(const std::string& path) {
 }
 
 std::string to_json(const SemanticMap& map,
-                    const std::vector<std::pair<std::int64_t, std::vector<float>>>& shares) {
+                    const std::vector<std::pair<PlaceId, std::vector<float>>>& shares) {
   ordered_json document;
   document["units"] = "m";
   document["frame"] =

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/geodesy.h>
 #include <placegraph/graph/scene/semantic_map.h>
 
@@ -21,7 +22,7 @@ SemanticMap read_semantic_map(const std::string& path);
 /// area seen from above [m^2]; for every place the shares of the classes seen from it.
 std::string to_json(
     const SemanticMap& map,
-    const std::vector<std::pair<std::int64_t, std::vector<float>>>& shares_by_place = {});
+    const std::vector<std::pair<PlaceId, std::vector<float>>>& shares_by_place = {});
 
 /// The top view of a map whose frame is east, north, up about `origin`, as GeoJSON (RFC 7946): a
 /// MultiPolygon for every class, with properties class, area_m2 and colour. Patches smaller than

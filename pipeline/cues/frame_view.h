@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line_segment.h>
 
@@ -12,7 +13,7 @@ namespace placegraph {
 /// Nothing in a frame that is lost.
 struct FrameView {
   struct Track {
-    std::int64_t id = 0;
+    LandmarkId id;
     Eigen::Vector2d px = Eigen::Vector2d::Zero();
     Eigen::Vector2d px_previous = Eigen::Vector2d::Zero();  ///< in the frame before
     /// Where the landmark of this track projects to, if the track has one and the frame a pose.

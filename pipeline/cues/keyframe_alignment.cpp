@@ -15,7 +15,7 @@ void KeyframeAlignment::reset() {
   forget_newest();
 }
 
-void KeyframeAlignment::add(const Keyframe& keyframe, const std::optional<std::int64_t>& previous,
+void KeyframeAlignment::add(const Keyframe& keyframe, const std::optional<KeyframeId>& previous,
                             const RectificationError& rectification, SlidingWindow& window,
                             Random& random) {
   forget_newest();

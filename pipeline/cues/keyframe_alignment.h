@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/random.h>
 #include <placegraph/pipeline/cues/surface_cue.h>
 
@@ -13,14 +14,14 @@ class KeyframeAlignment {
                     const StereoMatcherOptions& stereo);
 
   struct Keyframe {
-    std::int64_t id = 0;
+    KeyframeId id;
     Frame frame;
     Image ground;  ///< 0 = no ground there, CV_8UC1 of the image's size, or empty
     std::vector<KnownPixel> landmarks;  ///< seen in it
   };
   /// Aligns the newest keyframe of the window with `previous`, if there is one, and makes it the
   /// reference of the next.
-  void add(const Keyframe& keyframe, const std::optional<std::int64_t>& previous,
+  void add(const Keyframe& keyframe, const std::optional<KeyframeId>& previous,
            const RectificationError& rectification, SlidingWindow& window, Random& random);
   /// The pixels that were aligned last.
   std::vector<FrameView::SurfacePixel> view() const { return cue_.view(newest_); }

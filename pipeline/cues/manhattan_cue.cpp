@@ -84,7 +84,7 @@ ManhattanFrame ManhattanCue::track(const std::vector<LineSegment>& segments,
 std::optional<ManhattanCue::Heading> ManhattanCue::heading(const Image& image,
                                                            const SO3& R_odom_cam,
                                                            const SlidingWindow& window,
-                                                           std::int64_t keyframe) const {
+                                                           KeyframeId keyframe) const {
   const auto expected = worlds_.expected(window, keyframe);
   if (expected.empty()) return std::nullopt;
   const std::vector<LineSegment> segments = detect(image);
@@ -109,7 +109,7 @@ bool ManhattanCue::trusted(const ManhattanFrame& frame) const {
   return seen >= 2 && largest_sigma_rad(frame.covariance) < options_.max_sigma_deg * kRadPerDeg;
 }
 
-bool ManhattanCue::take(std::int64_t keyframe, const std::vector<LineSegment>& segments,
+bool ManhattanCue::take(KeyframeId keyframe, const std::vector<LineSegment>& segments,
                         const ManhattanFrame& frame, SlidingWindow& window) {
   if (!trusted(frame)) return false;
   if (!sight_) sight_ = Sight{segments, frame.axis, frame.R_cam_manhattan, frame.covariance};
@@ -128,7 +128,7 @@ bool ManhattanCue::take(std::int64_t keyframe, const std::vector<LineSegment>& s
   return world.has_value();
 }
 
-void ManhattanCue::observe(std::int64_t keyframe, const Image& image,
+void ManhattanCue::observe(KeyframeId keyframe, const Image& image,
                            const std::optional<std::vector<LineSegment>>& known,
                            SlidingWindow& window) {
   const std::vector<LineSegment> segments = known ? *known : detect(image);
@@ -141,7 +141,7 @@ void ManhattanCue::observe(std::int64_t keyframe, const Image& image,
     if (seen) break;
   }
   if (seen) return;
-  Random random(seed_, keyframe);
+  Random random(seed_, static_cast<std::uint64_t>(keyframe.value()));
   const SceneDirections scene =
       find_scene_directions(segments, camera_, options_.directions, random);
   for (const ManhattanFrame& frame : scene.frames) take(keyframe, segments, frame, window);

@@ -2,6 +2,7 @@
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/image/image.h>
 #include <placegraph/pipeline/cues/frame_view.h>
@@ -21,7 +22,7 @@ class ManhattanCue {
                LogSink log);
 
   /// `segments`: edges of the image, if they are known already.
-  void observe(std::int64_t keyframe, const Image& image,
+  void observe(KeyframeId keyframe, const Image& image,
                const std::optional<std::vector<LineSegment>>& segments, SlidingWindow& window);
   void settle(const SlidingWindow& window) { worlds_.settle(window); }
   /// A world of the window as a frame sees it, which is taken from about R_odom_cam: the one seen
@@ -32,7 +33,7 @@ class ManhattanCue {
     Eigen::Matrix3d information;  ///< right tangent [1/rad^2]
   };
   std::optional<Heading> heading(const Image& image, const SO3& R_odom_cam,
-                                 const SlidingWindow& window, std::int64_t keyframe) const;
+                                 const SlidingWindow& window, KeyframeId keyframe) const;
   /// The edges of the last keyframe's image that were looked at, with their world and axis.
   const std::vector<FrameView::DirectedLine>& view() const { return view_; }
   /// What the edges of the last keyframe tell of the ground, if walls stand in what is taken for it
@@ -53,7 +54,7 @@ class ManhattanCue {
   ManhattanFrame track(const std::vector<LineSegment>& segments,
                        const ManhattanWorlds::Expected& world) const;
   bool trusted(const ManhattanFrame& frame) const;
-  bool take(std::int64_t keyframe, const std::vector<LineSegment>& segments,
+  bool take(KeyframeId keyframe, const std::vector<LineSegment>& segments,
             const ManhattanFrame& frame, SlidingWindow& window);
 
   ManhattanCueOptions options_;

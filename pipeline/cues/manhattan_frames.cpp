@@ -29,8 +29,8 @@ Eigen::Matrix3d ManhattanWorlds::honest(const Eigen::Matrix3d& covariance) const
 }
 
 std::vector<ManhattanWorlds::Expected> ManhattanWorlds::expected(const SlidingWindow& window,
-                                                                 std::int64_t keyframe) const {
-  std::vector<std::pair<std::int64_t, std::int64_t>> order;  // when, which
+                                                                 KeyframeId keyframe) const {
+  std::vector<std::pair<KeyframeId, std::int64_t>> order;  // when, which
   for (const auto& [world, seen] : last_seen_)
     if (covariance_.contains(world)) order.emplace_back(seen, world);
   std::sort(order.rbegin(), order.rend());
@@ -50,7 +50,7 @@ void ManhattanWorlds::see(const Candidate& sighting, std::int64_t world, Sliding
   last_seen_[world] = sighting.keyframe;
 }
 
-std::optional<std::int64_t> ManhattanWorlds::add(std::int64_t keyframe, const SO3& R_cam_manhattan,
+std::optional<std::int64_t> ManhattanWorlds::add(KeyframeId keyframe, const SO3& R_cam_manhattan,
                                                  const Eigen::Matrix3d& covariance,
                                                  SlidingWindow& window) {
   std::optional<Expected> best;
@@ -70,7 +70,7 @@ std::optional<std::int64_t> ManhattanWorlds::add(std::int64_t keyframe, const SO
 /// A candidate waits until enough of the window agree with it.
 std::optional<std::int64_t> ManhattanWorlds::begin_world(const Candidate& newest,
                                                          SlidingWindow& window) {
-  const std::int64_t oldest = window.keyframes().front();
+  const KeyframeId oldest = window.keyframes().front();
   std::erase_if(candidates_, [&](const Candidate& c) { return c.keyframe < oldest; });
   const auto R_map = [&](const Candidate& c) {
     return window.pose(c.keyframe).rotation() * c.R_cam_manhattan;

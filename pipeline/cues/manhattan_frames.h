@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 
 #include <map>
@@ -32,11 +33,11 @@ class ManhattanWorlds {
     Eigen::Matrix3d covariance;  ///< right tangent [rad^2]
   };
   /// Those seen last first.
-  std::vector<Expected> expected(const SlidingWindow& window, std::int64_t keyframe) const;
+  std::vector<Expected> expected(const SlidingWindow& window, KeyframeId keyframe) const;
 
   /// Hands the directions of a keyframe's view over, with the covariance of their lines' noise.
   /// Returns the world they are of, which they may begin; nothing while they wait.
-  std::optional<std::int64_t> add(std::int64_t keyframe, const SO3& R_cam_manhattan,
+  std::optional<std::int64_t> add(KeyframeId keyframe, const SO3& R_cam_manhattan,
                                   const Eigen::Matrix3d& covariance, SlidingWindow& window);
   /// After the window has been optimized: how well the newest keyframe knows the worlds.
   void settle(const SlidingWindow& window);
@@ -46,7 +47,7 @@ class ManhattanWorlds {
 
  private:
   struct Candidate {
-    std::int64_t keyframe;
+    KeyframeId keyframe;
     SO3 R_cam_manhattan;
     Eigen::Matrix3d covariance;
   };
@@ -57,7 +58,7 @@ class ManhattanWorlds {
   ManhattanWorldOptions options_;
   std::int64_t next_world_ = kMapAxes + 1;
   std::vector<Candidate> candidates_;                   // of keyframes in the window, ascending
-  std::map<std::int64_t, std::int64_t> last_seen_;      // world, keyframe
+  std::map<std::int64_t, KeyframeId> last_seen_;        // of worlds
   std::map<std::int64_t, Eigen::Matrix3d> covariance_;  // of worlds, as the last keyframe knew them
 };
 

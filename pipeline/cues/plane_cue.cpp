@@ -75,7 +75,7 @@ Eigen::Matrix3d PlaneLandmarks::drift(const Plane3& plane_cam) const {
 }
 
 /// Every plane and landmark that agree, the best first.
-std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(std::int64_t keyframe,
+std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(KeyframeId keyframe,
                                                            const std::vector<DepthPlane>& seen,
                                                            const SlidingWindow& window) const {
   std::vector<Match> result;
@@ -104,7 +104,7 @@ std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(std::int64_t keyframe
   return result;
 }
 
-void PlaneLandmarks::see(std::int64_t keyframe, const DepthPlane& plane, std::int64_t id,
+void PlaneLandmarks::see(KeyframeId keyframe, const DepthPlane& plane, std::int64_t id,
                          SlidingWindow& window) {
   add_plane_observation(
       window, {keyframe, id, plane.plane_cam, (options_.correlation * plane.covariance).inverse()});
@@ -124,7 +124,7 @@ void PlaneLandmarks::see(std::int64_t keyframe, const DepthPlane& plane, std::in
 }
 
 /// The one of those that wait which a plane of the newest keyframe agrees with best.
-std::optional<std::size_t> PlaneLandmarks::partner(std::int64_t keyframe, const DepthPlane& plane,
+std::optional<std::size_t> PlaneLandmarks::partner(KeyframeId keyframe, const DepthPlane& plane,
                                                    const SlidingWindow& window) const {
   double least = plane_gate();
   std::optional<std::size_t> best;
@@ -164,13 +164,13 @@ std::int64_t PlaneLandmarks::begin(const Waiting& before, const Waiting& now,
   return id;
 }
 
-void PlaneLandmarks::forget(std::int64_t keyframe, SlidingWindow& window) {
+void PlaneLandmarks::forget(KeyframeId keyframe, SlidingWindow& window) {
   while (!landmarks_.empty()) {
     const auto longest = std::min_element(
         landmarks_.begin(), landmarks_.end(),
         [](const auto& a, const auto& b) { return a.second.last_seen < b.second.last_seen; });
     if (static_cast<int>(landmarks_.size()) <= options_.max_landmarks &&
-        keyframe - longest->second.last_seen <= options_.patience)
+        keyframe.value() - longest->second.last_seen.value() <= options_.patience)
       return;
     window.keep(plane_variable(longest->first), false);
     landmarks_.erase(longest);
@@ -206,10 +206,10 @@ std::vector<std::optional<std::int64_t>> PlaneLandmarks::assign(const std::vecto
   return result;
 }
 
-std::vector<std::optional<std::int64_t>> PlaneLandmarks::add(std::int64_t keyframe,
+std::vector<std::optional<std::int64_t>> PlaneLandmarks::add(KeyframeId keyframe,
                                                              const std::vector<DepthPlane>& seen,
                                                              SlidingWindow& window) {
-  const std::int64_t oldest = window.keyframes().front();
+  const KeyframeId oldest = window.keyframes().front();
   std::erase_if(waiting_, [&](const Waiting& w) { return w.keyframe < oldest; });
   // First all that is asked of the window, then all that changes it.
   const std::vector<Match> all = matches(keyframe, seen, window);
@@ -255,9 +255,10 @@ void PlaneLandmarks::prune(SlidingWindow& window) {
   constexpr double kSigmas = 4;
   constexpr int kMostMisfits = 2;
   if (window.keyframes().empty()) return;
-  const std::int64_t newest = window.keyframes().back();
+  const KeyframeId newest = window.keyframes().back();
   for (const WindowFactor& seen : plane_observations(window)) {
-    const std::int64_t keyframe = seen.variables[0].id, plane = seen.variables[1].id;
+    const KeyframeId keyframe = seen.variables[0].keyframe();
+    const std::int64_t plane = seen.variables[1].id;
     const auto landmark = landmarks_.find(plane);
     if (keyframe != newest || landmark == landmarks_.end()) continue;
     if (residual_sigmas(window, seen)->norm() < kSigmas) {

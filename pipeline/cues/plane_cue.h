@@ -2,6 +2,7 @@
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/cloud_planes/depth_planes.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/options.h>
 
@@ -27,7 +28,7 @@ class PlaneLandmarks {
 
   /// Hands the planes seen in the newest keyframe over, in its camera's frame. Returns the landmark
   /// each is a sighting of; nothing of those that wait or are left alone.
-  std::vector<std::optional<std::int64_t>> add(std::int64_t keyframe,
+  std::vector<std::optional<std::int64_t>> add(KeyframeId keyframe,
                                                const std::vector<DepthPlane>& seen,
                                                SlidingWindow& window);
   /// After the window has been optimized: sightings that do not fit are taken out, with a landmark
@@ -39,14 +40,14 @@ class PlaneLandmarks {
 
  private:
   struct Landmark {
-    std::int64_t last_seen = 0;
+    KeyframeId last_seen;
     int misfits = 0;  ///< since it last fitted
     /// Its normal, to the side it is seen from.
     Eigen::Vector3d toward_map = Eigen::Vector3d::Zero();
     std::vector<Eigen::Vector3d> points_map;  ///< where it was seen
   };
   struct Waiting {
-    std::int64_t keyframe = 0;
+    KeyframeId keyframe;
     DepthPlane plane;
   };
   struct Match {
@@ -54,16 +55,16 @@ class PlaneLandmarks {
     std::size_t seen = 0;
     std::int64_t landmark = 0;
   };
-  std::vector<Match> matches(std::int64_t keyframe, const std::vector<DepthPlane>& seen,
+  std::vector<Match> matches(KeyframeId keyframe, const std::vector<DepthPlane>& seen,
                              const SlidingWindow& window) const;
   Eigen::Matrix3d drift(const Plane3& plane_cam) const;
-  void see(std::int64_t keyframe, const DepthPlane& plane, std::int64_t id, SlidingWindow& window);
+  void see(KeyframeId keyframe, const DepthPlane& plane, std::int64_t id, SlidingWindow& window);
   static std::vector<std::optional<std::int64_t>> assign(const std::vector<Match>& all,
                                                          std::size_t count);
-  std::optional<std::size_t> partner(std::int64_t keyframe, const DepthPlane& plane,
+  std::optional<std::size_t> partner(KeyframeId keyframe, const DepthPlane& plane,
                                      const SlidingWindow& window) const;
   std::int64_t begin(const Waiting& before, const Waiting& now, SlidingWindow& window);
-  void forget(std::int64_t keyframe, SlidingWindow& window);
+  void forget(KeyframeId keyframe, SlidingWindow& window);
 
   PlaneLandmarkOptions options_;
   LogSink log_;

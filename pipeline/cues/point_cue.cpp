@@ -10,7 +10,7 @@
 namespace placegraph {
 namespace {
 
-void add_observation(std::int64_t keyframe, std::int64_t landmark, const Eigen::Vector2d& px,
+void add_observation(KeyframeId keyframe, LandmarkId landmark, const Eigen::Vector2d& px,
                      const Eigen::Matrix2d& covariance_px, const std::optional<InverseDepth>& depth,
                      SlidingWindow& window) {
   WindowObservation observation;
@@ -81,7 +81,7 @@ PointCue::TrackedPose PointCue::follow(const Image& image, const SlidingWindow& 
   const auto predicted = predict(window, T_odom_last, T_odom_expected, median_depth);
   const auto search = [&](PointTracker::Search range) {
     const auto span = times_.measure("point tracking");
-    std::map<std::int64_t, Eigen::Vector2f> expected;
+    std::map<LandmarkId, Eigen::Vector2f> expected;
     for (std::size_t i = 0; i < predicted.size(); ++i) expected[tracks()[i].id] = predicted[i];
     tracker_.track(image, predicted, range);
     std::vector<double> errors_px;
@@ -126,8 +126,8 @@ PointCue::TrackedPose PointCue::pose(const SlidingWindow& window, const SE3& T_o
   return result;
 }
 
-std::map<std::int64_t, Eigen::Vector2d> PointCue::anchor() {
-  std::map<std::int64_t, Eigen::Vector2d> before, drift_px;
+std::map<LandmarkId, Eigen::Vector2d> PointCue::anchor() {
+  std::map<LandmarkId, Eigen::Vector2d> before, drift_px;
   for (const PointTrack& track : tracks()) before[track.id] = track.px.cast<double>();
   tracker_.anchor();
   for (const PointTrack& track : tracks())
@@ -193,14 +193,14 @@ std::optional<Eigen::Vector3d> PointCue::place_point(const Observation& now,
   return point.point_ref;
 }
 
-void PointCue::observe(std::int64_t keyframe, const Frame& frame,
+void PointCue::observe(KeyframeId keyframe, const Frame& frame,
                        const RectificationError& rectification, SlidingWindow& window) {
   const auto span = times_.measure("triangulation");
   const auto depths = measure_depth(frame, rectification, window.pose(keyframe), window);
-  const std::int64_t oldest = window.keyframes().front();
-  std::map<std::int64_t, std::vector<Observation>> all;
+  const KeyframeId oldest = window.keyframes().front();
+  std::map<LandmarkId, std::vector<Observation>> all;
   for (std::size_t i = 0; i < tracks().size(); ++i) {
-    const std::int64_t id = tracks()[i].id;
+    const LandmarkId id = tracks()[i].id;
     std::vector<Observation> observations;
     if (const auto old = observations_.find(id); old != observations_.end())
       for (const Observation& o : old->second)
@@ -224,7 +224,7 @@ void PointCue::observe(std::int64_t keyframe, const Frame& frame,
   observations_ = std::move(all);
 }
 
-void PointCue::observe_two_views(std::int64_t ref, std::int64_t cur,
+void PointCue::observe_two_views(KeyframeId ref, KeyframeId cur,
                                  const std::vector<TwoViewPoint>& points, SlidingWindow& window) {
   for (const TwoViewPoint& p : points) {
     observations_[p.track] = {{ref, p.px_ref, p.covariance_px}, {cur, p.px_cur, p.covariance_px}};
@@ -235,7 +235,7 @@ void PointCue::observe_two_views(std::int64_t ref, std::int64_t cur,
   }
 }
 
-void PointCue::observe_new_tracks(std::int64_t keyframe) {
+void PointCue::observe_new_tracks(KeyframeId keyframe) {
   for (const PointTrack& track : tracks()) {
     auto& observations = observations_[track.id];
     if (observations.empty())
@@ -245,7 +245,7 @@ void PointCue::observe_new_tracks(std::int64_t keyframe) {
 
 /// Whether a landmark is no point of the scene: where one contour covers another, their crossing
 /// moves along with both, and misses every projection by a little.
-bool PointCue::contradicts_itself(std::int64_t landmark, const SlidingWindow& window) const {
+bool PointCue::contradicts_itself(LandmarkId landmark, const SlidingWindow& window) const {
   double sum_px = 0, sum_sigmas = 0;
   int views = 0;
   for (const WindowObservation& o : window.observations(landmark)) {
@@ -260,13 +260,13 @@ bool PointCue::contradicts_itself(std::int64_t landmark, const SlidingWindow& wi
          sum_sigmas > most_sigmas * most_sigmas * views;
 }
 
-std::vector<double> PointCue::prune(SlidingWindow& window, std::int64_t newest) {
-  std::map<std::int64_t, std::size_t> track_of;
+std::vector<double> PointCue::prune(SlidingWindow& window, KeyframeId newest) {
+  std::map<LandmarkId, std::size_t> track_of;
   for (std::size_t i = 0; i < tracks().size(); ++i) track_of[tracks()[i].id] = i;
   std::vector<bool> keep(tracks().size(), true);
   std::vector<double> depths;
   const SE3 T_cam_odom = window.pose(newest).inverse();
-  for (const std::int64_t id : window.landmarks()) {
+  for (const LandmarkId id : window.landmarks()) {
     const auto& observations = window.observations(id);
     const auto track = track_of.find(id);
     const auto residual =
@@ -284,16 +284,16 @@ std::vector<double> PointCue::prune(SlidingWindow& window, std::int64_t newest) 
   return depths;
 }
 
-std::vector<std::pair<std::int64_t, Eigen::Vector2d>> PointCue::landmark_pixels(
+std::vector<std::pair<LandmarkId, Eigen::Vector2d>> PointCue::landmark_pixels(
     const SlidingWindow& window) const {
-  std::vector<std::pair<std::int64_t, Eigen::Vector2d>> px;
+  std::vector<std::pair<LandmarkId, Eigen::Vector2d>> px;
   for (const PointTrack& track : tracks())
     if (window.landmark(track.id)) px.emplace_back(track.id, track.px.cast<double>());
   return px;
 }
 
 std::vector<KnownPixel> PointCue::landmark_depths(const SlidingWindow& window,
-                                                  std::int64_t keyframe) const {
+                                                  KeyframeId keyframe) const {
   constexpr double kSigmaShare = 0.03;
   const SE3 T_cam_odom = window.pose(keyframe).inverse();
   std::vector<KnownPixel> known;

@@ -3,6 +3,7 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/flow/point_tracker.h>
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/pipeline/cues/depth_sensor.h>
 #include <placegraph/pipeline/cues/surface_cue.h>
@@ -45,7 +46,7 @@ class PointCue {
 
   /// Moves the tracks to where their reference patches are found in the newest image. Returns what
   /// each was moved by [px]: the drift that it had accumulated.
-  std::map<std::int64_t, Eigen::Vector2d> anchor();
+  std::map<LandmarkId, Eigen::Vector2d> anchor();
   /// Drops tracks where `still` is 0 (CV_8UC1, the image's size), if enough others are left.
   void leave_moving_objects(const Image& still);
   /// Detects new points in the newest image where `mask` allows them. If it was made from semantic
@@ -53,31 +54,31 @@ class PointCue {
   void detect(const Image& mask, bool labelled, const Image& given_mask);
   /// Hands the newest image's tracks to the window as observations of `keyframe`. Points with depth
   /// or enough parallax become landmarks.
-  void observe(std::int64_t keyframe, const Frame& frame, const RectificationError& rectification,
+  void observe(KeyframeId keyframe, const Frame& frame, const RectificationError& rectification,
                SlidingWindow& window);
   /// A point of two views that start a map.
   struct TwoViewPoint {
-    std::int64_t track = 0;
+    LandmarkId track;
     Eigen::Vector2d px_ref, px_cur;
     Eigen::Matrix2d covariance_px;
     std::optional<Eigen::Vector3d> point_odom;  ///< nothing: not triangulated
   };
   /// Hands the points of the two first keyframes of a monocular map to the window.
-  void observe_two_views(std::int64_t ref, std::int64_t cur,
-                         const std::vector<TwoViewPoint>& points, SlidingWindow& window);
+  void observe_two_views(KeyframeId ref, KeyframeId cur, const std::vector<TwoViewPoint>& points,
+                         SlidingWindow& window);
   /// Remembers that `keyframe`, the newest image, observes tracks that were detected after it was
   /// handed over.
-  void observe_new_tracks(std::int64_t keyframe);
+  void observe_new_tracks(KeyframeId keyframe);
   /// Removes landmarks that do not fit from the window. Returns the depths of the other landmarks
   /// that are tracked, in keyframe `newest` [m, or the map's unit].
-  std::vector<double> prune(SlidingWindow& window, std::int64_t newest);
+  std::vector<double> prune(SlidingWindow& window, KeyframeId newest);
 
   /// Landmarks that are tracked, with their pixel in the newest image.
-  std::vector<std::pair<std::int64_t, Eigen::Vector2d>> landmark_pixels(
+  std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_pixels(
       const SlidingWindow& window) const;
   /// The same with their depths in keyframe `keyframe`, which the newest image is, for a cue that
   /// needs depths: they are taken to be certain to a few per cent.
-  std::vector<KnownPixel> landmark_depths(const SlidingWindow& window, std::int64_t keyframe) const;
+  std::vector<KnownPixel> landmark_depths(const SlidingWindow& window, KeyframeId keyframe) const;
   int tracked_landmarks(const SlidingWindow& window) const;
 
   /// The tracks as they stand, to go back to if a frame cannot be posed.
@@ -89,7 +90,7 @@ class PointCue {
 
  private:
   struct Observation {
-    std::int64_t keyframe;
+    KeyframeId keyframe;
     Eigen::Vector2d px;
     Eigen::Matrix2d covariance_px;
   };
@@ -103,15 +104,15 @@ class PointCue {
                                              const std::vector<Observation>& before,
                                              const std::optional<InverseDepth>& depth,
                                              const SlidingWindow& window) const;
-  bool contradicts_itself(std::int64_t landmark, const SlidingWindow& window) const;
+  bool contradicts_itself(LandmarkId landmark, const SlidingWindow& window) const;
 
   PointCueOptions options_;
   Camera camera_;
   DepthSensor depth_;
   StageTimes& times_;
   PointTracker tracker_;
-  std::map<std::int64_t, std::vector<Observation>> observations_;  // of live tracks, in the window
-  double prediction_error_px_ = 0;                                 // median, of the last frame
+  std::map<LandmarkId, std::vector<Observation>> observations_;  // of live tracks, in the window
+  double prediction_error_px_ = 0;                               // median, of the last frame
 };
 
 }  // namespace placegraph

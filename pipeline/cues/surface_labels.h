@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/frontend/scene/environment.h>
 #include <placegraph/frontend/scene/scene_masks.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 
 #include <memory>
@@ -9,7 +10,7 @@ namespace placegraph {
 
 /// What the surfaces of a keyframe's picture are good for.
 struct SceneSight {
-  std::int64_t frame = 0;
+  FrameId frame;
   SceneMasks masks;  ///< empty images where no masks are wanted or the labels are not trusted
   SurfaceShares shares;
 };

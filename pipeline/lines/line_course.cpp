@@ -41,17 +41,17 @@ std::optional<PlaneAlong> plane_along(const Camera& camera, const ImageLine::Car
 std::vector<MotionObservation> course_along_lines(
     const SlidingWindow& window, const Camera& camera,
     const std::vector<DirectionCompass::Family>& families, const LineSightings& sightings,
-    std::int64_t keyframe, double depth, double max_turn_rad) {
+    KeyframeId keyframe, double depth, double max_turn_rad) {
   constexpr std::size_t kBack = 5;        // keyframes
   constexpr double kAlong = 0.96;         // cosine to the way: others are placed, or far
   constexpr double kRollSigmaRad = 1e-3;  // between two keyframes
   constexpr double kFactor = 2;           // of the distance
   const auto keyframes = window.keyframes();
-  const std::int64_t oldest = keyframes[keyframes.size() - std::min(keyframes.size(), kBack + 1)];
+  const KeyframeId oldest = keyframes[keyframes.size() - std::min(keyframes.size(), kBack + 1)];
   const SE3 T_odom_to = window.pose(keyframe);
   std::vector<MotionObservation> motions;
   for (const auto& family : families) {
-    std::map<std::int64_t, Eigen::Matrix3d> held;  // by the earlier keyframe, in its frame
+    std::map<KeyframeId, Eigen::Matrix3d> held;  // by the earlier keyframe, in its frame
     for (const std::int64_t id : family.tracks) {
       const auto track = sightings.find(id);
       if (track == sightings.end() || window.line(id)) continue;

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/backend/window/window_measurements.h>
 #include <placegraph/frontend/lines/direction_compass.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/lines/line_sightings.h>
 
 #include <cstdint>
@@ -18,6 +19,6 @@ class SlidingWindow;
 std::vector<MotionObservation> course_along_lines(
     const SlidingWindow& window, const Camera& camera,
     const std::vector<DirectionCompass::Family>& families, const LineSightings& sightings,
-    std::int64_t keyframe, double depth, double max_turn_rad);
+    KeyframeId keyframe, double depth, double max_turn_rad);
 
 }  // namespace placegraph

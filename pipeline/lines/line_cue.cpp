@@ -48,7 +48,7 @@ LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) con
 void LineCue::use_compass() { compass_.emplace(options_.start.directions); }
 
 /// What directions say of a keyframe's rotation goes into the window.
-void LineCue::steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& window) {
+void LineCue::steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& window) {
   if (!compass_) return;
   constexpr double kSigmaRad = 0.02;
   const SE3 T_odom_cam = window.pose(keyframe);
@@ -60,7 +60,7 @@ void LineCue::steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& 
     prior.information.bottomRightCorner<3, 3>() = heading.information;
     add_pose_prior(window, prior);
   }
-  Random random(0, static_cast<std::uint64_t>(keyframe));
+  Random random(0, static_cast<std::uint64_t>(keyframe.value()));
   compass_->learn(calibration_.camera, seen, R_odom_cam, random);
 }
 
@@ -168,7 +168,7 @@ void LineCue::add_to_window(std::int64_t id, const LineInKeyframe& sighting,
   window.add_line_observation(observation);
 }
 
-void LineCue::observe(std::int64_t keyframe, const Frame& frame,
+void LineCue::observe(KeyframeId keyframe, const Frame& frame,
                       const RectificationError& rectification, double depth,
                       SlidingWindow& window) {
   T_odom_last_ = window.pose(keyframe);
@@ -202,10 +202,10 @@ void LineCue::observe(std::int64_t keyframe, const Frame& frame,
 }
 
 /// The newest sighting of each track, and of those that are known well enough a place.
-void LineCue::add_sightings(std::int64_t keyframe,
+void LineCue::add_sightings(KeyframeId keyframe,
                             const std::map<std::int64_t, LineInKeyframe>& all_now,
                             SlidingWindow& window) {
-  const std::int64_t oldest = window.keyframes().front();
+  const KeyframeId oldest = window.keyframes().front();
   const LineTriangulationOptions options = triangulation(window);
   LineSightings all;
   std::map<std::int64_t, Eigen::Matrix4d> covariances;
@@ -239,7 +239,7 @@ void LineCue::add_sightings(std::int64_t keyframe,
   covariances_ = std::move(covariances);
 }
 
-void LineCue::observe_earlier(std::int64_t keyframe, const LineView& seen, SlidingWindow& window) {
+void LineCue::observe_earlier(KeyframeId keyframe, const LineView& seen, SlidingWindow& window) {
   std::map<std::int64_t, LineInKeyframe> now;
   for (const auto& [id, line] : seen) now[id] = {keyframe, line.seen, std::nullopt};
   steer(keyframe, seen, window);
@@ -261,7 +261,7 @@ std::vector<SharedDirection> LineCue::shared_directions() const {
   return shared;
 }
 
-void LineCue::hold_course(std::int64_t keyframe, double depth, SlidingWindow& window) const {
+void LineCue::hold_course(KeyframeId keyframe, double depth, SlidingWindow& window) const {
   if (!compass_) return;
   for (const MotionObservation& motion :
        course_along_lines(window, calibration_.camera, compass_->families(), sightings_, keyframe,

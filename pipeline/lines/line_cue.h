@@ -6,6 +6,7 @@
 #include <placegraph/frontend/lines/direction_compass.h>
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/lines/line_sightings.h>
@@ -35,7 +36,7 @@ class LineCue {
   /// Detects new lines in the newest image, which is that of `keyframe`, and adds what it sees to
   /// the window; lines with enough parallax become lines of the window. `rectification`: what the
   /// two eyes, where there are two, are thought to be off by. `depth`: of what no line is beside.
-  void observe(std::int64_t keyframe, const Frame& frame, const RectificationError& rectification,
+  void observe(KeyframeId keyframe, const Frame& frame, const RectificationError& rectification,
                double depth, SlidingWindow& window);
   /// Rotation is seen by the directions that lines share, too: for a single eye without points,
   /// which knows the place of few lines in a turn.
@@ -46,7 +47,7 @@ class LineCue {
   /// Where the tracks are seen in the newest image.
   LineView seen() const { return line_view(tracker_.tracks(), options_.sigma_floor_px); }
   /// Adds what an earlier keyframe saw to the window: to begin with, in order of time.
-  void observe_earlier(std::int64_t keyframe, const LineView& seen, SlidingWindow& window);
+  void observe_earlier(KeyframeId keyframe, const LineView& seen, SlidingWindow& window);
   /// Edges of the newest image, taken at T_odom_cam, with their lines where the window has them;
   /// not described.
   std::vector<LineFeature> features(const SlidingWindow& window, const SE3& T_odom_cam) const {
@@ -59,7 +60,7 @@ class LineCue {
   /// Lines along the way, at about `depth`, are never placed: their planes hold the way instead. A
   /// camera that leaves the direction of such a line sees its plane turn, so what did not turn says
   /// where the newest keyframe does not lie.
-  void hold_course(std::int64_t keyframe, double depth, SlidingWindow& window) const;
+  void hold_course(KeyframeId keyframe, double depth, SlidingWindow& window) const;
   /// Disparities of lines of the window beside what the left eye's motion says of them, each line's
   /// once.
   std::vector<DisparitySample> disparity_samples(const SlidingWindow& window,
@@ -83,13 +84,13 @@ class LineCue {
   void reset();
 
  private:
-  void add_sightings(std::int64_t keyframe, const std::map<std::int64_t, LineInKeyframe>& now,
+  void add_sightings(KeyframeId keyframe, const std::map<std::int64_t, LineInKeyframe>& now,
                      SlidingWindow& window);
   LineTriangulationOptions triangulation(const SlidingWindow& window) const;
   std::optional<PoseGuess> with_heading(const PoseGuess& guess) const;
   void add_to_window(std::int64_t id, const LineInKeyframe& sighting, SlidingWindow& window) const;
   void follow_mergers();
-  void steer(std::int64_t keyframe, const LineView& seen, SlidingWindow& window);
+  void steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& window);
 
   LineCueOptions options_;
   StereoMatcherOptions stereo_;

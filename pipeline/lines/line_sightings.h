@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/backend/window/window_observations.h>
 #include <placegraph/frontend/lines/line_triangulation.h>
+#include <placegraph/graph/core/ids.h>
 
 #include <cstdint>
 #include <map>
@@ -11,7 +12,7 @@ namespace placegraph {
 
 /// What one keyframe saw of a line that is followed.
 struct LineInKeyframe {
-  std::int64_t keyframe = 0;
+  KeyframeId keyframe;
   ImageLine::Carriers seen;
   std::optional<LineObservation::SecondEye> second;  ///< by the right camera, or made from depth
 };

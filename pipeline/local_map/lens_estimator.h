@@ -2,6 +2,7 @@
 #include <placegraph/pipeline/run_options.h>
 #include <placegraph/backend/window/distortion_evidence.h>
 #include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 
 #include <cstdint>
@@ -29,7 +30,7 @@ class LensEstimator {
 
  private:
   std::vector<LensEvidence> windows_;
-  std::optional<std::int64_t> newest_;  // keyframe of the last window
+  std::optional<KeyframeId> newest_;  // keyframe of the last window
 };
 
 }  // namespace placegraph

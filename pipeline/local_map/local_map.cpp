@@ -20,12 +20,12 @@ void LocalMap::restart(Scale scale, const std::optional<double>& median_depth) {
   links_.clear();
 }
 
-void LocalMap::go_on_from(std::int64_t next_keyframe, double median_depth) {
+void LocalMap::go_on_from(KeyframeId next_keyframe, double median_depth) {
   next_ = next_keyframe;
   median_depth_ = median_depth;
 }
 
-std::int64_t LocalMap::add_keyframe(const SE3& T_odom_cam) {
+KeyframeId LocalMap::add_keyframe(const SE3& T_odom_cam) {
   window_.add_keyframe(next_, T_odom_cam);
   return next_++;
 }
@@ -46,12 +46,12 @@ void LocalMap::update_poses(const std::vector<double>& depths, bool rotations_co
   constexpr double kLeastDepth = 1e-3;
   if (!depths.empty()) median_depth_ = std::max(kLeastDepth, median_of(depths));
   if (rotations_corrected) widen_link_to_oldest();
-  for (const std::int64_t id : window_.keyframes()) poses_[id] = window_.pose(id);
+  for (const KeyframeId id : window_.keyframes()) poses_[id] = window_.pose(id);
 }
 
 void LocalMap::widen_link_to_oldest() {
-  const std::int64_t oldest = window_.keyframes().front();
-  const auto link = links_.find(oldest - 1);
+  const KeyframeId oldest = window_.keyframes().front();
+  const auto link = links_.find(KeyframeId(oldest.value() - 1));
   const auto before = poses_.find(oldest);
   if (link == links_.end() || before == poses_.end()) return;
   // (H^-1 + g g^T)^-1 of the rotation g (Sherman & Morrison 1950)
@@ -69,7 +69,7 @@ void LocalMap::marginalize() {
   for (std::size_t i = 0; i + 1 < keyframes.size() && keyframes.size() - i > size; ++i)
     links_[keyframes[i]] = {motion_information(keyframes[i], keyframes[i + 1]), scale_drift()};
   std::vector<PointLandmark> before;
-  for (const std::int64_t id : window_.landmarks())
+  for (const LandmarkId id : window_.landmarks())
     if (window_.observations(id).size() > 1) before.push_back(describe(id));
   window_.marginalize();
   for (const PointLandmark& landmark : before)
@@ -89,10 +89,10 @@ Rescale LocalMap::rescale(double factor) {
   return {factor, centre};
 }
 
-LocalMap::Link LocalMap::link(std::int64_t id) const {
+LocalMap::Link LocalMap::link(KeyframeId id) const {
   const auto link = links_.find(id);
   if (link != links_.end()) return link->second;
-  return {motion_information(id, id + 1), scale_drift()};
+  return {motion_information(id, ++KeyframeId(id)), scale_drift()};
 }
 
 /// Of the unit of length (logarithm), from one keyframe to the next: half a window's worth, spread
@@ -107,7 +107,7 @@ double LocalMap::scale_drift() const {
   return std::min(kMost, sigma / std::sqrt(0.5 * static_cast<double>(ids.size() - 1)));
 }
 
-Matrix6d LocalMap::motion_information(std::int64_t from, std::int64_t to) const {
+Matrix6d LocalMap::motion_information(KeyframeId from, KeyframeId to) const {
   Matrix6d information = relative_information(window_, from, to);
   if (metric()) return information;
   // The prior's hold on the scale is arbitrary and common to all motions: no error of this one.
@@ -120,7 +120,7 @@ Matrix6d LocalMap::motion_information(std::int64_t from, std::int64_t to) const 
   return information;
 }
 
-std::optional<std::int64_t> LocalMap::window_begin() const {
+std::optional<KeyframeId> LocalMap::window_begin() const {
   const auto ids = window_.keyframes();
   if (ids.empty()) return std::nullopt;
   return ids.front();
@@ -130,7 +130,7 @@ int LocalMap::landmarks_in_window() const {
   return static_cast<int>(window_.landmarks().size() + window_.lines().size());
 }
 
-PointLandmark LocalMap::describe(std::int64_t id) const {
+PointLandmark LocalMap::describe(LandmarkId id) const {
   const auto& observations = window_.observations(id);
   PointLandmark landmark;
   landmark.id = id;
@@ -145,7 +145,7 @@ std::vector<PointLandmark> LocalMap::landmarks(std::size_t first) const {
           "LocalMap::landmarks: those of the window have no order");
   std::vector<PointLandmark> result(past_landmarks_.begin() + static_cast<std::ptrdiff_t>(first),
                                     past_landmarks_.end());
-  for (const std::int64_t id : window_.landmarks())
+  for (const LandmarkId id : window_.landmarks())
     if (!window_.observations(id).empty()) result.push_back(describe(id));
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/landmark.h>
 
 #include <map>
@@ -34,10 +35,10 @@ class LocalMap {
   /// Begins another segment. `median_depth`: of what it will see; nothing: as before.
   void restart(Scale scale, const std::optional<double>& median_depth);
   /// The next keyframe's id, and how far away things are, as another run left them.
-  void go_on_from(std::int64_t next_keyframe, double median_depth);
+  void go_on_from(KeyframeId next_keyframe, double median_depth);
 
   /// Adds a keyframe at T_odom_cam to the window; returns its id.
-  std::int64_t add_keyframe(const SE3& T_odom_cam);
+  KeyframeId add_keyframe(const SE3& T_odom_cam);
   /// Takes back all keyframes and landmarks of this segment, as if they had never been added;
   /// `median_depth`: that before them.
   void discard(double median_depth);
@@ -67,22 +68,22 @@ class LocalMap {
     Matrix6d information = Matrix6d::Zero();  ///< right tangent of T_id_next
     double sigma_log_scale = 0;
   };
-  Link link(std::int64_t id) const;
+  Link link(KeyframeId id) const;
   /// The same information of the motion between any two keyframes of the window, everything between
   /// them marginalized.
-  Matrix6d motion_information(std::int64_t from, std::int64_t to) const;
+  Matrix6d motion_information(KeyframeId from, KeyframeId to) const;
 
   /// Newest estimate T_odom_cam of a keyframe of this segment.
-  SE3 pose(std::int64_t keyframe) const { return poses_.at(keyframe); }
-  bool empty() const { return next_ == first_; }     ///< no keyframe in this segment yet
-  std::int64_t first() const { return first_; }      ///< id of the segment's first keyframe
-  std::int64_t newest() const { return next_ - 1; }  ///< id of its last one, if it is not empty
+  SE3 pose(KeyframeId keyframe) const { return poses_.at(keyframe); }
+  bool empty() const { return next_ == first_; }  ///< no keyframe in this segment yet
+  KeyframeId first() const { return first_; }     ///< the segment's first keyframe
+  KeyframeId newest() const { return back(1); }   ///< its last one, if it is not empty
   /// The keyframe before the newest one; nothing if that is the first of the segment.
-  std::optional<std::int64_t> before_newest() const {
-    return next_ - first_ < 2 ? std::nullopt : std::optional(next_ - 2);
+  std::optional<KeyframeId> before_newest() const {
+    return back(2) < first_ ? std::nullopt : std::optional(back(2));
   }
   /// The oldest keyframe of the window; nothing while there is none.
-  std::optional<std::int64_t> window_begin() const;
+  std::optional<KeyframeId> window_begin() const;
   /// Points and lines of the window.
   int landmarks_in_window() const;
   /// All landmarks of all segments, each relative to the keyframe that first saw it, from the
@@ -95,7 +96,9 @@ class LocalMap {
   const SlidingWindow& window() const { return window_; }
 
  private:
-  PointLandmark describe(std::int64_t landmark) const;
+  /// So many keyframes before the next one.
+  KeyframeId back(int keyframes) const { return KeyframeId(next_.value() - keyframes); }
+  PointLandmark describe(LandmarkId landmark) const;
   double scale_drift() const;
   void widen_link_to_oldest();
 
@@ -104,9 +107,9 @@ class LocalMap {
   SlidingWindow window_;
   Scale scale_;
   double median_depth_ = kUnknownDepth;
-  std::int64_t first_ = 0, next_ = 0;
-  std::map<std::int64_t, SE3> poses_;
-  std::map<std::int64_t, Link> links_;         // of keyframes that left the window
+  KeyframeId first_, next_;
+  std::map<KeyframeId, SE3> poses_;
+  std::map<KeyframeId, Link> links_;           // of keyframes that left the window
   std::vector<PointLandmark> past_landmarks_;  // that left the window
 };
 

@@ -28,7 +28,7 @@ void MetricScale::reset() {
   if (floor_) floor_->reset();
 }
 
-void MetricScale::remember(std::int64_t keyframe, const Frame& frame) {
+void MetricScale::remember(KeyframeId keyframe, const Frame& frame) {
   stamps_ns_[keyframe] = frame.stamp_ns;
   if (ground_) frames_[keyframe] = frame;
 }
@@ -66,10 +66,10 @@ std::optional<Rescale> MetricScale::measure_ground(const KeyframeImages& images,
                                                    LocalMap& map) {
   constexpr double kAnyBaseline = 1e-6;  // while the unit of length is arbitrary
   SlidingWindow& window = map.window();
-  const std::int64_t current = map.newest();
+  const KeyframeId current = map.newest();
   const bool known = map.metric();
   // The newest keyframe that is far enough away.
-  std::optional<std::int64_t> old;
+  std::optional<KeyframeId> old;
   SE3 T_old_new;
   for (const auto& [id, frame] : frames_) {
     const SE3 T = window.pose(id).inverse() * window.pose(current);
@@ -98,12 +98,12 @@ std::optional<Rescale> MetricScale::measure_ground(const KeyframeImages& images,
 
 std::optional<Rescale> MetricScale::measure_floor(const Cues& cues, LocalMap& map) {
   SlidingWindow& window = map.window();
-  const std::int64_t current = map.newest();
+  const KeyframeId current = map.newest();
   const bool known = map.metric();
   const auto measured = floor_->measure(window.pose(current), cues.lines->placed(window),
                                         cues.lines->shared_directions(), known);
   constexpr std::int64_t kLong = 30;  // keyframes
-  if (!measured && !known && current - map.first() == kLong)
+  if (!measured && !known && current.value() - map.first().value() == kLong)
     log(log_, LogLevel::kWarning,
         "no floor has given the unit in {} keyframes: camera_height_m is of no use so far, poses "
         "wait for it",
@@ -112,9 +112,9 @@ std::optional<Rescale> MetricScale::measure_floor(const Cues& cues, LocalMap& ma
   std::optional<Rescale> rescale;
   if (!known) rescale = map.rescale(measured->factor);
   // The newest keyframe that is far enough away; the first one, to begin with.
-  std::optional<std::int64_t> old;
+  std::optional<KeyframeId> old;
   const Eigen::Vector3d here = window.pose(current).translation();
-  for (const std::int64_t id : window.keyframes()) {
+  for (const KeyframeId id : window.keyframes()) {
     const double length = (window.pose(id).translation() - here).norm();
     if (length >= floor_->min_baseline_m() || (!known && !old && length > 0)) old = id;
   }
@@ -128,8 +128,8 @@ std::optional<Rescale> MetricScale::measure_floor(const Cues& cues, LocalMap& ma
 }
 
 /// The length of the measured motion between two keyframes of the window, with its deviation.
-std::optional<DistanceObservation> MetricScale::measured_distance(std::int64_t from,
-                                                                  std::int64_t to) const {
+std::optional<DistanceObservation> MetricScale::measured_distance(KeyframeId from,
+                                                                  KeyframeId to) const {
   constexpr double kLeastKnown = 0.5;  // deviation over length: beyond it there is hardly a motion
   const auto a = stamps_ns_.find(from), b = stamps_ns_.find(to);
   if (a == stamps_ns_.end() || b == stamps_ns_.end()) return std::nullopt;

@@ -1,8 +1,9 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/measurements/measured_motion.h>
-#include <placegraph/pipeline/lines/line_cue.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
+#include <placegraph/pipeline/lines/line_cue.h>
 #include <placegraph/pipeline/local_map/keyframe_masks.h>
 #include <placegraph/pipeline/local_map/local_map.h>
 #include <placegraph/pipeline/scale/floor_line_scale.h>
@@ -38,7 +39,7 @@ class MetricScale {
     const ManhattanCue* manhattan = nullptr;
   };
   /// Keeps a keyframe of the map, not the newest one, for later measurements.
-  void remember(std::int64_t keyframe, const Frame& frame);
+  void remember(KeyframeId keyframe, const Frame& frame);
   /// Measures at the newest keyframe of the map. Returns how its lengths have grown, if they have.
   std::optional<Rescale> measure(const KeyframeImages& images, const Cues& cues, LocalMap& map);
   /// Outline in the image of the ground plane that is measured; empty if there is none.
@@ -49,7 +50,7 @@ class MetricScale {
                                         LocalMap& map);
   std::optional<Rescale> measure_floor(const Cues& cues, LocalMap& map);
   std::optional<Rescale> measure_motion(LocalMap& map);
-  std::optional<DistanceObservation> measured_distance(std::int64_t from, std::int64_t to) const;
+  std::optional<DistanceObservation> measured_distance(KeyframeId from, KeyframeId to) const;
   GroundSight ground_in(const KeyframeImages& images, const Cues& cues) const;
 
   LogSink log_;
@@ -57,8 +58,8 @@ class MetricScale {
   std::optional<FloorScale> floor_;
   std::shared_ptr<const MeasuredMotion> motion_;
   bool height_trusted_ = true;
-  std::map<std::int64_t, std::int64_t> stamps_ns_;  // of the segment's keyframes
-  std::map<std::int64_t, Frame> frames_;            // of the window, where the ground is measured
+  std::map<KeyframeId, std::int64_t> stamps_ns_;  // of the segment's keyframes
+  std::map<KeyframeId, Frame> frames_;            // of the window, where the ground is measured
 };
 
 }  // namespace placegraph

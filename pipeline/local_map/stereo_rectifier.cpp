@@ -49,7 +49,7 @@ StereoRectifier::StereoRectifier(const RectificationOptions& options,
 
 /// Nothing where the motion does not tell the disparity to twice its own noise.
 std::optional<DisparitySample> StereoRectifier::sample(const SlidingWindow& window,
-                                                       std::int64_t landmark) const {
+                                                       LandmarkId landmark) const {
   const auto& observations = window.observations(landmark);
   const WindowObservation& newest = observations.back();
   const auto ray = camera_.unproject(newest.px);
@@ -69,8 +69,8 @@ std::optional<DisparitySample> StereoRectifier::sample(const SlidingWindow& wind
 void StereoRectifier::calibrate(SlidingWindow& window, LineCue* lines) {
   constexpr std::size_t kViews = 4;
   std::vector<DisparitySample> samples;
-  std::set<std::int64_t> used;
-  for (const std::int64_t id : window.landmarks()) {
+  std::set<LandmarkId> used;
+  for (const LandmarkId id : window.landmarks()) {
     if (used_.count(id)) {
       used.insert(id);
     } else if (window.observations(id).size() >= kViews) {
@@ -94,7 +94,7 @@ void StereoRectifier::revise_disparities(SlidingWindow& window,
                                          const RectificationError& before) const {
   const RectificationError now = error();
   const double per_px = 1 / (camera_.fx * baseline_m_);
-  for (const std::int64_t id : window.landmarks())
+  for (const LandmarkId id : window.landmarks())
     for (const WindowObservation& o : window.observations(id)) {
       const auto ray = camera_.unproject(o.px);
       if (!o.inverse_depth || !ray) continue;

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/features/rectification.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/pipeline/lines/line_cue.h>
 
@@ -25,13 +26,13 @@ class StereoRectifier {
   void calibrate(SlidingWindow& window, LineCue* lines);
 
  private:
-  std::optional<DisparitySample> sample(const SlidingWindow& window, std::int64_t landmark) const;
+  std::optional<DisparitySample> sample(const SlidingWindow& window, LandmarkId landmark) const;
   void revise_disparities(SlidingWindow& window, const RectificationError& before) const;
 
   Camera camera_;
   double baseline_m_, sigma_track_px_, sigma_disparity_px_;
   RectificationEstimator estimator_;
-  std::set<std::int64_t> used_;  // landmarks of the window that have been samples
+  std::set<LandmarkId> used_;  // landmarks of the window that have been samples
 };
 
 }  // namespace placegraph

@@ -43,7 +43,7 @@ std::vector<Feature> KeyframeDescriber::features(const Frame& frame) const {
   return features;
 }
 
-DescribedKeyframe KeyframeDescriber::describe(std::int64_t keyframe, const Frame& frame,
+DescribedKeyframe KeyframeDescriber::describe(KeyframeId keyframe, const Frame& frame,
                                               std::vector<LineFeature> lines) const {
   DescribedKeyframe described{keyframe, frame.id, features(frame), std::move(lines)};
   std::vector<LineSegment> segments;

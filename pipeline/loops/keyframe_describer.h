@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/frontend/places/verification/loop_verifier.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/loops/loop_options.h>
@@ -10,7 +11,8 @@ namespace placegraph {
 
 /// A keyframe as place recognition and loop verification see it.
 struct DescribedKeyframe {
-  std::int64_t keyframe, frame;
+  KeyframeId keyframe;
+  FrameId frame;
   std::vector<Feature> features;
   std::vector<LineFeature> lines;  ///< not those of a map that was read
   LoopView for_verification() const { return {features, lines}; }
@@ -33,7 +35,7 @@ class KeyframeDescriber {
   /// [m].
   std::vector<Feature> features(const Frame& frame) const;
   /// The same with lines that the odometry follows there; their descriptors are made here.
-  DescribedKeyframe describe(std::int64_t keyframe, const Frame& frame,
+  DescribedKeyframe describe(KeyframeId keyframe, const Frame& frame,
                              std::vector<LineFeature> lines) const;
   /// Depth by parallax between neighbours, the same way for one camera and for two: of the features
   /// that both see, where the rays meet at 0.7 degrees or more and within 2 px. A feature of the

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/graph/geometry/sim3.h>
 
@@ -22,15 +23,15 @@ struct PredictedMotion {
 };
 
 /// Of keyframes a and b; nothing where no unbroken run of tracking joins the two.
-using MotionBetween = std::function<std::optional<TrackedMotion>(std::int64_t a, std::int64_t b)>;
+using MotionBetween = std::function<std::optional<TrackedMotion>(KeyframeId a, KeyframeId b)>;
 
 /// What is asked about two keyframes while revisits are sought; without an answer to give, nothing
 /// is checked by it.
 struct KnownMotions {
   MotionBetween odometry;
-  std::function<std::optional<PredictedMotion>(std::int64_t a, std::int64_t b)> map;
+  std::function<std::optional<PredictedMotion>(KeyframeId a, KeyframeId b)> map;
   /// Whether the two have scales of their own, so that a loop between them must tell their ratio.
-  std::function<bool(std::int64_t a, std::int64_t b)> scale_differs;
+  std::function<bool(KeyframeId a, KeyframeId b)> scale_differs;
 };
 
 }  // namespace placegraph

@@ -31,12 +31,12 @@ LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibratio
   records_ = map.loops;
 }
 
-const LoopCloser::View& LoopCloser::view(std::int64_t keyframe) const {
+const LoopCloser::View& LoopCloser::view(KeyframeId keyframe) const {
   return *std::lower_bound(views_.begin(), views_.end(), keyframe,
-                           [](const View& v, std::int64_t id) { return v.keyframe < id; });
+                           [](const View& v, KeyframeId id) { return v.keyframe < id; });
 }
 
-void LoopCloser::add_view(std::int64_t keyframe, const Frame& frame,
+void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
                           const std::optional<SE3>& T_previous_this,
                           std::vector<LineFeature> lines) {
   View view = describer_.describe(keyframe, frame, std::move(lines));
@@ -54,9 +54,10 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve() const {
       views_.size() < 2 ? 0
                         : database_.similarity(query.features, views_[views_.size() - 2].keyframe);
   std::vector<Candidate> candidates;
-  for (const PlaceCandidate& candidate : database_.query(
-           query.features, options_.candidates,
-           [&](std::int64_t id) { return query.frame - view(id).frame >= options_.min_frame_gap; }))
+  for (const PlaceCandidate& candidate :
+       database_.query(query.features, options_.candidates, [&](KeyframeId id) {
+         return query.frame.value() - view(id).frame.value() >= options_.min_frame_gap;
+       }))
     candidates.push_back(
         {&view(candidate.id), similarity_to_last > 0 ? candidate.score / similarity_to_last : 1});
   return candidates;
@@ -66,7 +67,8 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve() const {
 std::optional<Loop> LoopCloser::verify(const View& match, bool free_scale,
                                        LoopRecord& record) const {
   const View& query = views_.back();
-  Random random(seed_, static_cast<std::uint64_t>(query.frame) << 20 | match.keyframe);
+  Random random(seed_, static_cast<std::uint64_t>(query.frame.value()) << 20 |
+                           static_cast<std::uint64_t>(match.keyframe.value()));
   const LoopVerification verified =
       verify_loop(describer_.camera(), query.for_verification(), match.for_verification(),
                   options_.verifier, random, free_scale);
@@ -83,7 +85,7 @@ std::optional<Loop> LoopCloser::verify(const View& match, bool free_scale,
 /// test that decided.
 std::optional<Loop> LoopCloser::judge(const Candidate& candidate, const KnownMotions& known,
                                       double median_depth_m, LoopRecord& record) const {
-  const std::int64_t match = candidate.match->keyframe, query = views_.back().keyframe;
+  const KeyframeId match = candidate.match->keyframe, query = views_.back().keyframe;
   record.stage = LoopStage::kRetrieval;
   if (candidate.similarity < options_.min_similarity) return std::nullopt;
 
@@ -158,33 +160,35 @@ std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double media
   return accepted;
 }
 
-std::optional<Loop> LoopCloser::relocalize(const Frame& frame, std::size_t last_views) const {
-  std::vector<std::int64_t> tries;
+std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
+                                                   std::size_t last_views) const {
+  std::vector<KeyframeId> tries;
   for (std::size_t back = 1; back <= last_views && back <= views_.size(); ++back)
     tries.push_back(views_[views_.size() - back].keyframe);
   return relocalize(frame, std::move(tries));
 }
 
-std::optional<Loop> LoopCloser::relocalize(const Frame& frame,
-                                           std::vector<std::int64_t> tries) const {
+std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
+                                                   std::vector<KeyframeId> tries) const {
   if (views_.empty()) return std::nullopt;
   const std::vector<Feature> features = describer_.features(frame);
   for (const PlaceCandidate& c :
-       database_.query(features, options_.candidates, [](std::int64_t) { return true; }))
+       database_.query(features, options_.candidates, [](KeyframeId) { return true; }))
     if (std::find(tries.begin(), tries.end(), c.id) == tries.end()) tries.push_back(c.id);
-  for (const std::int64_t id : tries) {
-    Random random(seed_, static_cast<std::uint64_t>(frame.id) << 20 | id);
+  for (const KeyframeId id : tries) {
+    Random random(seed_, static_cast<std::uint64_t>(frame.id.value()) << 20 |
+                             static_cast<std::uint64_t>(id.value()));
     const LoopVerification verified = verify_loop(
         describer_.camera(), features, view(id).for_verification(), options_.verifier, random);
     // No second loop stands beside this one: two views and a few depths are not enough.
     if (verified.outcome && verified.model == LoopModel::kPoints3d2d)
-      return Loop{-1, id, verified.T_match_query,
-                  options_.information_scale * verified.information};
+      return LocatedFrame{id, verified.T_match_query,
+                          options_.information_scale * verified.information};
   }
   return std::nullopt;
 }
 
-void LoopCloser::rescale(double factor, std::int64_t first_keyframe) {
+void LoopCloser::rescale(double factor, KeyframeId first_keyframe) {
   for (View& view : views_)
     if (view.keyframe >= first_keyframe) placegraph::rescale(view, factor);
   // Loops measured in the old unit may not meet those of the new one.

@@ -1,10 +1,12 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/frontend/lines/line_feature.h>
 #include <placegraph/frontend/places/place_database.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/pipeline/loops/keyframe_describer.h>
 #include <placegraph/pipeline/loops/keyframe_motion.h>
+#include <placegraph/pipeline/loops/located_frame.h>
 #include <placegraph/pipeline/loops/loop_options.h>
 
 #include <deque>
@@ -26,25 +28,23 @@ class LoopCloser {
   /// Describes a keyframe. `T_previous_this`, if there is a predecessor in the same run of
   /// tracking, gives depth to the features both see. `lines`: those that the odometry follows
   /// there; their descriptors are made here.
-  void add_view(std::int64_t keyframe, const Frame& frame,
-                const std::optional<SE3>& T_previous_this, std::vector<LineFeature> lines = {});
+  void add_view(KeyframeId keyframe, const Frame& frame, const std::optional<SE3>& T_previous_this,
+                std::vector<LineFeature> lines = {});
   /// Revisits that the newest view completes.
   std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
-  /// Where a frame stands relative to a known keyframe: T_match_query of the frame; `query` is -1,
-  /// as the frame is no keyframe. The last views are tried first: most losses are short.
-  std::optional<Loop> relocalize(const Frame& frame, std::size_t last_views = 3) const;
+  /// Where a frame stands relative to a known keyframe. The last views are tried first: most losses
+  /// are short.
+  std::optional<LocatedFrame> relocalize(const Frame& frame, std::size_t last_views = 3) const;
   /// The same with these keyframes tried first.
-  std::optional<Loop> relocalize(const Frame& frame, std::vector<std::int64_t> tries) const;
+  std::optional<LocatedFrame> relocalize(const Frame& frame, std::vector<KeyframeId> tries) const;
 
   const std::vector<View>& views() const { return views_; }
   const std::vector<LoopRecord>& records() const { return records_; }
   /// Of a view, by the vocabulary as it stands; it is another one after every training.
-  const Appearance& appearance(std::int64_t keyframe) const {
-    return database_.appearance(keyframe);
-  }
+  const Appearance& appearance(KeyframeId keyframe) const { return database_.appearance(keyframe); }
   std::size_t trained_views() const { return database_.trained_views(); }
   /// The scale of the map became known: depths of all features grow with it.
-  void rescale(double factor, std::int64_t first_keyframe);
+  void rescale(double factor, KeyframeId first_keyframe);
 
  private:
   struct Candidate {
@@ -61,7 +61,7 @@ class LoopCloser {
                             double median_depth_m, LoopRecord& record) const;
   std::vector<Loop> support(const MotionBetween& odometry, double median_depth_m);
   void accept(const Pending& pending, std::vector<Loop>& accepted);
-  const View& view(std::int64_t keyframe) const;
+  const View& view(KeyframeId keyframe) const;
 
   LoopOptions options_;
   KeyframeDescriber describer_;

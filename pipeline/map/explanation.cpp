@@ -8,16 +8,16 @@ namespace placegraph {
 namespace {
 
 /// Of a place's pose; nothing where the graph does not hold it, or is over similarities.
-std::optional<Matrix6d> covariance_of(const PlaceGraph& places, std::int64_t place) {
+std::optional<Matrix6d> covariance_of(const PlaceGraph& places, PlaceId place) {
   const PoseGraph graph = places.pose_graph();
   if (graph.kind() != PoseKind::kSE3) return std::nullopt;
   const PoseMarginals marginals(graph);
   if (!marginals.outcome()) return std::nullopt;
-  return Matrix6d(marginals.covariance(place));
+  return Matrix6d(marginals.covariance(node_of_place(place)));
 }
 
 void place_frame(const Map& map, const FrameRecord& record, Explanation& told) {
-  const Keyframe& keyframe = *map.find_keyframe(record.keyframe);
+  const Keyframe& keyframe = *map.find_keyframe(record.keyframe.value());
   const Place& place = *map.place_graph.find(keyframe.place);
   const Sim3 S_map_keyframe = map.S_map_keyframe(keyframe.id);
   const Sim3 S_map_cam = S_map_keyframe * Sim3(*record.T_keyframe_frame);
@@ -41,29 +41,27 @@ void place_frame(const Map& map, const FrameRecord& record, Explanation& told) {
       std::count_if(keyframe.features.begin(), keyframe.features.end(),
                     [](const Feature& feature) { return feature.point_cam.has_value(); }));
   for (const RelativePoseConstraint& constraint : map.place_graph.constraints)
-    if (constraint.from == place.id || constraint.to == place.id)
+    if (place_of_node(constraint.from) == place.id || place_of_node(constraint.to) == place.id)
       ++told.constraints[to_string(constraint.source)];
 }
 
 }  // namespace
 
-std::optional<Explanation> explain_frame(const Map& map, std::int64_t frame) {
+std::optional<Explanation> explain_frame(const Map& map, FrameId frame) {
   const auto record =
       std::lower_bound(map.frames.begin(), map.frames.end(), frame,
-                       [](const FrameRecord& r, std::int64_t id) { return r.frame < id; });
+                       [](const FrameRecord& r, FrameId id) { return r.frame < id; });
   if (record == map.frames.end() || record->frame != frame) return std::nullopt;
   Explanation told;
   told.frame = record->frame;
   told.stamp_ns = record->stamp_ns;
   told.inliers = record->inliers;
-  std::int64_t frame_of_keyframe = frame;
+  FrameId frame_of_keyframe = frame;
   if (record->T_keyframe_frame) {
     place_frame(map, *record, told);
-    frame_of_keyframe = map.find_keyframe(record->keyframe)->frame;
+    frame_of_keyframe = map.find_keyframe(*record->keyframe)->frame;
   }
-  const auto about = [&](std::int64_t other) {
-    return other == frame || other == frame_of_keyframe;
-  };
+  const auto about = [&](FrameId other) { return other == frame || other == frame_of_keyframe; };
   for (const LoopRecord& loop : map.loops) {
     if (loop.accepted() && (about(loop.query_frame) || about(loop.match_frame)))
       told.loops.push_back(loop);

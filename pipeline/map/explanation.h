@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 
 #include <map>
@@ -10,11 +11,13 @@ namespace placegraph {
 
 /// What a map tells of one frame.
 struct Explanation {
-  std::int64_t frame = 0, stamp_ns = 0;
+  FrameId frame;
+  std::int64_t stamp_ns = 0;
   bool posed = false;
 
   // Where it is; of a posed frame.
-  std::int64_t keyframe = -1, place = -1;
+  std::optional<KeyframeId> keyframe;
+  std::optional<PlaceId> place;
   std::vector<std::string> labels;  ///< of the place
   int component = 0;
   SE3 T_map_cam;
@@ -35,6 +38,6 @@ struct Explanation {
 };
 
 /// Nothing if the map has no such frame.
-std::optional<Explanation> explain_frame(const Map& map, std::int64_t frame);
+std::optional<Explanation> explain_frame(const Map& map, FrameId frame);
 
 }  // namespace placegraph

@@ -36,18 +36,18 @@ StoredMap learn_map(std::size_t count, const std::function<Image(std::size_t)>& 
   std::size_t anchor = 0;
   auto& places = stored.map.place_graph.places;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto id = static_cast<std::int64_t>(i);
+    const KeyframeId id(i);
     if (i == 0 || (i > anchor + 1 && alike(i, anchor) < options.alike * alike(i, i - 1))) {
       anchor = i;
       Place& place = places.emplace_back();
-      place.id = static_cast<std::int64_t>(places.size()) - 1;
+      place.id = PlaceId(places.size() - 1);
       place.anchor_keyframe = id;
     }
     places.back().members.push_back({id, SE3(), 1});
     Keyframe keyframe;
     keyframe.id = id;
-    keyframe.frame = first + id;
-    keyframe.stamp_ns = first + id;
+    keyframe.frame = FrameId(first + id.value());
+    keyframe.stamp_ns = first + id.value();
     keyframe.place = places.back().id;
     keyframe.view = views[i];
     stored.map.frames.push_back({keyframe.frame, keyframe.stamp_ns, id, std::nullopt});

@@ -25,8 +25,9 @@ struct MapLocalizer::Impl {
   std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
                                      bool sequence) const;
   Localization described(const ViewAnswer& answer, double probability) const;
-  std::optional<Loop> verify(const Frame& frame, const std::vector<PlaceLikeness>& list) const;
-  void take_geometry(const Loop& loop, Localization& result) const;
+  std::optional<LocatedFrame> verify(const Frame& frame,
+                                     const std::vector<PlaceLikeness>& list) const;
+  void take_geometry(const LocatedFrame& located, Localization& result) const;
   const Keyframe& keyframe_of(int view) const;
 
   LocalizerOptions options_;
@@ -35,7 +36,7 @@ struct MapLocalizer::Impl {
   PlaceRecognizer recognizer_;
   std::vector<int> keyframes_;  ///< of the views, indices in the map's
   int lag_ = 1;                 ///< views so far apart look like any others
-  std::set<std::pair<std::int64_t, std::int64_t>> adjacent_;  ///< places
+  std::set<std::pair<PlaceId, PlaceId>> adjacent_;  ///< places
   std::optional<LoopCloser> closer_;
 };
 
@@ -99,8 +100,9 @@ std::vector<PlaceLikeness> MapLocalizer::Impl::likenesses(const PlaceView& view)
 
 void MapLocalizer::Impl::learn_near() {
   for (const RelativePoseConstraint& edge : stored_.map.place_graph.constraints) {
-    adjacent_.emplace(edge.from, edge.to);
-    adjacent_.emplace(edge.to, edge.from);
+    const PlaceId from = place_of_node(edge.from), to = place_of_node(edge.to);
+    adjacent_.emplace(from, to);
+    adjacent_.emplace(to, from);
   }
   lag_ = lag_of_likeness();
 }
@@ -129,7 +131,7 @@ int MapLocalizer::Impl::lag_of_likeness() const {
 
 bool MapLocalizer::Impl::near(int a, int b) const {
   if (std::abs(a - b) <= lag_) return true;
-  const std::int64_t at = keyframe_of(a).place, other = keyframe_of(b).place;
+  const PlaceId at = keyframe_of(a).place, other = keyframe_of(b).place;
   return at == other || adjacent_.count({at, other}) > 0;
 }
 
@@ -193,7 +195,7 @@ Localization MapLocalizer::Impl::described(const ViewAnswer& answer, double prob
 std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const Frames& frames,
                                                  bool sequence) const {
   std::vector<std::vector<PlaceLikeness>> lists;
-  std::vector<std::optional<Loop>> verified;
+  std::vector<std::optional<LocatedFrame>> verified;
   std::vector<std::string> hindrances;
   for (std::size_t i = 0; i < count; ++i) {
     const Frame frame = frames(i);
@@ -227,10 +229,10 @@ std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const 
   return result;
 }
 
-std::optional<Loop> MapLocalizer::Impl::verify(const Frame& frame,
-                                         const std::vector<PlaceLikeness>& list) const {
+std::optional<LocatedFrame> MapLocalizer::Impl::verify(
+    const Frame& frame, const std::vector<PlaceLikeness>& list) const {
   constexpr std::size_t kTries = 3;
-  std::vector<std::int64_t> tries;
+  std::vector<KeyframeId> tries;
   for (std::size_t i = 0; i < std::min(kTries, list.size()); ++i)
     tries.push_back(keyframe_of(list[i].view).id);
   return closer_->relocalize(frame, std::move(tries));
@@ -238,11 +240,11 @@ std::optional<Loop> MapLocalizer::Impl::verify(const Frame& frame,
 
 /// Features agree with a pose by chance once in a thousand images, or less; what whole views say
 /// counts beside that, for the same place or against another.
-void MapLocalizer::Impl::take_geometry(const Loop& loop, Localization& result) const {
+void MapLocalizer::Impl::take_geometry(const LocatedFrame& located, Localization& result) const {
   constexpr double kOddsOfVerified = 1000, kSurest = 1 - 1e-9;
-  const Keyframe& match = *stored_.map.find_keyframe(loop.match);
-  const bool agree =
-      result.place == match.place || adjacent_.count({result.place, match.place}) > 0;
+  const Keyframe& match = *stored_.map.find_keyframe(located.match);
+  const bool agree = result.place && (*result.place == match.place ||
+                                      adjacent_.contains({*result.place, match.place}));
   const double p = std::clamp(result.probability, 1 - kSurest, kSurest);
   const double odds = kOddsOfVerified * (agree ? p / (1 - p) : (1 - p) / p);
   result.probability = odds / (1 + odds);
@@ -252,7 +254,7 @@ void MapLocalizer::Impl::take_geometry(const Loop& loop, Localization& result) c
   result.frame = match.frame;
   result.stage = "geometry";
   if (!result.placed) return;
-  const Sim3 S_map_cam = stored_.map.S_map_keyframe(match.id) * Sim3(loop.T_match_query);
+  const Sim3 S_map_cam = stored_.map.S_map_keyframe(match.id) * Sim3(located.T_match_query);
   result.T_map_cam = SE3(S_map_cam.rotation(), S_map_cam.translation());
 }
 

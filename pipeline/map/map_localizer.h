@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/io/map/stored_map.h>
 #include <placegraph/pipeline/map/map_options.h>
@@ -15,7 +16,9 @@ namespace placegraph {
 /// Where an image was taken, or why that is not said.
 struct Localization {
   bool placed = false;
-  std::int64_t place = -1, keyframe = -1, frame = -1;  ///< of the map; the best guess if refused
+  std::optional<PlaceId> place;  ///< of the map, as the next two; the best guess if refused
+  std::optional<KeyframeId> keyframe;
+  std::optional<FrameId> frame;
   double probability = 0;
   /// The test that decided: "geometry" and "appearance" of placed ones; of others "blank" (there is
   /// nothing to compare), "calibration" (the map's views do not tell how wrong answers look),

@@ -12,7 +12,7 @@ std::vector<PlaceLabel> label_places(const Map& map, const PlaceClassifier& clas
     Eigen::VectorXd probabilities;
     int views = 0;
   };
-  std::unordered_map<std::int64_t, Votes> votes;
+  std::unordered_map<PlaceId, Votes> votes;
   for (const Keyframe& keyframe : map.keyframes) {
     const Eigen::VectorXd told = classifier.classify(describe_for_classes(image_of(keyframe)));
     Votes& of_place = votes[keyframe.place];

@@ -1,17 +1,19 @@
 #pragma once
 #include <placegraph/pipeline/map/map_options.h>
 #include <placegraph/frontend/places/classifiers/place_classifier.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 
 #include <functional>
+#include <optional>
 
 namespace placegraph {
 
 /// What a classifier says of a place.
 struct PlaceLabel {
-  std::int64_t place = 0;
-  int label = -1;          ///< -1: none is probable enough
-  double probability = 0;  ///< of the likeliest, mean over its views
+  PlaceId place;
+  std::optional<int> label;  ///< nothing: none is probable enough
+  double probability = 0;    ///< of the likeliest, mean over its views
   int views = 0;
 };
 

@@ -16,6 +16,11 @@ std::vector<std::size_t> spread(std::size_t n, std::size_t most) {
   return chosen;
 }
 
+/// Of a segment: its first keyframe has number 0.
+KeyframeId nth_keyframe(const LocalMap& map, std::size_t n) {
+  return KeyframeId(map.first().value() + static_cast<std::int64_t>(n));
+}
+
 }  // namespace
 
 LineViewInitializer::LineViewInitializer(const OdometryOptions& options,
@@ -66,7 +71,7 @@ Initialization LineViewInitializer::add(const Frame& frame, const std::optional<
   if (views_.size() > kMostViews) views_.erase(views_.begin() + 1);
   const Initialization waits = Initialization::waiting("waits for more views of the lines");
   if (views_.size() < kLeastViews) return waits;
-  const LineInitialization start = motion_of_views(static_cast<std::uint64_t>(frame.id));
+  const LineInitialization start = motion_of_views(static_cast<std::uint64_t>(frame.id.value()));
   const std::vector<double> depths = depths_of(start);
   if (!start.outcome || depths.empty()) {
     log(log_, LogLevel::kDebug, "initialization waits: {}", start.outcome.reason);
@@ -134,7 +139,7 @@ bool LineViewInitializer::add_keyframes(const std::vector<std::size_t>& chosen,
   const LineCue before = lines;
   const double depth_before = map.median_depth();
   for (const std::size_t v : chosen) {
-    const std::int64_t id = map.add_keyframe(T_odom_start_ * start.T_ref_view[v].scaled(scale));
+    const KeyframeId id = map.add_keyframe(T_odom_start_ * start.T_ref_view[v].scaled(scale));
     lines.observe_earlier(id, views_[v].lines, map.window());
     lines.hold_course(id, median_depth, map.window());
   }
@@ -154,7 +159,7 @@ bool LineViewInitializer::motion_is_known(const std::vector<std::size_t>& chosen
   constexpr double kMostRotatedRad = 0.01;
   constexpr double kLeastKnown = 0.02;  // of the ratio of two lengths (logarithm)
   const SlidingWindow& window = map.window();
-  const std::int64_t middle = map.first() + static_cast<std::int64_t>(chosen.size() / 2);
+  const KeyframeId middle = nth_keyframe(map, chosen.size() / 2);
   // Rotations and translations that look alike are told apart by the directions, which the bundle
   // adjustment must not contradict.
   const SO3 R_odom_last = T_odom_start_.rotation() * start.T_ref_view[chosen.back()].rotation();
@@ -169,7 +174,7 @@ Initialization LineViewInitializer::accept(const std::vector<std::size_t>& chose
                                            LocalMapping& mapping) {
   if (mapping.scale().available()) {
     for (std::size_t i = 0; i + 1 < chosen.size(); ++i)
-      mapping.scale().remember(map.first() + static_cast<std::int64_t>(i), views_[chosen[i]].frame);
+      mapping.scale().remember(nth_keyframe(map, i), views_[chosen[i]].frame);
     const Frame& newest = views_.back().frame;
     mapping.measure_scale({newest, newest.mask, nullptr}, tracker_, map);  // not announced yet
     mapping.refine(tracker_, map);
@@ -177,8 +182,7 @@ Initialization LineViewInitializer::accept(const std::vector<std::size_t>& chose
   Initialization begun;
   begun.state = TrackingState::kTracking;
   for (std::size_t i = 0; i < chosen.size(); ++i)
-    begun.keyframes.push_back(
-        {map.first() + static_cast<std::int64_t>(i), views_[chosen[i]].frame});
+    begun.keyframes.push_back({nth_keyframe(map, i), views_[chosen[i]].frame});
   begun.posed = views_between(chosen, start, map);
   const SE3 T_before_last =
       map.window().pose(*map.before_newest()).inverse() * map.window().pose(map.newest());
@@ -199,7 +203,7 @@ std::vector<PosedFrame> LineViewInitializer::views_between(const std::vector<std
   std::vector<PosedFrame> posed;
   for (std::size_t i = 0; i + 1 < chosen.size(); ++i) {
     const SE3& T_ref_before = start.T_ref_view[chosen[i]];
-    const SE3 T_odom_before = map.window().pose(map.first() + static_cast<std::int64_t>(i));
+    const SE3 T_odom_before = map.window().pose(nth_keyframe(map, i));
     for (std::size_t v = chosen[i] + 1; v < chosen[i + 1]; ++v) {
       const SE3 T = T_ref_before.inverse() * start.T_ref_view[v];
       posed.emplace_back(views_[v].frame.id, T_odom_before * T.scaled(scale));

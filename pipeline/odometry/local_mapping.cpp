@@ -47,11 +47,11 @@ void LocalMapping::assume(const std::optional<Assumptions>& assumptions) {
 
 std::optional<LocalMapping::Added> LocalMapping::add(const Frame& frame, const SE3& T_odom_cam,
                                                      FrameTracker& tracker, LocalMap& map) {
-  Random random(seed_, frame.id);
+  Random random(seed_, static_cast<std::uint64_t>(frame.id.value()));
   const KeyframeImages images = masks_.apply(frame);
   const auto T_odom_keyframe = tracker.prepare_keyframe(images, T_odom_cam, map, random);
   if (!T_odom_keyframe) return std::nullopt;
-  const std::int64_t id = map.add_keyframe(*T_odom_keyframe);
+  const KeyframeId id = map.add_keyframe(*T_odom_keyframe);
   tracker.observe(images, rectification(), map, random);
   Added added{{id, images.frame, images.labels}, {}, measure_scale(images, tracker, map)};
   refine(tracker, map);

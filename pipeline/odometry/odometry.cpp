@@ -30,7 +30,7 @@ OdometryUpdate Odometry::add_frame(const Frame& frame, const std::optional<SE3>&
 
 OdometryUpdate Odometry::track(const Frame& frame) {
   const auto span = times_.measure(tracker_->stage());
-  Random random(seed_, frame.id);
+  Random random(seed_, static_cast<std::uint64_t>(frame.id.value()));
   OdometryUpdate update;
 
   // 1. Pose the frame against the local map, from where the motion model expects it.

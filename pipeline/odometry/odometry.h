@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/odometry/initializer.h>
 
 #include <memory>
@@ -31,7 +32,7 @@ class Odometry {
                const std::optional<double>& median_depth = {});
   /// Takes up another run: its next keyframe's id, and how far away things were. To be followed by
   /// restart().
-  void go_on_from(std::int64_t next_keyframe, double median_depth) {
+  void go_on_from(KeyframeId next_keyframe, double median_depth) {
     map_.go_on_from(next_keyframe, median_depth);
   }
 

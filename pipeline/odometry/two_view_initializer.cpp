@@ -47,7 +47,7 @@ std::string TwoViewInitializer::too_few_points() const {
                      tracker_.points().tracks().size(), 2 * options_.initializer.min_points);
 }
 
-TwoViewInitializer::View TwoViewInitializer::view_of(std::int64_t frame) const {
+TwoViewInitializer::View TwoViewInitializer::view_of(FrameId frame) const {
   View view{frame, {}};
   for (const PointTrack& track : tracker_.points().tracks())
     view.px[track.id] = track.px.cast<double>();
@@ -76,7 +76,7 @@ Initialization TwoViewInitializer::begin(const Frame& frame, LocalMapping& mappi
 Initialization TwoViewInitializer::try_second_view(const Frame& frame,
                                                    const std::optional<SE3>& T_known, LocalMap& map,
                                                    LocalMapping& mapping) {
-  Random random(seed_, frame.id);
+  Random random(seed_, static_cast<std::uint64_t>(frame.id.value()));
   views_.push_back(view_of(frame.id));
   const auto rotation = [&] { return tracker_.rotation_since(views_.front().px, random); };
   if (static_cast<int>(views_.back().px.size()) < 2 * options_.initializer.min_points)
@@ -102,7 +102,7 @@ Initialization TwoViewInitializer::try_second_view(const Frame& frame,
 /// however long the camera stood still, a few are enough.
 std::vector<PartialView> TwoViewInitializer::views_between() const {
   constexpr std::size_t kJudges = 16;
-  std::map<std::int64_t, int> index;
+  std::map<LandmarkId, int> index;
   const auto& tracks = tracker_.points().tracks();
   for (std::size_t i = 0; i < tracks.size(); ++i) index[tracks[i].id] = static_cast<int>(i);
   std::vector<PartialView> between;
@@ -147,8 +147,8 @@ Initialization TwoViewInitializer::accept(const Frame& frame, const MonoInitiali
                                           LocalMapping& mapping) {
   PointCue& points = tracker_.points();
   const KeyframeImages newest = mapping.masks().apply(frame);
-  const std::int64_t ref = map.add_keyframe(T_odom_start_);
-  const std::int64_t cur = map.add_keyframe(
+  const KeyframeId ref = map.add_keyframe(T_odom_start_);
+  const KeyframeId cur = map.add_keyframe(
       T_odom_start_ * SE3(start.T_ref_cur.rotation(), scale * start.T_ref_cur.translation()));
   std::vector<PointCue::TwoViewPoint> pairs;
   for (std::size_t i = 0; i < points.tracks().size(); ++i) {
@@ -216,7 +216,7 @@ Initialization TwoViewInitializer::wait(const Frame& frame, std::string reason, 
   // However long the camera stands: these views are posed, and few judges are enough.
   constexpr std::size_t kMostViews = 64;
   if (views_.size() > kMostViews) {
-    std::set<std::int64_t> posed;
+    std::set<FrameId> posed;
     for (const PosedFrame& rotated : rotated_) posed.insert(rotated.first);
     std::size_t k = 0;
     std::erase_if(views_, [&](const View& v) { return k++ % 2 == 1 && posed.contains(v.frame); });
@@ -230,7 +230,7 @@ Initialization TwoViewInitializer::replace_reference(const Frame& frame,
                                                      const std::optional<PureRotation>& rotation,
                                                      LocalMap& map, LocalMapping& mapping) {
   const std::string reason = too_few_points();
-  const std::int64_t reference = reference_.frame.id;
+  const FrameId reference = reference_.frame.id;
   const SE3 T_odom_before = T_odom_start_;
   views_.clear();
   tracker_.points().drop_tracks();

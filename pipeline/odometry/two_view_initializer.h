@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/frontend/relative_pose/mono_initializer.h>
 #include <placegraph/pipeline/odometry/initializer.h>
 #include <placegraph/pipeline/tracking/feature_tracker.h>
@@ -21,8 +22,8 @@ class TwoViewInitializer : public Initializer {
 
  private:
   struct View {
-    std::int64_t frame;
-    std::map<std::int64_t, Eigen::Vector2d> px;  // of its tracks
+    FrameId frame;
+    std::map<LandmarkId, Eigen::Vector2d> px;  // of its tracks
   };
   Initialization begin(const Frame& frame, LocalMapping& mapping);
   Initialization try_second_view(const Frame& frame, const std::optional<SE3>& T_known,
@@ -39,7 +40,7 @@ class TwoViewInitializer : public Initializer {
                                    const std::optional<PureRotation>& rotation, LocalMap& map,
                                    LocalMapping& mapping);
   std::string too_few_points() const;
-  View view_of(std::int64_t frame) const;
+  View view_of(FrameId frame) const;
 
   OdometryOptions options_;
   Camera camera_;

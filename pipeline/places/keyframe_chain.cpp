@@ -34,22 +34,21 @@ KeyframeChain::KeyframeChain(const std::vector<PlaceHistory::Keyframe>& keyframe
     : scale_known_(std::move(scale_known)) {
   for (const auto& [id, part, run, link] : keyframes) {
     require(run >= 0 && run < static_cast<int>(scale_known_.size()),
-            "KeyframeChain: keyframe " + std::to_string(id) + " is of an unknown run");
+            "KeyframeChain: keyframe " + to_string(id) + " is of an unknown run");
     insert(id, link, run);
   }
   chain_up(kBeforeAll);
 }
 
-void KeyframeChain::add(std::int64_t id, const std::optional<KeyframeLink>& link,
-                        bool scale_known) {
+void KeyframeChain::add(KeyframeId id, const std::optional<KeyframeLink>& link, bool scale_known) {
   const bool begins_run = !is_odometry(link) || !contains(link->from);
   insert(id, link, begins_run ? static_cast<int>(scale_known_.size()) : at(link->from).run);
   if (begins_run) scale_known_.push_back(scale_known);
   chain_up(id);
 }
 
-void KeyframeChain::insert(std::int64_t id, const std::optional<KeyframeLink>& link, int run) {
-  const std::string subject = "KeyframeChain: keyframe " + std::to_string(id);
+void KeyframeChain::insert(KeyframeId id, const std::optional<KeyframeLink>& link, int run) {
+  const std::string subject = "KeyframeChain: keyframe " + to_string(id);
   require(!contains(id), subject + " is there already");
   require(!link || (link->from < id && contains(link->from)),
           subject + " is linked to none before it");
@@ -59,7 +58,7 @@ void KeyframeChain::insert(std::int64_t id, const std::optional<KeyframeLink>& l
 }
 
 /// Brings poses and path lengths up to date, from keyframe `first` on.
-void KeyframeChain::chain_up(std::int64_t first) {
+void KeyframeChain::chain_up(KeyframeId first) {
   for (auto at = keyframes_.lower_bound(first); at != keyframes_.end(); ++at) {
     auto& [id, keyframe] = *at;
     if (!is_odometry(keyframe.link)) continue;
@@ -70,25 +69,25 @@ void KeyframeChain::chain_up(std::int64_t first) {
   }
 }
 
-void KeyframeChain::update_link(std::int64_t id, const SE3& T_from_this) {
+void KeyframeChain::update_link(KeyframeId id, const SE3& T_from_this) {
   auto& link = keyframes_.at(id).link;
   require(link.has_value(),
-          "KeyframeChain::update_link: keyframe " + std::to_string(id) + " has no link");
+          "KeyframeChain::update_link: keyframe " + to_string(id) + " has no link");
   link->T_from_this = T_from_this;
   chain_up(id);
 }
 
-void KeyframeChain::inform_link(std::int64_t id, const Matrix6d& information,
+void KeyframeChain::inform_link(KeyframeId id, const Matrix6d& information,
                                 double sigma_log_scale) {
   Keyframe& keyframe = keyframes_.at(id);
   require(keyframe.link.has_value(),
-          "KeyframeChain::inform_link: keyframe " + std::to_string(id) + " has no link");
+          "KeyframeChain::inform_link: keyframe " + to_string(id) + " has no link");
   keyframe.link->information = information;
   keyframe.link->sigma_log_scale = sigma_log_scale;
   keyframe.link_covariance = covariance_of_link(*keyframe.link);
 }
 
-void KeyframeChain::rescale(std::int64_t first, double factor) {
+void KeyframeChain::rescale(KeyframeId first, double factor) {
   const int run = at(first).run;
   scale_known_[run] = true;
   for (auto& [id, keyframe] : keyframes_) {
@@ -106,13 +105,13 @@ void KeyframeChain::rescale(std::int64_t first, double factor) {
   chain_up(kBeforeAll);
 }
 
-bool KeyframeChain::has_odometry(std::int64_t id) const { return is_odometry(at(id).link); }
+bool KeyframeChain::has_odometry(KeyframeId id) const { return is_odometry(at(id).link); }
 
-SE3 KeyframeChain::T_a_b(std::int64_t a, std::int64_t b) const {
+SE3 KeyframeChain::T_a_b(KeyframeId a, KeyframeId b) const {
   return at(a).T_run_keyframe.inverse() * at(b).T_run_keyframe;
 }
 
-std::optional<TrackedMotion> KeyframeChain::odometry(std::int64_t a, std::int64_t b) const {
+std::optional<TrackedMotion> KeyframeChain::odometry(KeyframeId a, KeyframeId b) const {
   const auto from = keyframes_.find(a), to = keyframes_.find(b);
   if (from == keyframes_.end() || to == keyframes_.end() || from->second.run != to->second.run)
     return std::nullopt;

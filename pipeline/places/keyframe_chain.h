@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/place_history.h>
 #include <placegraph/pipeline/loops/keyframe_motion.h>
 
@@ -11,8 +12,8 @@
 namespace placegraph {
 
 /// Before and after the ids of all keyframes.
-inline constexpr std::int64_t kBeforeAll = std::numeric_limits<std::int64_t>::min();
-inline constexpr std::int64_t kAfterAll = std::numeric_limits<std::int64_t>::max();
+inline constexpr KeyframeId kBeforeAll = KeyframeId::lowest();
+inline constexpr KeyframeId kAfterAll = KeyframeId::highest();
 
 /// The keyframes in order, each linked to an earlier one by a measured motion. A keyframe whose
 /// link is not odometry, or that has none, begins a run of tracking. The lengths of one run have
@@ -37,35 +38,35 @@ class KeyframeChain {
 
   /// Appends a keyframe; `scale_known` counts where it begins a run. Throws ArgumentError if the
   /// id is in use, for a link to an unknown or a later keyframe, and for odometry between two runs.
-  void add(std::int64_t id, const std::optional<KeyframeLink>& link, bool scale_known = true);
+  void add(KeyframeId id, const std::optional<KeyframeLink>& link, bool scale_known = true);
   /// Replaces the motion to keyframe `id`. Throws ArgumentError if it has no link; the next, too.
-  void update_link(std::int64_t id, const SE3& T_from_this);
+  void update_link(KeyframeId id, const SE3& T_from_this);
   /// Replaces the information of that motion, in its right tangent, and the standard deviation of
   /// the change of scale along it.
-  void inform_link(std::int64_t id, const Matrix6d& information, double sigma_log_scale);
+  void inform_link(KeyframeId id, const Matrix6d& information, double sigma_log_scale);
   /// Multiplies all lengths of the run that begins with keyframe `first` by `factor`; its scale is
   /// known then.
-  void rescale(std::int64_t first, double factor);
+  void rescale(KeyframeId first, double factor);
 
-  const std::map<std::int64_t, Keyframe>& keyframes() const { return keyframes_; }
-  const Keyframe& at(std::int64_t id) const { return keyframes_.at(id); }
-  bool contains(std::int64_t id) const { return keyframes_.count(id) != 0; }
+  const std::map<KeyframeId, Keyframe>& keyframes() const { return keyframes_; }
+  const Keyframe& at(KeyframeId id) const { return keyframes_.at(id); }
+  bool contains(KeyframeId id) const { return keyframes_.count(id) != 0; }
   /// Whether the keyframe does not begin a run.
-  bool has_odometry(std::int64_t id) const;
+  bool has_odometry(KeyframeId id) const;
   /// Motion along the links between two keyframes, which must be of one run.
-  SE3 T_a_b(std::int64_t a, std::int64_t b) const;
+  SE3 T_a_b(KeyframeId a, KeyframeId b) const;
   /// The same with the length of the path; nothing for keyframes of two runs or unknown ones.
-  std::optional<TrackedMotion> odometry(std::int64_t a, std::int64_t b) const;
+  std::optional<TrackedMotion> odometry(KeyframeId a, KeyframeId b) const;
 
   const std::vector<bool>& scale_known() const { return scale_known_; }  ///< of every run
-  bool scale_known(std::int64_t keyframe) const { return scale_known_[at(keyframe).run]; }
+  bool scale_known(KeyframeId keyframe) const { return scale_known_[at(keyframe).run]; }
   bool all_scales_known() const;
 
  private:
-  void insert(std::int64_t id, const std::optional<KeyframeLink>& link, int run);
-  void chain_up(std::int64_t first);
+  void insert(KeyframeId id, const std::optional<KeyframeLink>& link, int run);
+  void chain_up(KeyframeId first);
 
-  std::map<std::int64_t, Keyframe> keyframes_;
+  std::map<KeyframeId, Keyframe> keyframes_;
   std::vector<bool> scale_known_;  // of every run
 };
 

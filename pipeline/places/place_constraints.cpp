@@ -15,9 +15,13 @@ Matrix7d transported(const Matrix7d& adjoint, const Matrix7d& covariance) {
 }
 
 PlaceEdge odometry_edge(const KeyframeChain& chain, const PlacePartition& partition,
-                        std::int64_t previous, std::int64_t anchor, const Matrix7d& chained) {
-  PlaceEdge edge{{PlaceConstraint::Kind::kLink, anchor}, previous, anchor,
-                 Sim3(chain.T_a_b(previous, anchor)),    chained,  ConstraintSource::kOdometry};
+                        KeyframeId previous, KeyframeId anchor, const Matrix7d& chained) {
+  PlaceEdge edge{{PlaceConstraint::Kind::kLink, anchor.value()},
+                 previous,
+                 anchor,
+                 Sim3(chain.T_a_b(previous, anchor)),
+                 chained,
+                 ConstraintSource::kOdometry};
   if (const auto& covariance = partition.parts().at(anchor).motion_covariance) {
     edge.covariance.setZero();
     edge.covariance.topLeftCorner<6, 6>() = *covariance;
@@ -34,12 +38,12 @@ RobustKernel kernel_of(const PlaceEdge& edge, const PlaceOptions& options) {
 }  // namespace
 
 std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartition& partition,
-                                  std::int64_t since) {
+                                  KeyframeId since) {
   std::vector<PlaceEdge> result;
   auto at = chain.keyframes().lower_bound(since);
   if (at == chain.keyframes().end()) return result;
   // Covariances add up from an anchor on.
-  std::int64_t begin = partition.part_of(at->first);
+  KeyframeId begin = partition.part_of(at->first);
   if (begin == at->first) begin = partition.previous_anchor(chain, begin).value_or(begin);
   Matrix7d chained = Matrix7d::Zero();
   for (at = chain.keyframes().find(begin); at != chain.keyframes().end(); ++at) {
@@ -52,7 +56,7 @@ std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartiti
     const KeyframeLink& link = *keyframe.link;
     const Sim3 S_from_this(link.T_from_this.rotation(), link.T_from_this.translation(), link.scale);
     if (link.source != ConstraintSource::kOdometry) {
-      result.push_back({{PlaceConstraint::Kind::kLink, id},
+      result.push_back({{PlaceConstraint::Kind::kLink, id.value()},
                         partition.part_of(link.from),
                         id,
                         Sim3(partition.T_part_keyframe(chain, link.from)) * S_from_this,
@@ -113,8 +117,8 @@ RelativePoseConstraint constraint_between_places(const PlacePartition& partition
   covariance = transported(to.S_place_part.adjoint(), covariance);
 
   RelativePoseConstraint constraint;
-  constraint.from = from.place;
-  constraint.to = to.place;
+  constraint.from = node_of_place(from.place);
+  constraint.to = node_of_place(to.place);
   constraint.source = edge.source;
   constexpr double kLeastVariance = 1e-18;
   if (all_scales_known) {
@@ -133,7 +137,7 @@ std::vector<PlaceConstraint> place_constraints(const KeyframeChain& chain,
                                                const PlacePartition& partition,
                                                const std::vector<Loop>& loops,
                                                const std::vector<PlaceHistory::Motion>& motions,
-                                               const PlaceOptions& options, std::int64_t since) {
+                                               const PlaceOptions& options, KeyframeId since) {
   std::vector<PlaceEdge> edges = link_edges(chain, partition, since);
   for (std::size_t i = 0; i < loops.size(); ++i)
     if (std::max(loops[i].match, loops[i].query) >= since)

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/pipeline/places/place_optimizer.h>
 #include <placegraph/pipeline/places/place_options.h>
@@ -11,7 +12,7 @@ namespace placegraph {
 /// A measured motion between the anchors of two parts.
 struct PlaceEdge {
   PlaceConstraint::Key key;
-  std::int64_t from_part = 0, to_part = 0;
+  KeyframeId from_part, to_part;
   Sim3 S_from_to;
   Matrix7d covariance = Matrix7d::Zero();  ///< in the right tangent
   ConstraintSource source = ConstraintSource::kOdometry;
@@ -21,7 +22,7 @@ struct PlaceEdge {
 /// tracking, with the covariances of the links between them added up (or with what the partition
 /// knows of that motion), and one where a run hangs on an earlier one.
 std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartition& partition,
-                                  std::int64_t since);
+                                  KeyframeId since);
 /// The edge of `loop`, which has this number, carried from its keyframes to the anchors of their
 /// parts.
 PlaceEdge loop_edge(const KeyframeChain& chain, const PlacePartition& partition, const Loop& loop,
@@ -43,6 +44,6 @@ std::vector<PlaceConstraint> place_constraints(const KeyframeChain& chain,
                                                const PlacePartition& partition,
                                                const std::vector<Loop>& loops,
                                                const std::vector<PlaceHistory::Motion>& motions,
-                                               const PlaceOptions& options, std::int64_t since);
+                                               const PlaceOptions& options, KeyframeId since);
 
 }  // namespace placegraph

@@ -43,12 +43,12 @@ PlaceHistory PlaceMapper::history() const {
   return history;
 }
 
-void PlaceMapper::changed(std::int64_t keyframe) {
+void PlaceMapper::changed(KeyframeId keyframe) {
   unoptimized_from_ = std::min(unoptimized_from_, keyframe);
   unpublished_from_ = std::min(unpublished_from_, keyframe);
 }
 
-void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
+void PlaceMapper::add_keyframe(KeyframeId id, const std::optional<Link>& link,
                                const SE3& T_map_guess, double median_depth_m, bool scale_known) {
   const bool were_known = chain_.all_scales_known();
   chain_.add(id, link, scale_known);
@@ -72,7 +72,7 @@ void PlaceMapper::add_keyframe(std::int64_t id, const std::optional<Link>& link,
   partition_.found(id, S_map_place, component, options_.max_distance * median_depth_m);
 }
 
-void PlaceMapper::update_link(std::int64_t id, const SE3& T_from_this) {
+void PlaceMapper::update_link(KeyframeId id, const SE3& T_from_this) {
   // What moved is the newest part of the track, so an anchor follows its predecessor, unless its
   // place is an older one that it was merged into.
   chain_.update_link(id, T_from_this);
@@ -81,25 +81,24 @@ void PlaceMapper::update_link(std::int64_t id, const SE3& T_from_this) {
     partition_.set_pose(place_of(id), S_map_keyframe(chain_.at(id).link->from) * Sim3(T_from_this));
 }
 
-void PlaceMapper::inform_link(std::int64_t id, const Matrix6d& information,
-                              double sigma_log_scale) {
+void PlaceMapper::inform_link(KeyframeId id, const Matrix6d& information, double sigma_log_scale) {
   chain_.inform_link(id, information, sigma_log_scale);
   changed(id);
 }
 
-std::optional<std::int64_t> PlaceMapper::previous_anchor(std::int64_t anchor) const {
+std::optional<KeyframeId> PlaceMapper::previous_anchor(KeyframeId anchor) const {
   return partition_.previous_anchor(chain_, anchor);
 }
 
-void PlaceMapper::inform_anchor(std::int64_t anchor, const Matrix6d& information) {
+void PlaceMapper::inform_anchor(KeyframeId anchor, const Matrix6d& information) {
   require(previous_anchor(anchor).has_value(),
           "PlaceMapper::inform_anchor: no anchor, or the first of its run");
   partition_.set_motion_covariance(anchor, bounded_covariance(information));
   changed(anchor);
 }
 
-void PlaceMapper::add_motion(std::int64_t previous, std::int64_t anchor,
-                             const SE3& T_previous_anchor, const Matrix6d& covariance) {
+void PlaceMapper::add_motion(KeyframeId previous, KeyframeId anchor, const SE3& T_previous_anchor,
+                             const Matrix6d& covariance) {
   require(is_anchor(previous) && is_anchor(anchor) && previous != anchor,
           "PlaceMapper::add_motion: two anchors needed");
   motions_.push_back({previous, anchor, T_previous_anchor, covariance});
@@ -111,7 +110,7 @@ void PlaceMapper::add_loop(const Loop& loop) {
   changed(std::max(loop.match, loop.query));
 }
 
-void PlaceMapper::rescale(std::int64_t first, double factor) {
+void PlaceMapper::rescale(KeyframeId first, double factor) {
   partition_.rescale(chain_, first, factor);
   chain_.rescale(first, factor);
   const int run = chain_.at(first).run;
@@ -122,7 +121,7 @@ void PlaceMapper::rescale(std::int64_t first, double factor) {
   unpublished_from_ = kBeforeAll;
 }
 
-std::vector<PlaceConstraint> PlaceMapper::constraints(std::int64_t since) const {
+std::vector<PlaceConstraint> PlaceMapper::constraints(KeyframeId since) const {
   return place_constraints(chain_, partition_, loops_, motions_, options_, since);
 }
 
@@ -136,7 +135,8 @@ IncrementalStep PlaceMapper::update_optimizer() {
   for (const auto& [number, place] : partition_.places()) {
     if (!begin && optimizer_.knows(number)) continue;
     const Sim3& S = place.S_map_place;
-    nodes.push_back({number, kind == PoseKind::kSim3 ? Pose(S) : Pose(rigid_part(S)), false});
+    nodes.push_back(
+        {node_of_place(number), kind == PoseKind::kSim3 ? Pose(S) : Pose(rigid_part(S)), false});
   }
   const IncrementalStep step = begin ? optimizer_.begin(nodes, constraints(kBeforeAll))
                                      : optimizer_.follow(nodes, constraints(unoptimized_from_));
@@ -150,9 +150,9 @@ void PlaceMapper::take_poses() {
 }
 
 /// Merges places that are one; whether there were any.
-bool PlaceMapper::merge(std::int64_t first_open) {
+bool PlaceMapper::merge(KeyframeId first_open) {
   if (!options_.merge) return false;
-  const auto covariance = [&](std::int64_t from, std::int64_t to) {
+  const auto covariance = [&](PlaceId from, PlaceId to) {
     return optimizer_.relative_covariance(from, to);
   };
   const auto mergers = find_mergers(chain_, partition_, loops_, options_, covariance, first_open);
@@ -171,7 +171,7 @@ bool PlaceMapper::separate_contradicted() {
   return !contradicted.empty();
 }
 
-IncrementalStep PlaceMapper::optimize(std::int64_t first_open) {
+IncrementalStep PlaceMapper::optimize(KeyframeId first_open) {
   const IncrementalStep step = update_optimizer();
   take_poses();
   if (judged_loops_ == loops_.size() || !separate_contradicted()) merge(first_open);
@@ -200,7 +200,7 @@ IncrementalStep PlaceMapper::finish() {
   return step;
 }
 
-bool PlaceMapper::scale_unknown(std::int64_t a, std::int64_t b) const {
+bool PlaceMapper::scale_unknown(KeyframeId a, KeyframeId b) const {
   return !chain_.scale_known(a) || !chain_.scale_known(b);
 }
 
@@ -210,12 +210,12 @@ bool PlaceMapper::metric() const {
   });
 }
 
-std::optional<TrackedMotion> PlaceMapper::odometry(std::int64_t from, std::int64_t to) const {
+std::optional<TrackedMotion> PlaceMapper::odometry(KeyframeId from, KeyframeId to) const {
   return chain_.odometry(from, to);
 }
 
-std::optional<PredictedMotion> PlaceMapper::predicted(std::int64_t from, std::int64_t to) const {
-  const std::int64_t a = place_of(from), b = place_of(to);
+std::optional<PredictedMotion> PlaceMapper::predicted(KeyframeId from, KeyframeId to) const {
+  const PlaceId a = place_of(from), b = place_of(to);
   if (component_of(from) != component_of(to) || !optimizer_.knows(a) || !optimizer_.knows(b))
     return std::nullopt;
   const Sim3 S_map_to = S_map_keyframe(to);

@@ -13,7 +13,7 @@
 namespace placegraph {
 namespace {
 
-using PlacePair = std::pair<std::int64_t, std::int64_t>;
+using PlacePair = std::pair<PlaceId, PlaceId>;
 
 /// Whether the map is where the loop says: a loop that the robust kernel rejects shows nothing.
 bool agrees(const Loop& loop, const KeyframeChain& chain, const PlacePartition& partition) {
@@ -31,8 +31,7 @@ std::vector<PlacePair> pairs_of_loops(const KeyframeChain& chain, const PlacePar
   std::vector<PlacePair> pairs;
   for (std::size_t i = all || loops.size() < kNewest ? 0 : loops.size() - kNewest; i < loops.size();
        ++i) {
-    const std::int64_t a = partition.place_of(loops[i].match),
-                       b = partition.place_of(loops[i].query);
+    const PlaceId a = partition.place_of(loops[i].match), b = partition.place_of(loops[i].query);
     if (a != b && agrees(loops[i], chain, partition)) pairs.emplace_back(a, b);
   }
   return pairs;
@@ -58,11 +57,10 @@ std::vector<PlacePair> pairs_in_reach(const KeyframeChain& chain, const PlacePar
 
 std::optional<PlaceMerger> merger_of(const PlacePair& pair, const PlacePartition& partition,
                                      const PlaceOptions& options, const PlaceCovariance& covariance,
-                                     std::int64_t first_open) {
-  const auto [older, younger] =
-      std::minmax(pair.first, pair.second, [&](std::int64_t p, std::int64_t q) {
-        return partition.places().at(p).anchor_keyframe < partition.places().at(q).anchor_keyframe;
-      });
+                                     KeyframeId first_open) {
+  const auto [older, younger] = std::minmax(pair.first, pair.second, [&](PlaceId p, PlaceId q) {
+    return partition.places().at(p).anchor_keyframe < partition.places().at(q).anchor_keyframe;
+  });
   const PlacePartition::PlaceState &a = partition.places().at(older),
                                    &b = partition.places().at(younger);
   if (b.last_keyframe >= first_open || a.anchor_keyframe >= first_open ||
@@ -98,7 +96,7 @@ struct MergerErrors {
 
 MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition& partition) {
   const std::vector<PlaceHistory::Merged>& merged = partition.merged();
-  std::map<std::int64_t, std::vector<std::size_t>> mergers_of_part;
+  std::map<KeyframeId, std::vector<std::size_t>> mergers_of_part;
   for (std::size_t i = 0; i < merged.size(); ++i)
     for (const auto& [anchor, covariance] : merged[i].covariance_of_part)
       mergers_of_part[anchor].push_back(i);
@@ -107,8 +105,8 @@ MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition&
       std::vector<double>(merged.size(), 0), std::vector<int>(merged.size(), 0), {}};
   const bool all_scales_known = chain.all_scales_known();
   for (const PlaceEdge& edge : link_edges(chain, partition, kBeforeAll)) {
-    const std::int64_t from = partition.parts().at(edge.from_part).place,
-                       to = partition.parts().at(edge.to_part).place;
+    const PlaceId from = partition.parts().at(edge.from_part).place,
+                  to = partition.parts().at(edge.to_part).place;
     if (from == to || edge.source != ConstraintSource::kOdometry) continue;
     const RelativePoseConstraint constraint =
         constraint_between_places(partition, edge, all_scales_known);
@@ -135,9 +133,9 @@ MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition&
 
 std::vector<PlaceMerger> find_mergers(const KeyframeChain& chain, const PlacePartition& partition,
                                       const std::vector<Loop>& loops, const PlaceOptions& options,
-                                      const PlaceCovariance& covariance, std::int64_t first_open) {
+                                      const PlaceCovariance& covariance, KeyframeId first_open) {
   std::vector<PlaceMerger> mergers;
-  std::set<std::int64_t> taken;
+  std::set<PlaceId> taken;
   // Old loops have had their chances; they get a last one in the end.
   const bool all = first_open == kNoneOpen;
   std::vector<PlacePair> pairs = pairs_of_loops(chain, partition, loops, all);

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/pipeline/places/place_options.h>
 #include <placegraph/pipeline/places/place_partition.h>
@@ -10,15 +11,15 @@ namespace placegraph {
 
 /// Two places that are one.
 struct PlaceMerger {
-  std::int64_t older = 0, younger = 0;
+  PlaceId older, younger;
   Matrix7d covariance = Matrix7d::Zero();  ///< of S_older_younger in its right tangent
 };
 
 /// Covariance of S_from_to of two places in its right tangent.
-using PlaceCovariance = std::function<Matrix7d(std::int64_t from, std::int64_t to)>;
+using PlaceCovariance = std::function<Matrix7d(PlaceId from, PlaceId to)>;
 
 /// As `first_open`: no keyframe is being refined any more.
-inline constexpr std::int64_t kNoneOpen = kAfterAll;
+inline constexpr KeyframeId kNoneOpen = kAfterAll;
 
 /// The places that may be merged, each in one merger at most, as a merger changes what is known of
 /// its place. Candidates are the places at the two ends of a loop that the map agrees with, and
@@ -28,7 +29,7 @@ inline constexpr std::int64_t kNoneOpen = kAfterAll;
 /// newest loops and places are looked at.
 std::vector<PlaceMerger> find_mergers(const KeyframeChain& chain, const PlacePartition& partition,
                                       const std::vector<Loop>& loops, const PlaceOptions& options,
-                                      const PlaceCovariance& covariance, std::int64_t first_open);
+                                      const PlaceCovariance& covariance, KeyframeId first_open);
 
 /// The numbers (in PlacePartition::merged()) of mergers that odometry contradicts, in ascending
 /// order: the odometry edges out of the merged parts are further off than chance allows, and three

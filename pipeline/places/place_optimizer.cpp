@@ -57,15 +57,16 @@ IncrementalStep PlaceOptimizer::follow(const std::vector<PoseNode>& places,
   return step;
 }
 
-Sim3 PlaceOptimizer::S_map_place(std::int64_t place) const {
-  const auto pose = optimizer_.pose(place);
-  require(pose.has_value(), "PlaceOptimizer: unknown place " + std::to_string(place));
+Sim3 PlaceOptimizer::S_map_place(PlaceId place) const {
+  const auto pose = optimizer_.pose(node_of_place(place));
+  require(pose.has_value(), "PlaceOptimizer: unknown place " + to_string(place));
   if (const auto* S = std::get_if<Sim3>(&*pose)) return *S;
   return Sim3(std::get<SE3>(*pose));
 }
 
-Matrix7d PlaceOptimizer::relative_covariance(std::int64_t from, std::int64_t to) const {
-  const Information of_pose = optimizer_.relative_covariance(from, to);
+Matrix7d PlaceOptimizer::relative_covariance(PlaceId from, PlaceId to) const {
+  const Information of_pose =
+      optimizer_.relative_covariance(node_of_place(from), node_of_place(to));
   Matrix7d covariance = Matrix7d::Zero();
   covariance.topLeftCorner(of_pose.rows(), of_pose.cols()) = of_pose;
   return covariance;

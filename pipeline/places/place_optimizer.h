@@ -1,5 +1,7 @@
 #pragma once
 #include <placegraph/backend/incremental/incremental_optimizer.h>
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/place_graph.h>
 
 #include <map>
 
@@ -20,7 +22,7 @@ class PlaceOptimizer {
  public:
   explicit PlaceOptimizer(const IncrementalOptions& options);
 
-  bool knows(std::int64_t place) const { return optimizer_.pose(place).has_value(); }
+  bool knows(PlaceId place) const { return optimizer_.pose(node_of_place(place)).has_value(); }
   /// Kind of its poses; nothing before there is one.
   std::optional<PoseKind> kind() const;
   /// Forgets all places and constraints.
@@ -35,9 +37,9 @@ class PlaceOptimizer {
   IncrementalStep finish() { return optimizer_.finish(); }
 
   /// Throws ArgumentError for an unknown place, as the next does.
-  Sim3 S_map_place(std::int64_t place) const;
+  Sim3 S_map_place(PlaceId place) const;
   /// Of S_from_to in its right tangent; the last row and column are zero over SE(3).
-  Matrix7d relative_covariance(std::int64_t from, std::int64_t to) const;
+  Matrix7d relative_covariance(PlaceId from, PlaceId to) const;
 
  private:
   struct Tracked {

@@ -25,7 +25,7 @@ PlacePartition::PlacePartition(const std::vector<Place>& places, const PlaceHist
   }
   for (const PlaceHistory::Keyframe& keyframe : history.keyframes) {
     require(is_anchor(keyframe.part),
-            "PlacePartition: keyframe " + std::to_string(keyframe.id) + " has no part");
+            "PlacePartition: keyframe " + to_string(keyframe.id) + " has no part");
     part_of_[keyframe.id] = keyframe.part;
   }
   for (const auto& [anchor, part] : parts_)
@@ -36,7 +36,7 @@ PlacePartition::PlacePartition(const std::vector<Place>& places, const PlaceHist
     for (const auto& [anchor, covariance] : merged.covariance_of_part) known &= is_anchor(anchor);
     require(known, "PlacePartition: an unknown part was merged");
   }
-  require(places_.empty() || founded_ > places_.rbegin()->first,
+  require(places_.empty() || founded_ > places_.rbegin()->first.value(),
           "PlacePartition: fewer places were founded than there are");
 }
 
@@ -51,25 +51,24 @@ void PlacePartition::save(PlaceHistory& history) const {
   history.founded = founded_;
 }
 
-void PlacePartition::found(std::int64_t keyframe, const Sim3& S_map_place, int component,
+void PlacePartition::found(KeyframeId keyframe, const Sim3& S_map_place, int component,
                            double reach) {
-  const std::int64_t number = founded_++;
+  const PlaceId number(founded_++);
   part_of_[keyframe] = keyframe;
   parts_[keyframe] = {number, Sim3()};
   places_[number] = {keyframe, S_map_place, component, reach, keyframe};
 }
 
-void PlacePartition::join(std::int64_t keyframe, std::int64_t anchor) {
+void PlacePartition::join(KeyframeId keyframe, KeyframeId anchor) {
   places_.at(parts_.at(anchor).place).last_keyframe = keyframe;
   part_of_[keyframe] = anchor;
 }
 
-void PlacePartition::set_motion_covariance(std::int64_t anchor, const Matrix6d& covariance) {
+void PlacePartition::set_motion_covariance(KeyframeId anchor, const Matrix6d& covariance) {
   parts_.at(anchor).motion_covariance = covariance;
 }
 
-std::int64_t PlacePartition::merge(std::int64_t older, std::int64_t younger,
-                                   const Matrix7d& covariance) {
+KeyframeId PlacePartition::merge(PlaceId older, PlaceId younger, const Matrix7d& covariance) {
   require(older != younger, "PlacePartition::merge: a place with itself");
   PlaceState& into = places_.at(older);
   const PlaceState& from = places_.at(younger);
@@ -84,22 +83,22 @@ std::int64_t PlacePartition::merge(std::int64_t older, std::int64_t younger,
     part.S_place_part = S_older_younger * part.S_place_part;
     part.place = older;
   }
-  const std::int64_t first = merged.covariance_of_part.begin()->first;
+  const KeyframeId first = merged.covariance_of_part.begin()->first;
   merged_.push_back(std::move(merged));
   places_.erase(younger);
   return first;
 }
 
-std::int64_t PlacePartition::separate(std::size_t number) {
+KeyframeId PlacePartition::separate(std::size_t number) {
   const PlaceHistory::Merged merged = merged_.at(number);
-  const std::int64_t former = parts_.at(merged.anchor).place, again = founded_++;
+  const PlaceId former = parts_.at(merged.anchor).place, again(founded_++);
   const Sim3 S_former_place = parts_.at(merged.anchor).S_place_part;
   PlaceState place = places_.at(former);
   parted_.insert({place.anchor_keyframe, merged.anchor});
   place.anchor_keyframe = merged.anchor;
   place.S_map_place = place.S_map_place * S_former_place;
   place.reach /= S_former_place.scale();
-  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  KeyframeId first = kAfterAll;
   for (const auto& [anchor, covariance] : merged.covariance_of_part) {
     Part& part = parts_.at(anchor);
     if (part.place != former) continue;
@@ -116,14 +115,14 @@ std::int64_t PlacePartition::separate(std::size_t number) {
   return first;
 }
 
-bool PlacePartition::have_parted(std::int64_t one, std::int64_t other) const {
+bool PlacePartition::have_parted(PlaceId one, PlaceId other) const {
   return std::any_of(parted_.begin(), parted_.end(), [&](const auto& anchors) {
     return std::minmax(parts_.at(anchors.first).place, parts_.at(anchors.second).place) ==
            std::minmax(one, other);
   });
 }
 
-void PlacePartition::set_pose(std::int64_t place, const Sim3& S_map_place) {
+void PlacePartition::set_pose(PlaceId place, const Sim3& S_map_place) {
   places_.at(place).S_map_place = S_map_place;
 }
 
@@ -140,8 +139,8 @@ void PlacePartition::drop_scales() {
   for (auto& [anchor, part] : parts_) part.S_place_part = Sim3(rigid_part(part.S_place_part));
 }
 
-void PlacePartition::rescale(const KeyframeChain& chain, std::int64_t first, double factor) {
-  const auto in_run = [&, run = chain.at(first).run](std::int64_t keyframe) {
+void PlacePartition::rescale(const KeyframeChain& chain, KeyframeId first, double factor) {
+  const auto in_run = [&, run = chain.at(first).run](KeyframeId keyframe) {
     return chain.at(keyframe).run == run;
   };
   const int component = state_of(first).component;
@@ -174,27 +173,27 @@ void PlacePartition::rescale(const KeyframeChain& chain, std::int64_t first, dou
   }
 }
 
-std::optional<std::int64_t> PlacePartition::previous_anchor(const KeyframeChain& chain,
-                                                            std::int64_t anchor) const {
+std::optional<KeyframeId> PlacePartition::previous_anchor(const KeyframeChain& chain,
+                                                          KeyframeId anchor) const {
   if (!is_anchor(anchor) || !chain.has_odometry(anchor)) return std::nullopt;
   return part_of(chain.at(anchor).link->from);
 }
 
-SE3 PlacePartition::T_part_keyframe(const KeyframeChain& chain, std::int64_t keyframe) const {
+SE3 PlacePartition::T_part_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const {
   return chain.T_a_b(part_of(keyframe), keyframe);
 }
 
-Sim3 PlacePartition::S_place_keyframe(const KeyframeChain& chain, std::int64_t keyframe) const {
+Sim3 PlacePartition::S_place_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const {
   return parts_.at(part_of(keyframe)).S_place_part * Sim3(T_part_keyframe(chain, keyframe));
 }
 
-Sim3 PlacePartition::S_map_keyframe(const KeyframeChain& chain, std::int64_t keyframe) const {
+Sim3 PlacePartition::S_map_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const {
   return state_of(keyframe).S_map_place * S_place_keyframe(chain, keyframe);
 }
 
 std::vector<Place> PlacePartition::graph_places(const KeyframeChain& chain) const {
   std::vector<Place> places;
-  std::map<std::int64_t, std::size_t> index;
+  std::map<PlaceId, std::size_t> index;
   for (const auto& [number, state] : places_) {
     index[number] = places.size();
     Place place;

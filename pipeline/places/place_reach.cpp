@@ -5,13 +5,12 @@
 
 namespace placegraph {
 
-std::optional<std::int64_t> earlier_place_in_reach(const KeyframeChain& chain,
-                                                   const PlacePartition& partition,
-                                                   const PlaceOptions& options,
-                                                   std::int64_t keyframe, const Sim3& S_map_here,
-                                                   double reach) {
+std::optional<PlaceId> earlier_place_in_reach(const KeyframeChain& chain,
+                                              const PlacePartition& partition,
+                                              const PlaceOptions& options, KeyframeId keyframe,
+                                              const Sim3& S_map_here, double reach) {
   const PlacePartition::PlaceState& own = partition.state_of(keyframe);
-  std::optional<std::int64_t> nearest;
+  std::optional<PlaceId> nearest;
   double least = reach;
   for (const auto& [number, place] : partition.places()) {
     if (place.anchor_keyframe >= own.anchor_keyframe || place.component != own.component) continue;
@@ -31,8 +30,8 @@ std::optional<std::int64_t> earlier_place_in_reach(const KeyframeChain& chain,
 
 bool in_reach_of_part(const KeyframeChain& chain, const PlacePartition& partition,
                       const std::vector<Loop>& loops, const PlaceOptions& options,
-                      std::int64_t keyframe, double median_depth) {
-  const std::int64_t anchor = partition.part_of(chain.at(keyframe).link->from);
+                      KeyframeId keyframe, double median_depth) {
+  const KeyframeId anchor = partition.part_of(chain.at(keyframe).link->from);
   const Sim3 S_place_this =
       partition.parts().at(anchor).S_place_part * Sim3(chain.T_a_b(anchor, keyframe));
   if (S_place_this.translation().norm() >=

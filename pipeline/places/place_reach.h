@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/pipeline/places/place_options.h>
 #include <placegraph/pipeline/places/place_partition.h>
@@ -12,11 +13,10 @@ namespace placegraph {
 /// component within `reach` [in the map's scale] and within its own reach that looks the same way.
 /// Places that odometry reaches from `keyframe` along a short path do not count: they are
 /// neighbours, no places that were visited before.
-std::optional<std::int64_t> earlier_place_in_reach(const KeyframeChain& chain,
-                                                   const PlacePartition& partition,
-                                                   const PlaceOptions& options,
-                                                   std::int64_t keyframe, const Sim3& S_map_here,
-                                                   double reach);
+std::optional<PlaceId> earlier_place_in_reach(const KeyframeChain& chain,
+                                              const PlacePartition& partition,
+                                              const PlaceOptions& options, KeyframeId keyframe,
+                                              const Sim3& S_map_here, double reach);
 
 /// Whether `keyframe`, the newest of the chain and not yet of the partition, belongs to the part of
 /// its predecessor: it is within reach of the anchor and, once loops have led back to known places,
@@ -24,6 +24,6 @@ std::optional<std::int64_t> earlier_place_in_reach(const KeyframeChain& chain,
 /// those of the first time did.
 bool in_reach_of_part(const KeyframeChain& chain, const PlacePartition& partition,
                       const std::vector<Loop>& loops, const PlaceOptions& options,
-                      std::int64_t keyframe, double median_depth);
+                      KeyframeId keyframe, double median_depth);
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/pipeline/places/place_partition.h>
 
@@ -7,6 +8,6 @@ namespace placegraph {
 /// Length of the shortest path from place to place along links and loops, in the map's scale
 /// (Dijkstra 1959); infinite if none leads there.
 double shortest_path(const KeyframeChain& chain, const PlacePartition& partition,
-                     const std::vector<Loop>& loops, std::int64_t from, std::int64_t to);
+                     const std::vector<Loop>& loops, PlaceId from, PlaceId to);
 
 }  // namespace placegraph

@@ -16,7 +16,7 @@ namespace {
 
 /// Sights in the map's frame, by the poses of the map.
 struct SightsInMap {
-  std::vector<std::int64_t> keyframes;   // by sight
+  std::vector<KeyframeId> keyframes;     // by sight
   std::vector<SE3> T_map_cam;            // by sight
   std::vector<SurfacePoint> points;      // by sight
   std::vector<std::size_t> first_point;  // of the next sight
@@ -24,7 +24,7 @@ struct SightsInMap {
 
 SightsInMap lay_out(const std::vector<SurfaceSight>& sights, const Map& map) {
   SightsInMap result;
-  const std::set<std::int64_t> connected = connected_keyframes(map);
+  const std::set<KeyframeId> connected = connected_keyframes(map);
   for (const SurfaceSight& sight : sights) {
     if (!connected.count(sight.keyframe)) continue;
     const SE3 T_map_cam = camera_pose(map, sight.keyframe);
@@ -169,7 +169,7 @@ std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame,
   return {};
 }
 
-void IndoorMapper::add(std::int64_t keyframe, const Frame& frame,
+void IndoorMapper::add(KeyframeId keyframe, const Frame& frame,
                        const std::vector<SweptView>& views) {
   add(SurfaceSight{keyframe, points_of(frame, views)});
 }

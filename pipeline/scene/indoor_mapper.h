@@ -3,6 +3,7 @@
 #include <placegraph/frontend/floor_plan/floor_sight.h>
 #include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/floor_plan/room_partition.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/pipeline/scene/nearby_views.h>
@@ -25,7 +26,7 @@ class IndoorMapper {
 
   /// Takes the images of a keyframe, and what the same (left) eye saw from nearby; what was told of
   /// it before is replaced. Points are metric.
-  void add(std::int64_t keyframe, const Frame& frame, const std::vector<SweptView>& views = {});
+  void add(KeyframeId keyframe, const Frame& frame, const std::vector<SweptView>& views = {});
   void add(SurfaceSight sight);
   const std::vector<SurfaceSight>& sights() const { return sights_; }
 

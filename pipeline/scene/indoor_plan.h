@@ -2,6 +2,7 @@
 #include <placegraph/frontend/floor_plan/door_finder.h>
 #include <placegraph/frontend/floor_plan/room_partition.h>
 #include <placegraph/frontend/floor_plan/wall_finder.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/pipeline/scene/plan_frame.h>
 
@@ -13,8 +14,8 @@ namespace placegraph {
 
 /// What the walls, doors and rooms were found from, in the frame of the walls.
 struct PlacedSights {
-  std::vector<std::int64_t> keyframes;  ///< by sight
-  std::vector<Eigen::Vector3d> path;    ///< where the camera of each sight stood
+  std::vector<KeyframeId> keyframes;  ///< by sight
+  std::vector<Eigen::Vector3d> path;  ///< where the camera of each sight stood
   std::vector<PlacedPoint> points;
 };
 

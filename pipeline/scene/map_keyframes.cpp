@@ -5,8 +5,8 @@
 namespace placegraph {
 namespace {
 
-KeyframePoses looked_up(std::map<std::int64_t, SE3> poses) {
-  return [poses = std::move(poses)](std::int64_t keyframe) -> std::optional<SE3> {
+KeyframePoses looked_up(std::map<KeyframeId, SE3> poses) {
+  return [poses = std::move(poses)](KeyframeId keyframe) -> std::optional<SE3> {
     const auto found = poses.find(keyframe);
     if (found == poses.end()) return std::nullopt;
     return found->second;
@@ -15,14 +15,15 @@ KeyframePoses looked_up(std::map<std::int64_t, SE3> poses) {
 
 }  // namespace
 
-SE3 camera_pose(const Map& map, std::int64_t keyframe) {
+SE3 camera_pose(const Map& map, KeyframeId keyframe) {
   const Sim3 S = map.S_map_keyframe(keyframe);
   return {S.rotation(), S.translation()};
 }
 
-std::set<std::int64_t> connected_keyframes(const Map& map) {
+std::set<KeyframeId> connected_keyframes(const Map& map) {
   const std::vector<int> components = map.place_graph.joined_components();
-  std::set<std::int64_t> places, keyframes;
+  std::set<PlaceId> places;
+  std::set<KeyframeId> keyframes;
   for (std::size_t i = 0; i < components.size(); ++i)
     if (components[i] == 0) places.insert(map.place_graph.places[i].id);
   for (const Keyframe& keyframe : map.keyframes)
@@ -31,14 +32,15 @@ std::set<std::int64_t> connected_keyframes(const Map& map) {
 }
 
 KeyframePoses poses_of(const Map& map) {
-  std::map<std::int64_t, SE3> poses;
-  for (const std::int64_t keyframe : connected_keyframes(map))
+  std::map<KeyframeId, SE3> poses;
+  for (const KeyframeId keyframe : connected_keyframes(map))
     poses.emplace(keyframe, camera_pose(map, keyframe));
   return looked_up(std::move(poses));
 }
 
 KeyframePoses online_poses_of(const Map& map) {
-  std::map<std::int64_t, SE3> by_stamp, poses;
+  std::map<std::int64_t, SE3> by_stamp;
+  std::map<KeyframeId, SE3> poses;
   for (const StampedPose& pose : map.trajectory_online.poses)
     if (pose.T_world_body) by_stamp.emplace(pose.stamp_ns, SE3(*pose.T_world_body));
   for (const Keyframe& keyframe : map.keyframes)

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 
 #include <functional>
@@ -10,13 +11,13 @@ namespace placegraph {
 
 /// Where a keyframe's camera stands, in whatever frame a map that is made from them shall be in;
 /// nothing where that is not known.
-using KeyframePoses = std::function<std::optional<SE3>(std::int64_t keyframe)>;
+using KeyframePoses = std::function<std::optional<SE3>(KeyframeId keyframe)>;
 
 /// T_map_cam of a keyframe; lengths of its points are those of the map already.
-SE3 camera_pose(const Map& map, std::int64_t keyframe);
+SE3 camera_pose(const Map& map, KeyframeId keyframe);
 
 /// Keyframes of the first component of a map and of what is joined to it.
-std::set<std::int64_t> connected_keyframes(const Map& map);
+std::set<KeyframeId> connected_keyframes(const Map& map);
 
 /// The poses of the connected keyframes.
 KeyframePoses poses_of(const Map& map);

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/pipeline/scene/scene_map_options.h>
 #include <placegraph/frontend/floor_plan/plane_sweep.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
@@ -31,8 +32,8 @@ class NearbyViews {
   const Map& map_;
   std::function<Frame(const Keyframe&)> frame_of_;
   NearbyViewOptions options_;
-  std::set<std::int64_t> connected_;
-  std::deque<std::pair<std::int64_t, Frame>> read_;  ///< the last ones
+  std::set<KeyframeId> connected_;
+  std::deque<std::pair<KeyframeId, Frame>> read_;  ///< the last ones
 };
 
 }  // namespace placegraph

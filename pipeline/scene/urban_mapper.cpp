@@ -22,7 +22,7 @@ UrbanMapper::UrbanMapper(const UrbanMapperOptions& options, const Calibration& c
   (void)moving_classes(options_.sight.moving, urban_);
 }
 
-void UrbanMapper::add(std::int64_t keyframe, const Frame& frame, const SE3& T_map_cam) {
+void UrbanMapper::add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_cam) {
   if (calibration_.baseline_m <= 0 || frame.right.empty()) return;
   const Camera& camera = calibration_.camera;
   const Image depth =
@@ -112,7 +112,7 @@ void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions
                    const std::function<void(std::size_t, std::size_t)>& progress) {
   const auto chosen = keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_turn_deg));
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const std::int64_t id = chosen[i]->id;
+    const KeyframeId id = chosen[i]->id;
     mapper.add(id, frame_of(*chosen[i]), camera_pose(map, id));
     if (progress) progress(i + 1, chosen.size());
   }
@@ -120,7 +120,7 @@ void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions
 
 std::vector<std::vector<float>> class_shares(const UrbanMapper& mapper, const Map& map) {
   const std::size_t n = mapper.classes().size();
-  std::map<std::int64_t, std::vector<float>> by_place;
+  std::map<PlaceId, std::vector<float>> by_place;
   for (const SemanticSight& sight : mapper.sights()) {
     const Keyframe* keyframe = map.find_keyframe(sight.keyframe);
     if (!keyframe) continue;

@@ -2,6 +2,7 @@
 #include <placegraph/pipeline/scene/scene_map_options.h>
 #include <placegraph/frontend/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/scene/urban_sight.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/scene/semantic_map.h>
@@ -24,7 +25,7 @@ class UrbanMapper {
 
   /// Takes the images of a keyframe; what was told of it before is replaced. `T_map_cam` serves
   /// only for the motion since the keyframe that was added last.
-  void add(std::int64_t keyframe, const Frame& frame, const SE3& T_map_cam);
+  void add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_cam);
   void add(SemanticSight sight);
   const std::vector<SemanticSight>& sights() const { return sights_; }
   const std::vector<std::string>& classes() const { return urban_.classes; }
@@ -44,7 +45,7 @@ class UrbanMapper {
   SceneModel urban_, surfaces_;
   std::vector<SemanticSight> sights_;
   struct Last {
-    std::int64_t keyframe = -1;
+    KeyframeId keyframe;
     Image depth_m;
     SE3 T_map_cam;
   };

@@ -5,7 +5,7 @@
 
 namespace placegraph {
 
-bool EnvironmentMonitor::classify(std::int64_t keyframe, const Frame& frame,
+bool EnvironmentMonitor::classify(KeyframeId keyframe, const Frame& frame,
                                   const SurfaceShares* shares,
                                   const std::vector<Eigen::Vector3d>& points_cam, bool metric) {
   EnvironmentSight observation{keyframe, frame.id, {}, {}, {}};
@@ -28,7 +28,7 @@ void EnvironmentMonitor::label(std::vector<Place>& places) const {
     for (const PlaceMember& member : place.members) {
       const auto seen = std::lower_bound(
           observations_.begin(), observations_.end(), member.keyframe,
-          [](const EnvironmentSight& o, std::int64_t id) { return o.keyframe < id; });
+          [](const EnvironmentSight& o, KeyframeId id) { return o.keyframe < id; });
       if (seen == observations_.end() || seen->keyframe != member.keyframe) continue;
       if (seen->kind)
         ++votes[static_cast<std::size_t>(*seen->kind)];

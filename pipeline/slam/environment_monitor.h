@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/pipeline/slam/environment_sight.h>
 #include <placegraph/frontend/scene/environment.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
 
@@ -19,7 +20,7 @@ class EnvironmentMonitor {
   /// Classifies the newest keyframe. `shares`: of its surfaces in the image; null: not labelled.
   /// `points_cam`: landmarks in its camera's frame, in metres if `metric`. Returns whether the kind
   /// is another one now.
-  bool classify(std::int64_t keyframe, const Frame& frame, const SurfaceShares* shares,
+  bool classify(KeyframeId keyframe, const Frame& frame, const SurfaceShares* shares,
                 const std::vector<Eigen::Vector3d>& points_cam, bool metric);
   /// The kind that holds now; nothing while it is unknown.
   std::optional<Environment> kind() const { return filter_.kind(); }

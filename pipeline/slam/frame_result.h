@@ -1,7 +1,7 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/se3.h>
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -11,7 +11,7 @@ enum class TrackingState { kWaiting, kTracking, kLost };
 
 /// What became of one frame.
 struct FrameResult {
-  std::int64_t frame = 0;
+  FrameId frame;
   TrackingState state =
       TrackingState::kWaiting;   ///< waiting for the second view, tracking, or lost
   std::optional<SE3> T_map_cam;  ///< in the frame of `component`; nothing while unknown

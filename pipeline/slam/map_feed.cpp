@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-void MapFeed::keep_view(std::int64_t keyframe, const Frame& frame) {
+void MapFeed::keep_view(KeyframeId keyframe, const Frame& frame) {
   if (!views_in_colour_) views_in_colour_ = !frame.colour.empty();
   if (*views_in_colour_ && frame.colour.empty()) return;
   views_[keyframe] = describe_place(*views_in_colour_ ? frame.colour : frame.image, cues_, false);
@@ -30,7 +30,7 @@ std::vector<PointLandmark> MapFeed::landmarks(const Odometry& odometry, std::siz
   std::vector<PointLandmark> result(
       earlier_landmarks_.begin() + static_cast<std::ptrdiff_t>(earlier), earlier_landmarks_.end());
   for (PointLandmark landmark : odometry.map().landmarks(first - earlier)) {
-    landmark.id += first_landmark_id_;
+    landmark.id = LandmarkId(landmark.id.value() + first_landmark_id_);
     result.push_back(landmark);
   }
   return result;
@@ -40,7 +40,7 @@ Map MapFeed::snapshot(const MapSources& sources) const {
   Map map;
   map.place_graph = sources.mapper.place_graph();
   sources.environments.label(map.place_graph.places);
-  std::map<std::int64_t, std::pair<std::int64_t, PlaceMember>> members;
+  std::map<KeyframeId, std::pair<PlaceId, PlaceMember>> members;
   for (Place& place : map.place_graph.places) {
     place.appearance = sources.closer.appearance(place.anchor_keyframe);
     for (const PlaceMember& member : place.members) members[member.keyframe] = {place.id, member};
@@ -101,7 +101,7 @@ void MapFeed::take_up(const Map& map, const LoopCloser& closer) {
   for (const Place& place : map.place_graph.places) described_places_.insert(place.id);
   earlier_landmarks_ = map.landmarks;
   for (const PointLandmark& landmark : map.landmarks)
-    first_landmark_id_ = std::max(first_landmark_id_, landmark.id + 1);
+    first_landmark_id_ = std::max(first_landmark_id_, landmark.id.value() + 1);
   first_view_ = map.keyframes.size();
   first_landmark_ = earlier_landmarks_.size();
   told_training_ = closer.trained_views();

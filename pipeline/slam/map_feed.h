@@ -1,8 +1,9 @@
 #pragma once
 #include <placegraph/frontend/places/place_view.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map_changes.h>
-#include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/loops/loop_closer.h>
+#include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/places/place_mapper.h>
 #include <placegraph/pipeline/slam/environment_monitor.h>
 #include <placegraph/pipeline/slam/trajectory_recorder.h>
@@ -31,7 +32,7 @@ class MapFeed {
 
   /// Keeps how a keyframe looks until take_changes() has told it. All keyframes are kept in colour,
   /// or none, as the first.
-  void keep_view(std::int64_t keyframe, const Frame& frame);
+  void keep_view(KeyframeId keyframe, const Frame& frame);
   /// Lengths have changed: landmarks and views of keyframes are told again.
   void tell_again();
   [[nodiscard]] Map snapshot(const MapSources& sources) const;
@@ -44,11 +45,11 @@ class MapFeed {
   std::vector<PointLandmark> landmarks(const Odometry& odometry, std::size_t first) const;
 
   PlaceCueOptions cues_;
-  std::map<std::int64_t, PlaceView> views_;  // of keyframes that have not been told
+  std::map<KeyframeId, PlaceView> views_;  // of keyframes that have not been told
   std::optional<bool> views_in_colour_;
   std::vector<PointLandmark> earlier_landmarks_;     // of a saved map
   std::int64_t first_landmark_id_ = 0;               // after theirs
-  std::set<std::int64_t> described_places_;          // whose appearance has been told
+  std::set<PlaceId> described_places_;               // whose appearance has been told
   std::size_t first_view_ = 0, first_landmark_ = 0;  // from here on nothing has been told
   std::size_t told_training_ = 0;  // views that the vocabulary of the told appearances is of
 };

@@ -5,7 +5,7 @@
 
 namespace placegraph {
 
-SE3 KnownMap::T_map_frame(const Loop& located) const {
+SE3 KnownMap::T_map_frame(const LocatedFrame& located) const {
   return rigid_part(mapper.S_map_keyframe(located.match) * Sim3(located.T_match_query));
 }
 
@@ -14,26 +14,26 @@ void TrackRecovery::use_motion(std::shared_ptr<const MeasuredMotion> motion_cam)
 }
 
 /// By other sensors since the last keyframe, if both are in metres.
-std::optional<Loop> TrackRecovery::by_motion(const Frame& frame, const KnownMap& known) const {
+std::optional<LocatedFrame> TrackRecovery::by_motion(const Frame& frame,
+                                                     const KnownMap& known) const {
   const auto last = known.recorder.newest_keyframe();
   if (!motion_ || !last || known.mapper.scale_unknown(*last, *last)) return std::nullopt;
   const auto since = motion_->between(known.recorder.stamp_ns_of(*last), frame.stamp_ns);
   if (!since) return std::nullopt;
-  Loop loop{-1, *last, since->T_a_b};
-  loop.information.topLeftCorner<6, 6>() = since->covariance.ldlt().solve(Matrix6d::Identity());
-  return loop;
+  LocatedFrame located{*last, since->T_a_b};
+  located.information.topLeftCorner<6, 6>() = since->covariance.ldlt().solve(Matrix6d::Identity());
+  return located;
 }
 
 /// By the rotation of a monocular camera since the last keyframe, or since it was last located.
-std::optional<Loop> TrackRecovery::by_rotation(const OdometryUpdate& update, const KnownMap& known,
-                                               double median_depth) const {
+std::optional<LocatedFrame> TrackRecovery::by_rotation(const OdometryUpdate& update,
+                                                       const KnownMap& known,
+                                                       double median_depth) const {
   const auto last = known.recorder.newest_keyframe();
   if (!update.rotation || !last) return std::nullopt;
   const SE3 rotation(update.rotation->R_before_cam, {0, 0, 0});
-  Loop loop;
-  loop.query = -1;
-  loop.match = *last;
-  if (anchor_) loop = *anchor_;
+  LocatedFrame located{*last, SE3()};
+  if (anchor_) located = *anchor_;
   Matrix6d covariance = Matrix6d::Zero();
   if (anchor_) {
     const Matrix6d back = SE3(update.rotation->R_before_cam.inverse(), {0, 0, 0}).adjoint();
@@ -43,14 +43,14 @@ std::optional<Loop> TrackRecovery::by_rotation(const OdometryUpdate& update, con
   const double sigma = options_.rotation_rad * median_depth;
   covariance.topLeftCorner<3, 3>().diagonal().array() += sigma * sigma;
   covariance.bottomRightCorner<3, 3>() += update.rotation->covariance;
-  loop.T_match_query = loop.T_match_query * rotation;
-  loop.information.setZero();
-  loop.information.topLeftCorner<6, 6>() = covariance.ldlt().solve(Matrix6d::Identity());
-  return loop;
+  located.T_match_query = located.T_match_query * rotation;
+  located.information.setZero();
+  located.information.topLeftCorner<6, 6>() = covariance.ldlt().solve(Matrix6d::Identity());
+  return located;
 }
 
-std::optional<Loop> TrackRecovery::expect(const Frame& frame, const KnownMap& known,
-                                          Odometry& odometry) {
+std::optional<LocatedFrame> TrackRecovery::expect(const Frame& frame, const KnownMap& known,
+                                                  Odometry& odometry) {
   continues_ = false;
   if (anchor_) {
     // A monocular camera that begins anew within the map waits for its second view; until then
@@ -65,11 +65,11 @@ std::optional<Loop> TrackRecovery::expect(const Frame& frame, const KnownMap& kn
   return anchor_;
 }
 
-std::optional<Loop> TrackRecovery::locate(const std::optional<Loop>& expected,
-                                          const OdometryUpdate& update, const KnownMap& known,
-                                          const Odometry& odometry) {
+std::optional<LocatedFrame> TrackRecovery::locate(const std::optional<LocatedFrame>& expected,
+                                                  const OdometryUpdate& update,
+                                                  const KnownMap& known, const Odometry& odometry) {
   if (!anchor_) return expected;
-  const std::optional<Loop> located =
+  const std::optional<LocatedFrame> located =
       expected ? expected : by_rotation(update, known, odometry.map().median_depth());
   if (update.reference) anchor_ = located;
   return located;
@@ -81,7 +81,7 @@ bool TrackRecovery::needed(const OdometryUpdate& update, const KnownMap& known) 
   return update.state == TrackingState::kWaiting && mapped && !anchor_;
 }
 
-OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<Loop> located,
+OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedFrame> located,
                                       const OdometryUpdate& update, const KnownMap& known,
                                       Odometry& odometry) {
   ++lost_in_a_row_;
@@ -118,23 +118,21 @@ OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<Loop> lo
   return odometry.add_frame(frame);
 }
 
-std::optional<Loop> TrackRecovery::pose_without_tracking(const Frame& frame,
-                                                         const std::optional<Loop>& located,
-                                                         const OdometryUpdate& update,
-                                                         const KnownMap& known,
-                                                         const Odometry& odometry) {
+std::optional<LocatedFrame> TrackRecovery::pose_without_tracking(
+    const Frame& frame, const std::optional<LocatedFrame>& located, const OdometryUpdate& update,
+    const KnownMap& known, const Odometry& odometry) {
   const bool waits = update.state == TrackingState::kWaiting;
   if (!anchor_ || !waits || (!located && lost_in_a_row_ == 0)) return by_motion(frame, known);
-  const Loop at = located ? *located : *anchor_;
+  const LocatedFrame at = located ? *located : *anchor_;
   if (motion_ && !odometry.started()) anchor_.reset();
   if (located || update.reference) return at;
   return std::nullopt;
 }
 
-void TrackRecovery::take_up(std::int64_t newest, double median_depth, const KnownMap& known) {
+void TrackRecovery::take_up(KeyframeId newest, double median_depth, const KnownMap& known) {
   constexpr double kSigmaDepths = 1e-5, kSigmaRad = 1e-5;
   const double sigma = kSigmaDepths * median_depth;
-  anchor_ = Loop{-1, newest, SE3()};
+  anchor_ = LocatedFrame{newest, SE3()};
   anchor_->information.diagonal().head<3>().setConstant(1 / (sigma * sigma));
   anchor_->information.diagonal().segment<3>(3).setConstant(1 / (kSigmaRad * kSigmaRad));
   continues_ = true;

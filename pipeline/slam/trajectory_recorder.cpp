@@ -9,10 +9,10 @@ bool TrajectoryRecorder::accepts(const Frame& frame) const {
 }
 
 void TrajectoryRecorder::begin(const Frame& frame) {
-  records_.push_back({frame.id, frame.stamp_ns, -1, std::nullopt, 0});
+  records_.push_back({frame.id, frame.stamp_ns, std::nullopt, std::nullopt, 0});
 }
 
-void TrajectoryRecorder::record(std::int64_t keyframe, const SE3& T_keyframe_frame, int inliers) {
+void TrajectoryRecorder::record(KeyframeId keyframe, const SE3& T_keyframe_frame, int inliers) {
   records_.back().keyframe = keyframe;
   records_.back().T_keyframe_frame = T_keyframe_frame;
   records_.back().inliers = inliers;
@@ -25,10 +25,10 @@ void TrajectoryRecorder::finish(const std::optional<SE3>& T_map_cam) {
 }
 
 /// To be changed; null for a frame that has none.
-FrameRecord* TrajectoryRecorder::record_of(std::int64_t frame) {
+FrameRecord* TrajectoryRecorder::record_of(FrameId frame) {
   const auto record =
       std::lower_bound(records_.begin(), records_.end(), frame,
-                       [](const FrameRecord& r, std::int64_t id) { return r.frame < id; });
+                       [](const FrameRecord& r, FrameId id) { return r.frame < id; });
   if (record == records_.end() || record->frame != frame) return nullptr;
   first_changed_ =
       std::min(first_changed_, static_cast<std::size_t>(std::distance(records_.begin(), record)));
@@ -44,18 +44,18 @@ void TrajectoryRecorder::add_keyframe(const NewKeyframe& keyframe) {
   }
 }
 
-void TrajectoryRecorder::correct(const std::vector<PosedFrame>& posed, std::int64_t first_new,
+void TrajectoryRecorder::correct(const std::vector<PosedFrame>& posed, KeyframeId first_new,
                                  const LocalMap& map) {
   for (const auto& [frame, T_odom_cam] : posed)
     if (FrameRecord* record = record_of(frame)) {
-      if (record->keyframe < map.first()) record->keyframe = first_new;
-      record->T_keyframe_frame = map.pose(record->keyframe).inverse() * T_odom_cam;
+      if (!record->keyframe || *record->keyframe < map.first()) record->keyframe = first_new;
+      record->T_keyframe_frame = map.pose(*record->keyframe).inverse() * T_odom_cam;
     }
 }
 
-void TrajectoryRecorder::rescale(std::int64_t first_keyframe, double factor) {
+void TrajectoryRecorder::rescale(KeyframeId first_keyframe, double factor) {
   for (FrameRecord& record : records_)
-    if (record.keyframe >= first_keyframe && record.T_keyframe_frame)
+    if (record.keyframe && *record.keyframe >= first_keyframe && record.T_keyframe_frame)
       record.T_keyframe_frame =
           SE3(record.T_keyframe_frame->rotation(), factor * record.T_keyframe_frame->translation());
   first_changed_ = 0;
@@ -72,7 +72,7 @@ void TrajectoryRecorder::begin_at_origin(bool rotated) {
   origins_.push_back(records_.size() - 1);
 }
 
-void TrajectoryRecorder::take_up(const Map& map, std::int64_t last_frame) {
+void TrajectoryRecorder::take_up(const Map& map, FrameId last_frame) {
   for (const Keyframe& keyframe : map.keyframes) {
     frames_[keyframe.id] = keyframe.frame;
     stamps_ns_[keyframe.id] = keyframe.stamp_ns;

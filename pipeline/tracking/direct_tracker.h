@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/surface_cue.h>
 #include <placegraph/pipeline/tracking/frame_tracker.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>
@@ -41,7 +42,7 @@ class DirectTracker : public FrameTracker {
   LogSink log_;
   StageTimes& times_;
   SurfaceCue surfaces_;
-  std::optional<std::int64_t> seen_;  // frame that the surfaces have seen last
+  std::optional<FrameId> seen_;  // frame that the surfaces have seen last
   std::optional<ManhattanCue> manhattan_;
   DirectMotion newest_;                      // of the last posed frame, from the last keyframe
   std::optional<DirectMotion> from_before_;  // of the frame that becomes a keyframe

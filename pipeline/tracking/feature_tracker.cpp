@@ -102,7 +102,7 @@ bool FeatureTracker::keyframe_due(const SE3& T_odom_cam, int inliers, const Loca
 }
 
 std::optional<PureRotation> FeatureTracker::rotation_since(
-    const std::map<std::int64_t, Eigen::Vector2d>& px_before, Random& random) const {
+    const std::map<LandmarkId, Eigen::Vector2d>& px_before, Random& random) const {
   if (metric_from_start(cues_, calibration_) || !cues_.points) return std::nullopt;
   std::vector<Eigen::Vector2d> px_ref, px_cur;
   for (const PointTrack& track : points_.tracks())
@@ -130,7 +130,7 @@ std::optional<SE3> FeatureTracker::prepare_keyframe(const KeyframeImages& images
 void FeatureTracker::observe(const KeyframeImages& images, const RectificationError& rectification,
                              LocalMap& map, Random& random) {
   const Frame& frame = images.frame;
-  const std::int64_t id = map.newest();
+  const KeyframeId id = map.newest();
   points_.observe(id, frame, rectification, map.window());
   if (lines_) {
     lines_->observe(id, frame, rectification, map.median_depth(), map.window());

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/plane_cue.h>
 #include <placegraph/pipeline/cues/point_cue.h>
 #include <placegraph/pipeline/tracking/cue_list.h>
@@ -44,8 +45,8 @@ class FeatureTracker : public FrameTracker {
   void observe_directions(const Image& image, LocalMap& map);
   /// What the camera has rotated since its tracks were seen at `px_before`; nothing if they say
   /// that it moved, or if the camera measures depth.
-  std::optional<PureRotation> rotation_since(
-      const std::map<std::int64_t, Eigen::Vector2d>& px_before, Random& random) const;
+  std::optional<PureRotation> rotation_since(const std::map<LandmarkId, Eigen::Vector2d>& px_before,
+                                             Random& random) const;
   /// The newest keyframe is one from which the next ones are selected.
   void start_selection(int landmarks);
 

@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-void IntermediateFrames::correct_drift(const std::map<std::int64_t, Eigen::Vector2d>& drift_px) {
+void IntermediateFrames::correct_drift(const std::map<LandmarkId, Eigen::Vector2d>& drift_px) {
   const double steps = static_cast<double>(frames_.size()) + 1;
   for (std::size_t k = 0; k < frames_.size(); ++k)
     for (auto& [id, px] : frames_[k].landmark_px)
@@ -12,13 +12,12 @@ void IntermediateFrames::correct_drift(const std::map<std::int64_t, Eigen::Vecto
         px += static_cast<double>(k + 1) / steps * drift->second;
 }
 
-std::vector<std::pair<std::int64_t, SE3>> IntermediateFrames::repose(const LocalMap& map,
-                                                                     std::int64_t keyframe,
-                                                                     double scale) {
+std::vector<std::pair<FrameId, SE3>> IntermediateFrames::repose(const LocalMap& map,
+                                                                KeyframeId keyframe, double scale) {
   constexpr int kIterations = 10;
   constexpr double kSigmaPx = 1;  // of a track
   const SlidingWindow& window = map.window();
-  std::vector<std::pair<std::int64_t, SE3>> posed;
+  std::vector<std::pair<FrameId, SE3>> posed;
   for (const Tracked& frame : frames_) {
     std::vector<Eigen::Vector3d> points;
     std::vector<Eigen::Vector2d> px;

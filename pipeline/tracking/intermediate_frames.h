@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/relative_pose/pose_3d2d.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/manhattan_cue.h>
 #include <placegraph/pipeline/local_map/local_map.h>
 
@@ -19,21 +20,20 @@ class IntermediateFrames {
       : options_(options), camera_(camera) {}
 
   struct Tracked {
-    std::int64_t frame = 0;
+    FrameId frame;
     SE3 T_keyframe_cam;  ///< from the last keyframe
-    std::vector<std::pair<std::int64_t, Eigen::Vector2d>> landmark_px;
+    std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_px;
     std::optional<ManhattanCue::Heading> heading;  ///< what it sees of a Manhattan frame
   };
   void remember(Tracked frame) { frames_.push_back(std::move(frame)); }
   /// Reference patches show at the next keyframe how far tracks have drifted since the last one: by
   /// equal parts in every frame. `drift_px`: of each track.
-  void correct_drift(const std::map<std::int64_t, Eigen::Vector2d>& drift_px);
+  void correct_drift(const std::map<LandmarkId, Eigen::Vector2d>& drift_px);
   /// Poses the frames again, by the landmarks as they are now known: id and T_odom_cam of those
   /// that see enough of them. `keyframe`: the last one before them. `scale`: what lengths have
   /// grown by since then. Forgets them.
-  [[nodiscard]] std::vector<std::pair<std::int64_t, SE3>> repose(const LocalMap& map,
-                                                                 std::int64_t keyframe,
-                                                                 double scale);
+  [[nodiscard]] std::vector<std::pair<FrameId, SE3>> repose(const LocalMap& map,
+                                                            KeyframeId keyframe, double scale);
   void clear() { frames_.clear(); }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/pipeline/tracking/odometry_options.h>
 #include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/camera.h>
 
 #include <map>
@@ -35,13 +36,13 @@ class KeyframeSelector {
   std::vector<double> flow_px(const std::vector<PointTrack>& tracks,
                               const SO3& R_keyframe_cam) const;
   /// Pixels of the tracks in the last keyframe, by id.
-  const std::map<std::int64_t, Eigen::Vector2d>& px_at_keyframe() const { return px_at_keyframe_; }
+  const std::map<LandmarkId, Eigen::Vector2d>& px_at_keyframe() const { return px_at_keyframe_; }
 
  private:
   KeyframeOptions options_;
   Camera camera_;
   int min_inliers_;
-  std::map<std::int64_t, Eigen::Vector2d> px_at_keyframe_;
+  std::map<LandmarkId, Eigen::Vector2d> px_at_keyframe_;
   int landmarks_ = 0, frames_ = 0;
 };
 

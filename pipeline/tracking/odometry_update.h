@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/slam/frame_result.h>
 #include <placegraph/pipeline/cues/surface_labels.h>
 #include <placegraph/pipeline/local_map/local_map.h>
@@ -13,7 +14,7 @@ namespace placegraph {
 
 /// A frame that has become a keyframe.
 struct NewKeyframe {
-  std::int64_t id;
+  KeyframeId id;
   Frame frame;
   std::shared_ptr<const SceneSight> labels = nullptr;  ///< of its surfaces, where they are labelled
 };
@@ -25,13 +26,13 @@ struct PureRotation {
 };
 
 /// A frame that is posed after it was handed over: id and T_odom_cam.
-using PosedFrame = std::pair<std::int64_t, SE3>;
+using PosedFrame = std::pair<FrameId, SE3>;
 
 /// What one frame brought.
 struct OdometryUpdate {
   TrackingState state = TrackingState::kWaiting;
-  SE3 T_odom_cam;              ///< if tracking, or the first of the two views
-  std::int64_t keyframe = -1;  ///< reference keyframe, if tracking
+  SE3 T_odom_cam;                      ///< if tracking, or the first of the two views
+  std::optional<KeyframeId> keyframe;  ///< reference keyframe, if tracking
   int inliers = 0;
   std::string reason;      ///< why it is not tracking, or begins anew
   bool reference = false;  ///< while waiting: this frame is the first of the two views

@@ -26,7 +26,8 @@ SlidingWindow window_of(const benchmark::State& state, int max_keyframes) {
   SlidingWindow window(options, world.camera);
   fill_window(window, world, random, 0.05, 0.005, 0.3);
   if (state.range(2) == 0)
-    add_distance(window, {0, 1, test::distance_m(world.T_map_cam[0], world.T_map_cam[1]), 0.01});
+    add_distance(window, {KeyframeId(0), KeyframeId(1),
+                          test::distance_m(world.T_map_cam[0], world.T_map_cam[1]), 0.01});
   return window;
 }
 

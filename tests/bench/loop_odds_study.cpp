@@ -49,9 +49,10 @@ std::vector<Candidate> candidates_of(const std::string& map, const std::string& 
   const SameView same{radius_m, 40};
   std::vector<Candidate> candidates;
   for (const LoopRecord& loop : read_map(map).map.loops) {
-    const auto at = [&](std::int64_t frame) {
-      require(frame < static_cast<std::int64_t>(truth.size()), truth_file + ": too few poses");
-      return truth.poses[static_cast<std::size_t>(frame)].T_world_body;
+    const auto at = [&](FrameId frame) {
+      require(frame.value() < static_cast<std::int64_t>(truth.size()),
+              truth_file + ": too few poses");
+      return truth.poses[static_cast<std::size_t>(frame.value())].T_world_body;
     };
     const auto query = at(loop.query_frame), match = at(loop.match_frame);
     if (query && match) candidates.push_back({loop_features(loop), same.holds(*query, *match)});

@@ -81,7 +81,7 @@ TEST(SlamOnAStreet, FillsInTheFramesBeforeItsSecondViewLater) {
   Slam slam(small_options(), drive().calibration(Sensor::kMono));
   for (int i = 0; i < 12; ++i) {
     Frame frame = drive().frame(static_cast<std::size_t>(std::max(0, i - 3)), Sensor::kMono);
-    frame.id = i;
+    frame.id = FrameId(i);
     frame.stamp_ns = i;
     slam.add_frame(frame);
   }
@@ -223,7 +223,7 @@ TEST(SlamOnAStreet, MovesEvenlyFromOneKeyframeToTheNext) {
   EXPECT_EQ(run.lens_k1, 0);
   const Trajectory optimized = run.map.trajectory_optimized(), truth = *drive().ground_truth();
   std::vector<double> units;  // of each step until the last keyframe
-  const auto last = static_cast<std::size_t>(run.map.keyframes.back().frame);
+  const auto last = static_cast<std::size_t>(run.map.keyframes.back().frame.value());
   ASSERT_GT(last, drive().size() / 2);
   for (std::size_t i = 1; i <= last; ++i) {
     const auto step_m = [i](const Trajectory& t) {
@@ -242,7 +242,8 @@ TEST(SlamOnAStreet, NeedsNoKeyframesToTurnWhereItsTurnIsTakenOut) {
   for (int i = 0; i < 20; ++i) {
     const SE3 T_world_left = pose({0, deg_to_rad(0.4 * i), 0}, {0, -kStreetHeight_m, 0});
     Frame frame;
-    frame.id = frame.stamp_ns = i;
+    frame.id = FrameId(i);
+    frame.stamp_ns = i;
     frame.image = render(street_camera(), T_world_left, street(), 2).grey;
     frame.right = render(street_camera(), T_world_left * pose({0, 0, 0}, {kStreetBaseline_m, 0, 0}),
                          street(), 2)
@@ -269,7 +270,7 @@ TEST(SlamOnAStreet, GoesOnWithOneEyeAfterAJumpToAKnownPlace) {
   for (int i = 0; i < kFrames + 14; ++i) {
     const std::size_t source = i < kFrames ? i : i - kFrames + 8;
     Frame frame = drive().frame(source, Sensor::kMono);
-    frame.id = i;
+    frame.id = FrameId(i);
     frame.stamp_ns = 100000000LL * i;
     online.push_back(slam.add_frame(frame).T_map_cam);
   }
@@ -417,12 +418,12 @@ TEST(RunSequence, RunsAPartAndReportsItsProgress) {
   const RunResult run = run_sequence(
       drive(), options, [&](std::size_t d, std::size_t total, const FrameResult& result) {
         EXPECT_EQ(total, 4u);
-        EXPECT_EQ(result.frame, static_cast<std::int64_t>(2 + d));
+        EXPECT_EQ(result.frame, FrameId(2 + d));
         done.push_back(d);
       });
   EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3, 4}));
   ASSERT_EQ(run.map.frames.size(), 4u);
-  EXPECT_EQ(run.map.frames.front().frame, 3);
+  EXPECT_EQ(run.map.frames.front().frame, FrameId(3));
 }
 
 }  // namespace

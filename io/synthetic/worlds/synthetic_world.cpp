@@ -168,7 +168,7 @@ SyntheticFrame SyntheticWorld::render(std::size_t index, const SyntheticContents
   const synthetic::Rendering rendering =
       synthetic::render(tour_->scene, left, contrast, maps, options_.threads);
   SyntheticFrame out;
-  out.frame.id = static_cast<std::int64_t>(index);
+  out.frame.id = FrameId(index);
   out.frame.stamp_ns = stamp_ns(index);
   out.frame.image = expose(index, false, rendering);
   if (contents.right) {

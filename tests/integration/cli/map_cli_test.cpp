@@ -41,7 +41,7 @@ class MapCli : public test::CliTest {
     fs::create_directory(dir / "broken");
     StoredMap stored = read_map(whole() + "/map.db");
     ASSERT_GT(stored.map.place_graph.places.size(), places);
-    const std::int64_t last = stored.map.place_graph.places[places - 1].anchor_keyframe;
+    const KeyframeId last = stored.map.place_graph.places[places - 1].anchor_keyframe;
     Map& map = stored.map;
     map.place_graph.places.resize(places);
     map.place_graph.places.back().members.resize(1);
@@ -50,7 +50,7 @@ class MapCli : public test::CliTest {
     });
     std::erase_if(map.keyframes, [&](const Keyframe& k) { return k.id > last; });
     std::erase_if(map.landmarks, [&](const PointLandmark& l) { return l.keyframe > last; });
-    const std::int64_t frame = map.keyframes.back().frame;
+    const FrameId frame = map.keyframes.back().frame;
     std::erase_if(map.frames, [&](const FrameRecord& r) { return r.frame > frame; });
     map.trajectory_online.poses.resize(map.frames.size());
     std::erase_if(map.loops, [&](const LoopRecord& l) { return l.query_frame > frame; });

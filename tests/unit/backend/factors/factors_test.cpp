@@ -120,7 +120,7 @@ TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesAlsoFarFromItsLinear
     MarginalPrior prior;
     std::vector<Block> blocks;
     for (int k = 0; k < 3; ++k) {
-      prior.keyframes.push_back(k);
+      prior.keyframes.push_back(KeyframeId(k));
       prior.T_map_cam_lin.push_back(random_element<SE3>(random, 2, 1));
       blocks.push_back(pose_block(
           prior.T_map_cam_lin.back() * random_element<SE3>(random, size, size), manifold));
@@ -135,7 +135,7 @@ TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesAlsoFarFromItsLinear
 TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesForPlanesAndWorldsToo) {
   Random random(4);
   MarginalPrior prior;
-  prior.keyframes = {0};
+  prior.keyframes = {KeyframeId(0)};
   prior.T_map_cam_lin = {random_element<SE3>(random, 2, 1)};
   prior.planes = {0};
   prior.plane_lin = {Plane3(Eigen::Vector3d(0.1, -0.9, 0.2), 1.6)};

@@ -256,7 +256,7 @@ TEST(VideoFile, HandsOutItsFramesInAnyOrder) {
     EXPECT_EQ(dataset->stamp_ns(1), 50000000);
     for (const std::size_t i : {std::size_t{3}, std::size_t{0}, std::size_t{4}, std::size_t{4}}) {
       const Frame frame = dataset->frame(i, Sensor::kMono);
-      EXPECT_EQ(frame.id, static_cast<std::int64_t>(i));
+      EXPECT_EQ(frame.id, FrameId(i));
       EXPECT_EQ(frame.colour.type(), CV_8UC3);
       EXPECT_NEAR(cv::mean(frame.image)[0], 40.0 * static_cast<double>(i) + 20, 3);  // JPEG
     }

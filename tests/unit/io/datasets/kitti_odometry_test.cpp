@@ -54,7 +54,7 @@ TEST(KittiOdometry, OpensTheSmallestSequenceAtTenHertz) {
   EXPECT_EQ(calibration.camera.cy, 3);
   EXPECT_FALSE(calibration.camera_height_m);
   const Frame frame = dataset->frame(1, Sensor::kMono);
-  EXPECT_EQ(frame.id, 1);
+  EXPECT_EQ(frame.id, FrameId(1));
   EXPECT_EQ(frame.stamp_ns, 100000000);
   EXPECT_TRUE(test::same_pixels(frame.image, tiny_grey(8, 6, 1)));
   EXPECT_TRUE(frame.colour.empty() && frame.right.empty() && frame.depth.empty());

@@ -53,12 +53,13 @@ struct Drive {
   std::optional<std::int64_t> see(const std::optional<SO3>& turn) {
     const std::int64_t id = next++;
     const SE3& T_map_cam = world.T_map_cam[static_cast<std::size_t>(id)];
-    window.add_keyframe(id, T_map_cam);
-    add_view(window, world, id, 0, random);
+    window.add_keyframe(KeyframeId(id), T_map_cam);
+    add_view(window, world, KeyframeId(id), 0, random);
     std::optional<std::int64_t> seen;
     if (turn)
       seen = worlds.add(
-          id, T_map_cam.rotation().inverse() * kR_map_world * *turn * axes(static_cast<int>(id)),
+          KeyframeId(id),
+          T_map_cam.rotation().inverse() * kR_map_world * *turn * axes(static_cast<int>(id)),
           Eigen::Matrix3d::Identity() * std::pow(0.1 * kRadPerDeg, 2), window);
     if (window.world(1)) R_map_first = *window.world(1);
     if (id > 0) {
@@ -86,7 +87,7 @@ TEST(ManhattanWorlds, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
   EXPECT_LT((turn.matrix() - turn.matrix().array().round().matrix()).norm(), 1e-6);
   // The map stays under them.
   EXPECT_LT(drive.window.world(ManhattanWorlds::kMapAxes)->log().norm(), 1e-12);
-  const auto expected = drive.worlds.expected(drive.window, 7);
+  const auto expected = drive.worlds.expected(drive.window, KeyframeId(7));
   ASSERT_EQ(expected.size(), 1u);
   EXPECT_LT(std::sqrt(expected[0].covariance.trace()), 2 * kRadPerDeg);
 }

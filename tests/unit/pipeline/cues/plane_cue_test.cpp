@@ -64,11 +64,11 @@ struct Drive {
   Seen see(const std::vector<Patch>& patches) {
     const std::int64_t id = next++;
     const SE3& T_map_cam = world.T_map_cam[static_cast<std::size_t>(id)];
-    window.add_keyframe(id, T_map_cam);
-    add_view(window, world, id, 0, random);
+    window.add_keyframe(KeyframeId(id), T_map_cam);
+    add_view(window, world, KeyframeId(id), 0, random);
     std::vector<DepthPlane> seen;
     for (const Patch& patch : patches) seen.push_back(seen_from(T_map_cam, patch));
-    const Seen result = planes.add(id, seen, window);
+    const Seen result = planes.add(KeyframeId(id), seen, window);
     if (id > 0) {
       EXPECT_TRUE(window.optimize().outcome);
     }
@@ -126,10 +126,12 @@ TEST(PlaneLandmarks, TheOtherSideOfAThinWallIsAnotherOne) {
   std::vector<Seen> results;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto id = static_cast<std::int64_t>(k);
-    window.add_keyframe(id, T_map_cam[k]);
-    if (k > 0) add_motion(window, {id - 1, id, T_map_cam[k - 1].inverse() * T_map_cam[k], sure});
-    results.push_back(
-        planes.add(id, {Drive::seen_from(T_map_cam[k], k < 2 ? kAhead : back)}, window));
+    window.add_keyframe(KeyframeId(id), T_map_cam[k]);
+    if (k > 0)
+      add_motion(window, {KeyframeId(id - 1), KeyframeId(id),
+                          T_map_cam[k - 1].inverse() * T_map_cam[k], sure});
+    results.push_back(planes.add(KeyframeId(id),
+                                 {Drive::seen_from(T_map_cam[k], k < 2 ? kAhead : back)}, window));
   }
   EXPECT_EQ(results[1], Seen{1});
   EXPECT_EQ(results[2], Seen{std::nullopt});

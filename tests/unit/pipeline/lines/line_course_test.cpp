@@ -22,19 +22,19 @@ struct Corridor {
                     double roll_rad = 0) {
     const SO3 rolled = SO3::exp({0, 0, roll_rad});
     const SE3 first, second(rolled, way);
-    window.add_keyframe(0, first);
-    window.add_keyframe(1, SE3(rolled, way + error));
+    window.add_keyframe(KeyframeId(0), first);
+    window.add_keyframe(KeyframeId(1), SE3(rolled, way + error));
     for (int i = 1; i <= 4; ++i) {
       const double x = i % 2 ? -1.5 : 1.5, y = i <= 2 ? -1 : 1;
       for (int k = 0; k < 2; ++k) {
         const LineTrack track =
             track_of(i, k ? second : first, Vector3d(x, y, 6), Vector3d(x, y, 20));
-        sightings[i].push_back({k, track.edge.line.carriers(0.1), std::nullopt});
+        sightings[i].push_back({KeyframeId(k), track.edge.line.carriers(0.1), std::nullopt});
       }
     }
   }
   std::vector<MotionObservation> course(double depth = 3) const {
-    return course_along_lines(window, line_camera(), families, sightings, 1, depth,
+    return course_along_lines(window, line_camera(), families, sightings, KeyframeId(1), depth,
                               deg_to_rad(2.0));
   }
 };
@@ -44,8 +44,8 @@ TEST(LineCourse, EdgesAlongTheWaySayThatTheCameraStayedOnTheirDirection) {
   const Corridor corridor({0, 0, 1}, {0.04, 0, 0});
   const auto motions = corridor.course();
   ASSERT_EQ(motions.size(), 1u);
-  EXPECT_EQ(motions[0].from, 0);
-  EXPECT_EQ(motions[0].to, 1);
+  EXPECT_EQ(motions[0].from, KeyframeId(0));
+  EXPECT_EQ(motions[0].to, KeyframeId(1));
   EXPECT_NEAR((motions[0].T_from_to.translation() - Vector3d(0, 0, 1)).norm(), 0, 1e-9);
   // Across the way it is known, along the way and in rotation it is not.
   const auto& information = motions[0].information;

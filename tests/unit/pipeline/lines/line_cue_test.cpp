@@ -21,13 +21,14 @@ struct Pair {
   explicit Pair(const RectificationError& error) : window({}, line_camera()) {
     calibration.camera = line_camera();
     calibration.baseline_m = 0.5;
-    for (int k = 0; k < 4; ++k) window.add_keyframe(k, SE3(SO3(), Eigen::Vector3d(0.4 * k, 0, 0)));
+    for (int k = 0; k < 4; ++k)
+      window.add_keyframe(KeyframeId(k), SE3(SO3(), Eigen::Vector3d(0.4 * k, 0, 0)));
     for (int i = 0; i < 6; ++i) {
       const double x = -1 + 0.5 * i, z = 4 + i;
       window.add_line(i, Line3::from_direction({x, 0, z}, {0, 1, 0}));
       for (int k = 0; k < 4; ++k) {
         const double u = 320 + 500 * (x - 0.4 * k) / z, d = 500 * 0.5 / z;
-        LineObservation o{k, i, {u, 140}, {u, 340}, 0.2, {}};
+        LineObservation o{KeyframeId(k), i, {u, 140}, {u, 340}, 0.2, {}};
         const auto right = [&](double v) {
           return Eigen::Vector2d(u - d - error.at({(u - 320) / 500, (v - 240) / 500}), v);
         };
@@ -67,9 +68,9 @@ TEST(LineCue, RevisedRightEyesLieWhereARectifiedOneWouldSeeTheLines) {
 TEST(LineCue, OnlyASecondEyeThatIsThereCanBeRevised) {
   Pair pair({});
   const LineObservation::SecondEye eye{{0.5, 0, 0}, {1, 2}, {1, 9}, 0.2};
-  EXPECT_THROW(pair.window.revise_second_eye(9, 0, eye), ArgumentError);
-  EXPECT_THROW(pair.window.revise_second_eye(0, 99, eye), ArgumentError);
-  EXPECT_THROW(pair.window.revise_second_eye(0, 0, {{0, 0, 0}, {1, 2}, {1, 9}, 0.2}),
+  EXPECT_THROW(pair.window.revise_second_eye(KeyframeId(9), 0, eye), ArgumentError);
+  EXPECT_THROW(pair.window.revise_second_eye(KeyframeId(0), 99, eye), ArgumentError);
+  EXPECT_THROW(pair.window.revise_second_eye(KeyframeId(0), 0, {{0, 0, 0}, {1, 2}, {1, 9}, 0.2}),
                ArgumentError);
 }
 
@@ -99,12 +100,12 @@ struct Corridor {
   }
   static const Frame& frame(int i) { return boards_drive()[static_cast<std::size_t>(i)]; }
   void keyframe(int i) {
-    window.add_keyframe(i, boards_way(i));
+    window.add_keyframe(KeyframeId(i), boards_way(i));
     if (i > 0) {
       cue.track(frame(i).image, window, boards_way(i), 5);
       cue.accept(window, boards_way(i));
     }
-    cue.observe(i, frame(i), {}, 5, window);
+    cue.observe(KeyframeId(i), frame(i), {}, 5, window);
   }
   /// By what angle the lines of the window miss the nearest axis of the corridor; their median.
   double off_the_axes_rad() const {
@@ -173,7 +174,7 @@ TEST(LineCue, LinesThatTheNewestKeyframeContradictsAreDropped) {
   c.window.remove_line(moved);
   c.window.add_line(moved, Line3::from_direction(line.nearest_point() + Eigen::Vector3d(1, 1, 1),
                                                  line.direction()));
-  c.window.add_line_observation({0, moved, {100, 100}, {100, 200}, 0.2, {}});
+  c.window.add_line_observation({KeyframeId(0), moved, {100, 100}, {100, 200}, 0.2, {}});
   c.cue.prune(c.window);
   EXPECT_FALSE(c.window.line(moved));
   EXPECT_EQ(c.window.lines().size(), all - 1);

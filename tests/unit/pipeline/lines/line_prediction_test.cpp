@@ -45,7 +45,7 @@ TEST(LinePrediction, ASegmentBehindTheCameraHasNoLength) {
 
 TEST(LinePrediction, LinesOfTheWindowTellThreeDepthsEach) {
   SlidingWindow window({}, line_camera());
-  window.add_keyframe(0, SE3());
+  window.add_keyframe(KeyframeId(0), SE3());
   window.add_line(7, line_through(kTop, kBottom + Vector3d(0, 0, 2)));
   const std::vector<LineTrack> tracks = {track_of(7, SE3(), kTop, kBottom + Vector3d(0, 0, 2)),
                                          track_of(8, SE3(), kTop, kBottom)};
@@ -64,7 +64,7 @@ TEST(LinePrediction, LinesOfTheWindowTellThreeDepthsEach) {
 
 TEST(LinePrediction, ALineOfTheWindowIsExpectedWhereItIsSeenNext) {
   SlidingWindow window({}, line_camera());
-  window.add_keyframe(0, SE3());
+  window.add_keyframe(KeyframeId(0), SE3());
   const Vector3d end = kBottom + Vector3d(0, 0, 2);
   window.add_line(7, line_through(kTop, end));
   const std::map<std::int64_t, double> drift_px = {{7, 3}};  // does not count: its place is known
@@ -77,7 +77,7 @@ TEST(LinePrediction, ALineOfTheWindowIsExpectedWhereItIsSeenNext) {
 
 TEST(LinePrediction, OtherTracksLieAsDeepAsTheLinesBesideThem) {
   SlidingWindow window({}, line_camera());
-  window.add_keyframe(0, SE3());
+  window.add_keyframe(KeyframeId(0), SE3());
   window.add_line(7, line_through(kTop, kBottom));
   const Vector3d beside(0.1, 0, 0);
   const std::map<std::int64_t, double> drift_px;
@@ -91,7 +91,7 @@ TEST(LinePrediction, OtherTracksLieAsDeepAsTheLinesBesideThem) {
 
 TEST(LinePrediction, WithoutLinesBesideThemTracksLieAtTheDepthGivenAndDriftOn) {
   SlidingWindow window({}, line_camera());
-  window.add_keyframe(0, SE3());
+  window.add_keyframe(KeyframeId(0), SE3());
   const LineTrack track = track_of(8, SE3(), kTop, kBottom);
   const std::map<std::int64_t, double> still, drifting = {{8, 2.5}};
   const auto at_4 = predict_segments(line_camera(), {track}, window, {SE3(), kMoved, 4}, still);

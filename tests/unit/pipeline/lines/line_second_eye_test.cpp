@@ -69,9 +69,9 @@ SlidingWindow window_with_line(int keyframes, bool right, double step_m = 0.4) {
   SlidingWindow window({}, line_camera());
   window.add_line(7, Line3::from_direction(Vector3d(0.2, 0, 5), Vector3d::UnitY()));
   for (int k = 0; k < keyframes; ++k) {
-    window.add_keyframe(k, SE3(SO3(), Vector3d(step_m * k, 0, 0)));
+    window.add_keyframe(KeyframeId(k), SE3(SO3(), Vector3d(step_m * k, 0, 0)));
     const double u = 320 + 500 * (0.2 - step_m * k) / 5;
-    LineObservation o{k, 7, {u, 140}, {u, 340}, 0.2, {}};
+    LineObservation o{KeyframeId(k), 7, {u, 140}, {u, 340}, 0.2, {}};
     const double disparity = 500 * 0.5 / 5 + 0.7;  // measured 0.7 px too large
     if (right)
       o.second = LineObservation::SecondEye{

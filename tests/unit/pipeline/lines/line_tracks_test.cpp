@@ -19,7 +19,7 @@ struct Tracks {
   static Vector3d top(int i) { return {0.4 * i - 0.8, -1, 3.0 + i}; }
   static Vector3d bottom(int i) { return {0.4 * i - 0.8, 1, 3.0 + i}; }
   Tracks() {
-    window.add_keyframe(0, T_odom_cam);
+    window.add_keyframe(KeyframeId(0), T_odom_cam);
     for (int i = 1; i <= 3; ++i) tracks.push_back(track_of(i, T_odom_cam, top(i), bottom(i)));
     window.add_line(1, line_through(top(1), bottom(1)));
     window.add_line(2,

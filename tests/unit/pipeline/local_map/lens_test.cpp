@@ -64,8 +64,8 @@ TEST(LensEstimator, HearsWindowsThatShareNoKeyframe) {
   const auto observe = [&](LensEstimator& lens, std::int64_t first, std::int64_t last) {
     SlidingWindow window({}, world.camera);
     for (std::int64_t id = first; id <= last; ++id) {
-      window.add_keyframe(id, world.T_map_cam[static_cast<std::size_t>(id)]);
-      test::add_view(window, world, id, 0, random);
+      window.add_keyframe(KeyframeId(id), world.T_map_cam[static_cast<std::size_t>(id)]);
+      test::add_view(window, world, KeyframeId(id), 0, random);
     }
     lens.observe(window);
   };

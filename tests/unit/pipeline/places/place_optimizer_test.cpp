@@ -38,7 +38,8 @@ class PlaceOptimizerTest : public ::testing::Test {
   void expect_at(std::int64_t place, const SE3& T_map_place, double tolerance_m = 1e-4) {
     const IncrementalStep step = optimizer.finish();
     EXPECT_TRUE(step.outcome) << step.outcome.reason;
-    EXPECT_LT(distance_m(rigid_part(optimizer.S_map_place(place)), T_map_place), tolerance_m)
+    EXPECT_LT(distance_m(rigid_part(optimizer.S_map_place(PlaceId(place))), T_map_place),
+              tolerance_m)
         << place;
   }
 
@@ -48,12 +49,12 @@ class PlaceOptimizerTest : public ::testing::Test {
 
 TEST_F(PlaceOptimizerTest, BeginsWherePlacesStand) {
   EXPECT_EQ(optimizer.kind(), PoseKind::kSE3);
-  EXPECT_TRUE(optimizer.knows(2));
-  EXPECT_FALSE(optimizer.knows(3));
+  EXPECT_TRUE(optimizer.knows(PlaceId(2)));
+  EXPECT_FALSE(optimizer.knows(PlaceId(3)));
   expect_at(0, SE3());
   expect_at(2, kStep * kStep);
-  EXPECT_THROW((void)optimizer.S_map_place(3), ArgumentError);
-  EXPECT_THROW((void)optimizer.relative_covariance(0, 3), ArgumentError);
+  EXPECT_THROW((void)optimizer.S_map_place(PlaceId(3)), ArgumentError);
+  EXPECT_THROW((void)optimizer.relative_covariance(PlaceId(0), PlaceId(3)), ArgumentError);
 }
 
 TEST_F(PlaceOptimizerTest, ALinkThatIsMeasuredBetterTakesTheOldOnesPlace) {
@@ -97,8 +98,8 @@ TEST_F(PlaceOptimizerTest, AConstraintWithinOnePlaceCountsNoMore) {
 }
 
 TEST_F(PlaceOptimizerTest, CovarianceOfThePlacesGrowsAlongTheLinks) {
-  const Matrix7d one = optimizer.relative_covariance(0, 1),
-                 two = optimizer.relative_covariance(0, 2);
+  const Matrix7d one = optimizer.relative_covariance(PlaceId(0), PlaceId(1)),
+                 two = optimizer.relative_covariance(PlaceId(0), PlaceId(2));
   EXPECT_NEAR(one(2, 2), 0.01, 1e-6);
   EXPECT_NEAR(two(2, 2), 0.02, 1e-6);
   EXPECT_NEAR(two(0, 0), 0.02 + 1e-4, 1e-6);  // the first link's turn swings the second by 1 m
@@ -108,7 +109,7 @@ TEST_F(PlaceOptimizerTest, CovarianceOfThePlacesGrowsAlongTheLinks) {
 
 TEST_F(PlaceOptimizerTest, BeginningAnewForgetsWhatWasKnown) {
   (void)optimizer.begin({node(5), node(6, kStep)}, {constraint(Kind::kLink, 6, 5, 6, kStep)});
-  EXPECT_FALSE(optimizer.knows(0));
+  EXPECT_FALSE(optimizer.knows(PlaceId(0)));
   // The link of this key joined places that are gone: it is a new one.
   (void)optimizer.follow({}, {constraint(Kind::kLink, 1, 5, 6, kLonger)});
   expect_at(6, pose({0, 0, 0}, {0, 0, 1.5}));
@@ -117,7 +118,7 @@ TEST_F(PlaceOptimizerTest, BeginningAnewForgetsWhatWasKnown) {
 TEST_F(PlaceOptimizerTest, ResettingForgetsPlacesAndConstraints) {
   optimizer.reset();
   EXPECT_FALSE(optimizer.kind());
-  EXPECT_FALSE(optimizer.knows(0));
+  EXPECT_FALSE(optimizer.knows(PlaceId(0)));
   // The same keys are new ones, whatever their ends.
   (void)optimizer.follow({node(0), node(1)}, {constraint(Kind::kLink, 1, 0, 1, kLonger)});
   expect_at(1, kLonger);
@@ -134,8 +135,8 @@ TEST_F(PlaceOptimizerTest, PlacesOfUnknownScaleAreSimilarities) {
                         {{{Kind::kLink, 1}, link}});
   EXPECT_EQ(optimizer.kind(), PoseKind::kSim3);
   (void)optimizer.finish();
-  EXPECT_NEAR(optimizer.S_map_place(1).scale(), 2, 1e-4);
-  EXPECT_NEAR(optimizer.relative_covariance(0, 1)(6, 6), 0.01, 1e-4);
+  EXPECT_NEAR(optimizer.S_map_place(PlaceId(1)).scale(), 2, 1e-4);
+  EXPECT_NEAR(optimizer.relative_covariance(PlaceId(0), PlaceId(1))(6, 6), 0.01, 1e-4);
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ struct Lines {
   Random random{1};
 
   Lines() : calibration(stereo()), cue({}, calibration, {}), window({}, calibration.camera) {
-    window.add_keyframe(0, way(0));
-    cue.observe(0, drive()[0], {}, kDepth_m, window);
+    window.add_keyframe(KeyframeId(0), way(0));
+    cue.observe(KeyframeId(0), drive()[0], {}, kDepth_m, window);
   }
   static Calibration stereo() {
     Calibration calibration;
