@@ -20,7 +20,7 @@ const Place* PlaceGraph::find(PlaceId id) const {
 std::vector<int> PlaceGraph::joined_components() const {
   DisjointSets sets(places.size());
   std::unordered_map<int, int> first_of_component;
-  std::unordered_map<std::int64_t, int> index;  // by node
+  std::unordered_map<NodeId, int> index;
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
     sets.join(first_of_component.emplace(places[i].component, i).first->second, i);
     index.emplace(node_of_place(places[i].id), i);
@@ -28,8 +28,8 @@ std::vector<int> PlaceGraph::joined_components() const {
   for (const RelativePoseConstraint& constraint : constraints) {
     const auto from = index.find(constraint.from), to = index.find(constraint.to);
     if (from == index.end() || to == index.end())
-      throw ArgumentError("place graph: constraint " + std::to_string(constraint.from) + " -> " +
-                          std::to_string(constraint.to) + ": unknown place");
+      throw ArgumentError("place graph: constraint " + to_string(constraint.from) + " -> " +
+                          to_string(constraint.to) + ": unknown place");
     sets.join(from->second, to->second);
   }
   return sets.numbers();

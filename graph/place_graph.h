@@ -43,8 +43,8 @@ struct Place {
 };
 
 /// A place graph's constraints name places as the nodes of the graph: both have one number.
-inline std::int64_t node_of_place(PlaceId place) { return place.value(); }
-inline PlaceId place_of_node(std::int64_t node) { return PlaceId(node); }
+inline NodeId node_of_place(PlaceId place) { return NodeId(place.value()); }
+inline PlaceId place_of_node(NodeId node) { return PlaceId(node.value()); }
 
 /// Places and the constraints between them; ids of constraint nodes are place ids. Constraints are
 /// over SE(3), or, where scales are to be estimated too, all over Sim(3).

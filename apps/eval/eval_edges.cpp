@@ -18,8 +18,8 @@ using nlohmann::json;
 
 /// True poses of the places, by node of the graph: where the true camera was at the frames of their
 /// anchors.
-std::map<std::int64_t, SE3> true_places(const Trajectory& truth, const RunMap& map) {
-  std::map<std::int64_t, SE3> result;
+std::map<NodeId, SE3> true_places(const Trajectory& truth, const RunMap& map) {
+  std::map<NodeId, SE3> result;
   for (const Place& place : map.graph.places) {
     const FrameId frame = map.anchor_frame(place);
     require(frame.value() >= 0 && frame.value() < static_cast<std::int64_t>(truth.size()),

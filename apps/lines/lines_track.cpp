@@ -23,7 +23,7 @@ struct TrackedLine {
   FrameId frame;
   FrameView::Line line;
 };
-using LineTracks = std::map<std::int64_t, std::vector<TrackedLine>>;
+using LineTracks = std::map<LineId, std::vector<TrackedLine>>;
 
 RunOptions run_options(const LinesTrackArguments& arguments) {
   RunOptions options;

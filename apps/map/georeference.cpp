@@ -68,7 +68,7 @@ void set_what_is_known(const GeoreferenceArguments& arguments, GeoreferenceInput
 
 /// The times of the nodes that were placed; of several visits the first.
 std::vector<std::int64_t> stamps_of(const PoseGraph& graph, const std::vector<NodeVisit>& visits) {
-  std::unordered_map<std::int64_t, std::int64_t> first;
+  std::unordered_map<NodeId, std::int64_t> first;
   for (const NodeVisit& visit : visits) {
     const auto [entry, fresh] = first.emplace(visit.node, visit.stamp_ns);
     if (!fresh) entry->second = std::min(entry->second, visit.stamp_ns);

@@ -15,11 +15,9 @@ namespace {
 
 std::string directions(const FrameView& view) {
   if (view.directed.empty()) return "";
-  std::int64_t world = -1;
+  std::optional<ManhattanFrameId> world;
   for (const FrameView::DirectedLine& line : view.directed) world = std::max(world, line.world);
-  std::string text = world < 0 ? ", no rectangular world" : ", rectangular world ";
-  if (world >= 0) text += std::to_string(world);
-  return text;
+  return world ? ", rectangular world " + to_string(*world) : ", no rectangular world";
 }
 
 cv::Scalar colour_of(std::optional<double> off_px) {
@@ -32,7 +30,7 @@ cv::Scalar colour_of(std::optional<double> off_px) {
 /// Red, green and blue along the axes of a rectangular world, grey along none.
 cv::Scalar colour_of(const FrameView::DirectedLine& line) {
   static const cv::Scalar kColours[] = {{64, 64, 255}, {64, 224, 64}, {255, 96, 64}};
-  return line.axis < 0 ? cv::Scalar(128, 128, 128) : kColours[line.axis];
+  return line.axis ? kColours[*line.axis] : cv::Scalar(128, 128, 128);
 }
 
 std::string caption(const FrameResult& result, const FrameView& view) {

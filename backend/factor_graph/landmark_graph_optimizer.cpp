@@ -19,12 +19,12 @@ struct VariableIndex {
 
   explicit VariableIndex(const LandmarkGraph& graph)
       : nodes(graph.poses.index_by_id()), first_point(static_cast<int>(graph.poses.nodes.size())) {
-    std::vector<std::int64_t> ids;
+    std::vector<NodeId> ids;
     for (const GraphPoint& point : graph.points) ids.push_back(point.id);
     points = NodeIndex(ids);
   }
-  int node(std::int64_t id) const { return nodes.at(id); }
-  int point(std::int64_t id) const { return first_point + points.at(id); }
+  int node(NodeId id) const { return nodes.at(id); }
+  int point(NodeId id) const { return first_point + points.at(id); }
 };
 
 /// The connected parts of nodes and points.

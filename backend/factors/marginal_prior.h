@@ -16,13 +16,13 @@ namespace placegraph {
 ///
 /// For a plane the tangent is that of its quaternion, so that the Jacobian is SO(3)'s.
 struct MarginalPrior {
-  std::vector<KeyframeId> keyframes;  ///< ascending; six columns of J each
-  std::vector<SE3> T_map_cam_lin;     ///< first estimates: fixed once a keyframe is in the prior
-  std::vector<std::int64_t> planes;   ///< ascending; three columns each, after the keyframes'
-  std::vector<Plane3> plane_lin;      ///< first estimates
-  std::vector<std::int64_t> worlds;   ///< ascending; three columns each, after the planes'
-  std::vector<SO3> R_map_world_lin;   ///< first estimates
-  Eigen::MatrixXd J;                  ///< rank x (6 K + 3 P + 3 W)
+  std::vector<KeyframeId> keyframes;    ///< ascending; six columns of J each
+  std::vector<SE3> T_map_cam_lin;       ///< first estimates: fixed once a keyframe is in the prior
+  std::vector<PlaneId> planes;          ///< ascending; three columns each, after the keyframes'
+  std::vector<Plane3> plane_lin;        ///< first estimates
+  std::vector<ManhattanFrameId> worlds;  ///< ascending; three columns each, after the planes'
+  std::vector<SO3> R_map_world_lin;     ///< first estimates
+  Eigen::MatrixXd J;                    ///< rank x (6 K + 3 P + 3 W)
   Eigen::VectorXd e;
 
   bool empty() const { return keyframes.empty() && planes.empty() && worlds.empty(); }

@@ -46,7 +46,7 @@ AntennaTrack::AntennaTrack(const PoseGraph& graph, std::vector<NodeVisit> visits
   for (const NodeVisit& visit : visits) {
     const int node = index.find(visit.node);
     require(node != NodeIndex::kNone,
-            "georeference: a time of node " + std::to_string(visit.node) + ", which is not there");
+            "georeference: a time of node " + to_string(visit.node) + ", which is not there");
     require(visits_.empty() || visits_.back().stamp_ns < visit.stamp_ns,
             "georeference: two nodes have the time " + std::to_string(visit.stamp_ns) + " ns");
     visits_.push_back({visit.stamp_ns, node});

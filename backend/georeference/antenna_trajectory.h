@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/backend/georeference/georeference_report.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>

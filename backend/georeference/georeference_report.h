@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/geodesy.h>
 #include <placegraph/graph/geometry/sim3.h>
@@ -15,7 +16,7 @@ namespace placegraph {
 /// A time at which the vehicle was at a node, or so near that it is described relative to it.
 struct NodeVisit {
   std::int64_t stamp_ns = 0;
-  std::int64_t node = 0;  ///< its id
+  NodeId node;
 };
 
 /// A map, when its nodes were visited, and what a GPS receiver saw meanwhile.
@@ -31,7 +32,8 @@ struct GeoreferenceInput {
 
 /// What became of one fix.
 struct FixReport {
-  int node = -1;  ///< position of the node it was carried to; -1: no motion or map at that time
+  /// Position of the node it was carried to; nothing: no motion or map at that time.
+  std::optional<int> node;
   Eigen::Vector3d residual_enu = Eigen::Vector3d::Zero();  ///< antenna of the map minus fix [m]
   double sigma_horizontal_m = 0, sigma_vertical_m = 0;     ///< it was weighted with
   double weight = 0;                                       ///< of the kernel, in [0, 1]
@@ -53,7 +55,7 @@ struct GeoreferenceResult {
   double alignment_rmse_m = 0;
   std::vector<FixReport> fixes;  ///< in the order of the input
   std::vector<GpsDropout> dropouts;
-  std::vector<std::int64_t> unplaced_nodes;  ///< ids; of components whose fixes do not place them
+  std::vector<NodeId> unplaced_nodes;  ///< of components whose fixes do not place them
   int fixes_used = 0, fixes_rejected = 0;
   double residual_rms_m = 0;  ///< of the fixes that were not rejected
   /// How much more the fixes scatter than the receiver states; 1 if not.

@@ -56,7 +56,7 @@ OdometryScatter scatter(const PoseGraph& graph) {
   Component translation, rotation;
   for (const int i : judged(graph)) {
     const auto& edge = std::get<RelativePoseConstraint>(graph.constraints[i]);
-    const auto pose = [&](std::int64_t id) {
+    const auto pose = [&](NodeId id) {
       return std::get<Group>(graph.nodes[static_cast<std::size_t>(index.find(id))].T_world_node);
     };
     const typename Group::Tangent e =

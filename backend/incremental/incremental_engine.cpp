@@ -160,8 +160,8 @@ Eigen::MatrixXd IncrementalEngineOf<Group>::covariance(const std::vector<int>& n
 template <class Group>
 Information IncrementalEngineOf<Group>::relative_covariance(int from, int to) const {
   require(graph_.together(from, to), "incremental optimizer: nothing joins nodes " +
-                                         std::to_string(graph_.id(from)) + " and " +
-                                         std::to_string(graph_.id(to)));
+                                         to_string(graph_.id(from)) + " and " +
+                                         to_string(graph_.id(to)));
   constexpr int dof = Group::kDof;
   const Eigen::MatrixXd joint = covariance({from, to});
   const Group T_to_from = graph_.pose(to).inverse() * graph_.pose(from);

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/incremental/incremental_graph.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <memory>
@@ -23,7 +24,7 @@ class IncrementalEngine {
 
   virtual int constraints() const = 0;
   virtual const Constraint& constraint(int number) const = 0;
-  virtual int find(std::int64_t node_id) const = 0;  ///< -1: unknown
+  virtual int find(NodeId node_id) const = 0;  ///< -1: unknown
   virtual Pose pose(int node) const = 0;
   virtual PoseGraph graph() const = 0;
   virtual double cost() const = 0;
@@ -48,7 +49,7 @@ class IncrementalEngineOf final : public IncrementalEngine {
   void optimize(double excess, IncrementalStep& step) override;
   int constraints() const override { return graph_.constraints(); }
   const Constraint& constraint(int number) const override { return graph_.constraint(number); }
-  int find(std::int64_t node_id) const override { return graph_.find(node_id); }
+  int find(NodeId node_id) const override { return graph_.find(node_id); }
   Pose pose(int node) const override { return graph_.pose(node); }
   PoseGraph graph() const override { return graph_.graph(); }
   double cost() const override { return graph_.cost(); }

@@ -23,7 +23,7 @@ int take_place(List& list, std::vector<int>& free) {
 }  // namespace
 
 template <class Group>
-int GrowingGraph<Group>::find(std::int64_t node_id) const {
+int GrowingGraph<Group>::find(NodeId node_id) const {
   const auto found = index_.find(node_id);
   return found == index_.end() ? -1 : found->second;
 }

@@ -3,6 +3,7 @@
 #include <placegraph/backend/incremental/incremental_components.h>
 #include <placegraph/backend/incremental/incremental_terms.h>
 #include <placegraph/backend/linear/elimination_tree.h>
+#include <placegraph/graph/core/ids.h>
 
 #include <unordered_map>
 
@@ -26,8 +27,8 @@ class GrowingGraph {
   int nodes() const { return static_cast<int>(nodes_.size()); }
   int constraints() const { return static_cast<int>(constraints_.size()); }
   const Constraint& constraint(int number) const { return constraints_[number]; }
-  int find(std::int64_t node_id) const;  ///< -1: unknown
-  std::int64_t id(int node) const { return ids_[node]; }
+  int find(NodeId node_id) const;  ///< -1: unknown
+  NodeId id(int node) const { return ids_[node]; }
   const Group& pose(int node) const { return nodes_[node].T_world_node; }
   bool together(int a, int b) const { return components_.together(a, b); }
   /// Of the terms at the present poses.
@@ -80,8 +81,8 @@ class GrowingGraph {
   void evaluate_around(const std::vector<int>& nodes);
 
   RotationError rotation_error_;
-  std::vector<std::int64_t> ids_;
-  std::unordered_map<std::int64_t, int> index_;
+  std::vector<NodeId> ids_;
+  std::unordered_map<NodeId, int> index_;
   std::vector<char> fixed_;
   std::vector<Constraint> constraints_;
   std::vector<int> place_;  ///< of every constraint in edges_ or positions_; -1: of weight 0

@@ -8,8 +8,8 @@
 namespace placegraph {
 namespace {
 
-void add_once(PoseGraph& graph, std::vector<std::int64_t>& seen, const PoseNode& node) {
-  for (const std::int64_t id : seen)
+void add_once(PoseGraph& graph, std::vector<NodeId>& seen, const PoseNode& node) {
+  for (const NodeId id : seen)
     if (id == node.id) return;
   seen.push_back(node.id);
   graph.nodes.push_back(node);
@@ -22,8 +22,8 @@ PoseGraph neighbourhood(const IncrementalEngine* engine, const std::vector<PoseN
   graph.nodes = nodes;
   graph.constraints = constraints;
   if (!engine) return graph;
-  std::vector<std::int64_t> seen;
-  const auto add_known = [&](std::int64_t id) {
+  std::vector<NodeId> seen;
+  const auto add_known = [&](NodeId id) {
     const int node = engine->find(id);
     if (node >= 0) add_once(graph, seen, {id, engine->pose(node), false});
   };
@@ -37,7 +37,7 @@ PoseGraph neighbourhood(const IncrementalEngine* engine, const std::vector<PoseN
     }
   }
   if (!graph.nodes.empty() && kind_of(graph.nodes.front().T_world_node) != engine->kind())
-    throw ArgumentError("pose graph: node " + std::to_string(graph.nodes.front().id) +
+    throw ArgumentError("pose graph: node " + to_string(graph.nodes.front().id) +
                         ": of another kind than the first");
   return graph;
 }
@@ -126,7 +126,7 @@ std::optional<PoseKind> IncrementalOptimizer::kind() const {
   return engine_->kind();
 }
 
-std::optional<Pose> IncrementalOptimizer::pose(std::int64_t node_id) const {
+std::optional<Pose> IncrementalOptimizer::pose(NodeId node_id) const {
   const int node = engine_ ? engine_->find(node_id) : -1;
   if (node < 0) return std::nullopt;
   return engine_->pose(node);
@@ -143,23 +143,23 @@ const Constraint& IncrementalOptimizer::constraint(int number) const {
 
 double IncrementalOptimizer::cost() const { return engine_ ? engine_->cost() : 0; }
 
-Eigen::MatrixXd IncrementalOptimizer::covariance(const std::vector<std::int64_t>& node_ids) const {
+Eigen::MatrixXd IncrementalOptimizer::covariance(const std::vector<NodeId>& node_ids) const {
   std::vector<int> nodes;
-  for (const std::int64_t id : node_ids) {
+  for (const NodeId id : node_ids) {
     nodes.push_back(engine_ ? engine_->find(id) : -1);
     if (nodes.back() < 0)
       throw ArgumentError("incremental optimizer: covariance of unknown node " +
-                          std::to_string(id));
+                          to_string(id));
   }
   return engine_ ? engine_->covariance(nodes) : Eigen::MatrixXd();
 }
 
-Information IncrementalOptimizer::relative_covariance(std::int64_t from, std::int64_t to) const {
+Information IncrementalOptimizer::relative_covariance(NodeId from, NodeId to) const {
   const int a = engine_ ? engine_->find(from) : -1, b = engine_ ? engine_->find(to) : -1;
   for (const auto& [id, node] : {std::pair(from, a), std::pair(to, b)})
     if (node < 0)
       throw ArgumentError("incremental optimizer: covariance of unknown node " +
-                          std::to_string(id));
+                          to_string(id));
   return engine_->relative_covariance(a, b);
 }
 

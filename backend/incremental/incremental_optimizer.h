@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/incremental/graph_change.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <memory>
@@ -57,7 +58,7 @@ class IncrementalOptimizer {
   IncrementalStep finish();
 
   std::optional<PoseKind> kind() const;                  ///< none before the first node
-  std::optional<Pose> pose(std::int64_t node_id) const;  ///< T_world_node; none if unknown
+  std::optional<Pose> pose(NodeId node_id) const;  ///< T_world_node; none if unknown
   /// All nodes in the order they came and, in theirs, the constraints whose weight is not 0: the
   /// graph whose cost is minimized, so with information and width of the kernel scaled where the
   /// weight is not 1.
@@ -68,11 +69,11 @@ class IncrementalOptimizer {
   double cost() const;
   /// Covariance of the right perturbations of the nodes, in their order, from the factor as it is;
   /// zero for held ones. Throws ArgumentError for an unknown node.
-  Eigen::MatrixXd covariance(const std::vector<std::int64_t>& node_ids) const;
+  Eigen::MatrixXd covariance(const std::vector<NodeId>& node_ids) const;
 
   /// Of T_from_to in its own right tangent. Throws ArgumentError for an unknown node and for nodes
   /// that nothing joins.
-  Information relative_covariance(std::int64_t from, std::int64_t to) const;
+  Information relative_covariance(NodeId from, NodeId to) const;
 
  private:
   IncrementalOptions options_;

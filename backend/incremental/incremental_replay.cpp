@@ -34,7 +34,7 @@ Steps steps_of(const PoseGraph& graph) {
   const auto index = graph.index_by_id();
   for (std::size_t i = 0; i < graph.constraints.size(); ++i) {
     const Constraint& constraint = graph.constraints[i];
-    std::int64_t id;
+    NodeId id;
     if (const auto* relative = std::get_if<RelativePoseConstraint>(&constraint))
       id = std::max(relative->from, relative->to);
     else

@@ -43,8 +43,8 @@ std::vector<std::vector<Constraint>> constraints_by_step(const PackedGraph<Group
   };
   for (const auto& edge : graph.edges) {
     RelativePoseConstraint relative;
-    relative.from = step[edge.from];
-    relative.to = step[edge.to];
+    relative.from = NodeId(step[edge.from]);
+    relative.to = NodeId(step[edge.to]);
     relative.T_from_to = edge.T_to_from.inverse();
     relative.information = edge.information;
     relative.source = edge.odometry ? ConstraintSource::kOdometry : ConstraintSource::kLoop;
@@ -53,7 +53,7 @@ std::vector<std::vector<Constraint>> constraints_by_step(const PackedGraph<Group
   }
   for (const auto& position : graph.positions)
     add(step[position.node],
-        PositionConstraint{step[position.node], position.position_world, position.lever_arm,
+        PositionConstraint{NodeId(step[position.node]), position.position_world, position.lever_arm,
                            position.information, position.kernel},
         position.weight);
   return constraints;
@@ -75,7 +75,7 @@ bool replayed_start(PackedGraph<Group>& graph, RotationError rotation_error,
     const std::size_t end = std::min(nodes, first + part);
     for (std::size_t k = first; k < end; ++k) {
       change.nodes.push_back(
-          {static_cast<std::int64_t>(k), graph.poses[order[k]], graph.held[order[k]] != 0});
+          {NodeId(k), graph.poses[order[k]], graph.held[order[k]] != 0});
       std::move(constraints[k].begin(), constraints[k].end(),
                 std::back_inserter(change.constraints));
     }
@@ -87,7 +87,7 @@ bool replayed_start(PackedGraph<Group>& graph, RotationError rotation_error,
   }
   for (std::size_t k = 0; k < nodes; ++k)
     if (!graph.held[order[k]])
-      graph.poses[order[k]] = std::get<Group>(*optimizer.pose(static_cast<std::int64_t>(k)));
+      graph.poses[order[k]] = std::get<Group>(*optimizer.pose(NodeId(k)));
   return true;
 }
 

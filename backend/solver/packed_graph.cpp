@@ -67,7 +67,7 @@ PackedGraph<Group> pack(const LandmarkGraph& graph) {
   const NodeIndex nodes = graph.poses.index_by_id();
   const auto first_point = static_cast<int>(packed.poses.size());
   std::vector<char> fixed = fixed_nodes(graph.poses);
-  std::vector<std::int64_t> ids;
+  std::vector<NodeId> ids;
   for (const GraphPoint& point : graph.points) {
     ids.push_back(point.id);
     packed.poses.push_back(at<Group>(point.position_world));

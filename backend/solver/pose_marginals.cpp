@@ -21,9 +21,9 @@ struct PoseMarginals::Impl {
   /// Adjoint of (T_world_from^-1 T_world_to)^-1.
   virtual Information adjoint(int from, int to) const = 0;
 
-  int node(std::int64_t id) const {
+  int node(NodeId id) const {
     const int found = index.find(id);
-    require(found != NodeIndex::kNone, "PoseMarginals: unknown node " + std::to_string(id));
+    require(found != NodeIndex::kNone, "PoseMarginals: unknown node " + to_string(id));
     return found;
   }
   void require_outcome() const {
@@ -84,7 +84,7 @@ PoseMarginals& PoseMarginals::operator=(PoseMarginals&&) noexcept = default;
 
 const Outcome& PoseMarginals::outcome() const { return impl_->outcome; }
 
-Eigen::MatrixXd PoseMarginals::joint_covariance(const std::vector<std::int64_t>& ids) const {
+Eigen::MatrixXd PoseMarginals::joint_covariance(const std::vector<NodeId>& ids) const {
   impl_->require_outcome();
   const int dof = impl_->dof, count = static_cast<int>(ids.size());
   const Eigen::Index rows = static_cast<Eigen::Index>(impl_->matrix().block_count()) * dof;
@@ -102,9 +102,9 @@ Eigen::MatrixXd PoseMarginals::joint_covariance(const std::vector<std::int64_t>&
   return 0.5 * (covariance + covariance.transpose());
 }
 
-Information PoseMarginals::covariance(std::int64_t id) const { return joint_covariance({id}); }
+Information PoseMarginals::covariance(NodeId id) const { return joint_covariance({id}); }
 
-Information PoseMarginals::relative_covariance(std::int64_t from, std::int64_t to) const {
+Information PoseMarginals::relative_covariance(NodeId from, NodeId to) const {
   const Eigen::MatrixXd joint = joint_covariance({from, to});
   const int dof = impl_->dof;
   return impl_->relative(impl_->node(from), impl_->node(to), joint.topLeftCorner(dof, dof),

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/factors/pose_error.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
@@ -25,11 +26,11 @@ class PoseMarginals {
   const Outcome& outcome() const;
 
   /// Covariance of one pose, dof x dof.
-  Information covariance(std::int64_t id) const;
+  Information covariance(NodeId id) const;
   /// Of several poses jointly, in the order of `ids`: by one solve for every column of theirs.
-  Eigen::MatrixXd joint_covariance(const std::vector<std::int64_t>& ids) const;
+  Eigen::MatrixXd joint_covariance(const std::vector<NodeId>& ids) const;
   /// Of the relative pose T_from_to in its own right tangent.
-  Information relative_covariance(std::int64_t from, std::int64_t to) const;
+  Information relative_covariance(NodeId from, NodeId to) const;
   /// Of the relative pose that every relative-pose constraint speaks of, as the graph now knows it,
   /// in the order of the constraints (empty for other constraints): all at once from the sparse
   /// inverse subset.

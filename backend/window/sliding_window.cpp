@@ -121,7 +121,7 @@ void SlidingWindow::add_observation(const WindowObservation& o) {
   insert_observation(landmark.observations, o, name);
 }
 
-void SlidingWindow::add_line(std::int64_t id, const Line3& line_map) {
+void SlidingWindow::add_line(LineId id, const Line3& line_map) {
   require(line_map.coordinates().allFinite(), name_of("line", id) + " is not finite");
   insert(change().lines, id, WindowLine{line_map, {}}, "line");
 }
@@ -137,7 +137,7 @@ void SlidingWindow::add_line_observation(const LineObservation& o) {
   insert_observation(line.observations, o, name);
 }
 
-void SlidingWindow::add_plane(std::int64_t id, const Plane3& plane_map) {
+void SlidingWindow::add_plane(PlaneId id, const Plane3& plane_map) {
   insert(change().planes, id, plane_map, "plane");
 }
 
@@ -149,7 +149,7 @@ void SlidingWindow::add_plane_point(const PlanePoint& point) {
   landmark.on_plane = point;
 }
 
-void SlidingWindow::add_world(std::int64_t id, const SO3& R_map_world) {
+void SlidingWindow::add_world(ManhattanFrameId id, const SO3& R_map_world) {
   require(R_map_world.matrix().allFinite(), name_of("world", id) + " is not finite");
   insert(change().worlds, id, R_map_world, "world");
 }
@@ -187,12 +187,12 @@ void SlidingWindow::remove_observation(KeyframeId keyframe, LandmarkId landmark)
           name_of("landmark", landmark) + " has no observation in keyframe " + to_string(keyframe));
 }
 
-void SlidingWindow::remove_line(std::int64_t id) {
+void SlidingWindow::remove_line(LineId id) {
   find(state_->lines, id, "line");
   change().lines.erase(id);
 }
 
-void SlidingWindow::remove_plane(std::int64_t id) {
+void SlidingWindow::remove_plane(PlaneId id) {
   const WindowVariable plane = plane_variable(id);
   require_variable(*state_, plane);
   WindowState& state = change();
@@ -225,7 +225,7 @@ void SlidingWindow::revise_inverse_depth(KeyframeId keyframe, LandmarkId landmar
                       to_string(keyframe));
 }
 
-void SlidingWindow::revise_second_eye(KeyframeId keyframe, std::int64_t line,
+void SlidingWindow::revise_second_eye(KeyframeId keyframe, LineId line,
                                       const LineObservation::SecondEye& second) {
   const std::string in_keyframe = " in keyframe " + to_string(keyframe);
   require_sound(second, name_of("line", line) + in_keyframe);
@@ -245,7 +245,7 @@ void SlidingWindow::keep(const WindowVariable& variable, bool kept) {
     change().kept.erase(variable);
 }
 
-void SlidingWindow::hold_world(std::optional<std::int64_t> id) {
+void SlidingWindow::hold_world(std::optional<ManhattanFrameId> id) {
   if (id) require_variable(*state_, world_variable(*id));
   change().held_world = id;
 }
@@ -262,9 +262,9 @@ void SlidingWindow::rescale(double scale) {
 
 std::vector<KeyframeId> SlidingWindow::keyframes() const { return ids_of(state_->keyframes); }
 std::vector<LandmarkId> SlidingWindow::landmarks() const { return ids_of(state_->landmarks); }
-std::vector<std::int64_t> SlidingWindow::lines() const { return ids_of(state_->lines); }
-std::vector<std::int64_t> SlidingWindow::planes() const { return ids_of(state_->planes); }
-std::vector<std::int64_t> SlidingWindow::worlds() const { return ids_of(state_->worlds); }
+std::vector<LineId> SlidingWindow::lines() const { return ids_of(state_->lines); }
+std::vector<PlaneId> SlidingWindow::planes() const { return ids_of(state_->planes); }
+std::vector<ManhattanFrameId> SlidingWindow::worlds() const { return ids_of(state_->worlds); }
 
 SE3 SlidingWindow::pose(KeyframeId keyframe) const {
   return find(state_->keyframes, keyframe, "keyframe");
@@ -276,17 +276,17 @@ std::optional<Eigen::Vector3d> SlidingWindow::landmark(LandmarkId id) const {
   return it->second.p_map;
 }
 
-std::optional<Line3> SlidingWindow::line(std::int64_t id) const {
+std::optional<Line3> SlidingWindow::line(LineId id) const {
   const auto it = state_->lines.find(id);
   if (it == state_->lines.end()) return std::nullopt;
   return it->second.line_map;
 }
 
-std::optional<Plane3> SlidingWindow::plane(std::int64_t id) const {
+std::optional<Plane3> SlidingWindow::plane(PlaneId id) const {
   return value_if_there(state_->planes, id);
 }
 
-std::optional<SO3> SlidingWindow::world(std::int64_t id) const {
+std::optional<SO3> SlidingWindow::world(ManhattanFrameId id) const {
   return value_if_there(state_->worlds, id);
 }
 
@@ -294,7 +294,7 @@ const std::vector<WindowObservation>& SlidingWindow::observations(LandmarkId lan
   return find(state_->landmarks, landmark, "landmark").observations;
 }
 
-const std::vector<LineObservation>& SlidingWindow::line_observations(std::int64_t line) const {
+const std::vector<LineObservation>& SlidingWindow::line_observations(LineId line) const {
   return find(state_->lines, line, "line").observations;
 }
 

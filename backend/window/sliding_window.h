@@ -44,17 +44,17 @@ class SlidingWindow {
   /// (two planes always meet in a line). Its planes through the cameras should have turned by a few
   /// degrees: nearer to the epipolar plane its position is hardly determined, and no covariance
   /// describes that.
-  void add_line(std::int64_t id, const Line3& line_map);
+  void add_line(LineId id, const Line3& line_map);
   void add_line_observation(const LineObservation& observation);
   /// A plane leaves the window with the last keyframe that measured it or whose height above it is
   /// known and the last point on it, unless it is kept: then the prior goes on to hold it to the
   /// keyframes. Heights give the scale where at least three points lie on their plane; a measured
   /// plane is metric.
-  void add_plane(std::int64_t id, const Plane3& plane_map);
+  void add_plane(PlaneId id, const Plane3& plane_map);
   void add_plane_point(const PlanePoint& point);
   /// A world leaves the window with the last keyframe that saw it, unless it is kept: then the
   /// prior goes on to hold it to the keyframes, as far as their motion is known.
-  void add_world(std::int64_t id, const SO3& R_map_world);
+  void add_world(ManhattanFrameId id, const SO3& R_map_world);
   /// A measurement of any kind between keyframes, planes and worlds. A full-rank prior of the
   /// keyframe that is held takes the place of holding it. What leaves no direction of a keyframe
   /// open is enough to determine it without landmarks.
@@ -63,17 +63,17 @@ class SlidingWindow {
   /// Forgets a landmark with its observations (an outlier).
   void remove_landmark(LandmarkId id);
   void remove_observation(KeyframeId keyframe, LandmarkId landmark);
-  void remove_line(std::int64_t id);
+  void remove_line(LineId id);
   /// Forgets a plane with all that was measured of it in the window; what went into the prior is
   /// integrated over it.
-  void remove_plane(std::int64_t id);
+  void remove_plane(PlaneId id);
   /// Forgets a measurement, one of factors(): of several with the same variables this one.
   void remove(const WindowFactor& factor);
   /// The inverse depth [1/m] of an observation that has one, as it is measured by a better
   /// calibration.
   void revise_inverse_depth(KeyframeId keyframe, LandmarkId landmark, double inverse_depth);
   /// What a second eye saw is known better now, as after its calibration. It must be there.
-  void revise_second_eye(KeyframeId keyframe, std::int64_t line,
+  void revise_second_eye(KeyframeId keyframe, LineId line,
                          const LineObservation::SecondEye& second);
 
   /// What is kept is not marginalized, however old it is: a keyframe as an anchor to which later
@@ -82,7 +82,7 @@ class SlidingWindow {
   void keep(const WindowVariable& variable, bool kept = true);
   /// Where the window lies as a whole is chosen anew after each optimization: turned about its
   /// oldest keyframe so that this world stays at its R_map_world. Nothing: as it comes out.
-  void hold_world(std::optional<std::int64_t> id);
+  void hold_world(std::optional<ManhattanFrameId> id);
 
   [[nodiscard]] WindowSummary optimize();
   /// Marginalizes the oldest keyframes until at most max_keyframes are left: landmarks and lines
@@ -94,18 +94,18 @@ class SlidingWindow {
   /// window measures it already: a distance, an inverse depth, a height, pose priors, a motion.
   void rescale(double scale);
 
-  std::vector<KeyframeId> keyframes() const;  ///< ascending
-  std::vector<LandmarkId> landmarks() const;  ///< ascending
-  std::vector<std::int64_t> lines() const;    ///< ascending
-  std::vector<std::int64_t> planes() const;   ///< ascending
-  std::vector<std::int64_t> worlds() const;   ///< ascending
-  SE3 pose(KeyframeId keyframe) const;        ///< T_map_cam
+  std::vector<KeyframeId> keyframes() const;    ///< ascending
+  std::vector<LandmarkId> landmarks() const;    ///< ascending
+  std::vector<LineId> lines() const;      ///< ascending
+  std::vector<PlaneId> planes() const;     ///< ascending
+  std::vector<ManhattanFrameId> worlds() const;     ///< ascending
+  SE3 pose(KeyframeId keyframe) const;          ///< T_map_cam
   std::optional<Eigen::Vector3d> landmark(LandmarkId id) const;
-  std::optional<Line3> line(std::int64_t id) const;
-  std::optional<Plane3> plane(std::int64_t id) const;
-  std::optional<SO3> world(std::int64_t id) const;  ///< R_map_world
+  std::optional<Line3> line(LineId id) const;
+  std::optional<Plane3> plane(PlaneId id) const;
+  std::optional<SO3> world(ManhattanFrameId id) const;  ///< R_map_world
   const std::vector<WindowObservation>& observations(LandmarkId landmark) const;
-  const std::vector<LineObservation>& line_observations(std::int64_t line) const;
+  const std::vector<LineObservation>& line_observations(LineId line) const;
   /// Those of one type together, and these in the order in which they came.
   const std::vector<WindowFactor>& factors() const;
 

@@ -21,9 +21,9 @@ std::optional<Variable> first_estimate(const std::vector<Key>& in_prior, const s
 std::optional<Variable> first_estimate(const MarginalPrior& prior, const WindowVariable& variable) {
   switch (variable.kind) {
     case WindowVariable::Kind::kPlane:
-      return first_estimate(prior.planes, prior.plane_lin, variable.id);
+      return first_estimate(prior.planes, prior.plane_lin, variable.plane());
     case WindowVariable::Kind::kWorld:
-      return first_estimate(prior.worlds, prior.R_map_world_lin, variable.id);
+      return first_estimate(prior.worlds, prior.R_map_world_lin, variable.world());
     default:
       return first_estimate(prior.keyframes, prior.T_map_cam_lin, variable.keyframe());
   }

@@ -122,7 +122,7 @@ std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, Keyfram
   return inverse_if_full(absolute_information(window, keyframe));
 }
 
-std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, std::int64_t world,
+std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, ManhattanFrameId world,
                                                 KeyframeId keyframe) {
   const WindowState& state = window.state();
   require_variable(state, keyframe_variable(keyframe));
@@ -143,7 +143,7 @@ std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, std
   return propagated_covariance(form.H, J);
 }
 
-std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, std::int64_t plane,
+std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, PlaneId plane,
                                                 KeyframeId keyframe) {
   const WindowState& state = window.state();
   require_variable(state, keyframe_variable(keyframe));

@@ -41,11 +41,11 @@ std::optional<Matrix6d> relative_covariance(const SlidingWindow& window, Keyfram
 std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, KeyframeId keyframe);
 /// Covariance (right tangent) of R_cam_world, a world as a keyframe has it before it. Nothing where
 /// a direction is unobservable.
-std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, std::int64_t world,
+std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, ManhattanFrameId world,
                                                 KeyframeId keyframe);
 /// Covariance of the tangent of a plane as a keyframe has it before it, in its camera's frame.
 /// Nothing where a direction is unobservable.
-std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, std::int64_t plane,
+std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, PlaneId plane,
                                                 KeyframeId keyframe);
 
 /// Standard deviation of log(|t_middle_last| / |t_first_middle|) between three keyframes of the

@@ -32,8 +32,8 @@ std::set<WindowVariable> leaving_variables(const WindowState& state, KeyframeId 
                                            KeyframeId newest) {
   const WindowVariable keyframe = keyframe_variable(leaving);
   std::set<WindowVariable> touched, staying = state.kept;
-  for (const std::int64_t id : state.prior.planes) touched.insert(plane_variable(id));
-  for (const std::int64_t id : state.prior.worlds) touched.insert(world_variable(id));
+  for (const PlaneId id : state.prior.planes) touched.insert(plane_variable(id));
+  for (const ManhattanFrameId id : state.prior.worlds) touched.insert(world_variable(id));
   for (const WindowFactor& factor : state.factors) {
     const bool leaves = touches(factor, keyframe);
     const bool between_keyframes =
@@ -88,10 +88,10 @@ MarginalPrior make_prior(const QuadraticForm& form, const std::vector<WindowVari
     if (!form.H.middleCols(column, size).isZero(0)) {
       const Variable& lin = equations.linearization_point(variable);
       if (variable.kind == WindowVariable::Kind::kPlane) {
-        prior.planes.push_back(variable.id);
+        prior.planes.push_back(variable.plane());
         prior.plane_lin.push_back(std::get<Plane3>(lin));
       } else if (variable.kind == WindowVariable::Kind::kWorld) {
-        prior.worlds.push_back(variable.id);
+        prior.worlds.push_back(variable.world());
         prior.R_map_world_lin.push_back(std::get<SO3>(lin));
       } else {
         prior.keyframes.push_back(variable.keyframe());
@@ -125,12 +125,11 @@ void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, Key
                 [&](const WindowFactor& factor) { return touches_any(factor, gone); });
   for (const WindowVariable& variable : gone) {
     state.kept.erase(variable);
-    if (variable.kind == WindowVariable::Kind::kPlane) state.planes.erase(variable.id);
-    if (variable.kind == WindowVariable::Kind::kKeyframe)
-      state.keyframes.erase(variable.keyframe());
+    if (variable.kind == WindowVariable::Kind::kPlane) state.planes.erase(variable.plane());
+    if (variable.kind == WindowVariable::Kind::kKeyframe) state.keyframes.erase(variable.keyframe());
     if (variable.kind != WindowVariable::Kind::kWorld) continue;
-    state.worlds.erase(variable.id);
-    if (state.held_world == variable.id) state.held_world.reset();
+    state.worlds.erase(variable.world());
+    if (state.held_world == variable.world()) state.held_world.reset();
   }
 }
 

@@ -60,7 +60,7 @@ WindowFactor window_factor(const HeightObservation& h) {
 WindowFactor window_factor(const PlaneObservation& o) {
   const Eigen::LLT<Eigen::Matrix3d> llt(o.information);
   require(is_symmetric(o.information) && llt.info() == Eigen::Success,
-          "sliding window: plane " + std::to_string(o.plane) + " in keyframe " +
+          "sliding window: plane " + to_string(o.plane) + " in keyframe " +
               to_string(o.keyframe) +
               ": the information must be symmetric, finite and positive definite");
   return {std::make_shared<PlaneObservationFactor>(o.plane_cam, llt.matrixU()),
@@ -70,7 +70,7 @@ WindowFactor window_factor(const PlaneObservation& o) {
 }
 
 WindowFactor window_factor(const WorldObservation& o) {
-  const std::string name = "sliding window: sighting of world " + std::to_string(o.world) +
+  const std::string name = "sliding window: sighting of world " + to_string(o.world) +
                            " in keyframe " + to_string(o.keyframe);
   require(o.R_cam_world.matrix().allFinite(), name + ": the rotation must be finite");
   require_information(o.information, name);
@@ -129,7 +129,7 @@ void add_plane_observation(SlidingWindow& window, const PlaneObservation& observ
   const WindowFactor factor = window_factor(observation);
   for (const WindowFactor& other : window.factors())
     require(!is_plane_observation(other) || other.variables != factor.variables,
-            "sliding window: plane " + std::to_string(observation.plane) + " in keyframe " +
+            "sliding window: plane " + to_string(observation.plane) + " in keyframe " +
                 to_string(observation.keyframe) + " is there already");
   window.add(factor);
 }

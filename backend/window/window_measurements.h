@@ -22,7 +22,7 @@ struct DistanceObservation {
 /// A camera at a known height above a plane landmark, as above the ground a vehicle drives on.
 struct HeightObservation {
   KeyframeId keyframe;
-  std::int64_t plane = 0;
+  PlaneId plane;
   double height_m = 0;
   double sigma_m = 1;
 };
@@ -31,7 +31,7 @@ struct HeightObservation {
 /// see PlaneObservationFactor.
 struct PlaneObservation {
   KeyframeId keyframe;
-  std::int64_t plane = 0;
+  PlaneId plane;
   Plane3 plane_cam;
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< of its tangent, of full rank
 };
@@ -40,7 +40,7 @@ struct PlaneObservation {
 /// log(R_map_world^-1 R_map_cam R_cam_world), see AbsoluteRotationFactor.
 struct WorldObservation {
   KeyframeId keyframe;
-  std::int64_t world = 0;
+  ManhattanFrameId world;
   SO3 R_cam_world;
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< right tangent, of any rank
 };

@@ -25,7 +25,7 @@ struct WindowObservation {
 /// A segment of a line landmark seen in a keyframe; its ends may lie anywhere along the line.
 struct LineObservation {
   KeyframeId keyframe;
-  std::int64_t line = 0;
+  LineId line;
   Eigen::Vector2d start_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d end_px = Eigen::Vector2d::Zero();
   double sigma_px = 1;  ///< across the line
@@ -43,7 +43,7 @@ struct LineObservation {
 
 /// A point landmark that lies on a plane landmark.
 struct PlanePoint {
-  std::int64_t plane = 0;
+  PlaneId plane;
   LandmarkId landmark;
   double sigma_m = 1;  ///< how uneven the plane is
 };

@@ -157,9 +157,9 @@ void WindowProblem::add_prior() {
   std::vector<double*> blocks;
   for (const KeyframeId id : state_.prior.keyframes)
     blocks.push_back(blocks_.at(keyframe_variable(id)));
-  for (const std::int64_t id : state_.prior.planes)
+  for (const PlaneId id : state_.prior.planes)
     blocks.push_back(blocks_.at(plane_variable(id)));
-  for (const std::int64_t id : state_.prior.worlds)
+  for (const ManhattanFrameId id : state_.prior.worlds)
     blocks.push_back(blocks_.at(world_variable(id)));
   problem_.AddResidualBlock(&prior_.emplace(state_.prior), nullptr, blocks);
 }

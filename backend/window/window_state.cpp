@@ -13,9 +13,9 @@ using Kind = WindowVariable::Kind;
 bool contains(const WindowState& state, const WindowVariable& variable) {
   switch (variable.kind) {
     case Kind::kPlane:
-      return state.planes.contains(variable.id);
+      return state.planes.contains(variable.plane());
     case Kind::kWorld:
-      return state.worlds.contains(variable.id);
+      return state.worlds.contains(variable.world());
     default:
       return state.keyframes.contains(variable.keyframe());
   }
@@ -35,7 +35,7 @@ struct FactorValues {
   }
 };
 
-int points_on(const WindowState& state, std::int64_t plane) {
+int points_on(const WindowState& state, PlaneId plane) {
   int points = 0;
   for (const auto& [id, landmark] : state.landmarks)
     points += landmark.on_plane && landmark.on_plane->plane == plane;
@@ -46,7 +46,7 @@ int points_on(const WindowState& state, std::int64_t plane) {
 bool lies_among_points(const WindowState& state, const WindowFactor& factor) {
   return std::any_of(factor.variables.begin(), factor.variables.end(),
                      [&](const WindowVariable& variable) {
-                       return variable.kind == Kind::kPlane && points_on(state, variable.id) >= 3;
+                       return variable.kind == Kind::kPlane && points_on(state, variable.plane()) >= 3;
                      });
 }
 
@@ -60,9 +60,9 @@ void require_variable(const WindowState& state, const WindowVariable& variable) 
 Variable value_of(const WindowState& state, const WindowVariable& variable) {
   switch (variable.kind) {
     case Kind::kPlane:
-      return state.planes.at(variable.id);
+      return state.planes.at(variable.plane());
     case Kind::kWorld:
-      return state.worlds.at(variable.id);
+      return state.worlds.at(variable.world());
     default:
       return state.keyframes.at(variable.keyframe());
   }

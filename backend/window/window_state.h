@@ -31,12 +31,12 @@ struct WindowState {
   Camera camera;
   std::map<KeyframeId, SE3> keyframes;  ///< T_map_cam
   std::map<LandmarkId, WindowLandmark> landmarks;
-  std::map<std::int64_t, WindowLine> lines;
-  std::map<std::int64_t, Plane3> planes;  ///< planes of the map
-  std::map<std::int64_t, SO3> worlds;     ///< R_map_world
+  std::map<LineId, WindowLine> lines;
+  std::map<PlaneId, Plane3> planes;         ///< planes of the map
+  std::map<ManhattanFrameId, SO3> worlds;  ///< R_map_world
   std::set<WindowVariable> kept;          ///< are not to be marginalized
   /// Where the window lies as a whole is chosen so that this one stays as it is.
-  std::optional<std::int64_t> held_world;
+  std::optional<ManhattanFrameId> held_world;
   /// All measurements but those of points and lines: those of one type together, in the order in
   /// which they came.
   std::vector<WindowFactor> factors;

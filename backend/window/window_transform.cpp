@@ -58,7 +58,7 @@ void move_window(WindowState& state, const SE3& T_new_old) {
   }
 }
 
-void turn_window(WindowState& state, std::int64_t world, const SO3& R_map_world) {
+void turn_window(WindowState& state, ManhattanFrameId world, const SO3& R_map_world) {
   const SO3 R_new_old = R_map_world * state.worlds.at(world).inverse();
   const Eigen::Vector3d centre = state.keyframes.begin()->second.translation();
   move_window(state, SE3(R_new_old, centre - R_new_old * centre));

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/window/window_state.h>
+#include <placegraph/graph/core/ids.h>
 
 namespace placegraph {
 
@@ -11,7 +12,7 @@ Line3 moved(const Line3& line, const SE3& T_new_old);
 void move_window(WindowState& state, const SE3& T_new_old);
 
 /// Turns the window about its oldest keyframe so that `world` comes to lie at R_map_world.
-void turn_window(WindowState& state, std::int64_t world, const SO3& R_map_world);
+void turn_window(WindowState& state, ManhattanFrameId world, const SO3& R_map_world);
 
 /// The same window in another unit of length: all lengths, those of its measurements and of its
 /// prior too, become `scale` times as long, the oldest keyframe stays where it is. The cost stays

@@ -14,18 +14,24 @@ namespace placegraph {
 struct WindowVariable {
   enum class Kind { kKeyframe, kPlane, kWorld };
   Kind kind = Kind::kKeyframe;
-  std::int64_t id = 0;
+  std::int64_t id = 0;  ///< its number among those of its kind
   auto operator<=>(const WindowVariable&) const = default;
 
   /// The id of a variable of that kind.
   KeyframeId keyframe() const { return KeyframeId(id); }
+  PlaneId plane() const { return PlaneId(id); }
+  ManhattanFrameId world() const { return ManhattanFrameId(id); }
 };
 
 inline WindowVariable keyframe_variable(KeyframeId id) {
   return {WindowVariable::Kind::kKeyframe, id.value()};
 }
-inline WindowVariable plane_variable(std::int64_t id) { return {WindowVariable::Kind::kPlane, id}; }
-inline WindowVariable world_variable(std::int64_t id) { return {WindowVariable::Kind::kWorld, id}; }
+inline WindowVariable plane_variable(PlaneId id) {
+  return {WindowVariable::Kind::kPlane, id.value()};
+}
+inline WindowVariable world_variable(ManhattanFrameId id) {
+  return {WindowVariable::Kind::kWorld, id.value()};
+}
 
 /// Number of directions in which it can move: columns that it has in the normal equations.
 inline int degrees_of_freedom(const WindowVariable& variable) {

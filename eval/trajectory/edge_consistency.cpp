@@ -6,7 +6,7 @@
 namespace placegraph {
 
 EdgeConsistency edge_consistency(const std::vector<RelativePoseConstraint>& edges,
-                                 const std::map<std::int64_t, SE3>& T_world_node) {
+                                 const std::map<NodeId, SE3>& T_world_node) {
   constexpr int kDof = 6;
   const double bound = chi_squared_quantile(0.99, kDof) / kDof;
   EdgeConsistency result;

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/se3.h>
 #include <placegraph/graph/pose_graph/constraint.h>
 
@@ -21,6 +22,6 @@ struct EdgeConsistency {
 /// `T_world_node`: true poses by node id. Nothing is fitted: only relative poses count. Throws
 /// ArgumentError for edges that are not over SE(3).
 EdgeConsistency edge_consistency(const std::vector<RelativePoseConstraint>& edges,
-                                 const std::map<std::int64_t, SE3>& T_world_node);
+                                 const std::map<NodeId, SE3>& T_world_node);
 
 }  // namespace placegraph

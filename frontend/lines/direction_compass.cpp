@@ -11,19 +11,19 @@ namespace placegraph {
 
 /// The lines of a view as evidence, and the ids of their tracks.
 struct DirectionCompass::Evidence {
-  std::vector<std::int64_t> ids;  ///< of the segments
+  std::vector<LineId> ids;  ///< of the segments
   VanishingEvidence lines;
 
   static Evidence of(const Camera& camera, const LineView& view, const VanishingNoise& noise) {
     std::vector<LineSegment> segments;
-    std::vector<std::int64_t> ids;
+    std::vector<LineId> ids;
     for (const auto& [id, line] : view) {
       segments.push_back(line.segment);
       ids.push_back(id);
     }
     return {std::move(ids), VanishingEvidence(segments, camera, noise)};
   }
-  std::int64_t id(int i) const { return ids[static_cast<std::size_t>(lines.segment(i))]; }
+  LineId id(int i) const { return ids[static_cast<std::size_t>(lines.segment(i))]; }
 };
 
 namespace {
@@ -106,10 +106,10 @@ std::vector<DirectionCompass::Family> DirectionCompass::families() const {
 LineView DirectionCompass::assign(const Evidence& evidence, const LineView& view,
                                   const SO3& R_ref_cam) {
   constexpr double kJoinSigmas = 2.5, kLeaveSigmas = 5;
-  std::map<std::int64_t, int> now;
+  std::map<LineId, int> now;
   LineView left;
   for (int i = 0; i < evidence.lines.size(); ++i) {
-    const std::int64_t id = evidence.id(i);
+    const LineId id = evidence.id(i);
     const auto before = direction_of_.find(id);
     const auto sigmas = [&](int k) {
       const PointingError e = evidence.lines.error(
@@ -140,7 +140,7 @@ void DirectionCompass::find_new(const Camera& camera, const LineView& left, cons
                                 Random& random) {
   if (static_cast<int>(left.size()) < 2 * options_.min_segments) return;
   std::vector<LineSegment> segments;
-  std::vector<std::int64_t> ids;
+  std::vector<LineId> ids;
   for (const auto& [id, line] : left) segments.push_back(line.segment), ids.push_back(id);
   const VanishingPoints found = find_vanishing_points(segments, camera, options_, random);
   const int first = directions();

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/lines/line_initializer.h>
+#include <placegraph/graph/core/ids.h>
 
 #include <map>
 #include <vector>
@@ -35,7 +36,7 @@ class DirectionCompass {
   struct Family {
     Eigen::Vector3d d_ref;
     double sigma_rad;
-    std::vector<std::int64_t> tracks;  ///< ascending, three or more
+    std::vector<LineId> tracks;  ///< ascending, three or more
   };
   std::vector<Family> families() const;
   int directions() const { return static_cast<int>(directions_.size()); }
@@ -52,7 +53,7 @@ class DirectionCompass {
 
   VanishingPointOptions options_;
   std::vector<Known> directions_;
-  std::map<std::int64_t, int> direction_of_;  ///< -1: none
+  std::map<LineId, int> direction_of_;  ///< -1: none
 };
 
 }  // namespace placegraph

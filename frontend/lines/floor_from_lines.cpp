@@ -73,7 +73,7 @@ std::optional<Eigen::Vector3d> vertical(const std::vector<SharedDirection>& dire
 
 /// A point whose height is that of a line, or of an upright's lower end, from the camera's centre.
 struct Mark {
-  std::int64_t id = 0;
+  LineId id;
   Eigen::Vector3d point;
   double sigma = 0;  ///< of its height
 };

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/lines/line_triangulation.h>
+#include <placegraph/graph/core/ids.h>
 
 #include <cstdint>
 #include <vector>
@@ -9,7 +10,7 @@ namespace placegraph {
 
 /// A line of known place as the camera sees it now.
 struct PlacedLine {
-  std::int64_t id = 0;
+  LineId id;
   Line3 line_ref;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< in the line's tangent
   LineSegment seen;                                      ///< its visible part
@@ -26,7 +27,7 @@ struct FloorFromLines {
   Eigen::Vector3d down_ref = Eigen::Vector3d::UnitY();  ///< unit normal, away from the camera
   double height = 0;                                    ///< of the camera's centre above it
   double sigma_height = 0;
-  std::vector<std::int64_t> on_floor;  ///< lines on it or ending there, ascending
+  std::vector<LineId> on_floor;  ///< lines on it or ending there, ascending
 };
 
 /// The floor under a camera from lines of a scene of any unit. Uprights (lines near to the

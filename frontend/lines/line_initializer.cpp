@@ -11,7 +11,7 @@
 namespace placegraph {
 namespace {
 
-using Ids = std::vector<std::int64_t>;
+using Ids = std::vector<LineId>;
 
 Outcome failure(Outcome::Code code, const std::string& reason) {
   return Outcome::failure(code, reason);
@@ -50,7 +50,7 @@ std::optional<Direction> direction_of(const Camera& camera, const LineView& view
   constexpr int kRounds = 5;
   constexpr double kFloorRad = 2e-3;  // edges are not that parallel
   std::vector<std::pair<Eigen::Vector3d, double>> planes;
-  for (const std::int64_t id : family) {
+  for (const LineId id : family) {
     const auto line = view.find(id);
     if (line == view.end()) continue;
     const double length = std::max(1.0, line->second.segment.length());
@@ -86,7 +86,7 @@ RotationFromDirections rotation_between(const Camera& camera, const LineView& re
   std::vector<DirectionPair> pairs;
   for (const Ids& family : families) {
     Ids common;
-    for (const std::int64_t id : family)
+    for (const LineId id : family)
       if (cur.contains(id)) common.push_back(id);
     const auto a = direction_of(camera, ref, common), b = direction_of(camera, cur, common);
     if (a && b) pairs.push_back({a->v, b->v, std::hypot(a->sigma_rad, b->sigma_rad)});
@@ -112,7 +112,7 @@ struct Three {
 
   /// Takes the tracks whose planes turn from the first to the last view by `min_turn_rad` or more.
   void take(const Ids& tracks, double min_turn_rad) {
-    for (const std::int64_t id : tracks) {
+    for (const LineId id : tracks) {
       LineNormals m;
       for (std::size_t k = 0; k < 3; ++k) m[k] = normal_of(camera, views[k]->at(id));
       const double turn = m[0].cross(R_view_ref[2].inverse() * m[2]).norm();
@@ -173,14 +173,14 @@ RansacResult<std::vector<SE3>> translate(const Three& three, const LineInitializ
 }
 
 /// Every line from all views that are posed.
-std::map<std::int64_t, Line3> place_lines(const Camera& camera, const std::vector<LineView>& views,
+std::map<LineId, Line3> place_lines(const Camera& camera, const std::vector<LineView>& views,
                                           const std::vector<std::optional<SE3>>& T_ref_view) {
   LineTriangulationOptions options;
   options.min_turn_deg = 0.5;
   options.min_turn_sigmas = 5;
   options.max_error_sigmas = 20;  // poses are not the last word yet
-  std::map<std::int64_t, Line3> lines;
-  std::map<std::int64_t, std::vector<LineSighting>> sightings;
+  std::map<LineId, Line3> lines;
+  std::map<LineId, std::vector<LineSighting>> sightings;
   for (std::size_t k = 0; k < views.size(); ++k)
     if (T_ref_view[k])
       for (const auto& [id, line] : views[k]) sightings[id].push_back({*T_ref_view[k], line.seen});
@@ -192,7 +192,7 @@ std::map<std::int64_t, Line3> place_lines(const Camera& camera, const std::vecto
 }
 
 PoseFromLines pose_view(const Camera& camera, const LineView& view,
-                        const std::map<std::int64_t, Line3>& lines, const SE3& expected,
+                        const std::map<LineId, Line3>& lines, const SE3& expected,
                         const LineInitializerOptions& options, Random& random) {
   constexpr double kSigma = 0.1;  // [rad] and in the way from first to last view
   std::vector<SeenLine> seen;
@@ -212,7 +212,7 @@ SE3 expected_between(const SE3& T_ref_from, const SE3& T_ref_to, double share) {
 /// Poses the views between two that are posed by the lines; a view that agrees with no pose stays
 /// without one.
 void pose_between(const Camera& camera, const std::vector<LineView>& views, std::size_t from,
-                  std::size_t to, const std::map<std::int64_t, Line3>& lines,
+                  std::size_t to, const std::map<LineId, Line3>& lines,
                   const LineInitializerOptions& options, Random& random,
                   std::vector<std::optional<SE3>>& T_ref_view) {
   for (std::size_t k = from + 1; k < to; ++k) {

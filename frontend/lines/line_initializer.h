@@ -2,6 +2,7 @@
 #include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/lines/pose_from_lines.h>
 #include <placegraph/frontend/vanishing/vanishing_points.h>
+#include <placegraph/graph/core/ids.h>
 
 #include <cstdint>
 #include <map>
@@ -15,12 +16,12 @@ struct TrackedLine {
   LineSegment segment;
   ImageLine::Carriers seen;
 };
-using LineView = std::map<std::int64_t, TrackedLine>;  ///< by id of the track
+using LineView = std::map<LineId, TrackedLine>;  ///< by id of the track
 
 struct LineInitialization {
   Outcome outcome;
   std::vector<SE3> T_ref_view;          ///< one per view; the first's is identity, the last's |t| 1
-  std::map<std::int64_t, Line3> lines;  ///< in the first view's frame
+  std::map<LineId, Line3> lines;  ///< in the first view's frame
   int inliers = 0, candidates = 0;
 };
 

@@ -2,6 +2,7 @@
 #include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/frontend/segments/segment_detector.h>
 #include <placegraph/frontend/segments/segment_flow.h>
+#include <placegraph/graph/core/ids.h>
 
 #include <cstdint>
 #include <functional>
@@ -14,7 +15,7 @@ namespace placegraph {
 /// A straight edge followed over time. Its line, with the covariance of its support in the newest
 /// frame, is measured anew in every frame and does not drift; its ends are those of its support.
 struct LineTrack {
-  std::int64_t id = 0;
+  LineId id;
   EdgeSegment edge;      ///< in the newest image, brighter side on the right
   LineSegment previous;  ///< in the image before
   int age = 0;           ///< frames since detection
@@ -46,7 +47,7 @@ class LineTracker {
 
   const std::vector<LineTrack>& tracks() const { return tracks_; }
   /// Tracks that `track` or `detect` found last to be part of another: (its id, the id it is now).
-  const std::vector<std::pair<std::int64_t, std::int64_t>>& merged() const { return merged_; }
+  const std::vector<std::pair<LineId, LineId>>& merged() const { return merged_; }
   const Image& image() const { return image_; }
 
  private:
@@ -56,11 +57,11 @@ class LineTracker {
 
   LineTrackerOptions options_;
   std::vector<LineTrack> tracks_;
-  std::vector<std::pair<std::int64_t, std::int64_t>> merged_;
+  std::vector<std::pair<LineId, LineId>> merged_;
   Image image_;
   std::shared_ptr<const StripImage> strips_;    // of image_
   std::shared_ptr<const EdgeRefiner> refiner_;  // of image_
-  std::int64_t next_id_ = 0;
+  LineId next_id_;
 };
 
 }  // namespace placegraph

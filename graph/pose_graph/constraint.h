@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/robust_kernel.h>
 #include <placegraph/graph/geometry/lie.h>
 
@@ -36,7 +37,7 @@ enum class RotationError {
 
 /// Node `to` seen from node `from`: error = Log(T_from_to^-1 * T_world_from^-1 * T_world_to).
 struct RelativePoseConstraint {
-  std::int64_t from = 0, to = 0;
+  NodeId from, to;
   Pose T_from_to;
   Information information;
   ConstraintSource source = ConstraintSource::kOdometry;
@@ -47,7 +48,7 @@ struct RelativePoseConstraint {
 /// error = T_world_node * lever_arm - position_world. In the plane the third components are left
 /// out.
 struct PositionConstraint {
-  std::int64_t node = 0;
+  NodeId node;
   Eigen::Vector3d position_world = Eigen::Vector3d::Zero();
   Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  ///< of the antenna, in the node's frame [m]
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();

@@ -18,7 +18,7 @@ std::vector<GraphPart> split_components(const PoseGraph& graph) {
   }
   for (std::size_t i = 0; i < graph.constraints.size(); ++i) {
     const auto* relative = std::get_if<RelativePoseConstraint>(&graph.constraints[i]);
-    const std::int64_t id =
+    const NodeId id =
         relative ? relative->from : std::get<PositionConstraint>(graph.constraints[i]).node;
     GraphPart& part = parts[component[index.at(id)]];
     part.graph.constraints.push_back(graph.constraints[i]);

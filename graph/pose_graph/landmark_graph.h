@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 namespace placegraph {
@@ -6,7 +7,7 @@ namespace placegraph {
 /// A measured pose of a node, as by motion capture: error = Log(T_world_node_measured^-1 *
 /// T_world_node).
 struct PosePriorConstraint {
-  std::int64_t node = 0;
+  NodeId node;
   Pose T_world_node;  ///< measured
   Information information;
   /// It was measured by a sensor that stands beside the node, and rewritten for the node: exact in
@@ -16,7 +17,7 @@ struct PosePriorConstraint {
 
 /// A point of the world that nodes see; in the plane z is 0 and stays so.
 struct GraphPoint {
-  std::int64_t id = 0;  ///< no node has it
+  NodeId id;  ///< no pose has it
   Eigen::Vector3d position_world = Eigen::Vector3d::Zero();
   bool fixed = false;
 };
@@ -24,7 +25,7 @@ struct GraphPoint {
 /// A point as a node sees it: error = T_world_node^-1 * position_world - position_node. In the
 /// plane the third components are left out.
 struct PointSight {
-  std::int64_t node = 0, point = 0;
+  NodeId node, point;
   Eigen::Vector3d position_node = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
 };

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
+
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -13,23 +15,24 @@ class NodeIndex {
 
   NodeIndex() = default;
   /// Of ids that are there several times the first counts.
-  explicit NodeIndex(const std::vector<std::int64_t>& ids);
+  explicit NodeIndex(const std::vector<NodeId>& ids);
 
   /// Position of the id, kNone if it is not there.
-  int find(std::int64_t id) const {
+  int find(NodeId id) const {
     if (table_.empty()) return find_in_map(id);
-    const std::uint64_t offset = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(low_);
+    const std::uint64_t offset = 
+        static_cast<std::uint64_t>(id.value()) - static_cast<std::uint64_t>(low_);
     return offset < table_.size() ? table_[offset] : kNone;
   }
-  bool contains(std::int64_t id) const { return find(id) != kNone; }
+  bool contains(NodeId id) const { return find(id) != kNone; }
   /// Throws ArgumentError if the id is not there.
-  int at(std::int64_t id) const;
+  int at(NodeId id) const;
 
  private:
-  int find_in_map(std::int64_t id) const;
+  int find_in_map(NodeId id) const;
   std::int64_t low_ = 0;
   std::vector<int> table_;
-  std::unordered_map<std::int64_t, int> map_;
+  std::unordered_map<NodeId, int> map_;
 };
 
 }  // namespace placegraph

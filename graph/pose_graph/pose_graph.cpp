@@ -31,12 +31,12 @@ bool has_width(const RobustKernel& kernel) {
 void check_relative(const RelativePoseConstraint& constraint, PoseKind kind, const NodeIndex& index,
                     std::size_t number) {
   const auto fail = [&](const std::string& reason) {
-    refuse("constraint " + std::to_string(number) + " (" + std::to_string(constraint.from) +
-               " -> " + std::to_string(constraint.to) + ")",
+    refuse("constraint " + std::to_string(number) + " (" + to_string(constraint.from) +
+               " -> " + to_string(constraint.to) + ")",
            reason);
   };
-  for (const std::int64_t id : {constraint.from, constraint.to})
-    if (!index.contains(id)) fail("unknown node " + std::to_string(id));
+  for (const NodeId id : {constraint.from, constraint.to})
+    if (!index.contains(id)) fail("unknown node " + to_string(id));
   if (constraint.from == constraint.to) fail("joins a node to itself");
   if (kind_of(constraint.T_from_to) != kind) fail("of another kind than the nodes");
   if (!is_finite(constraint.T_from_to)) fail("pose is not finite");
@@ -55,7 +55,7 @@ void check_position(const PositionConstraint& constraint, const NodeIndex& index
   const auto fail = [&](const std::string& reason) {
     refuse("constraint " + std::to_string(number), reason);
   };
-  if (!index.contains(constraint.node)) fail("unknown node " + std::to_string(constraint.node));
+  if (!index.contains(constraint.node)) fail("unknown node " + to_string(constraint.node));
   if (!constraint.position_world.allFinite()) fail("position is not finite");
   if (!constraint.lever_arm.allFinite()) fail("lever arm is not finite");
   if (const char* fault = fault_of(constraint.information)) fail(fault);
@@ -133,7 +133,7 @@ void PoseGraph::check() const {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const PoseNode& node = nodes[i];
     const auto fail = [&](const char* reason) {
-      refuse("node " + std::to_string(node.id), reason);
+      refuse("node " + to_string(node.id), reason);
     };
     if (index.find(node.id) != static_cast<int>(i)) fail("the id is there twice");
     if (kind_of(node.T_world_node) != kind) fail("of another kind than the first");
@@ -148,7 +148,7 @@ void PoseGraph::check() const {
 }
 
 NodeIndex PoseGraph::index_by_id() const {
-  std::vector<std::int64_t> ids;
+  std::vector<NodeId> ids;
   ids.reserve(nodes.size());
   for (const PoseNode& node : nodes) ids.push_back(node.id);
   return NodeIndex(ids);

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/constraint.h>
 
 #include <string>
@@ -9,7 +10,7 @@ namespace placegraph {
 class NodeIndex;
 
 struct PoseNode {
-  std::int64_t id = 0;
+  NodeId id;
   Pose T_world_node;
   bool fixed = false;
 };

@@ -2,6 +2,7 @@
 #include <placegraph/io/graphs/pose_graph_builder.h>
 #include <placegraph/io/graphs/parse_graph.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/graphs/g2o.h>
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 #include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/io/files/atomic_file.h>
@@ -231,7 +232,7 @@ void write_kml(const std::string& path, const GeoDocument& document) {
                     to_string(edge.constraint->source), edge.lines);
   fmt::format_to(out, "</Folder>\n<Folder><name>nodes</name>\n");
   for (std::size_t i = 0; i < shapes.nodes.size(); ++i)
-    put_placemark(out, std::to_string(document.graph.nodes[i].id), "node", shapes.nodes[i]);
+    put_placemark(out, to_string(document.graph.nodes[i].id), "node", shapes.nodes[i]);
   fmt::format_to(out, "</Folder>\n</Document></kml>\n");
   commit(path, text);
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/io/graphs/landmark_lines.h>
 
 #include <algorithm>
@@ -63,20 +64,21 @@ void LandmarkLines::add_prior(std::string_view node, const Pose& T_world_sensor,
 
 void LandmarkLines::add_point(std::string_view id, const Eigen::Vector3d& position_world,
                               bool planar) {
-  points_.push_back({{file_->integer(id, "id"), position_world, false}, file_->line(), planar});
+  points_.push_back(
+      {{NodeId(file_->integer(id, "id")), position_world, false}, file_->line(), planar});
 }
 
 void LandmarkLines::add_sight(std::string_view node, std::string_view point,
                               const Eigen::Vector3d& position, const Eigen::Matrix3d& information,
                               bool planar, std::string_view offset) {
   sights_.push_back(
-      {{file_->integer(node, "id"), file_->integer(point, "id"), position, information},
+      {{NodeId(file_->integer(node, "id")), NodeId(file_->integer(point, "id")), position, information},
        file_->line(),
        planar,
        std::string(offset)});
 }
 
-bool LandmarkLines::fix(std::int64_t id) {
+bool LandmarkLines::fix(NodeId id) {
   const auto found =
       std::ranges::find_if(points_, [id](const Point& point) { return point.point.id == id; });
   if (found == points_.end()) return false;
@@ -101,7 +103,7 @@ void LandmarkLines::add_to(LandmarkGraph& graph) const {
     throw FileError(file_->path(), line, reason);
   };
   const NodeIndex nodes = graph.poses.index_by_id();
-  const auto node_at = [&](std::int64_t id, int line) {
+  const auto node_at = [&](NodeId id, int line) {
     const int node = nodes.find(id);
     if (node == NodeIndex::kNone) fail(line, fmt::format("there is no vertex {}", id));
     return node;
@@ -117,7 +119,7 @@ void LandmarkLines::add_to(LandmarkGraph& graph) const {
     const SE3 T = T_node_sensor(prior.offset, prior.line);
     graph.priors.push_back(is_identity(T) ? prior.prior : of_node(prior.prior, T));
   }
-  std::unordered_map<std::int64_t, std::size_t> point_of;
+  std::unordered_map<NodeId, std::size_t> point_of;
   for (const Point& point : points_) {
     require_planar(point.planar, point.line);
     if (nodes.contains(point.point.id) ||

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 #include <placegraph/io/files/text_file.h>
 
@@ -30,7 +31,7 @@ class LandmarkLines {
                  const Eigen::Matrix3d& information, bool planar, std::string_view offset = {});
 
   /// Fixes the point of this id, if there is one.
-  bool fix(std::int64_t id);
+  bool fix(NodeId id);
 
   /// Adds what the lines say. Points that no line gives a place to are where their first sight
   /// says. Throws FileError for nodes and offsets that are not there, ids that are there twice, and

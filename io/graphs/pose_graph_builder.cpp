@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/pose_graph/position_of.h>
 #include <placegraph/io/graphs/pose_graph_builder.h>
 #include <placegraph/io/graphs/printed_rounding.h>
@@ -118,7 +119,7 @@ Information PoseGraphBuilder::plausible(const Information& information) const {
 void PoseGraphBuilder::add_node(std::string_view id, const Pose& T_world_node) {
   require_kind(kind_of(T_world_node));
   require_near(position_of(T_world_node));
-  graph_.nodes.push_back({file_->integer(id, "id"), T_world_node, false});
+  graph_.nodes.push_back({NodeId(file_->integer(id, "id")), T_world_node, false});
   node_lines_.push_back(file_->line());
 }
 
@@ -129,12 +130,12 @@ void PoseGraphBuilder::add_edge(std::string_view from, std::string_view to, cons
   const Information information = plausible(given);
   RelativePoseConstraint& edge =
       graph_.constraints.emplace_back().emplace<RelativePoseConstraint>();
-  edge.from = file_->integer(from, "id");
-  edge.to = file_->integer(to, "id");
+  edge.from = NodeId(file_->integer(from, "id"));
+  edge.to = NodeId(file_->integer(to, "id"));
   if (edge.from == edge.to) file_->fail(fmt::format("an edge from {} to itself", edge.from));
   edge.T_from_to = T_from_to;
   edge.information = information;
-  const bool consecutive = std::min(edge.from, edge.to) + 1 == std::max(edge.from, edge.to);
+  const bool consecutive = ++NodeId(std::min(edge.from, edge.to)) == std::max(edge.from, edge.to);
   edge.source =
       source.value_or(consecutive ? ConstraintSource::kOdometry : ConstraintSource::kLoop);
   source_is_told_.push_back(source.has_value());
@@ -145,7 +146,7 @@ void PoseGraphBuilder::add_position(std::string_view node, const Eigen::Vector2d
                                     const Eigen::Matrix2d& information) {
   require_kind(PoseKind::kSE2);
   PositionConstraint position;
-  position.node = file_->integer(node, "id");
+  position.node = NodeId(file_->integer(node, "id"));
   position.position_world.head<2>() = position_world;
   Information padded = Information::Zero(3, 3);
   padded.topLeftCorner<2, 2>() = information;
@@ -155,10 +156,10 @@ void PoseGraphBuilder::add_position(std::string_view node, const Eigen::Vector2d
 }
 
 void PoseGraphBuilder::fix(std::string_view id) {
-  fixed_.emplace_back(file_->integer(id, "id"), file_->line());
+  fixed_.emplace_back(NodeId(file_->integer(id, "id")), file_->line());
 }
 
-int PoseGraphBuilder::find(const NodeIndex& index, std::int64_t id, int line) const {
+int PoseGraphBuilder::find(const NodeIndex& index, NodeId id, int line) const {
   const int position = index.find(id);
   if (position != NodeIndex::kNone) return position;
   throw FileError(file_->path(), line, fmt::format("there is no vertex {}", id));
@@ -186,7 +187,7 @@ void PoseGraphBuilder::require_connected(const PoseGraph& graph) const {
 void PoseGraphBuilder::tell_odometry_by_order() {
   // Of so many steps to the next id at most one is to id + 1.
   constexpr std::size_t kHardly = 10;
-  std::vector<std::int64_t> ids;
+  std::vector<NodeId> ids;
   for (const PoseNode& node : graph_.nodes) ids.push_back(node.id);
   std::sort(ids.begin(), ids.end());
   // The positions in `ids` from which an edge leads to the next id.
@@ -203,7 +204,7 @@ void PoseGraphBuilder::tell_odometry_by_order() {
   std::sort(steps.begin(), steps.end());
   steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
   const auto consecutive =
-      std::count_if(steps.begin(), steps.end(), [&](int k) { return ids[k] + 1 == ids[k + 1]; });
+      std::count_if(steps.begin(), steps.end(), [&](int k) { return ++NodeId(ids[k]) == ids[k + 1]; });
   // A path through at least half of the nodes, or it is none; too few steps tell nothing.
   if (kHardly * static_cast<std::size_t>(consecutive) > steps.size() ||
       2 * steps.size() + 1 < ids.size() || steps.size() < kHardly)
@@ -257,7 +258,7 @@ PoseGraph PoseGraphBuilder::finish_poses() {
 }
 
 void PoseGraphBuilder::add_nodes_of_edges() {
-  std::vector<std::pair<std::int64_t, int>> ids;  // and the line that names them first
+  std::vector<std::pair<NodeId, int>> ids;  // and the line that names them first
   for (std::size_t i = 0; i < graph_.constraints.size(); ++i) {
     const RelativePoseConstraint& edge = edge_of(graph_.constraints[i]);
     ids.emplace_back(edge.from, edge_lines_[i]);

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/io/graphs/pose_graph_reading.h>
 #include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
@@ -66,7 +67,7 @@ class PoseGraphBuilder {
   PoseGraph finish_poses();
   void require_kind(PoseKind kind);
   void tell_stamps(const PoseGraphReading& reading) const;
-  int find(const NodeIndex& index, std::int64_t id, int line) const;
+  int find(const NodeIndex& index, NodeId id, int line) const;
   void require_connected(const PoseGraph& graph) const;
   void add_nodes_of_edges();
   void tell_odometry_by_order();
@@ -83,7 +84,7 @@ class PoseGraphBuilder {
   int stamped_ = 0, unstamped_ = 0, first_stamp_line_ = 0;
   double last_stamp_ = 0;
   std::vector<char> source_is_told_;                 ///< of the edges, by their tags
-  std::vector<std::pair<std::int64_t, int>> fixed_;  ///< id and line
+  std::vector<std::pair<NodeId, int>> fixed_;  ///< id and line
 };
 
 /// Hands every line that is neither blank nor a comment to `parse_line`, split into fields.

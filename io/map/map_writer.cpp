@@ -123,7 +123,8 @@ void MapWriter::put_constraints(const MapChanges& changes) {
     else
       BlobWriter(motion).pose(std::get<SE3>(constraint->T_from_to));
     BlobWriter(information).symmetric(constraint->information);
-    put_edge << std::int64_t{kind} << number << constraint->from << constraint->to
+    put_edge << std::int64_t{kind} << number << constraint->from.value()
+             << constraint->to.value()
              << static_cast<std::int64_t>(constraint->source)
              << static_cast<std::int64_t>(constraint->kernel.kind) << constraint->kernel.width;
     put_edge.blob(motion).blob(information).run();

@@ -21,7 +21,7 @@ struct FrameView {
   };
   std::vector<Track> tracks;
   struct Line {
-    std::int64_t id = 0;
+    LineId id;
     LineSegment segment;       ///< its support in this frame
     ImageLine::Carriers seen;  ///< its infinite line
     /// How far off, at the worse carrier, the line of the window is projected [px], if it has one.
@@ -31,8 +31,8 @@ struct FrameView {
   /// An edge that was looked at for the directions of rectangular worlds.
   struct DirectedLine {
     LineSegment segment;
-    std::int64_t world = -1;
-    int axis = -1;  ///< of that world; -1: along none
+    std::optional<ManhattanFrameId> world;
+    std::optional<int> axis;  ///< of that world; nothing: it lies along none
   };
   /// Of keyframes only, where those directions are among the cues.
   std::vector<DirectedLine> directed;

@@ -117,13 +117,14 @@ bool ManhattanCue::take(KeyframeId keyframe, const std::vector<LineSegment>& seg
   if (log_) {
     const Eigen::Vector3d w = frame.R_cam_manhattan.log();
     std::ostringstream text;
-    text << "directions " << keyframe << " world " << world.value_or(-1) << " turn "
+    text << "directions " << keyframe << " world "
+         << (world ? world->value() : -1) << " turn "
          << w.transpose() << " sigma_deg "
          << frame.covariance.diagonal().cwiseSqrt().transpose() / kRadPerDeg;
     log_(LogLevel::kDebug, text.str());
   }
   for (std::size_t i = 0; i < view_.size(); ++i)
-    if (world && frame.axis[i] >= 0 && view_[i].axis < 0)
+    if (world && frame.axis[i] >= 0 && !view_[i].axis)
       view_[i].world = *world, view_[i].axis = frame.axis[i];
   return world.has_value();
 }

@@ -28,7 +28,7 @@ class ManhattanCue {
   /// A world of the window as a frame sees it, which is taken from about R_odom_cam: the one seen
   /// last that is believed. Nothing if none is.
   struct Heading {
-    std::int64_t world = 0;
+    ManhattanFrameId world;
     SO3 R_cam_world;
     Eigen::Matrix3d information;  ///< right tangent [1/rad^2]
   };

@@ -30,7 +30,7 @@ Eigen::Matrix3d ManhattanWorlds::honest(const Eigen::Matrix3d& covariance) const
 
 std::vector<ManhattanWorlds::Expected> ManhattanWorlds::expected(const SlidingWindow& window,
                                                                  KeyframeId keyframe) const {
-  std::vector<std::pair<KeyframeId, std::int64_t>> order;  // when, which
+  std::vector<std::pair<KeyframeId, ManhattanFrameId>> order;  // when, which
   for (const auto& [world, seen] : last_seen_)
     if (covariance_.contains(world)) order.emplace_back(seen, world);
   std::sort(order.rbegin(), order.rend());
@@ -43,14 +43,14 @@ std::vector<ManhattanWorlds::Expected> ManhattanWorlds::expected(const SlidingWi
   return result;
 }
 
-void ManhattanWorlds::see(const Candidate& sighting, std::int64_t world, SlidingWindow& window) {
+void ManhattanWorlds::see(const Candidate& sighting, ManhattanFrameId world, SlidingWindow& window) {
   add_world_observation(
       window, {sighting.keyframe, world, sighting.R_cam_manhattan,
                Eigen::Matrix3d((options_.correlation * honest(sighting.covariance)).inverse())});
   last_seen_[world] = sighting.keyframe;
 }
 
-std::optional<std::int64_t> ManhattanWorlds::add(KeyframeId keyframe, const SO3& R_cam_manhattan,
+std::optional<ManhattanFrameId> ManhattanWorlds::add(KeyframeId keyframe, const SO3& R_cam_manhattan,
                                                  const Eigen::Matrix3d& covariance,
                                                  SlidingWindow& window) {
   std::optional<Expected> best;
@@ -68,7 +68,7 @@ std::optional<std::int64_t> ManhattanWorlds::add(KeyframeId keyframe, const SO3&
 }
 
 /// A candidate waits until enough of the window agree with it.
-std::optional<std::int64_t> ManhattanWorlds::begin_world(const Candidate& newest,
+std::optional<ManhattanFrameId> ManhattanWorlds::begin_world(const Candidate& newest,
                                                          SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
   std::erase_if(candidates_, [&](const Candidate& c) { return c.keyframe < oldest; });
@@ -102,7 +102,7 @@ std::optional<std::int64_t> ManhattanWorlds::begin_world(const Candidate& newest
     window.keep(world_variable(kMapAxes));
     window.hold_world(kMapAxes);
   }
-  const std::int64_t world = next_world_++;
+  const ManhattanFrameId world = next_world_++;
   window.add_world(world, R_map(newest));
   window.keep(world_variable(world));
   for (const Candidate& sighting : agreeing) see(sighting, world, window);
@@ -131,7 +131,7 @@ void ManhattanWorlds::reset() {
   candidates_.clear();
   last_seen_.clear();
   covariance_.clear();
-  next_world_ = kMapAxes + 1;
+  next_world_ = ++ManhattanFrameId(kMapAxes);
 }
 
 }  // namespace placegraph

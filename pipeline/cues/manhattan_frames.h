@@ -20,7 +20,7 @@ namespace placegraph {
 /// what the others say about the heading turns the keyframes, and not the map under them.
 class ManhattanWorlds {
  public:
-  static constexpr std::int64_t kMapAxes = 0;
+  static constexpr ManhattanFrameId kMapAxes{};
 
   explicit ManhattanWorlds(const ManhattanWorldOptions& options) : options_(options) {
     options_.check();
@@ -28,7 +28,7 @@ class ManhattanWorlds {
 
   /// How the newest keyframe should see a world.
   struct Expected {
-    std::int64_t world = 0;
+    ManhattanFrameId world;
     SO3 R_cam_world;
     Eigen::Matrix3d covariance;  ///< right tangent [rad^2]
   };
@@ -37,7 +37,7 @@ class ManhattanWorlds {
 
   /// Hands the directions of a keyframe's view over, with the covariance of their lines' noise.
   /// Returns the world they are of, which they may begin; nothing while they wait.
-  std::optional<std::int64_t> add(KeyframeId keyframe, const SO3& R_cam_manhattan,
+  std::optional<ManhattanFrameId> add(KeyframeId keyframe, const SO3& R_cam_manhattan,
                                   const Eigen::Matrix3d& covariance, SlidingWindow& window);
   /// After the window has been optimized: how well the newest keyframe knows the worlds.
   void settle(const SlidingWindow& window);
@@ -51,15 +51,15 @@ class ManhattanWorlds {
     SO3 R_cam_manhattan;
     Eigen::Matrix3d covariance;
   };
-  void see(const Candidate& sighting, std::int64_t world, SlidingWindow& window);
-  std::optional<std::int64_t> begin_world(const Candidate& newest, SlidingWindow& window);
+  void see(const Candidate& sighting, ManhattanFrameId world, SlidingWindow& window);
+  std::optional<ManhattanFrameId> begin_world(const Candidate& newest, SlidingWindow& window);
   void forget_one(SlidingWindow& window);
 
   ManhattanWorldOptions options_;
-  std::int64_t next_world_ = kMapAxes + 1;
+  ManhattanFrameId next_world_ = ++ManhattanFrameId(kMapAxes);
   std::vector<Candidate> candidates_;                   // of keyframes in the window, ascending
-  std::map<std::int64_t, KeyframeId> last_seen_;        // of worlds
-  std::map<std::int64_t, Eigen::Matrix3d> covariance_;  // of worlds, as the last keyframe knew them
+  std::map<ManhattanFrameId, KeyframeId> last_seen_;        // of worlds
+  std::map<ManhattanFrameId, Eigen::Matrix3d> covariance_;  // of worlds, as the last keyframe knew them
 };
 
 }  // namespace placegraph

@@ -104,7 +104,7 @@ std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(KeyframeId keyframe,
   return result;
 }
 
-void PlaneLandmarks::see(KeyframeId keyframe, const DepthPlane& plane, std::int64_t id,
+void PlaneLandmarks::see(KeyframeId keyframe, const DepthPlane& plane, PlaneId id,
                          SlidingWindow& window) {
   add_plane_observation(
       window, {keyframe, id, plane.plane_cam, (options_.correlation * plane.covariance).inverse()});
@@ -153,9 +153,9 @@ std::optional<std::size_t> PlaneLandmarks::partner(KeyframeId keyframe, const De
 }
 
 /// Two planes that agree become a landmark.
-std::int64_t PlaneLandmarks::begin(const Waiting& before, const Waiting& now,
+PlaneId PlaneLandmarks::begin(const Waiting& before, const Waiting& now,
                                    SlidingWindow& window) {
-  const std::int64_t id = next_++;
+  const PlaneId id = next_++;
   window.add_plane(id, transform_to(window.pose(now.keyframe).inverse(), now.plane.plane_cam));
   window.keep(plane_variable(id));
   landmarks_[id] = {};
@@ -180,15 +180,15 @@ void PlaneLandmarks::forget(KeyframeId keyframe, SlidingWindow& window) {
 /// Each landmark to the plane that agrees with it best. A plane that agrees about as well with a
 /// landmark of the same place that no other plane is a sighting of gets none; nor does one whose
 /// landmark another plane agrees with about as well, unless that one is a sighting of its own.
-std::vector<std::optional<std::int64_t>> PlaneLandmarks::assign(const std::vector<Match>& all,
+std::vector<std::optional<PlaneId>> PlaneLandmarks::assign(const std::vector<Match>& all,
                                                                 std::size_t count) {
   constexpr double kClearly = 6;  // so much of plane_chi2 makes one of two landmarks the better one
   constexpr double kUndecided = 2;  // so little of a score makes neither of two planes the better
   std::vector<const Match*> chosen(count, nullptr);
-  std::set<std::int64_t> taken;
+  std::set<PlaneId> taken;
   for (const Match& match : all)
     if (!chosen[match.seen] && taken.insert(match.landmark).second) chosen[match.seen] = &match;
-  std::vector<std::optional<std::int64_t>> result(count);
+  std::vector<std::optional<PlaneId>> result(count);
   for (std::size_t k = 0; k < count; ++k)
     if (chosen[k]) result[k] = chosen[k]->landmark;
   for (const Match& other : all) {
@@ -206,14 +206,14 @@ std::vector<std::optional<std::int64_t>> PlaneLandmarks::assign(const std::vecto
   return result;
 }
 
-std::vector<std::optional<std::int64_t>> PlaneLandmarks::add(KeyframeId keyframe,
+std::vector<std::optional<PlaneId>> PlaneLandmarks::add(KeyframeId keyframe,
                                                              const std::vector<DepthPlane>& seen,
                                                              SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
   std::erase_if(waiting_, [&](const Waiting& w) { return w.keyframe < oldest; });
   // First all that is asked of the window, then all that changes it.
   const std::vector<Match> all = matches(keyframe, seen, window);
-  std::vector<std::optional<std::int64_t>> result = assign(all, seen.size());
+  std::vector<std::optional<PlaneId>> result = assign(all, seen.size());
   std::vector<char> known(seen.size(), 0);
   for (const Match& match : all) known[match.seen] = 1;
   std::vector<std::optional<std::size_t>> partners(seen.size());
@@ -258,7 +258,7 @@ void PlaneLandmarks::prune(SlidingWindow& window) {
   const KeyframeId newest = window.keyframes().back();
   for (const WindowFactor& seen : plane_observations(window)) {
     const KeyframeId keyframe = seen.variables[0].keyframe();
-    const std::int64_t plane = seen.variables[1].id;
+    const PlaneId plane = seen.variables[1].plane();
     const auto landmark = landmarks_.find(plane);
     if (keyframe != newest || landmark == landmarks_.end()) continue;
     if (residual_sigmas(window, seen)->norm() < kSigmas) {
@@ -272,8 +272,8 @@ void PlaneLandmarks::prune(SlidingWindow& window) {
   }
 }
 
-std::vector<std::int64_t> PlaneLandmarks::landmarks() const {
-  std::vector<std::int64_t> ids;
+std::vector<PlaneId> PlaneLandmarks::landmarks() const {
+  std::vector<PlaneId> ids;
   for (const auto& [id, landmark] : landmarks_) ids.push_back(id);
   return ids;
 }
@@ -281,7 +281,7 @@ std::vector<std::int64_t> PlaneLandmarks::landmarks() const {
 void PlaneLandmarks::reset() {
   landmarks_.clear();
   waiting_.clear();
-  next_ = 1;
+  next_ = PlaneId(1);
 }
 
 }  // namespace placegraph

@@ -28,14 +28,14 @@ class PlaneLandmarks {
 
   /// Hands the planes seen in the newest keyframe over, in its camera's frame. Returns the landmark
   /// each is a sighting of; nothing of those that wait or are left alone.
-  std::vector<std::optional<std::int64_t>> add(KeyframeId keyframe,
+  std::vector<std::optional<PlaneId>> add(KeyframeId keyframe,
                                                const std::vector<DepthPlane>& seen,
                                                SlidingWindow& window);
   /// After the window has been optimized: sightings that do not fit are taken out, with a landmark
   /// whose sightings do not fit again and again.
   void prune(SlidingWindow& window);
   /// The ids of the landmarks, ascending.
-  std::vector<std::int64_t> landmarks() const;
+  std::vector<PlaneId> landmarks() const;
   void reset();
 
  private:
@@ -53,23 +53,23 @@ class PlaneLandmarks {
   struct Match {
     double chi2 = 0, overlap = 0, score = 0;
     std::size_t seen = 0;
-    std::int64_t landmark = 0;
+    PlaneId landmark;
   };
   std::vector<Match> matches(KeyframeId keyframe, const std::vector<DepthPlane>& seen,
                              const SlidingWindow& window) const;
   Eigen::Matrix3d drift(const Plane3& plane_cam) const;
-  void see(KeyframeId keyframe, const DepthPlane& plane, std::int64_t id, SlidingWindow& window);
-  static std::vector<std::optional<std::int64_t>> assign(const std::vector<Match>& all,
+  void see(KeyframeId keyframe, const DepthPlane& plane, PlaneId id, SlidingWindow& window);
+  static std::vector<std::optional<PlaneId>> assign(const std::vector<Match>& all,
                                                          std::size_t count);
   std::optional<std::size_t> partner(KeyframeId keyframe, const DepthPlane& plane,
                                      const SlidingWindow& window) const;
-  std::int64_t begin(const Waiting& before, const Waiting& now, SlidingWindow& window);
+  PlaneId begin(const Waiting& before, const Waiting& now, SlidingWindow& window);
   void forget(KeyframeId keyframe, SlidingWindow& window);
 
   PlaneLandmarkOptions options_;
   LogSink log_;
-  std::int64_t next_ = 1;
-  std::map<std::int64_t, Landmark> landmarks_;
+  PlaneId next_{1};
+  std::map<PlaneId, Landmark> landmarks_;
   std::vector<Waiting> waiting_;  ///< of keyframes in the window, ascending
 };
 

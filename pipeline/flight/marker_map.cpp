@@ -93,11 +93,11 @@ Matrix6d inverse(const Matrix6d& covariance) {
 void add_frames(const std::vector<MarkerFrame>& frames, const SE3& T_world_odom, PoseGraph& graph) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     graph.nodes.push_back(
-        {static_cast<std::int64_t>(i), Pose(T_world_odom * frames[i].T_odom_cam), false});
+        {NodeId(i), Pose(T_world_odom * frames[i].T_odom_cam), false});
     if (i == 0) continue;
     RelativePoseConstraint step;
-    step.from = static_cast<std::int64_t>(i) - 1;
-    step.to = static_cast<std::int64_t>(i);
+    step.from = NodeId(i - 1);
+    step.to = NodeId(i);
     step.T_from_to = Pose(frames[i - 1].T_odom_cam.inverse() * frames[i].T_odom_cam);
     step.information = inverse(frames[i].step_covariance);
     graph.constraints.emplace_back(step);
@@ -161,7 +161,7 @@ void add_markers(const SeenMarkers& markers, const SE3& T_world_odom, PoseGraph&
     graph.nodes.push_back({marker_node(id), Pose(T_world_marker), marker.placed != nullptr});
     for (const Chosen& view : marker.chosen) {
       RelativePoseConstraint seen;
-      seen.from = view.frame;
+      seen.from = NodeId(view.frame);
       seen.to = marker_node(id);
       seen.T_from_to = Pose(view.pose.T_cam_marker);
       seen.information = inverse(view.pose.covariance);
@@ -189,9 +189,9 @@ std::vector<MappedMarker> read_markers(const PoseGraph& graph, const PoseMargina
 
 }  // namespace
 
-std::int64_t marker_node(int id) {
+NodeId marker_node(int id) {
   constexpr std::int64_t kFirst = 1'000'000'000;
-  return kFirst + id;
+  return NodeId(kFirst + id);
 }
 
 MarkerLayout MarkerMap::layout(const std::string& dictionary) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/pipeline/flight/hover_options.h>
 #include <placegraph/frontend/markers/marker_detector.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/measurements/marker_layout.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
@@ -35,7 +36,7 @@ struct MarkerMap {
 };
 
 /// The node of a marker in the graph.
-std::int64_t marker_node(int id);
+NodeId marker_node(int id);
 
 /// Markers as landmarks of a pose graph: frames are tied by their motions, frames and markers by
 /// the marker's pose in the frame with its covariance; of the two poses of a sighting the one that

@@ -52,7 +52,7 @@ std::vector<MotionObservation> course_along_lines(
   std::vector<MotionObservation> motions;
   for (const auto& family : families) {
     std::map<KeyframeId, Eigen::Matrix3d> held;  // by the earlier keyframe, in its frame
-    for (const std::int64_t id : family.tracks) {
+    for (const LineId id : family.tracks) {
       const auto track = sightings.find(id);
       if (track == sightings.end() || window.line(id)) continue;
       const LineInKeyframe& now = track->second.back();

@@ -69,10 +69,10 @@ void LineCue::track(const Image& image, const SlidingWindow& window, const SE3& 
   const std::vector<LineSegment> wanted = predict_segments(
       calibration_.camera, tracker_.tracks(), window, {T_odom_last_, T_odom_cam, depth}, drift_px_);
   T_odom_before_ = T_odom_last_;
-  std::map<std::int64_t, LineSegment> wanted_of;
+  std::map<LineId, LineSegment> wanted_of;
   for (std::size_t i = 0; i < wanted.size(); ++i) wanted_of[tracker_.tracks()[i].id] = wanted[i];
   tracker_.track(image, wanted);
-  std::map<std::int64_t, double> drift_px;
+  std::map<LineId, double> drift_px;
   for (const LineTrack& track : tracker_.tracks()) {
     const LineSegment& w = wanted_of.at(track.id);
     const auto before = drift_px_.find(track.id);
@@ -155,7 +155,7 @@ void LineCue::accept(const SlidingWindow& window, const SE3& T_odom_cam) {
   tracker_.keep(keep);
 }
 
-void LineCue::add_to_window(std::int64_t id, const LineInKeyframe& sighting,
+void LineCue::add_to_window(LineId id, const LineInKeyframe& sighting,
                             SlidingWindow& window) const {
   const double alike = std::sqrt(options_.alike_sightings);
   LineObservation observation{sighting.keyframe,
@@ -190,7 +190,7 @@ void LineCue::observe(KeyframeId keyframe, const Frame& frame,
   std::vector<LineSegment> segments;
   for (const LineTrack& track : tracker_.tracks()) segments.push_back(track.edge.segment);
   const auto seconds = second_eyes(frame, segments, calibration_, rectification, stereo_, options_);
-  std::map<std::int64_t, LineInKeyframe> now;
+  std::map<LineId, LineInKeyframe> now;
   for (std::size_t i = 0; i < tracker_.tracks().size(); ++i) {
     const LineTrack& track = tracker_.tracks()[i];
     now[track.id] = {keyframe, track.edge.line.carriers(options_.sigma_floor_px), seconds[i]};
@@ -203,12 +203,12 @@ void LineCue::observe(KeyframeId keyframe, const Frame& frame,
 
 /// The newest sighting of each track, and of those that are known well enough a place.
 void LineCue::add_sightings(KeyframeId keyframe,
-                            const std::map<std::int64_t, LineInKeyframe>& all_now,
+                            const std::map<LineId, LineInKeyframe>& all_now,
                             SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
   const LineTriangulationOptions options = triangulation(window);
   LineSightings all;
-  std::map<std::int64_t, Eigen::Matrix4d> covariances;
+  std::map<LineId, Eigen::Matrix4d> covariances;
   for (const auto& [id, now] : all_now) {
     std::vector<LineInKeyframe> sightings;
     for (const LineInKeyframe& s : sightings_[id])
@@ -240,7 +240,7 @@ void LineCue::add_sightings(KeyframeId keyframe,
 }
 
 void LineCue::observe_earlier(KeyframeId keyframe, const LineView& seen, SlidingWindow& window) {
-  std::map<std::int64_t, LineInKeyframe> now;
+  std::map<LineId, LineInKeyframe> now;
   for (const auto& [id, line] : seen) now[id] = {keyframe, line.seen, std::nullopt};
   steer(keyframe, seen, window);
   add_sightings(keyframe, now, window);
@@ -289,7 +289,7 @@ std::vector<double> LineCue::flow_px() const {
 }
 
 void LineCue::prune(SlidingWindow& window) {
-  for (const std::int64_t id : window.lines()) {
+  for (const LineId id : window.lines()) {
     const auto& observations = window.line_observations(id);
     const auto r = observations.empty() ? std::nullopt : residual_px(window, observations.back());
     if (r && r->cwiseAbs().maxCoeff() <= options_.outlier_px) continue;
@@ -302,8 +302,8 @@ std::vector<DisparitySample> LineCue::disparity_samples(const SlidingWindow& win
                                                         const RectificationError& rectification) {
   constexpr std::size_t kViews = 4;
   std::vector<DisparitySample> samples;
-  std::set<std::int64_t> heard;
-  for (const std::int64_t id : window.lines()) {
+  std::set<LineId> heard;
+  for (const LineId id : window.lines()) {
     if (calibrated_.contains(id)) {
       heard.insert(id);
     } else if (window.line_observations(id).size() >= kViews) {
@@ -329,7 +329,7 @@ void LineCue::revise_eyes(SlidingWindow& window, const RectificationError& befor
   for (auto& [id, sightings] : sightings_)
     for (LineInKeyframe& s : sightings)
       if (s.second) s.second = revised(*s.second, s.seen.first, s.seen.second);
-  for (const std::int64_t id : window.lines()) {
+  for (const LineId id : window.lines()) {
     const std::vector<LineObservation> observations = window.line_observations(id);
     for (const LineObservation& o : observations)
       if (o.second)

@@ -84,11 +84,11 @@ class LineCue {
   void reset();
 
  private:
-  void add_sightings(KeyframeId keyframe, const std::map<std::int64_t, LineInKeyframe>& now,
+  void add_sightings(KeyframeId keyframe, const std::map<LineId, LineInKeyframe>& now,
                      SlidingWindow& window);
   LineTriangulationOptions triangulation(const SlidingWindow& window) const;
   std::optional<PoseGuess> with_heading(const PoseGuess& guess) const;
-  void add_to_window(std::int64_t id, const LineInKeyframe& sighting, SlidingWindow& window) const;
+  void add_to_window(LineId id, const LineInKeyframe& sighting, SlidingWindow& window) const;
   void follow_mergers();
   void steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& window);
 
@@ -100,10 +100,10 @@ class LineCue {
   SE3 T_odom_last_;          // of the newest image, once accepted
   SE3 T_odom_before_;        // of the image before
   LineSightings sightings_;  // of live tracks
-  std::map<std::int64_t, LineSegment> at_keyframe_;
-  std::map<std::int64_t, Eigen::Matrix4d> covariances_;  // of lines of the window
-  std::set<std::int64_t> calibrated_;        // lines of the window whose disparity was given out
-  std::map<std::int64_t, double> drift_px_;  // across, beyond what was predicted last
+  std::map<LineId, LineSegment> at_keyframe_;
+  std::map<LineId, Eigen::Matrix4d> covariances_;  // of lines of the window
+  std::set<LineId> calibrated_;        // lines of the window whose disparity was given out
+  std::map<LineId, double> drift_px_;  // across, beyond what was predicted last
 };
 
 }  // namespace placegraph

@@ -43,7 +43,7 @@ std::vector<LineSegment> predict_segments(const Camera& camera,
                                           const std::vector<LineTrack>& tracks,
                                           const SlidingWindow& window,
                                           const LinePrediction& prediction,
-                                          const std::map<std::int64_t, double>& drift_px) {
+                                          const std::map<LineId, double>& drift_px) {
   const SE3& T_odom_last = prediction.T_odom_last;
   const double depth = prediction.depth;
   const SE3 T_cam_last = prediction.T_odom_cam.inverse() * T_odom_last;

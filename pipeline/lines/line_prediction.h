@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/nearest_depth.h>
 
 #include <array>
@@ -36,6 +37,6 @@ std::vector<LineSegment> predict_segments(const Camera& camera,
                                           const std::vector<LineTrack>& tracks,
                                           const SlidingWindow& window,
                                           const LinePrediction& prediction,
-                                          const std::map<std::int64_t, double>& drift_px);
+                                          const std::map<LineId, double>& drift_px);
 
 }  // namespace placegraph

@@ -71,7 +71,7 @@ std::vector<std::optional<SecondEye>> second_eyes(const Frame& frame,
   return result;
 }
 
-std::optional<DisparitySample> disparity_of_line(const SlidingWindow& window, std::int64_t line,
+std::optional<DisparitySample> disparity_of_line(const SlidingWindow& window, LineId line,
                                                  const Calibration& calibration,
                                                  const RectificationError& rectification,
                                                  const LineTriangulationOptions& options) {

@@ -3,6 +3,7 @@
 #include <placegraph/backend/window/sliding_window.h>
 #include <placegraph/frontend/features/rectification.h>
 #include <placegraph/frontend/features/stereo_matcher.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>
 
@@ -30,7 +31,7 @@ LineObservation::SecondEye corrected(LineObservation::SecondEye second, const Ca
 /// motion of the left camera says of it. Nothing where the newest keyframe has no second eye for
 /// the line, or where motion says too little. `rectification`: by which the observations are
 /// corrected already.
-std::optional<DisparitySample> disparity_of_line(const SlidingWindow& window, std::int64_t line,
+std::optional<DisparitySample> disparity_of_line(const SlidingWindow& window, LineId line,
                                                  const Calibration& calibration,
                                                  const RectificationError& rectification,
                                                  const LineTriangulationOptions& options);

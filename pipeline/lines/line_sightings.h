@@ -18,6 +18,6 @@ struct LineInKeyframe {
 };
 
 /// By id of the track, in order of the keyframes.
-using LineSightings = std::map<std::int64_t, std::vector<LineInKeyframe>>;
+using LineSightings = std::map<LineId, std::vector<LineInKeyframe>>;
 
 }  // namespace placegraph

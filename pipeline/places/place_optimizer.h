@@ -44,7 +44,7 @@ class PlaceOptimizer {
  private:
   struct Tracked {
     int number = 0;  // of the constraint in the optimizer
-    std::int64_t from = 0, to = 0;
+    NodeId from, to;
   };
 
   IncrementalOptions options_;

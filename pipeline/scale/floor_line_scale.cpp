@@ -54,7 +54,7 @@ std::optional<GroundScale::Length> FloorScale::measure(const SE3& T_odom_cam,
   if (recent_log_factors_.size() > kMemory) recent_log_factors_.pop_front();
   if (std::abs(log_factor - expected) > options_.max_log_jump) return std::nullopt;
   int fresh = 0;
-  for (const std::int64_t id : floor.on_floor) fresh += heard_.insert(id).second;
+  for (const LineId id : floor.on_floor) fresh += heard_.insert(id).second;
   if (fresh == 0) return std::nullopt;
   sigma *= std::sqrt(static_cast<double>(floor.on_floor.size()) / fresh);
   return GroundScale::Length{std::exp(log_factor), sigma};

@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/lines/floor_from_lines.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/scale/ground_plane_scale.h>
 
@@ -30,7 +31,7 @@ class FloorScale {
   FloorScaleOptions options_;
   Camera camera_;
   double camera_height_m_;
-  std::set<std::int64_t> heard_;
+  std::set<LineId> heard_;
   std::deque<double> first_log_factors_;  // before the unit is known
   std::deque<double> recent_log_factors_;
 };

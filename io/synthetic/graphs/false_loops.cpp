@@ -55,7 +55,7 @@ void add_false_loops(PoseGraph& graph, int count, std::uint64_t seed) {
       loop.from = graph.nodes[std::min(i, j)].id;
       loop.to = graph.nodes[std::max(i, j)].id;
     } while (!((positions[i] - positions[j]).norm() > far_m) ||
-             std::abs(loop.from - loop.to) == 1);  // that would be odometry
+             std::abs(loop.from.value() - loop.to.value()) == 1);  // that would be odometry
     graph.constraints.emplace_back(loop);
   }
 }

@@ -54,7 +54,7 @@ PoseGraph finish(const Truth<Group>& truth, const GraphNoise& noise, Random& ran
         RelativePoseConstraint{from, to, T_from_to, information, source, {}});
   };
   for (std::size_t i = 0; i < truth.T_world_node.size(); ++i) {
-    graph.nodes.push_back({static_cast<std::int64_t>(i), truth.T_world_node[i], false});
+    graph.nodes.push_back({NodeId(i), truth.T_world_node[i], false});
     if (i > 0) measure(static_cast<int>(i) - 1, static_cast<int>(i), ConstraintSource::kOdometry);
   }
   for (const auto& [from, to] : truth.loops) measure(from, to, ConstraintSource::kLoop);
