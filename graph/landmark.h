@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// 256 bits of a binary descriptor (ORB, BRIEF).
 using BinaryDescriptor = std::array<std::uint64_t, 4>;

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/sim3.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A verified revisit between two keyframes.
 struct Loop {

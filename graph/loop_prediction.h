@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What a place recognizer says of one image: that it shows what an older one showed.
 struct LoopPrediction {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What the relative pose of a loop was found by.
 enum class LoopModel {

@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Which images show the place of one image, among the candidates first..last.
 struct LoopQuery {

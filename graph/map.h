@@ -5,7 +5,7 @@
 #include <placegraph/graph/place_graph.h>
 #include <placegraph/graph/place_view.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A keyframe as the map keeps it: its pose hangs on its place's, see PlaceMember.
 struct Keyframe {

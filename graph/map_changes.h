@@ -3,7 +3,7 @@
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/place_history.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What a map in the making has gained, and what has changed in it, since it was last asked.
 struct MapChanges {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A keyframe hangs on its place: moving the place moves the keyframe. Lengths that the keyframe
 /// measured (landmarks, the way to other frames) grow by `scale` to the place's unit.

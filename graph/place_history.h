@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The motion to a keyframe from the one before it in the same run of tracking, or from where the
 /// run hangs on an earlier one.

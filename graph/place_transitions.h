@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// How often the camera went straight from one place to another.
 struct PlaceTransition {

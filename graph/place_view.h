@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What a cue says of an image: one vector per cell of a grid laid over it, in whole numbers, so
 /// that comparing is quick and memory small; their common scale means nothing.
@@ -20,7 +20,7 @@ struct CueGrid {
 std::vector<std::int64_t> cell_energy(int columns, int rows, int channels,
                                       const std::vector<std::int16_t>& values);
 
-/// An image in all cues (frontend/places/place_view.h makes and compares them).
+/// An image in all cues (frontend/internal/places/place_view.h makes and compares them).
 struct PlaceView {
   /// At scale 1 and, of a query, at 1 / zoom and zoom.
   std::vector<CueGrid> tiny, gradients;

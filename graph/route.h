@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/place_graph.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A place on a way.
 struct RouteStep {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The elements of visual navigation (Siddiqui 2014), which share what they find.
 struct Elements {

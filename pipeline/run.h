@@ -9,10 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct FrameView;
-struct SceneModel;
 
 /// The SLAM options stand beside the others, not in a group of their own.
 void visit(OptionVisitor& field, RunOptions& options);
@@ -61,16 +60,24 @@ using RunProgress = std::function<void(std::size_t done, std::size_t total, cons
 using FrameObserver =
     std::function<void(const Frame& frame, const FrameResult& result, const FrameView& view)>;
 
+/// What a run may be given beside the sequence and its options.
+struct RunInputs {
+  /// A model of surfaces; needed if `semantics` or `context` are enabled.
+  std::shared_ptr<const SceneModel> surfaces;
+  /// To save the map in, or to resume: then the frames up to the last committed place are as they
+  /// were.
+  std::optional<MapFile> map_file;
+  RunProgress progress;
+  FrameObserver observer;
+  SlamEvents* events = nullptr;  ///< not owned; those of a run that begins anew are told anew
+  LogSink log;
+};
+
 /// Runs the system over a sequence, every frame, never sleeping; once or twice from the beginning
 /// where the images of one eye prove to be distorted. Same result for any number of threads. Throws
-/// as Slam and the data set do; an unreadable frame that is not the first ends the run. With a
-/// `map_file` to resume, the frames up to the last committed place are as they were. `surfaces`: a
-/// model of surfaces, needed if `semantics` or `context` are enabled.
+/// as Slam and the data set do; an unreadable frame that is not the first ends the run.
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
-                       const RunProgress& progress = {}, const LogSink& log = {},
-                       const FrameObserver& observer = {},
-                       const std::optional<MapFile>& map_file = {},
-                       const std::shared_ptr<const SceneModel>& surfaces = {});
+                       const RunInputs& inputs = {});
 
 /// "mono", "stereo", "rgbd".
 const char* to_string(Sensor sensor);

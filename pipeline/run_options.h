@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 enum class SensorChoice { kAuto, kMono, kStereo, kRgbd };
 

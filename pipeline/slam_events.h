@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A keyframe that was added to the map.
 struct KeyframeAdded {
@@ -45,7 +45,7 @@ struct ComponentJoined {
 /// What happens while a map is made, as it happens.
 ///
 /// Derive from this, override what is of interest and hand the object to Slam (SlamInputs::events).
-/// Slam calls it from within add_frame, go_on_from and finish, on the thread of their caller, in a
+/// Slam calls it from within add_frame, resume and finish, on the thread of their caller, in a
 /// fixed order:
 ///
 ///   for each new keyframe, oldest first

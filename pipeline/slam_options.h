@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// How keyframes look in all cues: kept in the map, so that images can be placed in it later.
 struct KeyframeViewOptions {
@@ -18,7 +18,7 @@ struct KeyframeViewOptions {
 };
 void visit(OptionVisitor& field, KeyframeViewOptions& options);
 
-/// Labels of surfaces for motion and places; the model is given by Slam::set_scene.
+/// Labels of surfaces for motion and places; the model is given by SlamInputs::surfaces.
 struct SceneUseOptions {
   bool enabled = false;
   SceneMaskOptions masks;

@@ -1,9 +1,9 @@
 #include "apps/eval/loops.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/precision_recall_plot.h>
+#include <placegraph/eval/internal/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 #include "apps/graph/graph_solution.h"
 
 #include <fmt/format.h>
-#include <placegraph/backend/pose_graph/initialization_selection.h>
-#include <placegraph/backend/solver/free_directions.h>
-#include <placegraph/graph/core/log_message.h>
-#include <placegraph/backend/incremental/incremental_replay.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/backend/internal/incremental/incremental_replay.h>
+#include <placegraph/backend/internal/pose_graph/initialization_selection.h>
+#include <placegraph/backend/internal/solver/free_directions.h>
+#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/log_message.h>
 #include <placegraph/graph/pose_graph/graph_parts.h>
 
 #include <algorithm>

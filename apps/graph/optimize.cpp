@@ -1,11 +1,11 @@
-#include <placegraph/graph/core/log_message.h>
 #include "apps/graph/optimize.h"
+#include <placegraph/graph/internal/core/log_message.h>
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/pose_graph_plot.h>
-#include <placegraph/graph/core/chi_squared.h>
+#include <placegraph/eval/internal/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 

@@ -1,10 +1,10 @@
 #include "apps/map/explain.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/labels/urban_labels.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/frontend/internal/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>

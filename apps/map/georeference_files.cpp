@@ -1,13 +1,13 @@
 #include "apps/map/georeference_files.h"
 
 #include <fmt/format.h>
-#include <placegraph/backend/georeference/antenna_trajectory.h>
-#include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
-#include <placegraph/io/sensors/oxts_file.h>
+#include <placegraph/io/internal/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <filesystem>
@@ -32,8 +32,7 @@ std::vector<NodeVisit> read_visits(const std::string& path) {
   try {
     for (const json& place : document.at("places"))
       for (const json& member : place.at("members"))
-        visits.push_back(
-            {member.at("stamp_ns").get<std::int64_t>(), place.at("id").get<NodeId>()});
+        visits.push_back({member.at("stamp_ns").get<std::int64_t>(), place.at("id").get<NodeId>()});
   } catch (const json::exception& error) {
     throw FileError(path, std::string("is not what placegraph run writes: ") + error.what());
   }

@@ -1,10 +1,10 @@
 #include "apps/map/route.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/plot.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/id_format.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 #include "apps/results/floor_plan_files.h"
 
-#include <placegraph/eval/plots/floor_plan_plot.h>
-#include <placegraph/eval/scene/floor_plan_check.h>
+#include <placegraph/eval/internal/plots/floor_plan_plot.h>
+#include <placegraph/eval/internal/scene/floor_plan_check.h>
 #include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/internal/scene/indoor_map_file.h>
 #include <placegraph/io/map/map_database.h>
-#include <placegraph/io/scene/indoor_map_file.h>
-#include <placegraph/pipeline/lens_correction.h>
+#include <placegraph/pipeline/internal/lens_correction.h>
 
 #include <algorithm>
 #include <filesystem>

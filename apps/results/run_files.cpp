@@ -1,6 +1,6 @@
 #include "apps/results/run_files.h"
 
-#include <placegraph/eval/plots/plot.h>
+#include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>

@@ -1,14 +1,14 @@
 #include "apps/results/semantic_map_files.h"
 
-#include <placegraph/eval/plots/semantic_map_plot.h>
-#include <placegraph/eval/scene/semantic_map_check.h>
-#include <placegraph/frontend/scene/moving_classes.h>
+#include <placegraph/eval/internal/plots/semantic_map_plot.h>
+#include <placegraph/eval/internal/scene/semantic_map_check.h>
+#include <placegraph/frontend/internal/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/scene/labelled_mesh_file.h>
-#include <placegraph/io/scene/semantic_map_file.h>
+#include <placegraph/io/internal/scene/labelled_mesh_file.h>
+#include <placegraph/io/internal/scene/semantic_map_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
-#include <placegraph/pipeline/lens_correction.h>
+#include <placegraph/pipeline/internal/lens_correction.h>
 
 #include <algorithm>
 #include <filesystem>

@@ -1,5 +1,5 @@
-#include <placegraph/pipeline/cues/frame_view.h>
 #include "apps/run/draw_frame.h"
+#include <placegraph/pipeline/cues/frame_view.h>
 
 #include <algorithm>
 #include <cmath>

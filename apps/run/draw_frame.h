@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/graph/image/frame.h>
+#include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <string>

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/id_format.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/files/text_file.h>
-#include <placegraph/io/measurements/label_file.h>
+#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/internal/measurements/label_file.h>
 
 #include <algorithm>
 #include <filesystem>

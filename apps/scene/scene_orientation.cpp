@@ -1,13 +1,13 @@
 #include "apps/scene/scene_orientation.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/segments/segment_detector.h>
-#include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/frontend/internal/segments/segment_detector.h>
+#include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/measurements/plane_truth.h>
+#include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/internal/measurements/plane_truth.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>

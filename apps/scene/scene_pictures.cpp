@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/parallel.h>
+#include <placegraph/graph/internal/core/parallel.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/internal/files/image_list.h>
 
 #include <array>
 #include <filesystem>

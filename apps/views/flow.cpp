@@ -1,11 +1,11 @@
 #include "apps/views/flow.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/flow/optical_flow.h>
+#include <placegraph/frontend/internal/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/measurements/flow_file.h>
+#include <placegraph/io/internal/measurements/flow_file.h>
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
 #include "apps/views/markers_detect.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/markers/marker_dictionary.h>
+#include <placegraph/frontend/internal/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/measurements/marker_layout_file.h>
+#include <placegraph/io/internal/measurements/marker_layout_file.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/pose_graph/bundle.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct BundleReport {
   Outcome outcome;

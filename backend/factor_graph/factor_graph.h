@@ -1,10 +1,10 @@
 #pragma once
 #include <placegraph/backend/factor_graph/factor_graph_options.h>
 #include <placegraph/backend/factors/factor.h>
-#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/backend/factors/variable.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/core/robust_kernel.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <Eigen/Core>
@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Variables of any kinds and the factors between them, for programs that embed the library and
 /// estimate more than poses. Factors come ready in backend/factors/ or are the program's own: see

@@ -1,10 +1,10 @@
 #pragma once
-#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/backend/pose_graph/pose_graph_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/robust_kernel.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct FactorGraphOptions {
   int max_iterations = 100;

@@ -1,14 +1,14 @@
 #pragma once
 #include <placegraph/backend/factor_graph/factor_graph.h>
 #include <placegraph/backend/factor_graph/factor_graph_options.h>
-#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/backend/pose_graph/pose_graph_report.h>
 #include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct LandmarkGraphReport {
   Outcome outcome;

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The Manhattan frame of a camera's surroundings, as its vanishing points give it:
 ///

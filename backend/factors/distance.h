@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Distance between the origins of two poses, in standard deviations:
 ///

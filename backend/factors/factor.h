@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A term of a factor graph: a whitened residual r of a few variables, with its derivatives. The
 /// graph minimizes the sum of rho(|r|^2) / 2. Derive from this, or more easily from SizedFactor. A

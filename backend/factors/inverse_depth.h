@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Inverse depth of a map point in a camera, in standard deviations:
 ///

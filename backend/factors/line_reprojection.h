@@ -3,7 +3,7 @@
 #include <placegraph/backend/factors/point_in_camera.h>
 #include <placegraph/graph/geometry/camera.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A segment seen of a line: signed distances of its end points from the projected line, in
 /// standard deviations (undistorted pinhole camera):

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A vehicle that does not slip sideways: its rear axle moves along an arc, so that its step has
 /// opposite components across in the frames of start and end, in standard deviations:

@@ -3,7 +3,7 @@
 
 #include <Eigen/LU>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A plane measured in a sensor's frame (Kaess 2015):
 ///

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Two planes that are about orthogonal, as wall and floor are:
 ///

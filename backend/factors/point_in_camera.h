@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Points nearer to the image plane than this [m], or behind it, cannot be projected.
 inline constexpr double kMinDepth_m = 1e-4;

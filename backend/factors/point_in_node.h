@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// error = T_world_node^-1 p_world - p_node of a point [m], the point a pose that does not
 /// turn, T_world_point = (I, p_world), and its derivatives by T exp(xi) of both:

@@ -4,7 +4,7 @@
 #include <placegraph/backend/factors/point_in_camera.h>
 #include <placegraph/backend/factors/reprojection.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A measurement of a point in a camera (Reprojection, InverseDepth), of the variables T_world_cam
 /// and p_world: r and A = d r / d p_cam are the measurement's, the rest is PointInCamera. A point

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A point that lies on a plane, in standard deviations:
 ///

@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/geometry/lie.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The error pose E = T_from_to^-1 T_world_from^-1 T_world_to in coordinates, and its derivative by
 /// E exp(xi), exact at any size of the error.

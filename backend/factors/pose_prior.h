@@ -2,7 +2,7 @@
 #include <placegraph/backend/factors/factor.h>
 #include <placegraph/backend/factors/pose_error.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What is known of one pose beforehand: r = W e(E), E = T_world_node_measured^-1 T_world_node,
 /// W^T W = information of any rank; d r / d xi = W d e / d xi, see pose_error.

@@ -2,7 +2,7 @@
 #include <placegraph/backend/factors/factor.h>
 #include <placegraph/backend/factors/position_error.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// r = W e, W^T W = information, of a PositionConstraint; e and its derivative are those of
 /// PositionLinearization.

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/lie.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// error = T_world_node * lever_arm - position_world [m] and its derivative by T_world_node
 /// exp(xi):

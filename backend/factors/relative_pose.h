@@ -2,7 +2,7 @@
 #include <placegraph/backend/factors/factor.h>
 #include <placegraph/backend/factors/pose_error.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Relative pose of two nodes: r = W e(E), E = T_from_to_measured^-1 T_world_from^-1 T_world_to,
 /// W^T W = information; e and its derivatives are those of RelativePoseLinearization.

@@ -1,11 +1,10 @@
 #pragma once
-#include <ceres/sized_cost_function.h>
 #include <placegraph/backend/factors/point_in_camera.h>
 #include <placegraph/graph/geometry/camera.h>
 
 #include <cmath>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Reprojection of a map point, undistorted pinhole camera, in standard deviations:
 ///

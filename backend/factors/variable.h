@@ -5,7 +5,7 @@
 
 #include <variant>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A square marker of known size: x right, y up, z out of its face, origin in the middle.
 struct Marker {

@@ -3,7 +3,7 @@
 #include <placegraph/backend/georeference/georeference_report.h>
 #include <placegraph/graph/core/log.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Puts a map onto the earth: T_enu_node that minimize
 ///

@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct GpsAlignmentOptions {
   double max_bend_percent =

@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A time at which the vehicle was at a node, or so near that it is described relative to it.
 struct NodeVisit {

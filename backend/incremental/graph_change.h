@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What one step did. `outcome` is kNotConverged if the cost lies further above its minimum than
 /// was asked for, the poses being usable all the same; or if the normal equations cannot be

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 class IncrementalEngine;
 
@@ -57,7 +57,7 @@ class IncrementalOptimizer {
   /// Iterates to final_excess.
   IncrementalStep finish();
 
-  std::optional<PoseKind> kind() const;                  ///< none before the first node
+  std::optional<PoseKind> kind() const;            ///< none before the first node
   std::optional<Pose> pose(NodeId node_id) const;  ///< T_world_node; none if unknown
   /// All nodes in the order they came and, in theirs, the constraints whose weight is not 0: the
   /// graph whose cost is minimized, so with information and width of the kernel scaled where the

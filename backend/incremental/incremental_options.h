@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/core/options.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct IncrementalOptions {
   RotationError rotation_error = RotationError::kLog;

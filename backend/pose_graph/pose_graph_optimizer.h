@@ -1,11 +1,11 @@
 #pragma once
-#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/backend/pose_graph/pose_graph_options.h>
 #include <placegraph/backend/pose_graph/pose_graph_report.h>
 #include <placegraph/graph/core/log.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed, leaving out what
 /// `options.robust` finds to be false; if a connected component has

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A constraint that was left out of the solution.
 struct RejectedEdge {

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct SlidingWindowOptions {
   int max_keyframes = 8;  ///< the oldest is marginalized beyond this

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// How a place recognizer's answer to one image was judged.
 enum class LoopVerdict {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What a loop constraint may differ from the truth by and still be a true one.
 struct LoopCheckOptions {

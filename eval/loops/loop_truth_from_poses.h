@@ -3,7 +3,7 @@
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/loop_truth.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What counts as a revisit. The defaults are those of drives at 10 Hz.
 struct RevisitOptions {

@@ -2,7 +2,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// One answer of a detector: how sure it is, and whether it is right.
 struct ScoredAnswer {

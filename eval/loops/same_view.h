@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// When two poses see one place: near each other, looking the same way.
 struct SameView {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Absolute trajectory error: distance between true and estimated position of every posed frame.
 struct ApeResult {

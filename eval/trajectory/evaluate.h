@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Judges an estimated trajectory (T_world_body, the same body as the ground truth's): pairs the
 /// two, aligns, and computes ATE, RPE and segment errors, warning where the estimate looks

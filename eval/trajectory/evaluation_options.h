@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What is fitted before an estimate is compared with the ground truth.
 enum class Alignment {

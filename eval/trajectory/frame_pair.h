@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// One frame of the ground truth and what the estimate says of it. The matrices stand as the files
 /// gave them, not re-orthonormalized: the peers' figures are computed so.

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The error over one segment, divided by its nominal length.
 struct SegmentError {

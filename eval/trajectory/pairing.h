@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 std::string to_string(Association association);  ///< "auto", "index", "time"
 

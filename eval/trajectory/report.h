@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// One result as JSON, an object with the keys of `metrics()` (null where there is no value) and
 /// frames, posed, align, scale, association, lengths_m, step, path_m, lost_frames, per_length,

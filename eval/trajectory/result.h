@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// How the figures of a result were made: they do not travel without it.
 struct Protocol {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Relative pose error over consecutive frames, E = (T_i^-1 T_j)_truth^-1 (T_i^-1 T_j)_estimate.
 struct RpeResult {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Of a list of errors; all in the unit of the list.
 struct Statistics {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// "none", "origin", "se3", "sim3", "scale": the spelling of the command line and of results.
 std::string to_string(Alignment alignment);

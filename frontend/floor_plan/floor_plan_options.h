@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct SurfacePointOptions {
   int step_px = 8;             ///< between points

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/ransac_options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct SegmentMergingOptions {
   double max_angle_deg = 2;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Sorts by score, best first, equal ones by view, and keeps the first `count`.
 inline void keep_best(std::vector<PlaceLikeness>& list, int count) {

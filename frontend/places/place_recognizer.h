@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 class DenseIndex;
 

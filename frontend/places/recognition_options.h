@@ -4,7 +4,7 @@
 #include <placegraph/frontend/relative_pose/relative_pose_options.h>
 #include <placegraph/graph/core/options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct SequenceFilterOptions {
   double memory = 0.9;        ///< weight of the past against the present image

@@ -1,11 +1,11 @@
 #pragma once
-#include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/core/options.h>
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Evidence of past images for where the present one is: the best path through the views that led
 /// to each, a max-product filter over view, direction of travel (forward or back) and pace (half a

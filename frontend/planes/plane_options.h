@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// How a particle's velocity is damped.
 enum class SwarmDamping {

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/ransac_options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct Pose3d2dOptions {
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 12};

@@ -1,10 +1,10 @@
 #pragma once
-
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct Camera;
 struct LineSegment;

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct OrientationMapOptions {
   double cell_px = 3;      ///< of the raster that lines are swept over

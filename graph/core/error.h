@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Base of every exception the library throws: a caller's mistake, a bad option or a broken file.
 /// The message is one line that names the field or `file:line` and the value seen.

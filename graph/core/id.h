@@ -8,7 +8,7 @@
 #include <ostream>
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The number of one thing of a kind; ids of two kinds cannot be exchanged or compared.
 /// `Tag` is an incomplete type that names the kind, as in graph/core/ids.h. There is no id that

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/id.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A frame: its position in the sequence or folder of images that it was read from.
 using FrameId = Id<struct FrameTag>;

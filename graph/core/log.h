@@ -2,7 +2,7 @@
 #include <functional>
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 enum class LogLevel { kDebug, kInfo, kWarning };
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <utility>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Whether an estimator's result may be used. It is the first member of every result struct whose
 /// computation the data may not allow; the evidence beside it (inliers, condition, residual) is

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// rho(s) for a squared, whitened error s, in the scaling of Ceres: rho(s) ~ s for small s.
 struct RobustKernel {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// CPU time that the stages of a program took, each without the stages it called.
 ///

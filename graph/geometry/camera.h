@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 enum class Distortion {
   kNone,

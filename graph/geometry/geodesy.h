@@ -3,7 +3,7 @@
 
 #include <memory>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A position on the WGS84 ellipsoid. What the height is measured from is the receiver's affair; it
 /// is treated as height above the ellipsoid.

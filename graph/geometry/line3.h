@@ -3,7 +3,7 @@
 
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// An infinite line of space in Pluecker coordinates (m, v): direction v and moment m = p x v for
 /// any point p of it, both up to one common factor. Held in the orthonormal form of Bartoli & Sturm

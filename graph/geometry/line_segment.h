@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A straight edge of an image [px], from `start` to `end`. A detector that knows the polarity puts
 /// the brighter side on the right of the way from start to end (u right, v down), else the order of

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/se3.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A plane of space without orientation: the points with n^T p = d, |n| = 1, where (n, d) and
 /// (-n, -d) are the same. Held as the unit quaternion of vector part n / sqrt(1 + d^2) and scalar

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/so2.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A rigid motion of the plane, `T_a_b`. Tangent [x, y, angle], perturbed on the right.
 class SE2 {

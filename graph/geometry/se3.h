@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/so3.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;

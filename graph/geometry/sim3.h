@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/geometry/se3.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 using Matrix7d = Eigen::Matrix<double, 7, 7>;

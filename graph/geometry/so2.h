@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A rotation of the plane, `R_a_b`. Tangent: angle [rad], log in (-pi, pi].
 class SO2 {

@@ -2,7 +2,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace placegraph {
+// The library's own alignment, which the targets of its CMake package hand on: a program whose Eigen
+// types are aligned otherwise (by -mavx) would disagree with it on their layout.
+static_assert(EIGEN_MAX_ALIGN_BYTES == 16,
+              "compile with -DEIGEN_MAX_ALIGN_BYTES=16, as the targets placegraph::* do");
+
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The 3x3 matrix with hat(a) * b = a x b.
 inline Eigen::Matrix3d hat(const Eigen::Vector3d& a) {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// One line of a trajectory. The matrix is kept as it was given: files carry 7 digits, and an
 /// evaluator that must match others may not re-orthonormalize them. SE3(*T_world_body) does.

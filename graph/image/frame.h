@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// One moment's measurements, as a data set or a driver hands them over. Images are those of the
 /// Calibration's cameras: undistorted (and, for stereo, rectified). Absent images are empty.

@@ -1,7 +1,7 @@
 #pragma once
 #include <opencv2/core/mat.hpp>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The one door through which OpenCV enters a public header. Reference-counted: copies share
 /// pixels. Grey images are CV_8UC1, depth images CV_32FC1 in metres (0 where nothing was

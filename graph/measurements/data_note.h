@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What whoever uses data should know of how they were read: what was left out and why, and what is
 /// odd about their numbers and what to try.

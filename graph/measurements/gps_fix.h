@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// One reading of a GPS receiver, or of a unit that fuses GPS and inertial sensors.
 struct GpsFix {

@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What gyro and accelerometer say at one time, in the body's axes.
 struct ImuSample {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// How a body moved between two times, as wheels, a laser or inertial sensors measured it.
 struct MotionStep {

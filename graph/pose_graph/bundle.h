@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A camera of a bundle: pinhole with radial distortion, principal point at zero,
 /// px = f (1 + k1 s + k2 s^2) q with q = [x/z, y/z], s = |q|^2 (x right, y down, z forward).

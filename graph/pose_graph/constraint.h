@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <variant>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A pose of the graph, `T_world_node`. All nodes of one graph are of one kind.
 using Pose = std::variant<SE2, SE3, Sim3>;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// "odometry", "loop", "other": the names of sources in every file.
 const char* to_string(ConstraintSource source);

@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A connected component as a graph of its own, and where its nodes and constraints stand in the
 /// whole.

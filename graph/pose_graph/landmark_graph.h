@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A measured pose of a node, as by motion capture: error = Log(T_world_node_measured^-1 *
 /// T_world_node).

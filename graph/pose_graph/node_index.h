@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Where the node of an id stands. Ids that lie close together (0..n-1 as in most files) are looked
 /// up in a table, any others in a hash map; memory is linear in the number of nodes either way.
@@ -20,7 +20,7 @@ class NodeIndex {
   /// Position of the id, kNone if it is not there.
   int find(NodeId id) const {
     if (table_.empty()) return find_in_map(id);
-    const std::uint64_t offset = 
+    const std::uint64_t offset =
         static_cast<std::uint64_t>(id.value()) - static_cast<std::uint64_t>(low_);
     return offset < table_.size() ? table_[offset] : kNone;
   }

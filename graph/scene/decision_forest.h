@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Trees that ask one byte of a row at a time and end in a distribution over classes
 /// (Breiman 2001).

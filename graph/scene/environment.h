@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The kind of surroundings a place is in.
 enum class Environment : std::uint8_t {

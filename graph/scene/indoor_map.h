@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A point of a surface as a keyframe sees it, in the keyframe's camera frame.
 struct SurfacePoint {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What a surface of a scene is, geometrically.
 enum class Surface : std::uint8_t { kSky, kGround, kVertical, kObject };

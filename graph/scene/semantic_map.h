@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A point of something that stands still, as a keyframe sees it, in the keyframe's camera frame.
 struct SemanticPoint {

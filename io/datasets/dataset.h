@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A recorded sequence. Everything foreign ends here: frames are grey, undistorted and (stereo)
 /// rectified, stamps are ns and strictly increasing, poses are T_world_cam of the (left) camera.

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Nothing at a path is of a known layout.
 class UnknownLayout : public FileError {

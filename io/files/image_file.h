@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A picture from a file: `grey` CV_8UC1, and `colour` CV_8UC3 BGR where the file has colour.
 struct GreyAndColour {

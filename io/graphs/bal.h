@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Reads a problem of "Bundle Adjustment in the Large" (Agarwal et al. 2010): the numbers of
 /// cameras, points and observations; `camera point u v` for every observation; nine numbers for

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Reads VERTEX_ and EDGE_ lines of SE2, SE3:QUAT and SIM3:EXPMAP, EDGE_PRIOR_SE2_XY (a measured
 /// position) and FIX lines, in any order;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What goes on a map: a trajectory and a graph of places in the ENU frame about `origin`.
 struct GeoDocument {

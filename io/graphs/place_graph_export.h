@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The topological map as other programs draw and search it: a node per place, a directed edge per
 /// transition with how often it was made, and an undirected one per loop closure between places.

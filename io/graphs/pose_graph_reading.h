@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct PoseGraphReading {
   /// Refuse a graph that falls into components, unless each has a fixed vertex: then all stand in

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Reads a graph in the text form of TORO (Grisetti et al., openslam.org/toro.html); lines in any
 /// order, comments (#) passed over:

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct MapWriter;
 

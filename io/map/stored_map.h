@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Version of the tables (`PRAGMA user_version`): one that is newer is refused.
 constexpr int kMapSchema = 2;

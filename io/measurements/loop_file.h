@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// How a file says what a place recognizer found.
 enum class LoopFileFormat {

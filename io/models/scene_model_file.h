@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A trained labelling in one binary file: "PGSCENE\n", then in 32 bits each, little-endian, the
 /// version of the form (1), the bytes that follow the header and their CRC-32; then the model (its

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What an inertial sensor recorded, and how it errs.
 struct ImuRecording {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Reads a body's motion as wheels, a laser or inertial sensors measured it (docs/odometry.md). One
 /// kind of line in a file, told by the number of its fields, `#` comments:

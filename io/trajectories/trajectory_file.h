@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Forms that are written; what is read is more, see PoseTable.
 enum class TrajectoryFormat {

@@ -5,7 +5,7 @@
 #include <placegraph/frontend/relative_pose/relative_pose_options.h>
 #include <placegraph/graph/core/options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct GroundScaleOptions {
   GroundPlaneOptions plane;

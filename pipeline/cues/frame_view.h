@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What the frontend sees in one frame, for drawing and looking on; pixels of the (left) eye.
 /// Nothing in a frame that is lost.

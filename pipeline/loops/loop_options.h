@@ -3,7 +3,7 @@
 #include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/core/options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct LoopOptions {
   bool enabled = true;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What a map tells of one frame.
 struct Explanation {

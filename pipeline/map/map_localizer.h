@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Where an image was taken, or why that is not said.
 struct Localization {

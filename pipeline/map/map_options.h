@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/pipeline/loops/loop_options.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct LocalizerOptions {
   PlaceRecognizerOptions recognizer;  ///< its cues are those of the map

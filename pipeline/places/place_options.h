@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/robust_kernel.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct PlaceOptions {
   double max_distance =

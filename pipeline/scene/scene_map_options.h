@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/scene/semantic_map.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 struct NearbyViewOptions {
   double near_m = 0.2;   ///< how far the nearer views have moved, at least, and ...

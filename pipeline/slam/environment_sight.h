@@ -6,7 +6,7 @@
 #include <array>
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// What one keyframe says of its surroundings.
 struct EnvironmentSight {

@@ -1,16 +1,19 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/se3.h>
 
 #include <optional>
-#include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 enum class TrackingState { kWaiting, kTracking, kLost };
 
 /// What became of one frame.
 struct FrameResult {
+  /// Ok if the frame has a pose that stands. Otherwise why it has none (yet), or only one that a
+  /// second view must confirm.
+  Outcome outcome;
   FrameId frame;
   TrackingState state =
       TrackingState::kWaiting;   ///< waiting for the second view, tracking, or lost
@@ -20,8 +23,6 @@ struct FrameResult {
   int inliers = 0;
   int component = 0;
   int loops_accepted = 0;  ///< with this frame
-  /// Why it has no pose (yet), or one that stands only if a second view confirms it; else empty.
-  std::string reason;
 };
 
 }  // namespace placegraph

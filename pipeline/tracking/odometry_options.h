@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// When a frame becomes a keyframe.
 struct KeyframeOptions {

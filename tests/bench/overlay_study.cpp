@@ -5,16 +5,16 @@
 // horizon and surfaces; camera and its height are known. Writes OUT_PREFIX_targets.tsv (figure,
 // tab, value) and OUT_PREFIX_K.png for the first six frames.
 #include <fmt/format.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
-#include <placegraph/frontend/scene/horizon.h>
-#include <placegraph/frontend/scene/popup.h>
-#include <placegraph/frontend/segments/segment_detector.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/frontend/internal/labels/surface_classifier.h>
+#include <placegraph/frontend/internal/scene/horizon.h>
+#include <placegraph/frontend/internal/scene/popup.h>
+#include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/median.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/internal/synthetic/worlds/tours.h>
 #include <placegraph/io/models/scene_model_file.h>
-#include <placegraph/io/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/synthetic/worlds/tours.h>
 
 #include <algorithm>
 #include <cmath>

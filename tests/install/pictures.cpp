@@ -1,8 +1,8 @@
-// Turns a folder of PNG images into the same ones as BMP and as a video: io and image of the installed
-// library, and its module.
-#include <placegraph/graph/image/picture_plugin.h>
+// Turns a folder of PNG images into the same ones as BMP and as a video: io and image of the
+// installed library, and its module.
+#include <placegraph/graph/internal/image/picture_plugin.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/internal/files/image_list.h>
 
 #include <cstdio>
 #include <filesystem>

@@ -1,9 +1,9 @@
 #pragma once
 #include <placegraph/eval/loops/same_view.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/route.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/pipeline/loops/loop_closer.h>
+#include <placegraph/pipeline/internal/loops/loop_closer.h>
 
 #include <algorithm>
 #include <set>

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/incremental/incremental_replay.h>
+#include <placegraph/backend/internal/incremental/incremental_replay.h>
+#include <placegraph/backend/internal/solver/pose_marginals.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
-#include <placegraph/backend/solver/pose_marginals.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/linear/elimination_tree.h>
+#include <placegraph/backend/internal/linear/elimination_tree.h>
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/linear/front_assembly.h>
-#include <placegraph/backend/linear/front_covariance.h>
-#include <placegraph/backend/linear/front_kernels.h>
+#include <placegraph/backend/internal/linear/front_assembly.h>
+#include <placegraph/backend/internal/linear/front_covariance.h>
+#include <placegraph/backend/internal/linear/front_kernels.h>
 
 #include "random_system.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/plots/semantic_map_plot.h>
-#include <placegraph/eval/scene/semantic_map_check.h>
-#include <placegraph/graph/image/png_codec.h>
+#include <placegraph/eval/internal/plots/semantic_map_plot.h>
+#include <placegraph/eval/internal/scene/semantic_map_check.h>
+#include <placegraph/graph/internal/image/png_codec.h>
 
 namespace placegraph {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/edge_consistency.h>
+#include <placegraph/eval/internal/trajectory/edge_consistency.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 
 namespace placegraph {
 namespace {

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/plots/plot.h>
+#include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/report.h>
-#include <placegraph/graph/image/png_codec.h>
+#include <placegraph/graph/internal/image/png_codec.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

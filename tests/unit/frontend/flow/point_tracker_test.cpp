@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

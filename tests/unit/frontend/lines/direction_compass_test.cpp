@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/lines/direction_compass.h>
+#include <placegraph/frontend/internal/lines/direction_compass.h>
 
 #include "tests/support/scenes/room_lines.h"
 #include "tests/support/seed.h"

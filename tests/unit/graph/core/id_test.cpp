@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/id_format.h>
 #include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/internal/core/id_format.h>
 
 #include <concepts>
 #include <limits>

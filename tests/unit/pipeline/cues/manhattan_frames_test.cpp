@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/vanishing/manhattan_frame.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/cues/manhattan_frames.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/cues/manhattan_frames.h>
 
 #include "tests/support/scenes/window_world.h"
 

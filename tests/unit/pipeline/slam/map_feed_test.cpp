@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/slam/map_feed.h>
+#include <placegraph/pipeline/internal/slam/map_feed.h>
 
 #include "tests/support/scenes/street.h"
 
