@@ -113,7 +113,8 @@ def parts_of(text):
 def named_in(code):
     """The files and folders that a piece of code names; white space within braces is no end."""
     code = re.sub(r"\{[^{}]*\}", lambda braces: re.sub(r"\s+", "", braces.group(0)), code)
-    headers = INCLUDE.findall(code)
+    headers = ["pipeline/placegraph.h" if header == "placegraph.h" else header  # it is installed above its folder
+               for header in INCLUDE.findall(code)]
     return headers or [full for word in words_of(code) for full in expanded(word)]
 
 

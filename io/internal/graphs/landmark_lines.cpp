@@ -57,7 +57,7 @@ void LandmarkLines::add_offset(std::string_view number, const SE3& T_node_sensor
 
 void LandmarkLines::add_prior(std::string_view node, const Pose& T_world_sensor,
                               const Information& information, std::string_view offset) {
-  priors_.push_back({{file_->integer(node, "id"), T_world_sensor, information},
+  priors_.push_back({{NodeId(file_->integer(node, "id")), T_world_sensor, information},
                      file_->line(),
                      std::string(offset)});
 }

@@ -51,7 +51,7 @@ PoseGraph finish(const Truth<Group>& truth, const GraphNoise& noise, Random& ran
     const Group T_from_to = truth.T_world_node[from].inverse() * truth.T_world_node[to] *
                             noise_of<Group>(noise, random);
     graph.constraints.emplace_back(
-        RelativePoseConstraint{from, to, T_from_to, information, source, {}});
+        RelativePoseConstraint{NodeId(from), NodeId(to), T_from_to, information, source, {}});
   };
   for (std::size_t i = 0; i < truth.T_world_node.size(); ++i) {
     graph.nodes.push_back({NodeId(i), truth.T_world_node[i], false});
