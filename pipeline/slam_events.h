@@ -48,14 +48,15 @@ struct ComponentJoined {
 /// Slam calls it from within add_frame, resume and finish, on the thread of their caller, in a
 /// fixed order:
 ///
+///   map_moved, where the map's unit of length has become known
 ///   for each new keyframe, oldest first
 ///     keyframe_added
-///     place_added, places_merged, component_joined and map_moved, as far as the keyframe has led
-///     to
-///       them; each kind in ascending order of its ids
-///     loop_refused and loop_accepted, in the order in which the candidates were found
-///     places_merged, component_joined and map_moved, as far as the accepted loops have led to them
+///     place_added, places_merged, component_joined, map_moved: what the keyframe has led to
+///     loop_refused, loop_accepted, in the order in which the candidates were found
+///     place_added, places_merged, component_joined, map_moved: what accepted loops have led to
 ///   frame_posed or frame_lost, once for every frame
+///
+/// Of one kind they come in ascending order of ids.
 ///
 /// The arguments are values of their own or last until the call returns. A function must not call
 /// the Slam object that called it; what it throws is thrown by add_frame, after which the Slam

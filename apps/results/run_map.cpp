@@ -39,7 +39,9 @@ void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
   require(edges.size() == written.constraints.size(), mismatch);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto* edge = std::get_if<RelativePoseConstraint>(&written.constraints[i]);
-    require(edge && edges[i].at("from") == edge->from && edges[i].at("to") == edge->to, mismatch);
+    require(
+        edge && edges[i].at("from") == edge->from.value() && edges[i].at("to") == edge->to.value(),
+        mismatch);
     require(map.graph.find(place_of_node(edge->from)) && map.graph.find(place_of_node(edge->to)),
             mismatch);
     map.graph.constraints.push_back(*edge);

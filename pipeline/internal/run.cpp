@@ -240,8 +240,8 @@ class SequenceRun {
       const FrameResult done = slam.add_frame(frame);
       reasons_.emplace(frame.id, done.outcome ? "nothing joins it to the first part of the map"
                                               : done.outcome.reason);
-      if (inputs_.observer) observer_(frame, done, slam.view());
-      if (inputs_.progress) progress_(i + 1 - begin_, end_ - begin_, done);
+      if (inputs_.observer) inputs_.observer(frame, done, slam.view());
+      if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
       if (learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) return false;
       if (inputs_.map_file && done.new_place) commit(slam, false);
     }

@@ -305,7 +305,7 @@ void Slam::Impl::close_loops(FrameResult& result) {
     const auto span = times.measure("loop closure");
     return closer.find_loops(motions, odometry.map().median_depth());
   }();
-  events.loops_decided(closer);
+  events.loops_decided(closer.records());
   if (loops.empty()) return;
   for (const Loop& loop : loops) mapper.add_loop(loop);
   result.loops_accepted += static_cast<int>(loops.size());
@@ -327,7 +327,7 @@ void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Fram
   closer = LoopCloser(options.loops, calibration, options.seed, map);
   recorder.take_up(map, last.id);
   feed.take_up(map, closer);
-  events.take_up(mapper, closer);
+  events.take_up(mapper, closer.records());
   optimized(mapper.optimize());
   const KeyframeId newest = map.keyframes.back().id;
   recovery.take_up(newest, history.median_depth_m, known());

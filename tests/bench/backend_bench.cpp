@@ -84,7 +84,7 @@ void PoseGraphOptimize(benchmark::State& state) {
     if (i > 0)
       T_world_node = std::get<SE3>(graph.nodes.back().T_world_node) *
                      relative(i - 1, i, ConstraintSource::kOdometry);
-    graph.nodes.push_back({i, T_world_node, false});
+    graph.nodes.push_back({NodeId(i), T_world_node, false});
     const int across = (row - 1) * side + (side - 1 - i % side);
     if (row > 0 && across < i - 1) relative(across, i, ConstraintSource::kLoop);
   }

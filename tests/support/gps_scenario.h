@@ -114,7 +114,7 @@ inline GpsScenario make_gps_scenario(const std::string& folder, const GpsScenari
     in.visits.push_back({truth.poses[i].stamp_ns, id});
     scenario.inside.push_back(in_dropout(options, truth.poses[i].stamp_ns));
     if (i == 0) {
-      in.graph.nodes.push_back({id, SE3(), true});
+      in.graph.nodes.push_back({NodeId(id), SE3(), true});
       continue;
     }
     const SE3 T_from_to =

@@ -44,8 +44,9 @@ Initialization LineViewInitializer::begin(const Frame& frame) {
   LineView seen = lines.seen();
   if (static_cast<int>(seen.size()) < options_.min_lines) {
     lines.reset();  // a dark or empty frame is nothing to begin with
-    return Initialization::waiting(
-        fmt::format("{} lines to follow, {} needed to begin", seen.size(), options_.min_lines));
+    return Initialization::waiting(Outcome::failure(
+        Outcome::Code::kTooFewData,
+        fmt::format("{} lines to follow, {} needed to begin", seen.size(), options_.min_lines)));
   }
   views_ = {{frame, std::move(seen)}};
   Initialization result;

@@ -62,8 +62,9 @@ Initialization TwoViewInitializer::begin(const Frame& frame, LocalMapping& mappi
   const int tracks = static_cast<int>(points.tracks().size());
   if (tracks < 2 * options_.initializer.min_points) {
     points.drop_tracks();  // a dark or empty frame is nothing to begin with
-    return Initialization::waiting(fmt::format("{} points to track, {} needed to begin", tracks,
-                                               2 * options_.initializer.min_points));
+    return Initialization::waiting(Outcome::failure(
+        Outcome::Code::kTooFewData, fmt::format("{} points to track, {} needed to begin", tracks,
+                                                2 * options_.initializer.min_points)));
   }
   reference_ = images;
   views_ = {view_of(frame.id)};

@@ -11,10 +11,10 @@ EventFeed::Places EventFeed::places_of(const PlaceMapper& mapper) {
   return places;
 }
 
-void EventFeed::take_up(const PlaceMapper& mapper, const LoopCloser& closer) {
+void EventFeed::take_up(const PlaceMapper& mapper, const std::vector<LoopRecord>& loops) {
   if (!events_) return;
   places_ = places_of(mapper);
-  records_ = closer.records().size();
+  records_ = loops.size();
 }
 
 void EventFeed::keyframe_added(KeyframeId keyframe, FrameId frame, const PlaceMapper& mapper) {
@@ -52,9 +52,8 @@ void EventFeed::places_changed(const PlaceMapper& mapper) {
   places_ = now;
 }
 
-void EventFeed::loops_decided(const LoopCloser& closer) {
+void EventFeed::loops_decided(const std::vector<LoopRecord>& records) {
   if (!events_) return;
-  const std::vector<LoopRecord>& records = closer.records();
   for (auto record = waiting_.begin(); record != waiting_.end();) {
     const bool accepted = records[*record].accepted();
     if (accepted) events_->loop_accepted(records[*record]);

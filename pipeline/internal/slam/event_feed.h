@@ -1,6 +1,5 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/loops/loop_closer.h>
 #include <placegraph/pipeline/internal/places/place_mapper.h>
 #include <placegraph/pipeline/slam_events.h>
 
@@ -21,13 +20,14 @@ class EventFeed {
   explicit EventFeed(SlamEvents* events) : events_(events) {}
 
   /// Takes what is there as told.
-  void take_up(const PlaceMapper& mapper, const LoopCloser& closer);
+  void take_up(const PlaceMapper& mapper, const std::vector<LoopRecord>& loops);
   /// Tells of a keyframe that `mapper` has just been given.
   void keyframe_added(KeyframeId keyframe, FrameId frame, const PlaceMapper& mapper);
   /// Tells of places that are new, were merged, changed their component or moved.
   void places_changed(const PlaceMapper& mapper);
-  /// Tells of loop candidates that were decided since the last call.
-  void loops_decided(const LoopCloser& closer);
+  /// Tells of loop candidates that were decided since the last call; `records`: all that there
+  /// were.
+  void loops_decided(const std::vector<LoopRecord>& records);
   /// Tells what became of a frame.
   void frame_done(const FrameResult& frame);
 

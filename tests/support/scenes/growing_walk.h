@@ -39,8 +39,8 @@ struct GrowingWalk {
   }
   RelativePoseConstraint measure(int from, int to, double noise) {
     RelativePoseConstraint c;
-    c.from = 10 + from;
-    c.to = 10 + to;
+    c.from = NodeId(10 + from);
+    c.to = NodeId(10 + to);
     c.T_from_to =
         truth[from].inverse() * truth[to] * random_group_element<Group>(random, noise, noise);
     c.information = Information(Information::Identity(Group::kDof, Group::kDof) * 100);

@@ -35,7 +35,8 @@ class StepAcrossPlaneFactor final : public SizedFactor<1, SE3, SE3, Plane3> {
 
 /// Four keyframes on a curve, a plane and a rectangular world.
 struct FactorScene {
-  static constexpr std::int64_t kPlane = 10, kWorld = 20;
+  static constexpr PlaneId kPlane{10};
+  static constexpr ManhattanFrameId kWorld{20};
   std::vector<SE3> T_map_cam;
   Plane3 plane{{0.3, 1, 0.2}, 1.5};
   SO3 R_map_world = SO3::exp({0.2, -0.3, 0.1});

@@ -80,7 +80,7 @@ inline void add_lines(WindowWorld& world, const WindowWorldOptions& options, Ran
     world.lines.push_back(Line3::from_direction(middle, direction));
     for (int k = first; k <= last; ++k) {
       const SE3 T_cam_map = world.T_map_cam[static_cast<std::size_t>(k)].inverse();
-      LineObservation o{KeyframeId(k), i, {}, {}, options.sigma_px, {}};
+      LineObservation o{KeyframeId(k), LineId(i), {}, {}, options.sigma_px, {}};
       for (Eigen::Vector2d* end : {&o.start_px, &o.end_px}) {
         const double along_m = (end == &o.start_px ? -1 : 1) * random.uniform(1, 2.5);
         *end = *world.camera.project(T_cam_map * (middle + along_m * direction));
@@ -100,7 +100,7 @@ inline void add_planes(WindowWorld& world, const WindowWorldOptions& options, Ra
     for (int k = 0; k < options.keyframes; ++k) {
       const Plane3 plane_cam = transform_to(world.T_map_cam[static_cast<std::size_t>(k)], plane);
       PlaneObservation o{
-          KeyframeId(k), WindowWorld::kFirstPlane + i, plane_cam,
+          KeyframeId(k), PlaneId(WindowWorld::kFirstPlane + i), plane_cam,
           plane_information(plane_cam, options.sigma_plane_rad, options.sigma_plane_m)};
       const Eigen::LLT<Eigen::Matrix3d> llt(o.information);
       Eigen::Vector3d noise;
@@ -160,7 +160,7 @@ inline WindowWorld make_window_world(const WindowWorldOptions& options, Random& 
     const double height_m = std::abs(
         world.ground.distance_to(world.T_map_cam[static_cast<std::size_t>(k)].translation()));
     const double noise = options.noise_px > 0 ? options.sigma_height_m * random.normal() : 0;
-    world.heights.push_back({KeyframeId(k), 0, height_m + noise, options.sigma_height_m});
+    world.heights.push_back(PlaneId({KeyframeId(k), 0, height_m + noise, options.sigma_height_m}));
   }
   add_planes(world, options, random);
   return world;
@@ -201,7 +201,7 @@ struct WindowDrive {
 /// Puts what keyframe `id` sees into the window; landmarks start disturbed when first seen.
 inline void add_view(SlidingWindow& window, const WindowWorld& world, KeyframeId id,
                      double disturbance, Random& random) {
-  if (id == KeyframeId(0) && !world.heights.empty()) window.add_plane(0, world.ground);
+  if (id == KeyframeId(0) && !world.heights.empty()) window.add_plane(PlaneId(0), world.ground);
   for (const WindowObservation& o : world.observations) {
     if (o.keyframe != id) continue;
     if (!window.landmark(o.landmark)) {
@@ -209,7 +209,7 @@ inline void add_view(SlidingWindow& window, const WindowWorld& world, KeyframeId
       for (int i = 0; i < 3; ++i) p_map[i] += 0.1 * disturbance * random.normal();
       window.add_landmark(o.landmark, p_map);
       if (o.landmark.value() < world.ground_points && !world.heights.empty())
-        window.add_plane_point({0, o.landmark, world.sigma_ground_m});
+        window.add_plane_point({PlaneId(0), o.landmark, world.sigma_ground_m});
     }
     window.add_observation(o);
   }

@@ -242,14 +242,14 @@ PoseGraph chain(std::uint64_t seed) {
   std::vector<Group> truth;
   for (int i = 0; i < 12; ++i) {
     truth.push_back(i == 0 ? Group() : truth.back() * element(0.5));
-    graph.nodes.push_back({100 + i, Group(truth.back() * element(0.05)), i == 3});
+    graph.nodes.push_back({NodeId(100 + i), Group(truth.back() * element(0.05)), i == 3});
   }
   for (int i = 0; i < 12; ++i)
     for (const int j : {i + 1, i + 4}) {
       if (j >= 12) continue;
       RelativePoseConstraint c;
-      c.from = 100 + i;
-      c.to = 100 + j;
+      c.from = NodeId(100 + i);
+      c.to = NodeId(100 + j);
       c.T_from_to = Group(truth[static_cast<std::size_t>(i)].inverse() *
                           truth[static_cast<std::size_t>(j)] * element(i == 5 ? 0.5 : 0.02));
       c.information = Information(Information::Identity(Group::kDof, Group::kDof) * 400);
@@ -257,7 +257,7 @@ PoseGraph chain(std::uint64_t seed) {
       graph.constraints.emplace_back(c);
     }
   PositionConstraint position;
-  position.node = 111;
+  position.node = NodeId(111);
   position.position_world = Eigen::Vector3d(0.5, 1, 0);
   position.lever_arm = Eigen::Vector3d(0.1, 0, 0);
   graph.constraints.emplace_back(position);

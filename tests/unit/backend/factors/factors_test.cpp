@@ -137,9 +137,9 @@ TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesForPlanesAndWorldsTo
   MarginalPrior prior;
   prior.keyframes = {KeyframeId(0)};
   prior.T_map_cam_lin = {random_element<SE3>(random, 2, 1)};
-  prior.planes = {0};
+  prior.planes = {PlaneId(0)};
   prior.plane_lin = {Plane3(Eigen::Vector3d(0.1, -0.9, 0.2), 1.6)};
-  prior.worlds = {3};
+  prior.worlds = {ManhattanFrameId(3)};
   prior.R_map_world_lin = {SO3::exp({0.3, -1, 0.2})};
   prior.J = Eigen::MatrixXd::Zero(7, 12);
   for (Eigen::Index i = 0; i < prior.J.size(); ++i) prior.J.data()[i] = random.normal();

@@ -36,8 +36,8 @@ std::vector<SE3> eight(int count) {
 RelativePoseConstraint edge_between(std::int64_t from, std::int64_t to, const Pose& T_from_to,
                                     int dof) {
   RelativePoseConstraint edge;
-  edge.from = from;
-  edge.to = to;
+  edge.from = NodeId(from);
+  edge.to = NodeId(to);
   edge.T_from_to = T_from_to;
   edge.information = 1e4 * Information::Identity(dof, dof);
   return edge;
@@ -58,7 +58,7 @@ GeoreferenceInput exact_drive(const std::vector<SE3>& T_enu_cam) {
   in.lever_arm = kArm;
   for (std::size_t i = 0; i < T_enu_cam.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
-    in.graph.nodes.push_back({id, T_enu_cam[0].inverse() * T_enu_cam[i], i == 0});
+    in.graph.nodes.push_back({NodeId(id), T_enu_cam[0].inverse() * T_enu_cam[i], i == 0});
     in.visits.push_back({id * kStep_ns, id});
     in.fixes.push_back(fix_at(id * kStep_ns, T_enu_cam[i] * kArm));
     if (i > 0)
@@ -120,7 +120,7 @@ TEST(Georeference, TurnsAPlanarMapAboutTheVertical) {
   SE2 T_map_node;
   const SE2 step(1, 0, 0.1);
   for (std::int64_t id = 0; id < 40; ++id) {
-    in.graph.nodes.push_back({id, T_map_node});
+    in.graph.nodes.push_back({NodeId(id), T_map_node});
     in.visits.push_back({id * kStep_ns, id});
     const Eigen::Vector2d p = T_enu_map * T_map_node.translation();
     in.fixes.push_back(fix_at(id * kStep_ns, {p.x(), p.y(), 7.0 * static_cast<double>(id % 2)}));
@@ -275,8 +275,8 @@ TEST(Georeference, SaysThatAStraightDriveHidesTheLeverArm) {
 TEST(Georeference, LeavesOutAComponentThatNoFixPlaces) {
   const auto truth = eight(80);
   GeoreferenceInput in = exact_drive(truth);
-  in.graph.nodes.push_back({100, SE3()});
-  in.graph.nodes.push_back({101, SE3()});
+  in.graph.nodes.push_back({NodeId(100), SE3()});
+  in.graph.nodes.push_back({NodeId(101), SE3()});
   in.graph.constraints.emplace_back(edge_between(100, 101, SE3(), 6));
   in.visits.push_back({1000 * kStep_ns, 100});
   const GeoreferenceResult result = georeference(in, {});

@@ -23,11 +23,11 @@ PoseGraph graph_of(const Trajectory& motion) {
   PoseGraph map;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
-    map.nodes.push_back({id, SE3(*motion.poses[i].T_world_body)});
+    map.nodes.push_back({NodeId(id), SE3(*motion.poses[i].T_world_body)});
     if (i == 0) continue;
     RelativePoseConstraint edge;
-    edge.from = id - 1;
-    edge.to = id;
+    edge.from = NodeId(id - 1);
+    edge.to = NodeId(id);
     edge.T_from_to = std::get<SE3>(map.nodes[i - 1].T_world_node).inverse() *
                      std::get<SE3>(map.nodes[i].T_world_node);
     edge.information = Information::Identity(6, 6);
@@ -83,9 +83,9 @@ TEST(MapDelay, LeavesNodesWithoutAVisitAndMotionWithoutNeighboursWhereTheyAre) {
 
 TEST(MapDelay, MovesPlanarNodesInThePlane) {
   PoseGraph map;
-  map.nodes = {{0, SE2(0, 0, 0)}, {1, SE2(1, 0, 0.2)}};
+  map.nodes = NodeId({{0, SE2(0, 0, 0)}, {1, SE2(1, 0, 0.2)}});
   RelativePoseConstraint edge;
-  edge.to = 1;
+  edge.to = NodeId(1);
   edge.T_from_to = SE2(1, 0, 0.2);
   edge.information = Information::Identity(3, 3);
   map.constraints.emplace_back(edge);

@@ -147,13 +147,13 @@ TYPED_TEST(CertificateOf, TheCertifiedStartKeepsHeldNodesAndComponentsWhereTheyA
     both.nodes[i].T_world_node = walk.truth[i];
   }
   for (PoseNode node : ring<TypeParam>(8, true).nodes) {
-    node.id += 100;
+    node.id = NodeId(node.id.value() + 100);
     both.nodes.push_back(node);
   }
   for (const Constraint& c : ring<TypeParam>(8, true).constraints) {
     auto moved = std::get<RelativePoseConstraint>(c);
-    moved.from += 100;
-    moved.to += 100;
+    moved.from = NodeId(moved.from.value() + 100);
+    moved.to = NodeId(moved.to.value() + 100);
     both.constraints.emplace_back(moved);
   }
   PackedGraph<TypeParam> graph = pack<TypeParam>(both);

@@ -78,7 +78,7 @@ TYPED_TEST(InitializationOf, MeasuredPositionsPlaceWhatNothingHolds) {
   constexpr int dim = kSpaceDim<TypeParam>;
   for (std::size_t i = 0; i < walk.truth.size(); i += 3) {
     PositionConstraint position;
-    position.node = 10 + static_cast<std::int64_t>(i);
+    position.node = NodeId(10 + static_cast<std::int64_t>(i));
     position.lever_arm = lever_arm;
     position.position_world.template head<dim>() =
         walk.truth[i] * typename TypeParam::Point(lever_arm.head<dim>());

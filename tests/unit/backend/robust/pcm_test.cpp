@@ -14,10 +14,10 @@ using test::LoopedWalk;
 /// A straight line of `n` poses one metre apart, information 100 of everything.
 PoseGraph line(int n) {
   PoseGraph graph;
-  for (int i = 0; i < n; ++i) graph.nodes.push_back({i, SE2(i, 0, 0), false});
+  for (int i = 0; i < n; ++i) graph.nodes.push_back({NodeId(i), SE2(i, 0, 0), false});
   for (int i = 1; i < n; ++i)
-    graph.constraints.emplace_back(RelativePoseConstraint{i - 1,
-                                                          i,
+    graph.constraints.emplace_back(RelativePoseConstraint{NodeId(i - 1),
+                                                          NodeId(i),
                                                           SE2(1, 0, 0),
                                                           Information::Identity(3, 3) * 100.0,
                                                           ConstraintSource::kOdometry,
@@ -27,7 +27,7 @@ PoseGraph line(int n) {
 
 void add_loop(PoseGraph& graph, int from, int to, const SE2& T_from_to) {
   graph.constraints.emplace_back(RelativePoseConstraint{
-      from, to, T_from_to, Information::Identity(3, 3) * 100.0, ConstraintSource::kLoop, {}});
+      NodeId(from), NodeId(to), T_from_to, Information::Identity(3, 3) * 100.0, ConstraintSource::kLoop, {}});
 }
 
 TEST(OdometryChain, AddsUpMotionAndVarianceAlongALine) {
@@ -62,7 +62,7 @@ TEST(LoopPairs, MisclosureOfARingIsThatOfItsMeasurements) {
   const OdometryChain<SE2> chain(packed);
   const auto loops = loops_on_chain(packed, chain);
   ASSERT_EQ(loops.size(), 2u);
-  EXPECT_EQ(loops[1].from, 3);
+  EXPECT_EQ(loops[1].from, NodeId(3));
   // One metre on at both ends: 0.3 m are left, of four measurements with 0.01 m^2 each.
   const double chi2 = ring_misclosure(loops[0], loops[1], chain).chi2;
   EXPECT_NEAR(chi2, 0.3 * 0.3 / 0.04, 1e-9);

@@ -22,9 +22,9 @@ MarginalPrior full_prior() {
   prior.keyframes = test::ids<KeyframeId>({3, 4});
   prior.T_map_cam_lin = {SE3(SO3::exp({0.1, 0.2, 0.3}), Eigen::Vector3d(1, 2, 3)),
                          SE3(SO3::exp({0.2, 0.1, 0.1}), Eigen::Vector3d(1, 2, 5))};
-  prior.planes = {7};
+  prior.planes = {PlaneId(7)};
   prior.plane_lin = {Plane3({0, 1, 0.2}, 1.5)};
-  prior.worlds = {9};
+  prior.worlds = {ManhattanFrameId(9)};
   prior.R_map_world_lin = {SO3::exp({-0.2, 0.1, 0})};
   prior.J = random_matrix(random, 18, 18);
   prior.e = random_matrix(random, 18, 1);

@@ -217,18 +217,18 @@ TEST(WindowFactor, BetweenPlanesAloneHoldsNoneOfThemAndLeavesWithThem) {
   add_chain(window, scene);
   const Eigen::Matrix3d I = 1e4 * Eigen::Matrix3d::Identity();
   const Plane3 wall({1, -0.3, 0}, 2);
-  window.add_plane(11, wall);
+  window.add_plane(PlaneId(11), wall);
   add_plane_observation(window, {KeyframeId(0), FactorScene::kPlane,
                                  transform_to(scene.T_map_cam[0], scene.plane), I});
-  add_plane_observation(window, {KeyframeId(2), 11, transform_to(scene.T_map_cam[2], wall), I});
+  add_plane_observation(window, {KeyframeId(2), PlaneId(11), transform_to(scene.T_map_cam[2], wall), I});
   window.add({std::make_shared<PlaneOrthogonalFactor>(0.01),
-              {plane_variable(FactorScene::kPlane), plane_variable(11)}});
-  const Eigen::Matrix3d before = *plane_covariance(window, 11, KeyframeId(3));
+              {plane_variable(FactorScene::kPlane), plane_variable(PlaneId(11))}});
+  const Eigen::Matrix3d before = *plane_covariance(window, PlaneId(11), KeyframeId(3));
   window.marginalize();
   EXPECT_EQ(window.planes(), std::vector<std::int64_t>{11});
   for (const WindowFactor& factor : window.factors())
     EXPECT_FALSE(touches(factor, plane_variable(FactorScene::kPlane)));
-  EXPECT_LT((*plane_covariance(window, 11, KeyframeId(3)) - before).norm(), 1e-6 * before.norm())
+  EXPECT_LT((*plane_covariance(window, PlaneId(11), KeyframeId(3)) - before).norm(), 1e-6 * before.norm())
       << "what it says of the plane that stays is in the prior";
 }
 

@@ -46,7 +46,7 @@ TEST(WindowLines, CarryAWindowThatSeesHardlyAPoint) {
   ASSERT_TRUE(summary.outcome) << summary.outcome.reason;
   expect_on_path(window, world, 1e-6);
   for (const std::int64_t id : window.lines()) {
-    const Line3 truth = world.lines[static_cast<std::size_t>(id)], line = *window.line(id);
+    const Line3 truth = world.lines[static_cast<std::size_t>(id)], line = *window.line(LineId(id));
     EXPECT_LT(line.direction().cross(truth.direction()).norm(), 1e-5) << "line " << id;
     EXPECT_LT(truth.distance_to(line.nearest_point()), 1e-4) << "line " << id;
   }
@@ -79,9 +79,9 @@ TEST(WindowLines, SeenTwiceSayNothingOfThePoses) {
   const WindowWorld world = make_window_world(options, random);
   SlidingWindow window = drive_window(world, WindowDrive::exact(20), 26);
   const Matrix6d before = relative_information(window, KeyframeId(2), KeyframeId(5));
-  window.add_line(0, Line3::from_direction({0, 0, 12}, {1, 2, 0}));
-  window.add_line_observation({KeyframeId(4), 0, {600, 100}, {700, 300}, 1});
-  window.add_line_observation({KeyframeId(5), 0, {100, 100}, {900, 120}, 1});
+  window.add_line(LineId(0), Line3::from_direction({0, 0, 12}, {1, 2, 0}));
+  window.add_line_observation({KeyframeId(4), LineId(0), {600, 100}, {700, 300}, 1});
+  window.add_line_observation({KeyframeId(5), LineId(0), {100, 100}, {900, 120}, 1});
   const SE3 pose = window.pose(KeyframeId(5));
   ASSERT_TRUE(window.optimize().outcome);
   EXPECT_LT(distance_m(window.pose(KeyframeId(5)), pose), 1e-9);
@@ -106,7 +106,7 @@ TEST(WindowGround, GivesAMonoDriveItsScale) {
     drive.disturbance = 0.3;
     const SlidingWindow window = drive_window(world, drive, 28);
     expect_on_path(window, world, max_keyframes == 20 ? 1e-5 : 1e-3);
-    EXPECT_NEAR(std::abs(window.plane(0)->distance()), 1.65, 1e-3);
+    EXPECT_NEAR(std::abs(window.plane(PlaneId(0))->distance()), 1.65, 1e-3);
     EXPECT_TRUE(relative_covariance(window, KeyframeId(7), KeyframeId(9)));
   }
 }
@@ -245,28 +245,28 @@ TEST(WindowLandmarks, RefuseWhatTheirContractExcludes) {
   SlidingWindow window({}, test::window_camera());
   window.add_keyframe(KeyframeId(5), SE3());
   window.add_landmark(LandmarkId(1), {0, 0, 5});
-  window.add_line(2, Line3());
-  window.add_plane(3, Plane3());
+  window.add_line(LineId(2), Line3());
+  window.add_plane(PlaneId(3), Plane3());
   const double nan = std::nan("");
   EXPECT_THROW(window.keep(keyframe_variable(KeyframeId(6))), ArgumentError);
-  EXPECT_THROW(window.add_line(2, Line3()), ArgumentError);
-  EXPECT_THROW(window.add_plane(3, Plane3()), ArgumentError);
-  EXPECT_THROW(window.remove_line(7), ArgumentError);
-  EXPECT_THROW(window.add_line_observation({KeyframeId(6), 2, {1, 2}, {3, 4}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_line_observation({KeyframeId(5), 7, {1, 2}, {3, 4}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_line_observation({KeyframeId(5), 2, {1, nan}, {3, 4}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_line_observation({KeyframeId(5), 2, {1, 2}, {3, 4}, 0}), ArgumentError);
-  window.add_line_observation({KeyframeId(5), 2, {1, 2}, {3, 4}, 1});
-  EXPECT_THROW(window.add_line_observation({KeyframeId(5), 2, {1, 2}, {3, 4}, 1}), ArgumentError);
-  EXPECT_THROW(add_height(window, {KeyframeId(5), 7, 1.65, 0.1}), ArgumentError);
-  EXPECT_THROW(add_height(window, {KeyframeId(6), 3, 1.65, 0.1}), ArgumentError);
-  EXPECT_THROW(add_height(window, {KeyframeId(5), 3, -1.65, 0.1}), ArgumentError);
-  EXPECT_THROW(add_height(window, {KeyframeId(5), 3, 1.65, 0}), ArgumentError);
-  EXPECT_THROW(window.add_plane_point({7, LandmarkId(1), 0.1}), ArgumentError);
-  EXPECT_THROW(window.add_plane_point({3, LandmarkId(7), 0.1}), ArgumentError);
-  EXPECT_THROW(window.add_plane_point({3, LandmarkId(1), 0}), ArgumentError);
-  window.add_plane_point({3, LandmarkId(1), 0.1});
-  EXPECT_THROW(window.add_plane_point({3, LandmarkId(1), 0.1}), ArgumentError);
+  EXPECT_THROW(window.add_line(LineId(2), Line3()), ArgumentError);
+  EXPECT_THROW(window.add_plane(PlaneId(3), Plane3()), ArgumentError);
+  EXPECT_THROW(window.remove_line(LineId(7)), ArgumentError);
+  EXPECT_THROW(window.add_line_observation({KeyframeId(6), LineId(2), {1, 2}, {3, 4}, 1}), ArgumentError);
+  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(7), {1, 2}, {3, 4}, 1}), ArgumentError);
+  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(2), {1, nan}, {3, 4}, 1}), ArgumentError);
+  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(2), {1, 2}, {3, 4}, 0}), ArgumentError);
+  window.add_line_observation({KeyframeId(5), LineId(2), {1, 2}, {3, 4}, 1});
+  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(2), {1, 2}, {3, 4}, 1}), ArgumentError);
+  EXPECT_THROW(add_height(window, {KeyframeId(5), PlaneId(7), 1.65, 0.1}), ArgumentError);
+  EXPECT_THROW(add_height(window, {KeyframeId(6), PlaneId(3), 1.65, 0.1}), ArgumentError);
+  EXPECT_THROW(add_height(window, {KeyframeId(5), PlaneId(3), -1.65, 0.1}), ArgumentError);
+  EXPECT_THROW(add_height(window, {KeyframeId(5), PlaneId(3), 1.65, 0}), ArgumentError);
+  EXPECT_THROW(window.add_plane_point({PlaneId(7), LandmarkId(1), 0.1}), ArgumentError);
+  EXPECT_THROW(window.add_plane_point({PlaneId(3), LandmarkId(7), 0.1}), ArgumentError);
+  EXPECT_THROW(window.add_plane_point({PlaneId(3), LandmarkId(1), 0}), ArgumentError);
+  window.add_plane_point({PlaneId(3), LandmarkId(1), 0.1});
+  EXPECT_THROW(window.add_plane_point({PlaneId(3), LandmarkId(1), 0.1}), ArgumentError);
   EXPECT_THROW(add_pose_prior(window, {KeyframeId(6), SE3(), Matrix6d::Identity()}), ArgumentError);
   EXPECT_THROW(add_pose_prior(window, {KeyframeId(5), SE3(), Matrix6d::Zero()}), ArgumentError);
   EXPECT_THROW(add_pose_prior(window, {KeyframeId(5), SE3(), -Matrix6d::Identity()}),
@@ -274,8 +274,8 @@ TEST(WindowLandmarks, RefuseWhatTheirContractExcludes) {
   EXPECT_THROW(add_pose_prior(window, {KeyframeId(5), SE3(), nan * Matrix6d::Identity()}),
                ArgumentError);
   EXPECT_THROW((void)keyframe_covariance(window, KeyframeId(9)), ArgumentError);
-  EXPECT_FALSE(window.line(8));
-  EXPECT_FALSE(window.plane(8));
+  EXPECT_FALSE(window.line(LineId(8)));
+  EXPECT_FALSE(window.plane(PlaneId(8)));
 }
 
 }  // namespace

@@ -47,10 +47,10 @@ SlidingWindow drive(const WindowWorld& world, WindowDrive options, const Sights&
     window.add_keyframe(KeyframeId(id), T_map_cam);
     add_view(window, world, KeyframeId(id), 1, random);
     if (k == 0) {
-      window.add_world(7, kR_map_world * SO3::exp({0.02, 0.01, -0.01}));
-      window.keep(world_variable(7), sights.kept);
+      window.add_world(ManhattanFrameId(7), kR_map_world * SO3::exp({0.02, 0.01, -0.01}));
+      window.keep(world_variable(ManhattanFrameId(7)), sights.kept);
     }
-    if (k == 1 && sights.held) window.hold_world(7);
+    if (k == 1 && sights.held) window.hold_world(ManhattanFrameId(7));
     Eigen::Vector3d error;
     for (int i = 0; i < 3; ++i) error[i] = noise * sights.sigma_rad * random.normal();
     if (id <= sights.last)
@@ -73,7 +73,7 @@ TEST(WindowWorlds, AreFoundWhereTheirSightingsSay) {
   options.noise_px = 0;
   const WindowWorld world = make_window_world(options, random);
   const SlidingWindow window = drive(world, WindowDrive::exact(20), {}, 0);
-  EXPECT_LT((window.world(7)->inverse() * kR_map_world).log().norm(), 1e-6);
+  EXPECT_LT((window.world(ManhattanFrameId(7))->inverse() * kR_map_world).log().norm(), 1e-6);
   EXPECT_LT(distance_m(window.pose(KeyframeId(11)), world.T_map_cam[11]), 1e-5);
 }
 
@@ -91,23 +91,23 @@ TEST(WindowWorlds, LeaveTheSamePosesInThePriorAsInTheBatch) {
     EXPECT_LT(distance_m(window.pose(id), batch.pose(id)), 1e-5);
     EXPECT_LT(angle_rad(window.pose(id), batch.pose(id)), 1e-6);
   }
-  EXPECT_LT((window.world(7)->inverse() * *batch.world(7)).log().norm(), 1e-6);
+  EXPECT_LT((window.world(ManhattanFrameId(7))->inverse() * *batch.world(ManhattanFrameId(7))).log().norm(), 1e-6);
   const Matrix6d a = relative_information(window, KeyframeId(7), KeyframeId(9)),
                  b = relative_information(batch, KeyframeId(7), KeyframeId(9));
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
-  const Eigen::Matrix3d p = *world_covariance(window, 7, KeyframeId(11)),
-                        q = *world_covariance(batch, 7, KeyframeId(11));
+  const Eigen::Matrix3d p = *world_covariance(window, ManhattanFrameId(7), KeyframeId(11)),
+                        q = *world_covariance(batch, ManhattanFrameId(7), KeyframeId(11));
   EXPECT_LT((p - q).norm(), 0.05 * q.norm());
 }
 
 TEST(WindowWorlds, AreKnownFromAHeldKeyframeAsItsSightingIs) {
   SlidingWindow window({}, test::window_camera());
   window.add_keyframe(KeyframeId(0), SE3());
-  window.add_world(3, kR_map_world);
-  EXPECT_FALSE(world_covariance(window, 3, KeyframeId(0)));
+  window.add_world(ManhattanFrameId(3), kR_map_world);
+  EXPECT_FALSE(world_covariance(window, ManhattanFrameId(3), KeyframeId(0)));
   const Eigen::Vector3d information(1e4, 4e4, 9e4);
-  add_world_observation(window, {KeyframeId(0), 3, kR_map_world, information.asDiagonal()});
-  const Eigen::Matrix3d covariance = *world_covariance(window, 3, KeyframeId(0));
+  add_world_observation(window, {KeyframeId(0), ManhattanFrameId(3), kR_map_world, information.asDiagonal()});
+  const Eigen::Matrix3d covariance = *world_covariance(window, ManhattanFrameId(3), KeyframeId(0));
   EXPECT_LT((covariance.diagonal() - information.cwiseInverse()).norm(), 1e-10);
   EXPECT_NEAR(covariance(0, 1), 0, 1e-12);
 }
@@ -122,9 +122,9 @@ TEST(WindowWorlds, LeaveWithTheLastKeyframeThatSawThemUnlessTheyAreKept) {
   SlidingWindow window = drive(world, WindowDrive::exact(5), sights, 1);
   EXPECT_EQ(window.worlds(), std::vector<std::int64_t>{7});
   // Unseen for a while it is known less well than a keyframe that sees it knows it.
-  const Eigen::Matrix3d unseen = *world_covariance(window, 7, KeyframeId(11));
+  const Eigen::Matrix3d unseen = *world_covariance(window, ManhattanFrameId(7), KeyframeId(11));
   const SlidingWindow seen = drive(world, WindowDrive::exact(5), {}, 1);
-  EXPECT_GT(unseen.trace(), world_covariance(seen, 7, KeyframeId(11))->trace());
+  EXPECT_GT(unseen.trace(), world_covariance(seen, ManhattanFrameId(7), KeyframeId(11))->trace());
   EXPECT_LT(std::sqrt(unseen.trace()), 0.03);
 }
 
@@ -145,7 +145,7 @@ TEST(WindowWorlds, HoldingOneMovesTheWindowAsAWholeOnly) {
       EXPECT_LT(distance_m(T_held_free * free.pose(id), held.pose(id)), 1e-4) << "keyframe " << id;
     // From the second keyframe on it was not moved.
     const SO3 R_map_world = kR_map_world * SO3::exp({0.02, 0.01, -0.01});
-    EXPECT_LT((held.world(7)->inverse() * R_map_world).log().norm(), 1e-9);
+    EXPECT_LT((held.world(ManhattanFrameId(7))->inverse() * R_map_world).log().norm(), 1e-9);
   }
 }
 
@@ -168,7 +168,7 @@ TEST(WindowWorlds, BoundTheDriftOfTheHeading) {
           .squaredNorm();
     };
     const SlidingWindow a = drive(world, short_window, seen, 1);
-    with += error(a, *a.world(7));
+    with += error(a, *a.world(ManhattanFrameId(7)));
     const SlidingWindow b = drive(world, short_window, {3e-4, -1, false, false}, 1);
     without += error(b, kR_map_world);
   }
@@ -178,16 +178,16 @@ TEST(WindowWorlds, BoundTheDriftOfTheHeading) {
 TEST(WindowWorlds, FaultyOnesAreRefused) {
   SlidingWindow window({}, test::window_camera());
   window.add_keyframe(KeyframeId(0), SE3());
-  window.add_world(1, SO3());
-  EXPECT_THROW(window.add_world(1, SO3()), ArgumentError);
+  window.add_world(ManhattanFrameId(1), SO3());
+  EXPECT_THROW(window.add_world(ManhattanFrameId(1), SO3()), ArgumentError);
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  EXPECT_THROW(add_world_observation(window, {KeyframeId(5), 1, SO3(), I}), ArgumentError);
-  EXPECT_THROW(add_world_observation(window, {KeyframeId(0), 2, SO3(), I}), ArgumentError);
-  EXPECT_THROW(add_world_observation(window, {KeyframeId(0), 1, SO3(), -I}), ArgumentError);
-  EXPECT_THROW(add_world_observation(window, {KeyframeId(0), 1, SO3(), 0 * I}), ArgumentError);
-  EXPECT_THROW(window.keep(world_variable(2)), ArgumentError);
+  EXPECT_THROW(add_world_observation(window, {KeyframeId(5), ManhattanFrameId(1), SO3(), I}), ArgumentError);
+  EXPECT_THROW(add_world_observation(window, {KeyframeId(0), ManhattanFrameId(2), SO3(), I}), ArgumentError);
+  EXPECT_THROW(add_world_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), -I}), ArgumentError);
+  EXPECT_THROW(add_world_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), 0 * I}), ArgumentError);
+  EXPECT_THROW(window.keep(world_variable(ManhattanFrameId(2))), ArgumentError);
   EXPECT_THROW(window.hold_world(2), ArgumentError);
-  EXPECT_FALSE(window.world(2));
+  EXPECT_FALSE(window.world(ManhattanFrameId(2)));
   EXPECT_EQ(window.worlds(), std::vector<std::int64_t>{1});
 }
 

@@ -39,7 +39,7 @@ TEST(WindowPlanes, AreFoundWhereTheyWereMeasured) {
   const WindowWorld world = make_window_world(options, random);
   const SlidingWindow window = drive_window(world, WindowDrive::exact(20), 5);
   for (std::size_t k = 0; k < 2; ++k) {
-    const Plane3 plane = *window.plane(kPlane + static_cast<std::int64_t>(k));
+    const Plane3 plane = *window.plane(PlaneId(kPlane + static_cast<std::int64_t>(k)));
     EXPECT_LT(angle_between(plane, world.planes[k]), 1e-6);
     EXPECT_NEAR(std::abs(plane.distance()), std::abs(world.planes[k].distance()), 1e-5);
   }
@@ -64,8 +64,8 @@ TEST(WindowPlanes, LeaveTheSamePosesInThePriorAsInTheBatch) {
   const Matrix6d a = relative_information(window, KeyframeId(7), KeyframeId(9)),
                  b = relative_information(batch, KeyframeId(7), KeyframeId(9));
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
-  const Eigen::Matrix3d p = *plane_covariance(window, kPlane, KeyframeId(11)),
-                        q = *plane_covariance(batch, kPlane, KeyframeId(11));
+  const Eigen::Matrix3d p = *plane_covariance(window, PlaneId(kPlane), KeyframeId(11)),
+                        q = *plane_covariance(batch, PlaneId(kPlane), KeyframeId(11));
   EXPECT_LT((p - q).norm(), 0.05 * q.norm());
 }
 
@@ -75,11 +75,11 @@ TEST(WindowPlanes, AreKnownFromAHeldKeyframeAsTheyWereMeasured) {
   const Plane3 plane({0.2, 1, -0.1}, 4);
   const Plane3 plane_cam = transform_to(T_map_cam, plane);
   window.add_keyframe(KeyframeId(0), T_map_cam);
-  window.add_plane(3, plane);
-  EXPECT_FALSE(plane_covariance(window, 3, KeyframeId(0)));
+  window.add_plane(PlaneId(3), plane);
+  EXPECT_FALSE(plane_covariance(window, PlaneId(3), KeyframeId(0)));
   const Eigen::Matrix3d information = plane_information(plane_cam, 0.01, 0.03);
-  add_plane_observation(window, {KeyframeId(0), 3, plane_cam, information});
-  const Eigen::Matrix3d covariance = *plane_covariance(window, 3, KeyframeId(0));
+  add_plane_observation(window, {KeyframeId(0), PlaneId(3), plane_cam, information});
+  const Eigen::Matrix3d covariance = *plane_covariance(window, PlaneId(3), KeyframeId(0));
   EXPECT_LT((covariance * information - Eigen::Matrix3d::Identity()).norm(), 1e-9);
 }
 
@@ -92,9 +92,9 @@ TEST(WindowPlanes, AreKnownFromAKeyframeWhicheverKeyframeIsHeld) {
   const Plane3 plane_first = transform_to(T_map_first, plane);
   window.add_keyframe(KeyframeId(0), T_map_first);
   window.add_keyframe(KeyframeId(1), T_map_first * T_first_second);
-  window.add_plane(3, plane);
+  window.add_plane(PlaneId(3), plane);
   const Eigen::Matrix3d information = plane_information(plane_first, 0.01, 0.03);
-  add_plane_observation(window, {KeyframeId(0), 3, plane_first, information});
+  add_plane_observation(window, {KeyframeId(0), PlaneId(3), plane_first, information});
   const Matrix6d motion = Vector6d(1e4, 2e4, 3e4, 1e5, 2e5, 3e5).asDiagonal();
   add_motion(window, {KeyframeId(0), KeyframeId(1), T_first_second, motion});
   Eigen::Matrix<double, 3, 6> J_pose;
@@ -102,11 +102,11 @@ TEST(WindowPlanes, AreKnownFromAKeyframeWhicheverKeyframeIsHeld) {
   transform_to(T_first_second, plane_first, &J_pose, &J_plane);
   const Eigen::Matrix3d expected = J_plane * information.inverse() * J_plane.transpose() +
                                    J_pose * motion.inverse() * J_pose.transpose();
-  const Eigen::Matrix3d covariance = *plane_covariance(window, 3, KeyframeId(1));
+  const Eigen::Matrix3d covariance = *plane_covariance(window, PlaneId(3), KeyframeId(1));
   EXPECT_LT((covariance - expected).norm(), 1e-6 * expected.norm());
   // And the first, held, knows it as it measured it.
   EXPECT_LT(
-      (*plane_covariance(window, 3, KeyframeId(0)) * information - Eigen::Matrix3d::Identity())
+      (*plane_covariance(window, PlaneId(3), KeyframeId(0)) * information - Eigen::Matrix3d::Identity())
           .norm(),
       1e-6);
 }
@@ -123,7 +123,7 @@ TEST(WindowPlanes, LeaveWithTheLastKeyframeThatMeasuredThemUnlessTheyAreKept) {
     for (std::int64_t id = 0; id < 12; ++id) {
       window.add_keyframe(KeyframeId(id), world.T_map_cam[static_cast<std::size_t>(id)]);
       add_view(window, short_sight, KeyframeId(id), 0.1, disturbance);
-      if (id == 0) window.keep(plane_variable(kPlane), kept);
+      if (id == 0) window.keep(plane_variable(PlaneId(kPlane)), kept);
       if (id > 0) {
         EXPECT_TRUE(window.optimize().outcome);
       }
@@ -134,8 +134,8 @@ TEST(WindowPlanes, LeaveWithTheLastKeyframeThatMeasuredThemUnlessTheyAreKept) {
     if (!kept) continue;
     // Unseen for a while it is known less well than a keyframe that measures it knows it.
     const SlidingWindow seen = drive_window(world, WindowDrive::exact(5), 3);
-    EXPECT_GT(plane_covariance(window, kPlane, KeyframeId(11))->trace(),
-              plane_covariance(seen, kPlane, KeyframeId(11))->trace());
+    EXPECT_GT(plane_covariance(window, PlaneId(kPlane), KeyframeId(11))->trace(),
+              plane_covariance(seen, PlaneId(kPlane), KeyframeId(11))->trace());
   }
 }
 
@@ -171,7 +171,7 @@ TEST(WindowPlanes, AnOutlierIsSeenInItsResidualAndGoesAlone) {
   wrong.plane_cam = wrong.plane_cam.plus({0.2, -0.1, 0.1});
   SlidingWindow window = drive_window(spoiled, drive, 7);
   EXPECT_GT(residual_sigmas(window, window_factor(wrong))->norm(), 10);
-  const std::vector<WindowVariable> between{keyframe_variable(keyframe), plane_variable(kPlane)};
+  const std::vector<WindowVariable> between{keyframe_variable(keyframe), plane_variable(PlaneId(kPlane))};
   for (const WindowFactor& seen : plane_observations(window)) {
     if (seen.variables != between) continue;
     window.remove(seen);
@@ -191,7 +191,7 @@ TEST(WindowPlanes, ForgottenOnesLeaveWhatElseIsKnown) {
   SlidingWindow window = drive_window(world, WindowDrive::exact(5), 8);
   const Matrix6d before = relative_information(window, KeyframeId(8), KeyframeId(11));
   const SE3 pose = window.pose(KeyframeId(11));
-  window.remove_plane(kPlane);
+  window.remove_plane(PlaneId(kPlane));
   EXPECT_EQ(window.planes(), std::vector<std::int64_t>{kPlane + 1});
   EXPECT_EQ(plane_observations(window).size(), 5u);
   const Matrix6d after = relative_information(window, KeyframeId(8), KeyframeId(11));
@@ -200,7 +200,7 @@ TEST(WindowPlanes, ForgottenOnesLeaveWhatElseIsKnown) {
   EXPECT_TRUE(window.optimize().outcome);
   EXPECT_LT(distance_m(pose, window.pose(KeyframeId(11))), 0.1);
   window.marginalize();
-  window.remove_plane(kPlane + 1);
+  window.remove_plane(PlaneId(kPlane + 1));
   EXPECT_TRUE(window.optimize().outcome);
   EXPECT_TRUE(window.planes().empty());
 }
@@ -208,26 +208,26 @@ TEST(WindowPlanes, ForgottenOnesLeaveWhatElseIsKnown) {
 TEST(WindowPlanes, MeasureTheUnitOfLength) {
   SlidingWindow window({}, test::window_camera());
   window.add_keyframe(KeyframeId(0), SE3());
-  window.add_plane(1, Plane3(Eigen::Vector3d::UnitZ(), 3));
+  window.add_plane(PlaneId(1), Plane3(Eigen::Vector3d::UnitZ(), 3));
   window.rescale(2);
-  EXPECT_NEAR(std::abs(window.plane(1)->distance()), 6, 1e-12);
-  add_plane_observation(window, {KeyframeId(0), 1, *window.plane(1), Eigen::Matrix3d::Identity()});
+  EXPECT_NEAR(std::abs(window.plane(PlaneId(1))->distance()), 6, 1e-12);
+  add_plane_observation(window, {KeyframeId(0), PlaneId(1), *window.plane(PlaneId(1)), Eigen::Matrix3d::Identity()});
   EXPECT_THROW(window.rescale(2), ArgumentError);
 }
 
 TEST(WindowPlanes, FaultyOnesAreRefused) {
   SlidingWindow window({}, test::window_camera());
   window.add_keyframe(KeyframeId(0), SE3());
-  window.add_plane(1, Plane3());
+  window.add_plane(PlaneId(1), Plane3());
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(5), 1, Plane3(), I}), ArgumentError);
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), 2, Plane3(), I}), ArgumentError);
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), 1, Plane3(), -I}), ArgumentError);
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), 1, Plane3(), 0 * I}), ArgumentError);
-  add_plane_observation(window, {KeyframeId(0), 1, Plane3(), I});
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), 1, Plane3(), I}), ArgumentError);
-  EXPECT_THROW(window.keep(plane_variable(2)), ArgumentError);
-  EXPECT_THROW(window.remove_plane(2), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(5), PlaneId(1), Plane3(), I}), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(2), Plane3(), I}), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), -I}), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), 0 * I}), ArgumentError);
+  add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), I});
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), I}), ArgumentError);
+  EXPECT_THROW(window.keep(plane_variable(PlaneId(2))), ArgumentError);
+  EXPECT_THROW(window.remove_plane(PlaneId(2)), ArgumentError);
   EXPECT_FALSE(
       residual_sigmas(window, window_factor(PlaneObservation{KeyframeId(0), 2, Plane3(), I})));
 }

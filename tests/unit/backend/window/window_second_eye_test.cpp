@@ -41,7 +41,7 @@ Drive make_drive(int keyframes, Random& random) {
       const SE3& T = drive.T_map_cam[static_cast<std::size_t>(k)];
       const auto [a, b] = ends_of(drive.camera, T, middle, direction);
       const auto [c, d] = ends_of(drive.camera, T * SE3(SO3(), kRightEye), middle, direction);
-      LineObservation o{KeyframeId(k), i, a, b, 0.5, {}};
+      LineObservation o{KeyframeId(k), LineId(i), a, b, 0.5, {}};
       o.second = LineObservation::SecondEye{kRightEye, c, d, 0.5};
       drive.observations.push_back(o);
     }
@@ -57,7 +57,7 @@ SlidingWindow stretched(const Drive& drive, double scale,
     window.add_keyframe(KeyframeId(k), drive.T_map_cam[k].scaled(scale));
   for (std::size_t i = 0; i < drive.lines.size(); ++i)
     window.add_line(
-        static_cast<std::int64_t>(i),
+        LineId(static_cast<std::int64_t>(i)),
         Line3::from_direction(scale * drive.lines[i].nearest_point(), drive.lines[i].direction()));
   for (const LineObservation& o : drive.observations) window.add_line_observation(o);
   return window;
@@ -95,7 +95,7 @@ TEST(SlidingWindowLines, OfTwoEyesStayMetricWhenTheyAreMarginalized) {
   const SE3 T_2_5 = window.pose(KeyframeId(2)).inverse() * window.pose(KeyframeId(5));
   const SE3 truth = drive.T_map_cam[2].inverse() * drive.T_map_cam[5];
   EXPECT_LT((truth.inverse() * T_2_5).log().norm(), 1e-3);
-  EXPECT_LT(residual_px(window, window.line_observations(0).back())->norm(), 0.05);
+  EXPECT_LT(residual_px(window, window.line_observations(LineId(0)).back())->norm(), 0.05);
 }
 
 TEST(SlidingWindowLines, ASecondEyeMustLieElsewhereAndBeFinite) {
@@ -103,7 +103,7 @@ TEST(SlidingWindowLines, ASecondEyeMustLieElsewhereAndBeFinite) {
   const Drive drive = make_drive(2, random);
   SlidingWindow window({}, drive.camera);
   window.add_keyframe(KeyframeId(0), SE3());
-  window.add_line(0, drive.lines[0]);
+  window.add_line(LineId(0), drive.lines[0]);
   LineObservation o = drive.observations[0];
   o.second->eye_cam.setZero();
   EXPECT_THROW(window.add_line_observation(o), ArgumentError);

@@ -14,7 +14,7 @@ using testing::StartsWith;
 /// Poses 0 .. 3 along x, odometry but between 1 and 2, loops 0 -> 2 and 0 -> 3.
 PoseGraph chain(double step_m) {
   PoseGraph graph;
-  for (int i = 0; i < 4; ++i) graph.nodes.push_back({i, SE2(step_m * i, 0, 0), false});
+  for (int i = 0; i < 4; ++i) graph.nodes.push_back({NodeId(i), SE2(step_m * i, 0, 0), false});
   for (const auto& [from, to] : {std::pair{0, 1}, {2, 3}, {0, 2}, {0, 3}}) {
     RelativePoseConstraint edge;
     edge.from = from;

@@ -20,7 +20,7 @@ RelativePoseConstraint edge(std::int64_t from, std::int64_t to) {
 
 TEST(GraphParts, AreTheComponentsWithTheirConstraints) {
   PoseGraph graph;
-  for (const std::int64_t id : {5, 6, 7, 8, 9}) graph.nodes.push_back({id, SE2(), false});
+  for (const std::int64_t id : {5, 6, 7, 8, 9}) graph.nodes.push_back({NodeId(id), SE2(), false});
   PositionConstraint position;
   position.node = 8;
   graph.constraints = {edge(6, 8), edge(9, 5), position};
@@ -44,7 +44,7 @@ TEST(GraphParts, AreNoneOfAnEmptyGraph) { EXPECT_THAT(split_components({}), IsEm
 
 TEST(GraphParts, AreNotMadeOfAGraphWithUnknownNodes) {
   PoseGraph graph;
-  graph.nodes = {{1, SE2(), false}};
+  graph.nodes = {{NodeId(1), SE2(), false}};
   graph.constraints = {edge(1, 2)};
   EXPECT_THROW(split_components(graph), ArgumentError);
 }

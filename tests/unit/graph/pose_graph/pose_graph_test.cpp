@@ -29,7 +29,7 @@ RelativePoseConstraint relative(std::int64_t from, std::int64_t to,
 PoseGraph make_graph(const std::vector<std::int64_t>& ids,
                      const std::vector<RelativePoseConstraint>& constraints) {
   PoseGraph graph;
-  for (const std::int64_t id : ids) graph.nodes.push_back({id, SE3(), false});
+  for (const std::int64_t id : ids) graph.nodes.push_back({NodeId(id), SE3(), false});
   graph.constraints.assign(constraints.begin(), constraints.end());
   return graph;
 }
@@ -70,7 +70,7 @@ TEST(PoseGraphCheck, RefusesMixedKinds) {
 
 TEST(PoseGraphCheck, RefusesAnIdThatIsThereTwice) {
   EXPECT_THAT(complaint([](auto& g) {
-                g.nodes.push_back({7, SE3(), false});
+                g.nodes.push_back({NodeId(7), SE3(), false});
               }),
               HasSubstr("node 7: the id is there twice"));
 }
@@ -140,7 +140,7 @@ TEST(PoseGraphCheck, RefusesAKernelWithoutWidth) {
 TEST(PoseGraph, KindIsThatOfItsNodes) {
   EXPECT_EQ(PoseGraph().kind(), PoseKind::kSE3);
   PoseGraph graph;
-  graph.nodes.push_back({0, SE2(), false});
+  graph.nodes.push_back({NodeId(0), SE2(), false});
   EXPECT_EQ(graph.kind(), PoseKind::kSE2);
   EXPECT_EQ(degrees_of_freedom(PoseKind::kSE2), 3);
   EXPECT_EQ(degrees_of_freedom(PoseKind::kSE3), 6);

@@ -11,7 +11,7 @@ PoseGraph scaled_walk() {
                                    {SO3::exp({0, 0.3, 0}), Eigen::Vector3d(1, 0, 0.2), 1.5},
                                    {SO3::exp({0.1, 0.9, 0}), Eigen::Vector3d(1.5, 0.1, 1.4), 0.7}};
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    graph.nodes.push_back({static_cast<std::int64_t>(i), nodes[i], false});
+    graph.nodes.push_back({NodeId(static_cast<std::int64_t>(i)), nodes[i], false});
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     RelativePoseConstraint edge;
     edge.from = static_cast<std::int64_t>(i);
@@ -46,7 +46,7 @@ TEST(RigidGraph, StandsWhereTheSimilaritiesDid) {
 
 TEST(RigidGraph, LeavesPosesAsTheyAre) {
   PoseGraph graph;
-  graph.nodes.push_back({3, SE2(1, 2, 3), true});
+  graph.nodes.push_back({NodeId(3), SE2(1, 2, 3), true});
   EXPECT_EQ(rigid_graph(graph).kind(), PoseKind::kSE2);
   EXPECT_EQ(rigid_graph(graph).nodes[0].id, 3);
 }

@@ -29,7 +29,7 @@ GeoDocument document(const GeodeticPosition& origin = {49, 8.4, 100}) {
   out.origin = origin;
   out.trajectory.poses = {
       at(0, 0, 0), at(100, 0, 1), {0, std::nullopt}, at(200, 0, 2), at(200, 50, 3)};
-  out.graph.nodes = {{7, SE3(), false}, {9, SE3(SO3(), {0, 100, 5}), false}};
+  out.graph.nodes = {{NodeId(7), SE3(), false}, {9, SE3(SO3(), {0, 100, 5}), false}};
   RelativePoseConstraint edge;
   edge.from = 7;
   edge.to = 9;

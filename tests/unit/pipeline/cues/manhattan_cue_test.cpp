@@ -180,7 +180,7 @@ struct Turned {
   explicit Turned(const Eigen::Vector3d& off, double information) {
     window.add_keyframe(KeyframeId(0), SE3());
     const SO3 R_odom_world = SO3::exp({0, 0.3, 0});
-    window.add_world(7, R_odom_world);
+    window.add_world(ManhattanFrameId(7), R_odom_world);
     heading.world = 7;
     heading.R_cam_world = (T_odom_cam.rotation() * SO3::exp(off)).inverse() * R_odom_world;
     heading.information = information * Eigen::Matrix3d::Identity();

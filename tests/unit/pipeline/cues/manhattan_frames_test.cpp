@@ -61,7 +61,7 @@ struct Drive {
           KeyframeId(id),
           T_map_cam.rotation().inverse() * kR_map_world * *turn * axes(static_cast<int>(id)),
           Eigen::Matrix3d::Identity() * std::pow(0.1 * kRadPerDeg, 2), window);
-    if (window.world(1)) R_map_first = *window.world(1);
+    if (window.world(ManhattanFrameId(1))) R_map_first = *window.world(ManhattanFrameId(1));
     if (id > 0) {
       EXPECT_TRUE(window.optimize().outcome);
     }
@@ -83,7 +83,7 @@ TEST(ManhattanWorlds, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
   for (int k = 3; k < 8; ++k) EXPECT_EQ(drive.see(SO3()), 1);
   EXPECT_EQ(drive.window.worlds(), (std::vector<std::int64_t>{ManhattanWorlds::kMapAxes, 1}));
   // Along the axes of the world, named as the first of the views named them.
-  const SO3 turn = kR_map_world.inverse() * *drive.window.world(1);
+  const SO3 turn = kR_map_world.inverse() * *drive.window.world(ManhattanFrameId(1));
   EXPECT_LT((turn.matrix() - turn.matrix().array().round().matrix()).norm(), 1e-6);
   // The map stays under them.
   EXPECT_LT(drive.window.world(ManhattanWorlds::kMapAxes)->log().norm(), 1e-12);

@@ -46,7 +46,7 @@ TEST(LinePrediction, ASegmentBehindTheCameraHasNoLength) {
 TEST(LinePrediction, LinesOfTheWindowTellThreeDepthsEach) {
   SlidingWindow window({}, line_camera());
   window.add_keyframe(KeyframeId(0), SE3());
-  window.add_line(7, line_through(kTop, kBottom + Vector3d(0, 0, 2)));
+  window.add_line(LineId(7), line_through(kTop, kBottom + Vector3d(0, 0, 2)));
   const std::vector<LineTrack> tracks = {track_of(7, SE3(), kTop, kBottom + Vector3d(0, 0, 2)),
                                          track_of(8, SE3(), kTop, kBottom)};
   const auto known = known_depths(line_camera(), tracks, window, SE3());
@@ -66,7 +66,7 @@ TEST(LinePrediction, ALineOfTheWindowIsExpectedWhereItIsSeenNext) {
   SlidingWindow window({}, line_camera());
   window.add_keyframe(KeyframeId(0), SE3());
   const Vector3d end = kBottom + Vector3d(0, 0, 2);
-  window.add_line(7, line_through(kTop, end));
+  window.add_line(LineId(7), line_through(kTop, end));
   const std::map<std::int64_t, double> drift_px = {{7, 3}};  // does not count: its place is known
   const auto expected = predict_segments(line_camera(), {track_of(7, SE3(), kTop, end)}, window,
                                          {SE3(), kMoved, 20}, drift_px);
@@ -78,7 +78,7 @@ TEST(LinePrediction, ALineOfTheWindowIsExpectedWhereItIsSeenNext) {
 TEST(LinePrediction, OtherTracksLieAsDeepAsTheLinesBesideThem) {
   SlidingWindow window({}, line_camera());
   window.add_keyframe(KeyframeId(0), SE3());
-  window.add_line(7, line_through(kTop, kBottom));
+  window.add_line(LineId(7), line_through(kTop, kBottom));
   const Vector3d beside(0.1, 0, 0);
   const std::map<std::int64_t, double> drift_px;
   const auto expected = predict_segments(

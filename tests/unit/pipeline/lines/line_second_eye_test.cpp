@@ -67,7 +67,7 @@ TEST(LineSecondEye, WithoutASecondImageThereIsNoSecondEye) {
 /// An upright line 5 m ahead, seen by keyframes along x that are `step_m` apart.
 SlidingWindow window_with_line(int keyframes, bool right, double step_m = 0.4) {
   SlidingWindow window({}, line_camera());
-  window.add_line(7, Line3::from_direction(Vector3d(0.2, 0, 5), Vector3d::UnitY()));
+  window.add_line(LineId(7), Line3::from_direction(Vector3d(0.2, 0, 5), Vector3d::UnitY()));
   for (int k = 0; k < keyframes; ++k) {
     window.add_keyframe(KeyframeId(k), SE3(SO3(), Vector3d(step_m * k, 0, 0)));
     const double u = 320 + 500 * (0.2 - step_m * k) / 5;

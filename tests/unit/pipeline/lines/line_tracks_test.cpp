@@ -21,8 +21,8 @@ struct Tracks {
   Tracks() {
     window.add_keyframe(KeyframeId(0), T_odom_cam);
     for (int i = 1; i <= 3; ++i) tracks.push_back(track_of(i, T_odom_cam, top(i), bottom(i)));
-    window.add_line(1, line_through(top(1), bottom(1)));
-    window.add_line(2,
+    window.add_line(LineId(1), line_through(top(1), bottom(1)));
+    window.add_line(LineId(2),
                     line_through(top(2) + Vector3d(0.01, 0, 0), bottom(2) + Vector3d(0.01, 0, 0)));
   }
 };

@@ -169,8 +169,8 @@ TEST(PlaceConstraints, BetweenPlacesTheCovariancesOfTheirPartsAreAdded) {
   edge.S_from_to = Sim3(pose({0, 0, 0}, {0, 0, 6}));
   edge.covariance = diagonal(0.01, 0.0001, 0);
   const auto constraint = constraint_between_places(line.partition, edge, true);
-  EXPECT_EQ(constraint.from, 0);
-  EXPECT_EQ(constraint.to, 1);
+  EXPECT_EQ(constraint.from, NodeId(0));
+  EXPECT_EQ(constraint.to, NodeId(1));
   const SE3 T = std::get<SE3>(constraint.T_from_to);
   EXPECT_LT(distance_m(T, rigid_part(edge.S_from_to * S_1_4.inverse())), kRounding);
   const Matrix6d covariance = Matrix6d(constraint.information).inverse();

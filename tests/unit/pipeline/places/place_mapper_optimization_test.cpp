@@ -108,8 +108,8 @@ TEST(PlaceOptimization, MergesPlacesThatALoopShowsToBeOne) {
   // The last side now ends at the first place, and the loop is inside it.
   ASSERT_EQ(graph.constraints.size(), 4u);
   const RelativePoseConstraint& last = graph.constraints[3];
-  EXPECT_EQ(last.from, 3);
-  EXPECT_EQ(last.to, 0);
+  EXPECT_EQ(last.from, NodeId(3));
+  EXPECT_EQ(last.to, NodeId(0));
   const SE3 side = pose({0, std::numbers::pi / 2 + 0.04, 0}, {0, 0, 5.2});
   const SE3 T_place_4 = graph.places[0].members[1].T_place_keyframe;
   EXPECT_LT(distance_m(std::get<SE3>(last.T_from_to), side * T_place_4.inverse()), 1e-9);

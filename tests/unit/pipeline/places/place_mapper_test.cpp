@@ -48,8 +48,8 @@ TEST(PlaceMapper, AddsUpTheCovariancesOfTheLinksBetweenAnchors) {
   const PlaceGraph graph = mapper.place_graph();
   ASSERT_EQ(graph.constraints.size(), 1u);
   const RelativePoseConstraint& c = graph.constraints[0];
-  EXPECT_EQ(c.from, 0);
-  EXPECT_EQ(c.to, 1);
+  EXPECT_EQ(c.from, NodeId(0));
+  EXPECT_EQ(c.to, NodeId(1));
   EXPECT_EQ(c.source, ConstraintSource::kOdometry);
   EXPECT_LT(distance_m(std::get<SE3>(c.T_from_to), pose({0, 0, 0}, {0, 0, 6})), 1e-12);
   Matrix6d expected = Matrix6d::Zero();

@@ -15,7 +15,7 @@ using test::edge_of;
 /// Ten poses a metre apart on a straight line, loops over two and over three of them.
 PoseGraph line_graph() {
   PoseGraph graph;
-  for (int i = 0; i < 10; ++i) graph.nodes.push_back({i, SE2(i, 0, 0), false});
+  for (int i = 0; i < 10; ++i) graph.nodes.push_back({NodeId(i), SE2(i, 0, 0), false});
   const auto measure = [&](int from, int to, ConstraintSource source) {
     graph.constraints.emplace_back(RelativePoseConstraint{
         from, to, SE2(to - from, 0, 0), Information::Identity(3, 3) * (to - from), source, {}});
