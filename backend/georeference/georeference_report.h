@@ -32,8 +32,8 @@ struct GeoreferenceInput {
 
 /// The use that was made of one fix.
 struct FixReport {
-  /// Position in `graph.nodes` of the node it was carried to; nothing: no motion or map at its
-  /// time.
+  /// Position in the result's `graph.nodes` of the node that the fix was carried to; nothing: there
+  /// is no map or motion at its time.
   std::optional<int> node;
   Eigen::Vector3d residual_enu = Eigen::Vector3d::Zero();  ///< antenna by the map minus fix [m]
   double sigma_horizontal_m = 0, sigma_vertical_m = 0;     ///< standard deviations that were used

@@ -8,7 +8,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// The geometric kind of a surface; kObject is what may move or stands in the way.
+/// The geometric kind of a surface; kObject is a thing that may move, such as a car.
 enum class Surface : std::uint8_t { kSky, kGround, kVertical, kObject };
 /// Number of kinds.
 constexpr int kSurfaceCount = 4;
