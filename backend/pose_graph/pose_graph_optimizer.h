@@ -7,13 +7,15 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Minimizes sum rho(e^T Omega e) over the nodes that are not fixed, leaving out what
-/// `options.robust` finds to be false; if a connected component has
-/// no fixed node its first one is held. SE(2), SE(3) and Sim(3) graphs. Throws as PoseGraph::check.
+/// Optimizes a pose graph over SE(2), SE(3) or Sim(3): minimizes sum rho(e^T Omega e).
+/// Fixed nodes stay where they are; if a connected component has no fixed node, its first one is
+/// held. Constraints that `options.robust` finds to be false are left out. kNotConverged: no
+/// minimum was reached; the report has the poses so far. Throws ArgumentError as PoseGraph::check
+/// and for options out of range.
 [[nodiscard]] PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
                                                   const LogSink& log = {});
 
-/// Sum of e^T Omega e over all relative-pose constraints (and positions), without kernels.
+/// Sum of e^T Omega e over all constraints, without kernels; throws as PoseGraph::check.
 double chi2(const PoseGraph& graph, RotationError rotation_error);
 
 }  // namespace placegraph

@@ -8,41 +8,42 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// A constraint that was left out of the solution.
+/// A constraint that was left out of the solution as false.
 struct RejectedEdge {
   int constraint = 0;  ///< position in PoseGraph::constraints
   double chi2 = 0;     ///< e^T Omega e at the solution
   /// The first that holds of "inconsistent with odometry": no drift of the odometry explains it,
-  /// "pairwise": no loop nearby agrees with it, "residual": its error lies beyond the gate.
+  /// "pairwise": no loop nearby agrees with it, "residual": its error is beyond the gate.
   std::string reason;
 };
 
-/// Directions in which the cost of a graph does not change, to rounding, from where its poses are:
-/// a minimum there is not the only one.
+/// Directions in which the cost of a graph does not change, to rounding.
+/// A minimum with such directions is not the only one.
 struct FreeDirections {
-  int count = 0;           ///< kMost stands for as many or more
-  std::vector<int> nodes;  ///< positions of the nodes that move along them, ascending
-  static constexpr int kMost = 64;
+  int count = 0;                    ///< their number; kMost stands for as many or more
+  std::vector<int> nodes;           ///< positions of the nodes that move along them, ascending
+  static constexpr int kMost = 64;  ///< no more are counted
 };
 
+/// The result of optimizing a pose graph.
 struct PoseGraphReport {
-  Outcome outcome;
+  Outcome outcome;  ///< see optimize_pose_graph
   PoseGraph graph;  ///< with the optimized poses
-  /// Sum of e^T Omega e in the chosen convention at the poses that were given, without kernels.
+  /// Sum of e^T Omega e at the given poses, without kernels, by PoseGraphOptions::rotation_error.
   double chi2_initial = 0;
-  double chi2_final = 0;
-  int iterations = 0;
-  PoseGraphStart start_used = PoseGraphStart::kFile;  ///< never kAuto
-  bool refined_from_certified = false;                ///< start_used == kCertified
-  std::vector<double> chi2_by_constraint;             ///< final, in the order of graph.constraints
-  /// Left out of the solution as false, by RobustOptions; in the order of graph.constraints. The
-  /// sums above count them all the same.
+  double chi2_final = 0;                              ///< the same at the optimized poses
+  int iterations = 0;                                 ///< steps of all descents together
+  PoseGraphStart start_used = PoseGraphStart::kFile;  ///< of the descent that was kept; not kAuto
+  bool refined_from_certified = false;                ///< whether start_used is kCertified
+  std::vector<double> chi2_by_constraint;  ///< at the optimized poses, by graph.constraints
+  /// Constraints that RobustOptions left out as false, in the order of graph.constraints. The sums
+  /// above include them all the same.
   std::vector<RejectedEdge> rejected;
-  /// False: there were loops, but too few of them agree to know the noise's scale, so that none was
-  /// judged.
+  /// False if there were loops, but too few of them agree to estimate the scale of their noise, so
+  /// that none was tested.
   bool loops_judged = true;
-  /// Directions that the constraints leave open at the solution, and the nodes that move along
-  /// them: another start may end elsewhere at the same cost.
+  /// Directions that the constraints leave undetermined at the solution: another start may end
+  /// elsewhere at the same cost.
   FreeDirections free;
 };
 

@@ -48,18 +48,20 @@ class Id {
   /// Writes the number.
   friend std::ostream& operator<<(std::ostream& out, Id id) { return out << id.value_; }
 
-  /// JSON has the number: nlohmann::json finds these two by argument-dependent lookup.
+  /// Writes the number; nlohmann::json finds this function by argument-dependent lookup.
   template <class Json>
   friend void to_json(Json& json, Id id) {
     json = id.value_;
   }
+  /// Reads the number; throws what nlohmann::json throws where there is none.
   template <class Json>
   friend void from_json(const Json& json, Id& id) {
     id.value_ = json.template get<std::int64_t>();
   }
 
-  /// Ids below and above all others of the kind, as bounds of ranges.
+  /// An id below all others of the kind, as a bound of ranges.
   static constexpr Id lowest() { return Id(std::numeric_limits<std::int64_t>::min()); }
+  /// An id above all others of the kind, as a bound of ranges.
   static constexpr Id highest() { return Id(std::numeric_limits<std::int64_t>::max()); }
 
  private:

@@ -4,9 +4,11 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
+/// How important a message is, in ascending order; an error is an exception instead.
 enum class LogLevel { kDebug, kInfo, kWarning };
 
-/// Where messages go: handed to whoever wants to speak, never global. Empty means silence.
+/// Receives the messages of the call that it is handed to; there is no global log. An empty sink
+/// discards them.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
 }  // namespace placegraph

@@ -3,10 +3,10 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// The one door through which OpenCV enters a public header. Reference-counted: copies share
-/// pixels. Grey images are CV_8UC1, depth images CV_32FC1 in metres (0 where nothing was
-/// measured), masks CV_8UC1 (0 = ignore). Pixel centres lie at integer coordinates, (0, 0) is the
-/// centre of the top left pixel; u runs right, v down.
+/// An image, reference-counted: copies share pixels.
+/// Grey images are CV_8UC1, depth images CV_32FC1 in metres (0 where nothing was measured), masks
+/// CV_8UC1 (0 = ignore). Pixel centres lie at integer coordinates, (0, 0) is the centre of the top
+/// left pixel; u points right, v down. This is the only type of OpenCV in a public header.
 using Image = cv::Mat;
 
 }  // namespace placegraph

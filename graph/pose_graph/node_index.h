@@ -7,14 +7,15 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Where the node of an id stands. Ids that lie close together (0..n-1 as in most files) are looked
-/// up in a table, any others in a hash map; memory is linear in the number of nodes either way.
+/// Positions of nodes by their ids.
+/// Ids that lie close together (0..n-1 as in most files) are looked up in a table, any others in a
+/// hash map; memory is linear in the number of nodes either way.
 class NodeIndex {
  public:
-  static constexpr int kNone = -1;
+  static constexpr int kNone = -1;  ///< the position of an id that is not there
 
   NodeIndex() = default;
-  /// Of ids that are there several times the first counts.
+  /// Indexes `ids` by their positions; of an id that is there several times the first counts.
   explicit NodeIndex(const std::vector<NodeId>& ids);
 
   /// Position of the id, kNone if it is not there.
@@ -24,8 +25,9 @@ class NodeIndex {
         static_cast<std::uint64_t>(id.value()) - static_cast<std::uint64_t>(low_);
     return offset < table_.size() ? table_[offset] : kNone;
   }
+  /// Whether the id is there.
   bool contains(NodeId id) const { return find(id) != kNone; }
-  /// Throws ArgumentError if the id is not there.
+  /// Position of the id; throws ArgumentError if it is not there.
   int at(NodeId id) const;
 
  private:
