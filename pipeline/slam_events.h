@@ -9,15 +9,15 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// A keyframe that was added to the map.
 struct KeyframeAdded {
-  KeyframeId keyframe;
-  FrameId frame;  ///< the frame that became the keyframe
-  PlaceId place;  ///< the place that it belongs to
-  SE3 T_map_cam;  ///< its pose as it is known now
+  KeyframeId keyframe;  ///< its id; ids ascend
+  FrameId frame;        ///< the frame that became the keyframe
+  PlaceId place;        ///< the place that it belongs to
+  SE3 T_map_cam;        ///< the keyframe's pose as it is known now
 };
 
 /// A place that was added to the map.
 struct PlaceAdded {
-  PlaceId place;
+  PlaceId place;      ///< its id
   KeyframeId anchor;  ///< the keyframe whose frame is that of the place
   SE3 T_map_place;    ///< its pose as it is known now
   int component = 0;  ///< the sub-map that it belongs to
@@ -50,11 +50,10 @@ struct ComponentJoined {
 ///
 ///   for each new keyframe, oldest first
 ///     keyframe_added
-///     place_added, places_merged, component_joined and map_moved, as far as the keyframe has led
-///     to
-///       them; each kind in ascending order of its ids
+///     place_added, places_merged, component_joined and map_moved that the keyframe has caused;
+///       each kind in ascending order of its ids
 ///     loop_refused and loop_accepted, in the order in which the candidates were found
-///     places_merged, component_joined and map_moved, as far as the accepted loops have led to them
+///     places_merged, component_joined and map_moved that the accepted loops have caused
 ///   frame_posed or frame_lost, once for every frame
 ///
 /// The arguments are values of their own or last until the call returns. A function must not call
@@ -72,8 +71,10 @@ class SlamEvents {
   virtual void keyframe_added(const KeyframeAdded& keyframe) { static_cast<void>(keyframe); }
   /// A loop candidate passed all tests; the map is optimized with it right after.
   virtual void loop_accepted(const LoopRecord& loop) { static_cast<void>(loop); }
-  /// A loop candidate failed at LoopRecord::stage. One that waits for the support of a second loop
-  /// (LoopStage::kSupport) may be accepted with a later keyframe.
+  /// A loop candidate failed the test LoopRecord::stage.
+  ///
+  /// One that waits for the support of a second loop (LoopStage::kSupport) may still be accepted
+  /// with a later keyframe.
   virtual void loop_refused(const LoopRecord& loop) { static_cast<void>(loop); }
   /// A keyframe founded a place, or a merger that odometry contradicts was undone.
   virtual void place_added(const PlaceAdded& place) { static_cast<void>(place); }
