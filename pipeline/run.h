@@ -18,8 +18,9 @@ void visit(OptionVisitor& field, RunOptions& options);
 
 /// Frames of a run that have no pose in the end, for one reason.
 struct UnposedFrames {
-  std::string reason;  ///< of the first of them, as FrameResult::outcome told it
-  int count = 0;       ///< how many frames there are, at least 1
+  /// Of the first of them: that of FrameResult::outcome, or that its component was never joined.
+  std::string reason;
+  int count = 0;  ///< how many frames there are, at least 1
 };
 
 /// What run_sequence returns.

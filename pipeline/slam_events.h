@@ -32,8 +32,8 @@ struct PlacesMerged {
 /// Poses of places that have changed: snapshots before this event are out of date.
 struct MapMoved {
   int places = 0;           ///< how many places have moved
-  double translation = 0;   ///< the longest way of a place [m, or the map's unit]
-  double rotation_rad = 0;  ///< the largest turn of a place
+  double translation = 0;   ///< the longest translation of a place [m, or the map's unit]
+  double rotation_rad = 0;  ///< the largest rotation of a place
 };
 
 /// A sub-map that was joined to another one.

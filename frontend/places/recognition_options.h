@@ -84,7 +84,7 @@ struct LoopTwoViewOptions {
                        .threshold_px = 1.5};
   Rotation2d2dOptions turn;       ///< images that differ by a rotation alone
   double min_parallax_px = 4;     ///< least median displacement beside that of the rotation
-  int min_depths = 8;             ///< known depths that must agree on the translation's length
+  int min_depths = 8;             ///< known depths of one keyframe that must agree on the baseline
   double max_depth_spread = 0.2;  ///< largest log ratio of a depth to the median, to agree
   double min_depth_share = 0.6;   ///< least share of the known depths that agree
   void check() const;
@@ -104,7 +104,8 @@ struct LoopVerifierOptions {
   double min_inlier_ratio = 0.35;   ///< least share of the matches that agree with the pose
   /// Least share of the image that a box of +-2 standard deviations of the inliers covers.
   double min_spread = 0.03;
-  double max_scale_error = 0.15;  ///< largest log ratio of the depths that both keyframes know
+  /// Largest |log| of the median ratio of the depths that both keyframes know.
+  double max_scale_error = 0.15;
   /// Largest translation between the keyframes over the median depth of the inliers: errors of
   /// calibration and depth grow with it.
   double max_baseline_depths = 0.15;

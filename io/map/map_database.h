@@ -32,7 +32,7 @@ class MapDatabase {
   void clear(const MapOrigin& origin);
   /// Writes the last changes, marks the map as finished and closes the file.
   void finish(const MapChanges& changes);
-  /// Closes the file; the map stays marked as broken off. Nothing can be written afterwards.
+  /// Closes the file; without finish() before, the map stays marked as broken off.
   void close();
 
  private:
@@ -59,6 +59,8 @@ StoredMap read_map(const std::string& path);
 MapOrigin read_map_origin(const std::string& path);
 
 /// Runs SQLite's own integrity check; returns what it finds, or "ok".
+///
+/// Throws FileError for a file that is no saved map.
 std::string check_map_file(const std::string& path);
 
 /// Whether a file of this name is a saved map whose run was broken off.

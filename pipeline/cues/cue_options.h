@@ -143,10 +143,11 @@ struct SurfaceCueOptions {
   double min_plane_share = 0.06;  ///< least share of the depths that lie on a plane
   /// Least relative standard deviation of a plane's distance: surfaces are uneven.
   double evenness_distance = 0.005;
-  double evenness_deg = 0.1;    ///< least standard deviation of a plane's normal
-  double nodding_deg = 0.4;     ///< of a vehicle's pitch and roll about their mean; monocular
-  double sigma_height = 0.01;   ///< relative standard deviation of the camera height; monocular
-  double keyframe_share = 0.6;  ///< share of samples in view, or inliers, that asks for a keyframe
+  double evenness_deg = 0.1;   ///< least standard deviation of a plane's normal
+  double nodding_deg = 0.4;    ///< of a vehicle's pitch and roll about their mean; monocular
+  double sigma_height = 0.01;  ///< relative standard deviation of the camera height; monocular
+  /// A keyframe is due below this share of the samples in view, or of inliers among them.
+  double keyframe_share = 0.6;
   /// Largest difference of forward and backward motion, in standard deviations.
   double max_disagreement = 5;
   void check() const;

@@ -13,7 +13,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 struct Explanation {
   FrameId frame;              ///< the frame that was asked for
   std::int64_t stamp_ns = 0;  ///< its time
-  bool posed = false;         ///< false: the frame is lost, and the fields up to `covariance` unset
+  bool posed = false;         ///< false: the frame is lost, fields up to `covariance` are empty
 
   // Where it is; of a posed frame.
   std::optional<KeyframeId> keyframe;  ///< the keyframe that its pose is relative to
