@@ -1,5 +1,5 @@
 #pragma once
-/// The doors of the library, all in one: include this, or the header of the one door you need.
+/// The entry points of the library in one header; a program may include the one it needs instead.
 
 // Run a sequence: the whole of it, or frame by frame.
 #include <placegraph/io/datasets/open_dataset.h>

@@ -9,15 +9,15 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// A keyframe that was added to the map.
 struct KeyframeAdded {
-  KeyframeId keyframe;
-  FrameId frame;  ///< the frame that became the keyframe
-  PlaceId place;  ///< the place that it belongs to
-  SE3 T_map_cam;  ///< its pose as it is known now
+  KeyframeId keyframe;  ///< its id; ids ascend
+  FrameId frame;        ///< the frame that became the keyframe
+  PlaceId place;        ///< the place that it belongs to
+  SE3 T_map_cam;        ///< the keyframe's pose as it is known now
 };
 
 /// A place that was added to the map.
 struct PlaceAdded {
-  PlaceId place;
+  PlaceId place;      ///< its id
   KeyframeId anchor;  ///< the keyframe whose frame is that of the place
   SE3 T_map_place;    ///< its pose as it is known now
   int component = 0;  ///< the sub-map that it belongs to
@@ -32,8 +32,8 @@ struct PlacesMerged {
 /// Poses of places that have changed: snapshots before this event are out of date.
 struct MapMoved {
   int places = 0;           ///< how many places have moved
-  double translation = 0;   ///< the longest way of a place [m, or the map's unit]
-  double rotation_rad = 0;  ///< the largest turn of a place
+  double translation = 0;   ///< the longest translation of a place [m, or the map's unit]
+  double rotation_rad = 0;  ///< the largest rotation of a place
 };
 
 /// A sub-map that was joined to another one.
@@ -51,9 +51,9 @@ struct ComponentJoined {
 ///   map_moved, where the map's unit of length has become known
 ///   for each new keyframe, oldest first
 ///     keyframe_added
-///     place_added, places_merged, component_joined, map_moved: what the keyframe has led to
+///     place_added, places_merged, component_joined, map_moved that the keyframe has caused
 ///     loop_refused, loop_accepted, in the order in which the candidates were found
-///     place_added, places_merged, component_joined, map_moved: what accepted loops have led to
+///     place_added, places_merged, component_joined, map_moved that accepted loops have caused
 ///   frame_posed or frame_lost, once for every frame
 ///
 /// Of one kind they come in ascending order of ids.
@@ -73,8 +73,10 @@ class SlamEvents {
   virtual void keyframe_added(const KeyframeAdded& keyframe) { static_cast<void>(keyframe); }
   /// A loop candidate passed all tests; the map is optimized with it right after.
   virtual void loop_accepted(const LoopRecord& loop) { static_cast<void>(loop); }
-  /// A loop candidate failed at LoopRecord::stage. One that waits for the support of a second loop
-  /// (LoopStage::kSupport) may be accepted with a later keyframe.
+  /// A loop candidate failed the test LoopRecord::stage.
+  ///
+  /// One that waits for the support of a second loop (LoopStage::kSupport) may still be accepted
+  /// with a later keyframe.
   virtual void loop_refused(const LoopRecord& loop) { static_cast<void>(loop); }
   /// A keyframe founded a place, or a merger that odometry contradicts was undone.
   virtual void place_added(const PlaceAdded& place) { static_cast<void>(place); }

@@ -3,84 +3,100 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
+/// Surface points with normals from a depth image.
 struct SurfacePointOptions {
-  int step_px = 8;             ///< between points
-  int radius_px = 8;           ///< of the patch whose plane gives the normal
-  double max_residual = 0.01;  ///< of inverse depths from it, relative, rms, beside noise
-  double max_range_m = 15;
+  int step_px = 8;    ///< distance of neighbouring points in the image
+  int radius_px = 8;  ///< half the side of the patch whose plane gives the normal
+  /// Largest relative rms distance of a patch's inverse depths from its plane, beside their noise;
+  /// beyond, the point has no normal.
+  double max_residual = 0.01;
+  double max_range_m = 15;  ///< farther points are not used
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, SurfacePointOptions& options);
 
+/// Dense depth of a rectified stereo pair by semi-global matching.
 struct DenseStereoOptions {
-  int disparities = 96;  ///< searched from 0 on [px], a multiple of 16
-  int window_px = 9;
+  int disparities = 96;  ///< number of disparities searched, from 0 px on; a multiple of 16
+  int window_px = 9;     ///< side of the matched blocks
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, DenseStereoOptions& options);
 
+/// Costs of depth differences between neighbouring pixels (Hirschmueller 2008), 0 to 4000.
 struct PathCosts {
-  int step = 8;   ///< of neighbours that differ by one level
-  int jump = 32;  ///< by more
+  int step = 8;   ///< for a difference by one level of depth
+  int jump = 32;  ///< for a larger difference
 };
 
+/// Depth of an image from other images of known poses by plane sweep (Collins 1996).
 struct PlaneSweepOptions {
-  double min_depth_m = 0.7, max_depth_m = 15;
-  int max_width_px = 400;    ///< wider images are halved
-  double step_px = 1;        ///< between two planes, where a view moves most
-  int max_planes = 192;      ///< farther apart where more would be needed
-  int window_px = 9;         ///< over which brightness and contrast are made alike
-  double noise_share = 2.7;  ///< contrast below so many deviations of noise (and 1) counts little
-  int block_px = 5;          ///< over which costs are averaged
-  PathCosts paths;
-  double uniqueness = 0.05;  ///< by which a depth must be better than any other
-  double distinct = 0.6;     ///< cost of a depth that the pixel tells by itself, of its mean cost
-  double sigma_px = 0.3;     ///< of where a surface is seen in another view
+  double min_depth_m = 0.7, max_depth_m = 15;  ///< range of depths searched
+  int max_width_px = 400;                      ///< wider images are halved until they are not
+  double step_px = 1;    ///< displacement between two planes in the image that moves most
+  int max_planes = 192;  ///< most planes; their distance grows where more would be needed
+  int window_px = 9;     ///< window over which brightness and contrast are normalized
+  /// Weakest contrast that is normalized to full strength, in standard deviations of the image
+  /// noise, but at least one grey level.
+  double noise_share = 2.7;
+  int block_px = 5;          ///< window over which costs are averaged
+  PathCosts paths;           ///< smoothness over neighbouring pixels
+  double uniqueness = 0.05;  ///< relative lead that a depth must have over any other
+  /// Largest cost of a depth over its pixel's mean cost to call the depth distinct without its
+  /// neighbours.
+  double distinct = 0.6;
+  double sigma_px = 0.3;  ///< standard deviation of where a surface is seen in another image
   void check() const;
 };
 void visit(OptionVisitor& field, PlaneSweepOptions& options);
 
+/// Surface points from a single image of a camera of known height that sees the floor.
 struct FloorSightOptions {
-  double max_range_m = 6;
-  int step_px = 8;
-  double sigma_boundary_px = 1.5;  ///< of the row where floor and wall meet
-  /// A wall's lowest edge, up to so far below where the map's floor ends, is its foot: the upper
-  /// edge of a skirting board is mostly the clearer one. 0: the map alone.
+  double max_range_m = 6;          ///< farther surfaces are not used
+  int step_px = 8;                 ///< distance of neighbouring points in the image
+  double sigma_boundary_px = 1.5;  ///< standard deviation of the row where floor and wall meet
+  /// Largest height of skirting boards: a wall's foot is its lowest edge within this height, since
+  /// the upper edge of a skirting board is mostly the clearer one. 0: where the floor's label ends.
   double skirting_m = 0.15;
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, FloorSightOptions& options);
 
+/// Walls from surface points: upright planes along two orthogonal axes of the building.
 struct WallFinderOptions {
-  double max_sigma_m = 0.12;  ///< of points that walls are found from
-  double max_turn_deg = 15;   ///< of a point's normal from the wall's
-  double band_m = 0.05;       ///< half width of what counts as one plane
-  double min_height_m = 0.8;  ///< that must be seen of a wall, one part above the other
-  double min_share = 0.6;     ///< of the looked at height that must be wall
-  double max_gap_m = 0.3;     ///< within a wall
-  double min_length_m = 0.4;
-  double max_step_m = 0.07;  ///< between pieces of one wall: what drift of the poses makes of it
-  double min_top_m =
-      2.3;  ///< of what is shorter than a door is high: leaves and furniture end below
+  double max_sigma_m = 0.12;  ///< largest standard deviation of a point that is used
+  double max_turn_deg = 15;   ///< largest angle between the normals of a point and its wall
+  double band_m = 0.05;       ///< half the thickness of what counts as one plane
+  double min_height_m = 0.8;  ///< least height that is seen of a wall, in all its parts together
+  double min_share = 0.6;     ///< least share of wall in the height that is seen or seen through
+  double max_gap_m = 0.3;     ///< longest gap within a wall
+  double min_length_m = 0.4;  ///< least length of a wall
+  double max_step_m = 0.07;   ///< largest offset between pieces of one wall, by drift of the poses
+  /// Least height of the upper end of short pieces: door leaves and furniture end below it.
+  double min_top_m = 2.3;
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, WallFinderOptions& options);
 
+/// Doors in walls: openings and closed leaves.
 struct DoorFinderOptions {
-  double min_width_m = 0.6, max_width_m = 2.2;
-  double min_head_m = 1.8, max_head_m = 2.5;         ///< of an opening's head above the floor
-  double min_recess_m = 0.025, max_recess_m = 0.16;  ///< of a leaf behind its wall's surface
+  double min_width_m = 0.6, max_width_m = 2.2;  ///< width of a door
+  double min_head_m = 1.8, max_head_m = 2.5;    ///< height of an opening's head above the floor
+  double min_recess_m = 0.025, max_recess_m = 0.16;  ///< depth of a leaf behind the wall's surface
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, DoorFinderOptions& options);
 
+/// Partition of the free space into rooms.
 struct RoomPartitionOptions {
-  double min_area_m2 = 2;
-  double neck_m = 0.7;           ///< free space narrower than this parts rooms
-  double closing_m = 0.15;       ///< unseen cells so near to free ones are free
-  double completed_share = 0.5;  ///< of a box between walls that is seen free: all of it is
-  double walled_share = 0.2;  ///< of an unseen part's border: with more, it is no part of the room
-  double outline_m = 0.08;    ///< tolerance of a room's outline
+  double min_area_m2 = 2;   ///< least area of a room
+  double neck_m = 0.7;      ///< free space narrower than this separates rooms
+  double closing_m = 0.15;  ///< unseen cells this near to free ones count as free
+  /// A box between walls belongs to a room as a whole if more than this share of it does.
+  double completed_share = 0.5;
+  /// An unseen part is not filled into a room if walls are more than this share of its border.
+  double walled_share = 0.2;
+  double outline_m = 0.08;  ///< largest error of the polygon that outlines a room
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, RoomPartitionOptions& options);

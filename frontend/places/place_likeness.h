@@ -6,7 +6,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Sorts by score, best first, equal ones by view, and keeps the first `count`.
+/// Keeps the `count` best of a list, sorted by score, best first; equal ones by view.
 inline void keep_best(std::vector<PlaceLikeness>& list, int count) {
   const auto kept = std::min(list.size(), static_cast<std::size_t>(std::max(count, 0)));
   const auto better = [](const PlaceLikeness& a, const PlaceLikeness& b) {

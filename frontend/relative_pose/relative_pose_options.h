@@ -4,39 +4,50 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
+/// Pose of a camera from 3-D points and their pixels.
 struct Pose3d2dOptions {
+  /// Three-point hypotheses.
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 12};
-  double threshold_px = 2.5;        ///< inliers reproject within this
-  double prior_inlier_ratio = 0.7;  ///< a prior that explains this share spares the RANSAC
+  double threshold_px = 2.5;  ///< largest reprojection error of an inlier
+  /// RANSAC is left out if this share of the points are inliers of the predicted pose; above 1:
+  /// never.
+  double prior_inlier_ratio = 0.7;
   void check() const;
 };
 void visit(OptionVisitor& field, Pose3d2dOptions& options);
 
+/// Relative pose of two images from matched pixels, by essential matrix or homography.
 struct Pose2d2dOptions {
+  /// Five-point and four-point hypotheses.
   RansacOptions ransac{.max_iterations = 300, .confidence = 0.999, .min_inliers = 30};
-  double threshold_px = 1.0;  ///< distance to the epipolar line, or transfer by the homography
-  double homography_share =
-      0.45;  ///< R_H = S_H / (S_H + S_E) above which the scene counts as planar
+  double threshold_px = 1.0;  ///< distance of an inlier from its epipolar line, or transfer error
+  /// Share S_H / (S_H + S_E) of the homography's score above which the scene counts as planar.
+  double homography_share = 0.45;
   void check() const;
 };
 void visit(OptionVisitor& field, Pose2d2dOptions& options);
 
+/// Rotation between two images of a camera that does not translate.
 struct Rotation2d2dOptions {
+  /// Two-point hypotheses.
   RansacOptions ransac{.max_iterations = 100, .confidence = 0.999, .min_inliers = 30};
-  double threshold_px = 1.5;  ///< between a pixel and where the rotation carries it
-  /// Of the matches that a rotation must explain, so that no way has been made; things that move
-  /// on their own are among the others.
+  double threshold_px = 1.5;  ///< largest distance of an inlier from where the rotation moves it
+  /// Least share of the matches that a rotation must explain; with fewer the camera has translated.
+  /// Moving objects are among the others.
   double min_inlier_share = 0.85;
   void check() const;
 };
 void visit(OptionVisitor& field, Rotation2d2dOptions& options);
 
+/// When two images of a monocular camera are good enough to begin a map with.
 struct MonoInitializerOptions {
-  Pose2d2dOptions two_view;
-  double min_parallax_deg = 0.6;  ///< that min_points must have
-  int min_points = 50;
-  double max_error_px = 1.5;  ///< reprojection error of a triangulated point
-  double ambiguity = 0.8;  ///< a second motion with this share of the best one's points is a rival
+  Pose2d2dOptions two_view;       ///< the relative pose
+  double min_parallax_deg = 0.6;  ///< least angle between the two rays of a point
+  int min_points = 50;            ///< triangulated points that must have that angle
+  double max_error_px = 1.5;      ///< largest reprojection error of a triangulated point
+  /// A second motion that triangulates this share of the best one's points makes the result
+  /// ambiguous, unless the images between the two decide.
+  double ambiguity = 0.8;
   void check() const;
 };
 void visit(OptionVisitor& field, MonoInitializerOptions& options);

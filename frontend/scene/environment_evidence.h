@@ -10,26 +10,33 @@ struct Camera;
 struct LineSegment;
 struct SurfaceShares;
 
+/// Number of values in EnvironmentEvidence.
 constexpr int kEvidenceCount = 15;
-/// Their names, in order.
+/// Names of the values in EnvironmentEvidence, in their order: "sky_above", ...
 const std::array<const char*, kEvidenceCount>& evidence_names();
 
-/// What one view says of the kind of environment it was taken in, each a number of its own; nan
-/// where it was not looked at (no depth, no unit).
+/// Features of one image by which the kind of environment is classified.
+///
+/// Each `see` fills some of the values; the others stay nan (no depth, no metric scale).
 struct EnvironmentEvidence {
-  std::array<double, kEvidenceCount> values;
+  std::array<double, kEvidenceCount> values;  ///< in the order of evidence_names()
+  /// All values are nan: nothing has been measured yet.
   EnvironmentEvidence() { values.fill(std::numeric_limits<double>::quiet_NaN()); }
 
-  /// `sky_above ground_above vertical_above ground_below vertical_below object`.
+  /// Sets the shares of surfaces in the upper and lower half of the image.
+  ///
+  /// `sky_above ground_above vertical_above ground_below vertical_below object`, 0 to 1.
   void see(const SurfaceShares& shares);
-  /// `lines upright level rectangular`: how much straight edge there is, shares of it that are
-  /// upright and level in the image, and that point along the axes of the likeliest rectangular
-  /// world. Edges [px] of an image of `camera`.
+  /// Sets what the straight edges [px] of an image of `camera` show.
+  ///
+  /// `lines upright level rectangular`: log10 of their length over that of image width and height,
+  /// and its shares that are upright and level in the image, and that lie along the axes of the
+  /// most evident Manhattan frame. The shares stay nan for fewer than 10 edges.
   void see(const std::vector<LineSegment>& segments, const Camera& camera);
-  /// `spread tall depth side above`: how much farther the far points are than the near ones, how
-  /// high they reach for how far they are; and, where `metric`, how far away, how far to the side
-  /// and how high above the camera they are. Points in the camera's frame (y down) and unit;
-  /// nothing of fewer than 20.
+  /// Sets what points in the camera frame (y down) show; nothing for fewer than 20.
+  ///
+  /// `spread tall`: log10 of the far over the near depths, and height over depth. Where `metric`,
+  /// also `depth side above`: log10 of depth, distance to the side and height above the camera [m].
   void see(const std::vector<Eigen::Vector3d>& points_cam, bool metric);
 };
 

@@ -6,10 +6,11 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Reads a graph in the form of g2o, TORO or iSAM, which its tags tell. Throws FileError as
-/// read_g2o.
+/// Reads a pose graph in the form of g2o, TORO or iSAM; the tags of its lines tell which.
+///
+/// Throws FileError as read_g2o, also for a file that is of none of these forms.
 PoseGraph read_pose_graph(const std::string& path, const PoseGraphReading& reading = {});
-/// The same with the priors and point landmarks that a file in g2o's form may hold.
+/// Reads a graph as read_pose_graph, with the priors and point landmarks of a g2o file.
 LandmarkGraph read_landmark_graph(const std::string& path, const PoseGraphReading& reading = {});
 
 }  // namespace placegraph

@@ -6,8 +6,10 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// Reads a graph in the text form of TORO (Grisetti et al., openslam.org/toro.html); lines in any
-/// order, comments (#) passed over:
+/// Reads a pose graph in the form of TORO.
+///
+/// TORO is by Grisetti et al. (openslam.org/toro.html). Lines may come in any order; comments (#)
+/// are skipped:
 ///
 ///   VERTEX2 id x y theta
 ///   EDGE2 from to forward sideward rotate I_ff I_fs I_ss I_rr I_fr I_sr

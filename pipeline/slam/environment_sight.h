@@ -8,13 +8,15 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// What one keyframe says of its surroundings.
+/// What one keyframe shows of the environment it was taken in.
 struct EnvironmentSight {
-  KeyframeId keyframe;
-  FrameId frame;
-  EnvironmentEvidence evidence;
-  std::array<double, kEnvironmentCount> probabilities{};  ///< by this view alone
-  std::optional<Environment> kind;                        ///< with those before it
+  KeyframeId keyframe;           ///< the keyframe that was classified
+  FrameId frame;                 ///< the frame that became the keyframe
+  EnvironmentEvidence evidence;  ///< the measured features
+  /// Of each Environment, by this keyframe alone; they sum to 1.
+  std::array<double, kEnvironmentCount> probabilities{};
+  /// The kind by this and all earlier keyframes; nothing while it is undecided.
+  std::optional<Environment> kind;
 };
 
 }  // namespace placegraph
