@@ -54,10 +54,10 @@ PoseGraph PlaceGraph::pose_graph() const {
 void PlaceGraph::set_poses(const PoseGraph& optimized) {
   const NodeIndex index = optimized.index_by_id();
   for (Place& place : places) {
-    const int node = index.find(node_of_place(place.id));
-    if (node == NodeIndex::kNone)
+    const std::optional<int> node = index.find(node_of_place(place.id));
+    if (!node)
       throw ArgumentError("place graph: the pose graph lacks place " + to_string(place.id));
-    const Pose& pose = optimized.nodes[node].T_world_node;
+    const Pose& pose = optimized.nodes[*node].T_world_node;
     if (const Sim3* S_map_place = std::get_if<Sim3>(&pose)) {
       place.T_map_place = SE3(S_map_place->rotation(), S_map_place->translation());
       place.scale = S_map_place->scale();

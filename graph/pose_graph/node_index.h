@@ -2,6 +2,7 @@
 #include <placegraph/graph/core/ids.h>
 
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -12,26 +13,28 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// hash map; memory is linear in the number of nodes either way.
 class NodeIndex {
  public:
-  static constexpr int kNone = -1;  ///< the position of an id that is not there
-
   NodeIndex() = default;
   /// Indexes `ids` by their positions; of an id that is there several times the first counts.
   explicit NodeIndex(const std::vector<NodeId>& ids);
 
-  /// Position of the id, kNone if it is not there.
-  int find(NodeId id) const {
+  /// Position of the id; nothing if it is not there.
+  std::optional<int> find(NodeId id) const {
     if (table_.empty()) return find_in_map(id);
     const std::uint64_t offset =
         static_cast<std::uint64_t>(id.value()) - static_cast<std::uint64_t>(low_);
-    return offset < table_.size() ? table_[offset] : kNone;
+    if (offset >= table_.size() || table_[offset] == kNone) return std::nullopt;
+    return table_[offset];
   }
   /// Whether the id is there.
-  bool contains(NodeId id) const { return find(id) != kNone; }
+  bool contains(NodeId id) const { return find(id).has_value(); }
   /// Position of the id; throws ArgumentError if it is not there.
   int at(NodeId id) const;
 
  private:
-  int find_in_map(NodeId id) const;
+  static constexpr int kNone = -1;  // in the table: no node has this id
+
+  std::optional<int> find_in_map(NodeId id) const;
+
   std::int64_t low_ = 0;
   std::vector<int> table_;
   std::unordered_map<NodeId, int> map_;

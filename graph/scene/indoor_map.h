@@ -40,10 +40,11 @@ struct IndoorWall {
 
 /// A doorway in a wall, open or closed by a door leaf.
 struct IndoorDoor {
-  Eigen::Vector2d a, b;              ///< ends of the opening, plan coordinates [m]
-  double height_m = 0;               ///< of its head above the floor; 0: none was observed
-  bool closed = false;               ///< a leaf was observed in it
-  std::array<int, 2> rooms{-1, -1};  ///< positions in IndoorMap::rooms that it joins; -1: unknown
+  Eigen::Vector2d a, b;  ///< ends of the opening, plan coordinates [m]
+  double height_m = 0;   ///< of its head above the floor; 0: none was observed
+  bool closed = false;   ///< a leaf was observed in it
+  /// Positions in IndoorMap::rooms that it joins; nothing where unknown.
+  std::array<std::optional<int>, 2> rooms;
 };
 
 /// A part of the free space between walls and doors.

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -34,10 +35,10 @@ struct SemanticCell {
   Eigen::Vector3i at = Eigen::Vector3i::Zero();    ///< its lower corner in the plan frame [cells]
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< of its points, plan frame [m]
   float height_m = 0;                              ///< mean of its points above the ground
-  float weight = 0;      ///< number of points, each counted by 1 / (1 + (sigma / cell)^2)
-  int sights = 0;        ///< keyframes with a point in it
-  int label = -1;        ///< position in SemanticMap::classes; -1: unknown
-  float confidence = 0;  ///< probability of its most probable class
+  float weight = 0;          ///< number of points, each counted by 1 / (1 + (sigma / cell)^2)
+  int sights = 0;            ///< keyframes with a point in it
+  std::optional<int> label;  ///< position in SemanticMap::classes; nothing: unknown
+  float confidence = 0;      ///< probability of its most probable class
 };
 
 /// A semantic map of a street: cells of space, each with a class.

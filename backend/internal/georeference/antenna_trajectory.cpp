@@ -44,12 +44,12 @@ AntennaTrack::AntennaTrack(const PoseGraph& graph, std::vector<NodeVisit> visits
   }
   const auto index = graph.index_by_id();
   for (const NodeVisit& visit : visits) {
-    const int node = index.find(visit.node);
-    require(node != NodeIndex::kNone,
+    const std::optional<int> node = index.find(visit.node);
+    require(node.has_value(),
             "georeference: a time of node " + to_string(visit.node) + ", which is not there");
     require(visits_.empty() || visits_.back().stamp_ns < visit.stamp_ns,
             "georeference: two nodes have the time " + std::to_string(visit.stamp_ns) + " ns");
-    visits_.push_back({visit.stamp_ns, node});
+    visits_.push_back({visit.stamp_ns, *node});
   }
   if (motion_.poses.empty())
     for (const Visit& visit : visits_)

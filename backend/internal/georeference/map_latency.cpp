@@ -41,7 +41,7 @@ std::vector<SE3> steps_of_delay(const PoseGraph& map, const std::vector<NodeVisi
   const auto index = map.index_by_id();
   std::vector<std::optional<std::int64_t>> first(map.nodes.size());
   for (const NodeVisit& visit : visits) {
-    auto& stamp = first[static_cast<std::size_t>(index.find(visit.node))];
+    auto& stamp = first[static_cast<std::size_t>(index.at(visit.node))];
     if (!stamp || visit.stamp_ns < *stamp) stamp = visit.stamp_ns;
   }
   std::vector<SE3> steps(map.nodes.size());
@@ -63,8 +63,8 @@ void move_nodes(PoseGraph& graph, const std::vector<SE3>& steps) {
     auto* edge = std::get_if<RelativePoseConstraint>(&constraint);
     if (!edge) continue;
     const Pose& like = edge->T_from_to;
-    const Pose from = of_kind(steps[static_cast<std::size_t>(index.find(edge->from))], like);
-    const Pose to = of_kind(steps[static_cast<std::size_t>(index.find(edge->to))], like);
+    const Pose from = of_kind(steps[static_cast<std::size_t>(index.at(edge->from))], like);
+    const Pose to = of_kind(steps[static_cast<std::size_t>(index.at(edge->to))], like);
     edge->T_from_to = std::visit(
         [&]<class Group>(const Group&) { return between<Group>(from, like, to); }, Pose(like));
   }

@@ -57,7 +57,7 @@ OdometryScatter scatter(const PoseGraph& graph) {
   for (const int i : judged(graph)) {
     const auto& edge = std::get<RelativePoseConstraint>(graph.constraints[i]);
     const auto pose = [&](NodeId id) {
-      return std::get<Group>(graph.nodes[static_cast<std::size_t>(index.find(id))].T_world_node);
+      return std::get<Group>(graph.nodes[static_cast<std::size_t>(index.at(id))].T_world_node);
     };
     const typename Group::Tangent e =
         (std::get<Group>(edge.T_from_to).inverse() * (pose(edge.from).inverse() * pose(edge.to)))

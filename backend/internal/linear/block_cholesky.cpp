@@ -2,15 +2,26 @@
 #include <placegraph/backend/internal/linear/block_cholesky.h>
 #include <placegraph/backend/internal/linear/cholmod_workspace.h>
 #include <placegraph/backend/internal/linear/simplicial_factor.h>
-#include <placegraph/backend/internal/linear/supernodal_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 #include <new>
 #include <optional>
 
+#if PLACEGRAPH_GPL
+#include <placegraph/backend/internal/linear/supernodal_factor.h>
+#else
+#include <placegraph/backend/internal/linear/scalar_factor.h>
+#endif
+
 namespace placegraph {
 namespace {
+
+#if PLACEGRAPH_GPL
+using FactorOfMuchFill = SupernodalFactor;
+#else
+using FactorOfMuchFill = ScalarFactor;
+#endif
 
 /// Where a factor has fewer operations than this per entry, the block-wise kernels are faster than
 /// BLAS on supernodes (measured on published pose graphs, the heaviest at 320).
@@ -78,7 +89,7 @@ struct BlockCholesky::Impl {
   BlockOrdering ordering;
   BlockPanels matrix;
   std::optional<SimplicialFactor> simplicial;  // one of the two
-  std::optional<SupernodalFactor> supernodal;
+  std::optional<FactorOfMuchFill> supernodal;
   bool factorized = false;
   Eigen::VectorXd factorized_diagonal;  // of the matrix that was factorized, by positions
 

@@ -9,8 +9,8 @@ namespace placegraph {
 /// Cholesky factor of a block-sparse matrix by CHOLMOD's supernodal method: dense kernels of BLAS,
 /// for factors with much fill. The matrix stands in the order of elimination and in postorder.
 /// The factorization is the library's; only the way of the blocks into it and out of it is ours.
-/// That part of CHOLMOD is under the GPL: without it (PLACEGRAPH_GPL=OFF) Eigen's simplicial
-/// factorization stands here, which serves every block size and is slower.
+/// That part of CHOLMOD is under the GPL: without it (PLACEGRAPH_GPL=OFF) ScalarFactor takes its
+/// place.
 class SupernodalFactor {
  public:
   /// `matrix` must outlive the factor and keep its pattern; its values may change.

@@ -22,9 +22,9 @@ struct PoseMarginals::Impl {
   virtual Information adjoint(int from, int to) const = 0;
 
   int node(NodeId id) const {
-    const int found = index.find(id);
-    require(found != NodeIndex::kNone, "PoseMarginals: unknown node " + to_string(id));
-    return found;
+    const std::optional<int> found = index.find(id);
+    require(found.has_value(), "PoseMarginals: unknown node " + to_string(id));
+    return *found;
   }
   void require_outcome() const {
     require(static_cast<bool>(outcome),

@@ -47,7 +47,7 @@ std::string semantic_map_png(const SemanticMap& map, const SemanticMapPicture& p
   std::vector<bool> shown(map.classes.size(), false);
   const auto label_at = [&](int column, int row) {
     const int cell = view.at(column, row);
-    return cell < 0 ? -1 : map.cells[static_cast<std::size_t>(cell)].label;
+    return cell < 0 ? -1 : *map.cells[static_cast<std::size_t>(cell)].label;
   };
   for (int row = 0; row < view.rows; ++row)
     for (int column = 0; column < view.columns;) {

@@ -27,7 +27,7 @@ class TrueCells {
             double tolerance_m)
       : cell_(map.cell_m), reach_(static_cast<int>(tolerance_m / map.cell_m) + 1) {
     for (const SemanticCell& cell : map.cells)
-      if (cell.label >= 0) add_blocks(cell.at);
+      if (cell.label) add_blocks(cell.at);
     for (const LabelledMesh::Face& face : truth.faces)
       for (std::size_t k = 2; k < face.corners.size(); ++k) {
         const auto corner = [&](std::size_t i) -> Vector3d {
@@ -131,7 +131,7 @@ SemanticMapCheck check_semantic_map(const SemanticMap& map, const LabelledMesh& 
     if (cell >= 0) on_top[static_cast<std::size_t>(cell)] = true;
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     const SemanticCell& cell = map.cells[i];
-    if (cell.label < 0) continue;
+    if (!cell.label) continue;
     int most = -1;
     double area = 0;
     bool right = false;
@@ -153,7 +153,7 @@ SemanticMapCheck check_semantic_map(const SemanticMap& map, const LabelledMesh& 
       score->nothing += there.empty() ? 1 : 0;
     }
     if (most >= 0)
-      ++check.confusion[static_cast<std::size_t>(most) * n + static_cast<std::size_t>(cell.label)];
+      ++check.confusion[static_cast<std::size_t>(most) * n + static_cast<std::size_t>(*cell.label)];
   }
   return check;
 }

@@ -28,15 +28,15 @@ NodeIndex::NodeIndex(const std::vector<NodeId>& ids) {
   for (std::size_t i = 0; i < ids.size(); ++i) map_.emplace(ids[i], static_cast<int>(i));
 }
 
-int NodeIndex::find_in_map(NodeId id) const {
+std::optional<int> NodeIndex::find_in_map(NodeId id) const {
   const auto found = map_.find(id);
-  return found == map_.end() ? kNone : found->second;
+  return found == map_.end() ? std::nullopt : std::optional(found->second);
 }
 
 int NodeIndex::at(NodeId id) const {
-  const int position = find(id);
-  if (position == kNone) throw ArgumentError("pose graph: there is no node " + to_string(id));
-  return position;
+  const std::optional<int> position = find(id);
+  if (!position) throw ArgumentError("pose graph: there is no node " + to_string(id));
+  return *position;
 }
 
 }  // namespace placegraph

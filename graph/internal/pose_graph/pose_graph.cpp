@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace placegraph {
 namespace {
@@ -75,18 +76,18 @@ struct Adjacency {
   std::vector<Edge> edges;
 
   explicit Adjacency(const PoseGraph& graph) : first(graph.nodes.size() + 2, 0) {
-    const std::vector<std::pair<int, int>> ends = ends_of(graph);
-    for (const auto& [from, to] : ends) {
-      if (from == NodeIndex::kNone) continue;
-      ++first[from + 2];
-      ++first[to + 2];
+    const std::vector<std::optional<Ends>> ends = ends_of(graph);
+    for (const std::optional<Ends>& joined : ends) {
+      if (!joined) continue;
+      ++first[joined->from + 2];
+      ++first[joined->to + 2];
     }
     std::partial_sum(first.begin(), first.end(), first.begin());
     edges.resize(first.back());
     // Filling moves first[i + 1] from the begin of node i to its end, which is where i + 1 begins.
     for (std::size_t i = 0; i < ends.size(); ++i) {
-      const auto [from, to] = ends[i];
-      if (from == NodeIndex::kNone) continue;
+      if (!ends[i]) continue;
+      const auto [from, to] = *ends[i];
       const bool odometry = std::get<RelativePoseConstraint>(graph.constraints[i]).source ==
                             ConstraintSource::kOdometry;
       edges[first[from + 1]++] = {static_cast<int>(i), to, odometry};
@@ -94,17 +95,20 @@ struct Adjacency {
     }
   }
 
-  /// The positions that every constraint joins; {kNone, kNone} for those that join nothing.
-  static std::vector<std::pair<int, int>> ends_of(const PoseGraph& graph) {
+  /// The positions that a constraint joins.
+  struct Ends {
+    int from, to;
+  };
+  /// Of every constraint; nothing for those that join nothing.
+  static std::vector<std::optional<Ends>> ends_of(const PoseGraph& graph) {
     const NodeIndex index = graph.index_by_id();
-    std::vector<std::pair<int, int>> ends(graph.constraints.size(),
-                                          {NodeIndex::kNone, NodeIndex::kNone});
+    std::vector<std::optional<Ends>> ends(graph.constraints.size());
     for (std::size_t i = 0; i < graph.constraints.size(); ++i) {
       const auto* relative = std::get_if<RelativePoseConstraint>(&graph.constraints[i]);
       if (!relative) continue;
-      ends[i] = {index.find(relative->from), index.find(relative->to)};
-      if (ends[i].first == NodeIndex::kNone || ends[i].second == NodeIndex::kNone)
-        refuse("constraint " + std::to_string(i), "unknown node");
+      const auto from = index.find(relative->from), to = index.find(relative->to);
+      if (!from || !to) refuse("constraint " + std::to_string(i), "unknown node");
+      ends[i] = {*from, *to};
     }
     return ends;
   }
@@ -154,8 +158,8 @@ NodeIndex PoseGraph::index_by_id() const {
 
 std::vector<int> PoseGraph::components() const {
   DisjointSets sets(nodes.size());
-  for (const auto& [from, to] : Adjacency::ends_of(*this))
-    if (from != NodeIndex::kNone) sets.join(from, to);
+  for (const auto& joined : Adjacency::ends_of(*this))
+    if (joined) sets.join(joined->from, joined->to);
   return sets.numbers();
 }
 

@@ -149,7 +149,7 @@ struct Layer {
   std::map<int, float> by_class;
   float weight = 0;
   void add(const SemanticCell& cell) {
-    by_class[cell.label] += cell.weight;
+    by_class[*cell.label] += cell.weight;
     weight += cell.weight;
   }
   int label() const {
@@ -168,7 +168,7 @@ TopView top_view(const SemanticMap& map, double standing_m) {
   view.cell_m = map.cell_m;
   Eigen::Vector2i low = Eigen::Vector2i::Constant(1 << 30), high = -low;
   for (const SemanticCell& cell : map.cells) {
-    if (cell.label < 0) continue;
+    if (!cell.label) continue;
     low = low.cwiseMin(Eigen::Vector2i(cell.at[0], cell.at[2]));
     high = high.cwiseMax(Eigen::Vector2i(cell.at[0], cell.at[2]));
   }
@@ -184,7 +184,7 @@ TopView top_view(const SemanticMap& map, double standing_m) {
     return static_cast<double>(cell.height_m) > standing_m;
   };
   for (const SemanticCell& cell : map.cells) {
-    if (cell.label < 0) continue;
+    if (!cell.label) continue;
     Column& column = columns[{cell.at[0], cell.at[2]}];
     (stands(cell) ? column.standing : column.ground).add(cell);
   }
@@ -193,7 +193,7 @@ TopView top_view(const SemanticMap& map, double standing_m) {
   std::vector<float> weight(view.cell.size(), 0);
   for (std::size_t i = 0; i < map.cells.size(); ++i) {
     const SemanticCell& cell = map.cells[i];
-    if (cell.label < 0) continue;
+    if (!cell.label) continue;
     const Column& column = columns[{cell.at[0], cell.at[2]}];
     constexpr float kEnough = 0.25F;
     const bool standing =

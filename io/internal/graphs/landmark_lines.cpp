@@ -104,9 +104,9 @@ void LandmarkLines::add_to(LandmarkGraph& graph) const {
   };
   const NodeIndex nodes = graph.poses.index_by_id();
   const auto node_at = [&](NodeId id, int line) {
-    const int node = nodes.find(id);
-    if (node == NodeIndex::kNone) fail(line, fmt::format("there is no vertex {}", id));
-    return node;
+    const std::optional<int> node = nodes.find(id);
+    if (!node) fail(line, fmt::format("there is no vertex {}", id));
+    return *node;
   };
   const auto require_planar = [&](bool planar, int line) {
     if (planar != (graph.poses.kind() == PoseKind::kSE2))

@@ -160,8 +160,7 @@ void PoseGraphBuilder::fix(std::string_view id) {
 }
 
 int PoseGraphBuilder::find(const NodeIndex& index, NodeId id, int line) const {
-  const int position = index.find(id);
-  if (position != NodeIndex::kNone) return position;
+  if (const std::optional<int> position = index.find(id)) return *position;
   throw FileError(file_->path(), line, fmt::format("there is no vertex {}", id));
 }
 
@@ -173,7 +172,7 @@ void PoseGraphBuilder::require_connected(const PoseGraph& graph) const {
     if (graph.nodes[i].fixed) is_fixed[static_cast<std::size_t>(component[i])] = 1;
   const NodeIndex index = graph.index_by_id();
   for (const auto& [position, line] : positions_)
-    is_fixed[static_cast<std::size_t>(component[index.find(position.node)])] = 1;
+    is_fixed[static_cast<std::size_t>(component[index.at(position.node)])] = 1;
   if (count == 1 || std::find(is_fixed.begin(), is_fixed.end(), 0) == is_fixed.end()) return;
   const auto apart = static_cast<std::size_t>(std::find(component.begin(), component.end(), 1) -
                                               component.begin());

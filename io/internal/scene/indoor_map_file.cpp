@@ -83,11 +83,12 @@ std::string to_json(const IndoorMap& plan) {
                                  {"place", wall.place ? wall.place->value() : -1}});
   document["doors"] = ordered_json::array();
   for (const IndoorDoor& door : plan.doors)
-    document["doors"].push_back({{"a", point_json(door.a)},
-                                 {"b", point_json(door.b)},
-                                 {"height_m", rounded(door.height_m)},
-                                 {"closed", door.closed},
-                                 {"rooms", door.rooms}});
+    document["doors"].push_back(
+        {{"a", point_json(door.a)},
+         {"b", point_json(door.b)},
+         {"height_m", rounded(door.height_m)},
+         {"closed", door.closed},
+         {"rooms", {door.rooms[0].value_or(-1), door.rooms[1].value_or(-1)}}});
   document["rooms"] = ordered_json::array();
   for (const IndoorRoom& room : plan.rooms) {
     ordered_json holes = ordered_json::array();
@@ -123,10 +124,17 @@ IndoorMap read_indoor_map(const std::string& path) {
         wall.place = PlaceId(place);
       plan.walls.push_back(wall);
     }
-    for (const json& entry : document.at("doors"))
-      plan.doors.push_back({point_of(entry.at("a")), point_of(entry.at("b")),
-                            entry.at("height_m").get<double>(), entry.at("closed").get<bool>(),
-                            entry.at("rooms").get<std::array<int, 2>>()});
+    for (const json& entry : document.at("doors")) {
+      IndoorDoor door{point_of(entry.at("a")),
+                      point_of(entry.at("b")),
+                      entry.at("height_m").get<double>(),
+                      entry.at("closed").get<bool>(),
+                      {}};
+      const auto rooms = entry.at("rooms").get<std::array<int, 2>>();
+      for (std::size_t side = 0; side < 2; ++side)
+        if (rooms[side] >= 0) door.rooms[side] = rooms[side];
+      plan.doors.push_back(door);
+    }
     for (const json& entry : document.at("rooms")) {
       IndoorRoom room;
       room.label = entry.at("label").get<std::string>();

@@ -107,13 +107,13 @@ std::string to_ply(const SemanticMap& map) {
       std::count_if(map.cells.begin(), map.cells.end(), [](const auto& c) { return c.label >= 0; });
   bytes += fmt::format("\nelement vertex {}\n{}end_header\n", known, kProperties);
   for (const SemanticCell& cell : map.cells) {
-    if (cell.label < 0) continue;
+    if (!cell.label) continue;
     const Eigen::Vector3f p = place_of(map, cell.mean.cast<double>()).cast<float>();
     for (int i = 0; i < 3; ++i) put(bytes, p[i]);
     for (const std::uint8_t c :
-         class_colour(map.classes[static_cast<std::size_t>(cell.label)], cell.label))
+         class_colour(map.classes[static_cast<std::size_t>(*cell.label)], *cell.label))
       put(bytes, c);
-    put(bytes, static_cast<std::uint8_t>(cell.label));
+    put(bytes, static_cast<std::uint8_t>(*cell.label));
     put(bytes, cell.confidence);
     put(bytes, cell.height_m);
     put(bytes, cell.weight);
@@ -146,7 +146,7 @@ SemanticMap read_semantic_map(const std::string& path) {
     cell.weight = take<float>(at);
     cell.sights = take<std::uint16_t>(at);
     const Eigen::Vector3d p_plan = map.R_plan_map.matrix() * p.cast<double>();
-    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e6F || cell.label >= map.class_count() ||
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e6F || *cell.label >= map.class_count() ||
         !(cell.confidence >= 0 && cell.confidence <= 1) || !std::isfinite(cell.height_m) ||
         !std::isfinite(cell.weight))
       throw FileError(path, fmt::format("cell {} holds what cannot be", i));
@@ -171,10 +171,10 @@ std::string to_json(const SemanticMap& map,
   std::vector<std::int64_t> cells(map.classes.size(), 0), columns = cells;
   std::int64_t unknown = 0;
   for (const SemanticCell& cell : map.cells)
-    ++(cell.label < 0 ? unknown : cells[static_cast<std::size_t>(cell.label)]);
+    ++(cell.label ? cells[static_cast<std::size_t>(*cell.label)] : unknown);
   for (const int cell : top_view(map).cell)
     if (cell >= 0)
-      ++columns[static_cast<std::size_t>(map.cells[static_cast<std::size_t>(cell)].label)];
+      ++columns[static_cast<std::size_t>(*map.cells[static_cast<std::size_t>(cell)].label)];
   document["unknown_cells"] = unknown;
   document["classes"] = ordered_json::array();
   for (std::size_t c = 0; c < map.classes.size(); ++c)
@@ -306,7 +306,7 @@ std::string to_geojson(const SemanticMap& map, const GeodeticPosition& origin, d
   double height = 0;
   std::size_t count = 0;
   for (const int cell : view.cell) {
-    labels.push_back(cell < 0 ? -1 : map.cells[static_cast<std::size_t>(cell)].label);
+    labels.push_back(cell < 0 ? -1 : *map.cells[static_cast<std::size_t>(cell)].label);
     if (cell < 0) continue;
     height += static_cast<double>(map.cells[static_cast<std::size_t>(cell)].mean[1]);
     ++count;

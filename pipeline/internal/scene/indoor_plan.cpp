@@ -14,9 +14,11 @@ Eigen::Vector2d on(int axis, double offset, double along) {
 }
 
 /// Number of the room at a point in the frame of the walls; -1: in none.
-int room_at(const RoomPartition& rooms, const VoxelEvidence& voxels, const Eigen::Vector2d& p) {
+std::optional<int> room_at(const RoomPartition& rooms, const VoxelEvidence& voxels,
+                           const Eigen::Vector2d& p) {
   const int c = voxels.column_of(p[0]), r = voxels.row_of(p[1]);
-  return voxels.contains(c, r) ? rooms.room_of_cell.at<int>(r, c) - 1 : -1;
+  const int number = voxels.contains(c, r) ? rooms.room_of_cell.at<int>(r, c) : 0;  // from 1
+  return number > 0 ? std::optional(number - 1) : std::nullopt;
 }
 
 }  // namespace
@@ -64,18 +66,17 @@ std::vector<IndoorRoom> plan_rooms(const RoomPartition& rooms, const VoxelEviden
     result.push_back(std::move(room));
   }
   for (const Eigen::Vector3d& p : sights.path)
-    if (const int room = room_at(rooms, voxels, p.head<2>()); room >= 0)
-      result[room].entered = true;
+    if (const auto room = room_at(rooms, voxels, p.head<2>())) result[*room].entered = true;
   for (const Place& place : map.place_graph.places) {
-    const int room =
+    const auto room =
         room_at(rooms, voxels, (frame.T_walls_map() * place.T_map_place.translation()).head<2>());
-    if (room >= 0) result[room].places.push_back(place.id);
+    if (room) result[*room].places.push_back(place.id);
   }
   std::vector<std::vector<double>> ceilings(result.size());
   for (const PlacedPoint& p : sights.points) {
     if (p.normal[2] > -0.95F || p.point[2] < 1.8F) continue;
-    const int room = room_at(rooms, voxels, p.point.head<2>().cast<double>());
-    if (room >= 0) ceilings[room].push_back(p.point[2]);
+    if (const auto room = room_at(rooms, voxels, p.point.head<2>().cast<double>()))
+      ceilings[*room].push_back(p.point[2]);
   }
   for (std::size_t i = 0; i < ceilings.size(); ++i)
     if (ceilings[i].size() >= 20) result[i].ceiling_m = median_of(ceilings[i]);
@@ -94,7 +95,7 @@ std::vector<IndoorDoor> plan_doors(const std::vector<DoorPiece>& doors, const Ro
     for (int side = 0; side < 2; ++side)
       for (const double way : {0.1, 0.2, 0.35, 0.5}) {
         const double at = piece.offset_m + piece.sign * (side ? -way - 0.1 : way);
-        if (door.rooms[side] < 0)
+        if (!door.rooms[side])
           door.rooms[side] = room_at(rooms, voxels, on(piece.axis, at, middle));
       }
     result.push_back(door);

@@ -1,4 +1,4 @@
-#include <placegraph/backend/internal/linear/supernodal_factor.h>
+#include <placegraph/backend/internal/linear/scalar_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/SparseCholesky>
@@ -9,7 +9,7 @@ namespace placegraph {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-struct SupernodalFactor::Impl {
+struct ScalarFactor::Impl {
   const BlockPanels& panels;
   Sparse matrix;  // the lower part by scalars; its values are those of the panels, in their order
   Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> llt;
@@ -17,7 +17,7 @@ struct SupernodalFactor::Impl {
   explicit Impl(const BlockPanels& m) : panels(m) {
     const int size = panels.block_size, count = panels.pattern.count();
     require(panels.values.size() < static_cast<std::size_t>(std::numeric_limits<int>::max()),
-            "SupernodalFactor: the matrix is too large");
+            "ScalarFactor: the matrix is too large");
     matrix.resize(static_cast<Eigen::Index>(count) * size, static_cast<Eigen::Index>(count) * size);
     matrix.resizeNonZeros(static_cast<Eigen::Index>(panels.values.size()));
     int next = 0;
@@ -35,27 +35,26 @@ struct SupernodalFactor::Impl {
   void take_values() { std::copy(panels.values.begin(), panels.values.end(), matrix.valuePtr()); }
 };
 
-SupernodalFactor::SupernodalFactor(const BlockPanels& matrix)
-    : impl_(std::make_unique<Impl>(matrix)) {}
-SupernodalFactor::~SupernodalFactor() = default;
+ScalarFactor::ScalarFactor(const BlockPanels& matrix) : impl_(std::make_unique<Impl>(matrix)) {}
+ScalarFactor::~ScalarFactor() = default;
 
-bool SupernodalFactor::factorize() {
+bool ScalarFactor::factorize() {
   impl_->take_values();
   impl_->llt.factorize(impl_->matrix);
   return impl_->llt.info() == Eigen::Success;
 }
 
-void SupernodalFactor::solve(Eigen::Ref<Eigen::MatrixXd> x) {
+void ScalarFactor::solve(Eigen::Ref<Eigen::MatrixXd> x) {
   impl_->llt.matrixL().solveInPlace(x);
   impl_->llt.matrixU().solveInPlace(x);
 }
 
-Eigen::VectorXd SupernodalFactor::pivots() const {
+Eigen::VectorXd ScalarFactor::pivots() const {
   const Sparse& L = impl_->llt.matrixL().nestedExpression();
   return L.diagonal();
 }
 
-BlockFactor SupernodalFactor::blocks() const {
+BlockFactor ScalarFactor::blocks() const {
   const Sparse& L = impl_->llt.matrixL().nestedExpression();
   const int size = impl_->panels.block_size, square = size * size;
   BlockFactor blocks;
