@@ -67,8 +67,8 @@ void PoseGraphOptimize(benchmark::State& state) {
   std::vector<SE3> truth;
   const auto relative = [&](std::int64_t from, std::int64_t to, ConstraintSource source) {
     RelativePoseConstraint c;
-    c.from = from;
-    c.to = to;
+    c.from = NodeId(from);
+    c.to = NodeId(to);
     c.T_from_to = truth[static_cast<std::size_t>(from)].inverse() *
                   truth[static_cast<std::size_t>(to)] * test::random_motion(random, 0.02, 0.01);
     c.information = Matrix6d(Matrix6d::Identity() * 1e3);

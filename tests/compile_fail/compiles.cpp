@@ -9,13 +9,17 @@ namespace placegraph {
 void take(KeyframeId) {}
 
 bool right(FrameId frame, KeyframeId keyframe, LandmarkId landmark, const Map& map,
-           SlidingWindow& window) {
+           SlidingWindow& window, PlaceId place, RelativePoseConstraint& edge, LineId line,
+           PlaneId plane) {
   take(keyframe);
   FrameId other(3);
   other = FrameId(4);
   ++other;
   const std::int64_t number = keyframe.value();
   window.remove_observation(keyframe, landmark);
+  edge.from = node_of_place(place);
+  if (!map.place_graph.find(place_of_node(edge.from))) return false;
+  if (!window.line(line) || !window.plane(plane)) return false;
   return other == frame && number + 1 > 0 && map.find_keyframe(keyframe) != nullptr;
 }
 

@@ -85,7 +85,7 @@ TEST(SlamInARenderedCorridor, TakesDirectionsOfARectangularWorld) {
     }
     ++keyframes;
     int along = 0;
-    for (const FrameView::DirectedLine& line : view.directed) along += line.axis >= 0;
+    for (const FrameView::DirectedLine& line : view.directed) along += line.axis.has_value();
     seen += along >= 8;
   }
   // Two views wait for a third before a world begins.

@@ -110,8 +110,8 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   }
   for (int p = 1; p < places; ++p) {
     RelativePoseConstraint edge;
-    edge.from = p - 1;
-    edge.to = p;
+    edge.from = NodeId(p - 1);
+    edge.to = NodeId(p);
     edge.T_from_to = random_pose(random);
     edge.information = random_information<6>(random);
     if (scaled) {

@@ -46,7 +46,7 @@ class MapCli : public test::CliTest {
     map.place_graph.places.resize(places);
     map.place_graph.places.back().members.resize(1);
     std::erase_if(map.place_graph.constraints, [&](const RelativePoseConstraint& c) {
-      return std::max(c.from, c.to) >= static_cast<std::int64_t>(places);
+      return std::max(c.from, c.to) >= NodeId(places);
     });
     std::erase_if(map.keyframes, [&](const Keyframe& k) { return k.id > last; });
     std::erase_if(map.landmarks, [&](const PointLandmark& l) { return l.keyframe > last; });

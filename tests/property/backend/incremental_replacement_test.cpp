@@ -97,7 +97,7 @@ TYPED_TEST(IncrementalReplacement, ANodeWithoutConstraintsStaysWhereItIs) {
   IncrementalOptimizer optimizer;
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
   optimizer.finish();
-  const std::int64_t lost = walk.graph.nodes[20].id;
+  const NodeId lost = walk.graph.nodes[20].id;
   std::vector<ConstraintWeight> of_lost;
   for (std::size_t c = 0; c < walk.graph.constraints.size(); ++c) {
     const auto& relative = std::get<RelativePoseConstraint>(walk.graph.constraints[c]);

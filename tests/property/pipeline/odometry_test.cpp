@@ -62,7 +62,7 @@ std::map<FrameId, SE3> track(const Sequence& sequence, const std::string& cues,
     for (const auto& [id, T_odom_cam] : update.posed_again) poses[id] = T_odom_cam;
     if (update.state == TrackingState::kTracking) poses[frame.id] = update.T_odom_cam;
   }
-  if (!odometry.map().empty()) poses.emplace(FrameId(0), odometry.map().pose(0));
+  if (!odometry.map().empty()) poses.emplace(FrameId(0), odometry.map().pose(KeyframeId(0)));
   return poses;
 }
 

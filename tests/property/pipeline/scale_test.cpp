@@ -96,7 +96,7 @@ std::vector<PlacedLine> placed(const SE3& T_corridor_cam, const SE3& T_odom_cam,
     Eigen::Vector4d error;
     for (int k = 0; k < 4; ++k) error[k] = sigma * random.normal();
     Eigen::Matrix4d covariance = sigma * sigma * Eigen::Matrix4d::Identity();
-    lines.push_back({static_cast<std::int64_t>(i),
+    lines.push_back({LineId(i),
                      Line3::from_direction(from, to - from).plus(error),
                      covariance,
                      {*start, *end}});

@@ -30,7 +30,7 @@ struct GrowingWalk {
                              : truth.back() * Group::exp(step) *
                                    random_group_element<Group>(random, 0.1, 0.1));
       graph.nodes.push_back(
-          {10 + i, i == 0 ? Group() : random_group_element<Group>(random, 5, 1), false});
+          {NodeId(10 + i), i == 0 ? Group() : random_group_element<Group>(random, 5, 1), false});
       if (i > 0) graph.constraints.emplace_back(measure(i - 1, i, noise));
       for (const int back : {round, round - 2})
         if (i > back && random.uniform() < 0.2)

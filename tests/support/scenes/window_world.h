@@ -160,7 +160,7 @@ inline WindowWorld make_window_world(const WindowWorldOptions& options, Random& 
     const double height_m = std::abs(
         world.ground.distance_to(world.T_map_cam[static_cast<std::size_t>(k)].translation()));
     const double noise = options.noise_px > 0 ? options.sigma_height_m * random.normal() : 0;
-    world.heights.push_back(PlaneId({KeyframeId(k), 0, height_m + noise, options.sigma_height_m}));
+    world.heights.push_back({KeyframeId(k), PlaneId(0), height_m + noise, options.sigma_height_m});
   }
   add_planes(world, options, random);
   return world;
@@ -218,7 +218,7 @@ inline void add_view(SlidingWindow& window, const WindowWorld& world, KeyframeId
     if (!window.line(o.line)) {
       Line3::Tangent step;
       for (int i = 0; i < 4; ++i) step[i] = (i < 3 ? 0.01 : 1e-3) * disturbance * random.normal();
-      window.add_line(o.line, world.lines[static_cast<std::size_t>(o.line)].plus(step));
+      window.add_line(o.line, world.lines[static_cast<std::size_t>(o.line.value())].plus(step));
     }
     window.add_line_observation(o);
   }
@@ -229,7 +229,7 @@ inline void add_view(SlidingWindow& window, const WindowWorld& world, KeyframeId
     if (!window.plane(o.plane)) {
       Eigen::Vector3d step;
       for (int i = 0; i < 3; ++i) step[i] = 0.01 * disturbance * random.normal();
-      const auto which = static_cast<std::size_t>(o.plane - WindowWorld::kFirstPlane);
+      const auto which = static_cast<std::size_t>(o.plane.value() - WindowWorld::kFirstPlane);
       window.add_plane(o.plane, world.planes[which].plus(step));
     }
     add_plane_observation(window, o);

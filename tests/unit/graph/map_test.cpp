@@ -38,8 +38,8 @@ Map make_map(int component) {
 
 void join(Map& map) {
   RelativePoseConstraint constraint;
-  constraint.from = 0;
-  constraint.to = 1;
+  constraint.from = NodeId(0);
+  constraint.to = NodeId(1);
   constraint.T_from_to = SE3();
   constraint.information = Matrix6d::Identity();
   map.place_graph.constraints.push_back(constraint);

@@ -24,8 +24,8 @@ PlaceGraph make_places(const std::vector<int>& components) {
 
 void join(PlaceGraph& graph, std::int64_t from, std::int64_t to) {
   RelativePoseConstraint constraint;
-  constraint.from = from;
-  constraint.to = to;
+  constraint.from = NodeId(from);
+  constraint.to = NodeId(to);
   constraint.T_from_to = SE3();
   constraint.information = Matrix6d::Identity();
   graph.constraints.push_back(constraint);

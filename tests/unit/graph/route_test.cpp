@@ -23,14 +23,14 @@ PlaceGraph places() {
     graph.places.push_back(place);
     if (i > 0) {
       RelativePoseConstraint edge;
-      edge.from = i - 1;
-      edge.to = i;
+      edge.from = NodeId(i - 1);
+      edge.to = NodeId(i);
       graph.constraints.push_back(edge);
     }
   }
   RelativePoseConstraint loop;
-  loop.from = 4;
-  loop.to = 1;
+  loop.from = NodeId(4);
+  loop.to = NodeId(1);
   loop.source = ConstraintSource::kLoop;
   graph.constraints.push_back(loop);
   Place alone;
@@ -96,13 +96,14 @@ TEST(Route, IsAsShortAsFloydAndWarshallHaveItBetweenAnyTwoPlaces) {
   shortest.diagonal().setZero();
   for (int k = 0; k < kEdges; ++k) {
     RelativePoseConstraint edge;
-    edge.from = random.index(kPlaces);
-    edge.to = random.index(kPlaces);
+    const int from = random.index(kPlaces), to = random.index(kPlaces);
+    edge.from = NodeId(from);
+    edge.to = NodeId(to);
     graph.constraints.push_back(edge);
-    const double length = (graph.find(PlaceId(edge.from))->T_map_place.translation() -
-                           graph.find(PlaceId(edge.to))->T_map_place.translation())
+    const double length = (graph.find(PlaceId(from))->T_map_place.translation() -
+                           graph.find(PlaceId(to))->T_map_place.translation())
                               .norm();
-    shortest(edge.from, edge.to) = shortest(edge.to, edge.from) = length;
+    shortest(from, to) = shortest(to, from) = length;
   }
   for (int k = 0; k < kPlaces; ++k)
     for (int i = 0; i < kPlaces; ++i)

@@ -44,7 +44,7 @@ StoredMap two_places() {
     map.place_graph.places.push_back(place);
   }
   RelativePoseConstraint edge;
-  edge.from = 0, edge.to = 1;
+  edge.from = NodeId(0), edge.to = NodeId(1);
   edge.T_from_to = at_z(1);
   edge.information = 100 * Matrix6d::Identity();
   map.place_graph.constraints.push_back(edge);

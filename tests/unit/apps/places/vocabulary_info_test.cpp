@@ -19,7 +19,7 @@ WordTree three_words(WordTree::Kind kind) {
   tree.kind = kind;
   tree.words = 3;
   tree.idf = {0.5f, 1, 2};
-  tree.nodes = {{NodeId(1), 3, -1}, {-1, 0, 0}, {-1, 0, 1}, {-1, 0, 2}};
+  tree.nodes = {{1, 3, -1}, {-1, 0, 0}, {-1, 0, 1}, {-1, 0, 2}};
   if (kind == WordTree::Kind::kBinary) {
     tree.bit_centres.resize(4);
     for (std::uint64_t i = 0; i < 4; ++i) tree.bit_centres[i][0] = i;

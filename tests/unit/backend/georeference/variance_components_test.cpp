@@ -79,7 +79,7 @@ TEST(OdometryScatter, ConvergesToTheScatterWhateverWasClaimed) {
 
 TEST(OdometryScatter, SaysNothingWhereNothingIsChecked) {
   PoseGraph graph;
-  graph.nodes = NodeId({{0, SE2(0, 0, 0)}, {1, SE2(3, 4, 1)}});
+  graph.nodes = {{NodeId(0), SE2(0, 0, 0)}, {NodeId(1), SE2(3, 4, 1)}};
   RelativePoseConstraint edge;
   edge.to = NodeId(1);
   edge.T_from_to = SE2(3, 4, 1);

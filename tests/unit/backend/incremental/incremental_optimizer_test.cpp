@@ -148,7 +148,7 @@ TYPED_TEST(IncrementalOptimizerOf, AConstraintThatIsNearlyInfiniteFailsUntilItIs
   huge.information *= 1e306;
   const IncrementalStep step = optimizer.add({}, {huge});
   EXPECT_EQ(step.outcome.code, Outcome::Code::kNotConverged);
-  EXPECT_EQ(std::get<TypeParam>(*optimizer.pose(15)).matrix(), before);
+  EXPECT_EQ(std::get<TypeParam>(*optimizer.pose(NodeId(15))).matrix(), before);
   EXPECT_TRUE(optimizer.remove_constraint(step.first_constraint).outcome);
   EXPECT_TRUE(optimizer.finish().outcome);
   const double best = optimize_pose_graph(optimizer.graph(), tight()).chi2_final;
@@ -182,9 +182,9 @@ TYPED_TEST(IncrementalOptimizerOf, CovarianceOfAChainIsComputedByHand) {
   IncrementalOptimizer optimizer;
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
   // One edge of information 100 from the held node.
-  const Eigen::MatrixXd covariance = optimizer.covariance({10, 11});
+  const Eigen::MatrixXd covariance = optimizer.covariance({NodeId(10), NodeId(11)});
   constexpr int dof = TypeParam::kDof;
-  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(NodeId(2 * dof), 2 * dof);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(2 * dof, 2 * dof);
   expected.bottomRightCorner(dof, dof).diagonal().setConstant(0.01);
   EXPECT_LT((covariance - expected).norm(), 1e-9);
 }
@@ -237,7 +237,7 @@ TYPED_TEST(IncrementalOptimizerOf, RelativeCovarianceIsThatOfTheWholeGraph) {
 
 TEST(IncrementalOptimizer, RefusesWhatDoesNotFitAndChangesNothing) {
   IncrementalOptimizer optimizer;
-  EXPECT_FALSE(optimizer.pose(0));
+  EXPECT_FALSE(optimizer.pose(NodeId(0)));
   GrowingWalk<SE2> walk(3, 0, 8);
   EXPECT_THROW(optimizer.add({}, walk.graph.constraints), ArgumentError);
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
@@ -245,7 +245,7 @@ TEST(IncrementalOptimizer, RefusesWhatDoesNotFitAndChangesNothing) {
   EXPECT_THROW(optimizer.add({{NodeId(99), SE3(), false}}, {}), ArgumentError);
   EXPECT_THROW(optimizer.reweight({{7, 1.0}}), ArgumentError);
   EXPECT_THROW(optimizer.reweight({{0, -1.0}}), ArgumentError);
-  EXPECT_THROW((void)optimizer.covariance({99}), ArgumentError);
+  EXPECT_THROW((void)optimizer.covariance({NodeId(99)}), ArgumentError);
   RelativePoseConstraint elsewhere = walk.measure(0, 2, 0);
   EXPECT_THROW(optimizer.apply({{}, {}, {{0, elsewhere}}, {}}), ArgumentError);
   EXPECT_THROW(optimizer.apply({{}, {}, {{7, elsewhere}}, {}}), ArgumentError);

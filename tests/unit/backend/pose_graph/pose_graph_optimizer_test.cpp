@@ -232,7 +232,7 @@ TEST(PoseGraphOptimizer, ReportsTheSharesOfTheConstraints) {
 TEST(PoseGraphOptimizer, Chi2OfOneEdgeIsComputedByHand) {
   PoseGraph graph;
   graph.nodes = {{NodeId(0), SE3(), false},
-                 {1, SE3(SO3::exp({0, 0, 0.4}), Eigen::Vector3d(1, 2, 0)), false}};
+                 {NodeId(1), SE3(SO3::exp({0, 0, 0.4}), Eigen::Vector3d(1, 2, 0)), false}};
   graph.constraints.emplace_back(constraint<SE3>(0, 1, SE3(SO3(), Eigen::Vector3d(1, 0, 0)), 10));
   // E has the translation (0, 2, 0) and turns by 0.4.
   EXPECT_NEAR(chi2(graph, RotationError::kQuaternion), 10 * (4 + std::pow(std::sin(0.2), 2)),

@@ -62,7 +62,7 @@ TEST(LoopPairs, MisclosureOfARingIsThatOfItsMeasurements) {
   const OdometryChain<SE2> chain(packed);
   const auto loops = loops_on_chain(packed, chain);
   ASSERT_EQ(loops.size(), 2u);
-  EXPECT_EQ(loops[1].from, NodeId(3));
+  EXPECT_EQ(loops[1].from, 3);
   // One metre on at both ends: 0.3 m are left, of four measurements with 0.01 m^2 each.
   const double chi2 = ring_misclosure(loops[0], loops[1], chain).chi2;
   EXPECT_NEAR(chi2, 0.3 * 0.3 / 0.04, 1e-9);

@@ -38,7 +38,7 @@ TEST(WindowBlocks, HoldTheEstimatesInTheOrderOfKindsAndIds) {
             Eigen::Vector3d(-1, 0, 7));
   EXPECT_EQ((Eigen::Vector3d(Eigen::Map<Eigen::Vector3d>(blocks.point(1)))),
             Eigen::Vector3d(1, 2, 9));
-  EXPECT_LT(VariableBlock<Line3>::load(blocks.line(LineId(1))).minus(state.lines.at(8).line_map).norm(),
+  EXPECT_LT(VariableBlock<Line3>::load(blocks.line(1)).minus(state.lines.at(LineId(8)).line_map).norm(),
             1e-12);
 }
 
@@ -50,8 +50,8 @@ TEST(WindowBlocks, LieInOneArrayWhoseAddressesDecideTheOrderOfElimination) {
               blocks.at(keyframe_variable(KeyframeId(k + 1))));
   EXPECT_EQ(blocks.at(keyframe_variable(KeyframeId(3))) + 7, blocks.at(world_variable(ManhattanFrameId(3))));
   EXPECT_EQ(blocks.at(world_variable(ManhattanFrameId(3))) + 4, blocks.at(world_variable(FactorScene::kWorld)));
-  EXPECT_EQ(blocks.at(world_variable(FactorScene::kWorld)) + 4, blocks.line(LineId(0)));
-  EXPECT_EQ(blocks.line(LineId(1)) + 5, blocks.at(plane_variable(FactorScene::kPlane)));
+  EXPECT_EQ(blocks.at(world_variable(FactorScene::kWorld)) + 4, blocks.line(0));
+  EXPECT_EQ(blocks.line(1) + 5, blocks.at(plane_variable(FactorScene::kPlane)));
 }
 
 TEST(WindowBlocks, AreFiniteUnlessANumberIsNot) {

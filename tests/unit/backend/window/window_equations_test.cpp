@@ -15,10 +15,10 @@ using test::motion_information;
 void move(WindowState& state, const WindowVariable& variable, const Eigen::VectorXd& xi) {
   switch (variable.kind) {
     case WindowVariable::Kind::kPlane:
-      state.planes.at(variable.id) = state.planes.at(variable.id).plus(xi);
+      state.planes.at(PlaneId(variable.id)) = state.planes.at(PlaneId(variable.id)).plus(xi);
       break;
     case WindowVariable::Kind::kWorld:
-      state.worlds.at(variable.id) = state.worlds.at(variable.id).plus(xi);
+      state.worlds.at(ManhattanFrameId(variable.id)) = state.worlds.at(ManhattanFrameId(variable.id)).plus(xi);
       break;
     default:
       state.keyframes.at(KeyframeId(variable.id)) =

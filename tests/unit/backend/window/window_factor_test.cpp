@@ -225,7 +225,7 @@ TEST(WindowFactor, BetweenPlanesAloneHoldsNoneOfThemAndLeavesWithThem) {
               {plane_variable(FactorScene::kPlane), plane_variable(PlaneId(11))}});
   const Eigen::Matrix3d before = *plane_covariance(window, PlaneId(11), KeyframeId(3));
   window.marginalize();
-  EXPECT_EQ(window.planes(), std::vector<std::int64_t>{11});
+  EXPECT_EQ(window.planes(), std::vector{PlaneId(11)});
   for (const WindowFactor& factor : window.factors())
     EXPECT_FALSE(touches(factor, plane_variable(FactorScene::kPlane)));
   EXPECT_LT((*plane_covariance(window, PlaneId(11), KeyframeId(3)) - before).norm(), 1e-6 * before.norm())

@@ -45,8 +45,8 @@ TEST(WindowLines, CarryAWindowThatSeesHardlyAPoint) {
   const WindowSummary summary = window.optimize();
   ASSERT_TRUE(summary.outcome) << summary.outcome.reason;
   expect_on_path(window, world, 1e-6);
-  for (const std::int64_t id : window.lines()) {
-    const Line3 truth = world.lines[static_cast<std::size_t>(id)], line = *window.line(LineId(id));
+  for (const LineId id : window.lines()) {
+    const Line3 truth = world.lines[static_cast<std::size_t>(id.value())], line = *window.line(id);
     EXPECT_LT(line.direction().cross(truth.direction()).norm(), 1e-5) << "line " << id;
     EXPECT_LT(truth.distance_to(line.nearest_point()), 1e-4) << "line " << id;
   }
@@ -135,7 +135,7 @@ TEST(WindowGround, LeavesWithTheLastKeyframeAndPointThatSpeakOfIt) {
   options.stereo = true;
   const WindowWorld world = make_window_world(options, random);
   SlidingWindow window = drive_window(world, WindowDrive::exact(8), 32);
-  EXPECT_EQ(window.planes(), std::vector<std::int64_t>{0});
+  EXPECT_EQ(window.planes(), std::vector{PlaneId(0)});
   // Further keyframes see other points only.
   for (std::int64_t id = 10; id < 19; ++id) {
     window.add_keyframe(KeyframeId(id),

@@ -55,7 +55,7 @@ SlidingWindow drive(const WindowWorld& world, WindowDrive options, const Sights&
     for (int i = 0; i < 3; ++i) error[i] = noise * sights.sigma_rad * random.normal();
     if (id <= sights.last)
       add_world_observation(
-          window, {KeyframeId(id), 7,
+          window, {KeyframeId(id), ManhattanFrameId(7),
                    world.T_map_cam[k].rotation().inverse() * kR_map_world * SO3::exp(error),
                    Eigen::Matrix3d::Identity() / (sights.sigma_rad * sights.sigma_rad)});
     if (k > 0) {
@@ -120,7 +120,7 @@ TEST(WindowWorlds, LeaveWithTheLastKeyframeThatSawThemUnlessTheyAreKept) {
   EXPECT_TRUE(drive(world, WindowDrive::exact(5), sights, 1).worlds().empty());
   sights.kept = true;
   SlidingWindow window = drive(world, WindowDrive::exact(5), sights, 1);
-  EXPECT_EQ(window.worlds(), std::vector<std::int64_t>{7});
+  EXPECT_EQ(window.worlds(), std::vector{ManhattanFrameId(7)});
   // Unseen for a while it is known less well than a keyframe that sees it knows it.
   const Eigen::Matrix3d unseen = *world_covariance(window, ManhattanFrameId(7), KeyframeId(11));
   const SlidingWindow seen = drive(world, WindowDrive::exact(5), {}, 1);
@@ -186,9 +186,9 @@ TEST(WindowWorlds, FaultyOnesAreRefused) {
   EXPECT_THROW(add_world_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), -I}), ArgumentError);
   EXPECT_THROW(add_world_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), 0 * I}), ArgumentError);
   EXPECT_THROW(window.keep(world_variable(ManhattanFrameId(2))), ArgumentError);
-  EXPECT_THROW(window.hold_world(2), ArgumentError);
+  EXPECT_THROW(window.hold_world(ManhattanFrameId(2)), ArgumentError);
   EXPECT_FALSE(window.world(ManhattanFrameId(2)));
-  EXPECT_EQ(window.worlds(), std::vector<std::int64_t>{1});
+  EXPECT_EQ(window.worlds(), std::vector{ManhattanFrameId(1)});
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(WindowPlanes, LeaveTheSamePosesInThePriorAsInTheBatch) {
     EXPECT_LT(distance_m(window.pose(id), batch.pose(id)), 1e-5);
     EXPECT_LT(angle_rad(window.pose(id), batch.pose(id)), 1e-6);
   }
-  EXPECT_LT(window.plane(kPlane)->minus(*batch.plane(kPlane)).norm(), 1e-6);
+  EXPECT_LT(window.plane(PlaneId(kPlane))->minus(*batch.plane(PlaneId(kPlane))).norm(), 1e-6);
   const Matrix6d a = relative_information(window, KeyframeId(7), KeyframeId(9)),
                  b = relative_information(batch, KeyframeId(7), KeyframeId(9));
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
@@ -130,7 +130,7 @@ TEST(WindowPlanes, LeaveWithTheLastKeyframeThatMeasuredThemUnlessTheyAreKept) {
       window.marginalize();
     }
     EXPECT_EQ(window.planes(),
-              kept ? std::vector<std::int64_t>{kPlane} : std::vector<std::int64_t>{});
+              kept ? std::vector{PlaneId(kPlane)} : std::vector<PlaneId>());
     if (!kept) continue;
     // Unseen for a while it is known less well than a keyframe that measures it knows it.
     const SlidingWindow seen = drive_window(world, WindowDrive::exact(5), 3);
@@ -192,7 +192,7 @@ TEST(WindowPlanes, ForgottenOnesLeaveWhatElseIsKnown) {
   const Matrix6d before = relative_information(window, KeyframeId(8), KeyframeId(11));
   const SE3 pose = window.pose(KeyframeId(11));
   window.remove_plane(PlaneId(kPlane));
-  EXPECT_EQ(window.planes(), std::vector<std::int64_t>{kPlane + 1});
+  EXPECT_EQ(window.planes(), std::vector{PlaneId(kPlane + 1)});
   EXPECT_EQ(plane_observations(window).size(), 5u);
   const Matrix6d after = relative_information(window, KeyframeId(8), KeyframeId(11));
   EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix6d>(before - after).eigenvalues()[0],
@@ -229,7 +229,7 @@ TEST(WindowPlanes, FaultyOnesAreRefused) {
   EXPECT_THROW(window.keep(plane_variable(PlaneId(2))), ArgumentError);
   EXPECT_THROW(window.remove_plane(PlaneId(2)), ArgumentError);
   EXPECT_FALSE(
-      residual_sigmas(window, window_factor(PlaneObservation{KeyframeId(0), 2, Plane3(), I})));
+      residual_sigmas(window, window_factor(PlaneObservation{KeyframeId(0), PlaneId(2), Plane3(), I})));
 }
 
 }  // namespace

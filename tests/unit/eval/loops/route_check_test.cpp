@@ -32,8 +32,8 @@ PlaceGraph map_of(const Trajectory& truth, std::map<PlaceId, FrameId>& frames, b
   PlaceGraph graph;
   const auto edge = [&](std::int64_t from, std::int64_t to) {
     RelativePoseConstraint constraint;
-    constraint.from = from;
-    constraint.to = to;
+    constraint.from = NodeId(from);
+    constraint.to = NodeId(to);
     graph.constraints.push_back(constraint);
   };
   for (int i = 0; i < 40; ++i) {
@@ -55,7 +55,8 @@ TEST(DrivenRoads, JoinThePassesOfOneRoadThatLookTheSameWay) {
   for (const RelativePoseConstraint& edge : roads.constraints) {
     if (edge.source != ConstraintSource::kLoop) continue;
     ++loops;
-    EXPECT_LE(std::abs(edge.to - 160 - edge.from), 0) << edge.from << " " << edge.to;
+    EXPECT_LE(std::abs(edge.to.value() - 160 - edge.from.value()), 0)
+        << edge.from << " " << edge.to;
   }
   EXPECT_EQ(loops, 40);  // every frame of the second pass; corners are of one pass
   EXPECT_EQ(roads.constraints.size(), 199u + 40u);
@@ -93,8 +94,8 @@ TEST(RouteCheck, FindsAFalseLoopToLeadAstray) {
   // The map believes that the place across the block is beside the first.
   graph.places[16].T_map_place = SE3(SO3(), Eigen::Vector3d(1, 0, 0));
   RelativePoseConstraint wrong;
-  wrong.from = 0;
-  wrong.to = 16;
+  wrong.from = NodeId(0);
+  wrong.to = NodeId(16);
   graph.constraints.push_back(wrong);
   const RouteCheck check = check_routes(graph, frames, truth);
   EXPECT_LT(check.same_places, check.pairs);

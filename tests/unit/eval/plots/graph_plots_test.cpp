@@ -17,8 +17,8 @@ PoseGraph chain(double step_m) {
   for (int i = 0; i < 4; ++i) graph.nodes.push_back({NodeId(i), SE2(step_m * i, 0, 0), false});
   for (const auto& [from, to] : {std::pair{0, 1}, {2, 3}, {0, 2}, {0, 3}}) {
     RelativePoseConstraint edge;
-    edge.from = from;
-    edge.to = to;
+    edge.from = NodeId(from);
+    edge.to = NodeId(to);
     edge.T_from_to = SE2();
     edge.information = Eigen::Matrix3d::Identity();
     edge.source = to == from + 1 ? ConstraintSource::kOdometry : ConstraintSource::kLoop;

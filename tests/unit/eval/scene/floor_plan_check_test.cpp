@@ -85,7 +85,7 @@ TEST(FloorPlanFile, ReadsWhatItWrites) {
   dir.write("plan.json", to_json(told_plan()));
   const IndoorMap plan = read_indoor_map(dir / "plan.json");
   ASSERT_EQ(plan.walls.size(), 4U);
-  EXPECT_EQ(plan.doors.at(0).rooms, (std::array<int, 2>{0, -1}));
+  EXPECT_EQ(plan.doors.at(0).rooms, (std::array<std::optional<int>, 2>{0, std::nullopt}));
   EXPECT_EQ(plan.rooms.at(0).places, test::ids<PlaceId>({3}));
   EXPECT_EQ(to_json(plan), to_json(told_plan()));
   dir.write("cut.json", to_json(told_plan()).substr(0, 100));

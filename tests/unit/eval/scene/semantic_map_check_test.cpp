@@ -24,7 +24,7 @@ SemanticMap map_of(const std::vector<std::pair<Eigen::Vector3i, int>>& cells) {
   for (const auto& [at, label] : cells) {
     SemanticCell cell;
     cell.at = at;
-    cell.label = label;
+    if (label >= 0) cell.label = label;
     cell.weight = 5;
     cell.mean = 0.5F * (at.cast<float>() + Eigen::Vector3f::Constant(0.5F));
     cell.height_m = 1.6F - cell.mean[1];

@@ -123,7 +123,7 @@ TEST(KittiSegments, AverageOverSegmentsAndGroupByLength) {
       kitti_segments(straight_line(40, 0, 1.1), true, lengths({20, 10}, 10));
   ASSERT_TRUE(result.outcome);
   ASSERT_EQ(result.by_length.size(), 2u);
-  EXPECT_EQ(result.by_length[0].from, NodeId(10));
+  EXPECT_EQ(result.by_length[0].from, 10);
   EXPECT_EQ(result.by_length[0].segments, 3);  // starts 0 10 20
   EXPECT_EQ(result.by_length[1].segments, 2);  // starts 0 10
   EXPECT_NEAR(result.by_length[0].t_percent, 11.0, 1e-9);
@@ -134,13 +134,13 @@ TEST(KittiSegments, AverageOverSegmentsAndGroupByLength) {
 TEST(KittiSegments, GroupBySpeedFromTimesOrTheFrameRate) {
   const SegmentResult timed = kitti_segments(straight_line(60, 0), true, lengths({10, 50}, 10));
   ASSERT_EQ(timed.by_speed.size(), 1u);  // 10/1.1 = 9.09 and 50/5.1 = 9.80 m/s
-  EXPECT_EQ(timed.by_speed[0].from, NodeId(8));
-  EXPECT_EQ(timed.by_speed[0].to, NodeId(10));
+  EXPECT_EQ(timed.by_speed[0].from, 8);
+  EXPECT_EQ(timed.by_speed[0].to, 10);
   EXPECT_EQ(timed.by_speed[0].segments, 6);  // five of 10 m and one of 50 m
   SegmentOptions slower = lengths({10, 50}, 10);
   slower.frame_rate_hz = 1;
   const SegmentResult indexed = kitti_segments(straight_line(60, 0), false, slower);
-  EXPECT_EQ(indexed.by_speed[0].from, NodeId(0));
+  EXPECT_EQ(indexed.by_speed[0].from, 0);
 }
 
 TEST(KittiSegments, CountSegmentsThatALostFrameTakesAway) {

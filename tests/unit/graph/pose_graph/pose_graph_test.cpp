@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <cmath>
@@ -18,8 +18,8 @@ using testing::HasSubstr;
 RelativePoseConstraint relative(std::int64_t from, std::int64_t to,
                                 ConstraintSource source = ConstraintSource::kOdometry) {
   RelativePoseConstraint constraint;
-  constraint.from = from;
-  constraint.to = to;
+  constraint.from = NodeId(from);
+  constraint.to = NodeId(to);
   constraint.T_from_to = SE3();
   constraint.information = Matrix6d::Identity();
   constraint.source = source;
@@ -38,7 +38,7 @@ PoseGraph make_graph(const std::vector<std::int64_t>& ids,
 std::string complaint(const std::function<void(PoseGraph&)>& spoil) {
   PoseGraph graph = make_graph({7, 8}, {relative(7, 8)});
   PositionConstraint position;
-  position.node = 8;
+  position.node = NodeId(8);
   graph.constraints.push_back(position);
   spoil(graph);
   try {
@@ -76,13 +76,15 @@ TEST(PoseGraphCheck, RefusesAnIdThatIsThereTwice) {
 }
 
 TEST(PoseGraphCheck, RefusesConstraintsOnUnknownNodes) {
-  EXPECT_THAT(complaint([](auto& g) { edge(g).to = 9; }), HasSubstr("unknown node 9"));
-  EXPECT_THAT(complaint([](auto& g) { edge(g).from = -1; }), HasSubstr("unknown node -1"));
-  EXPECT_THAT(complaint([](auto& g) { position(g).node = 3; }), HasSubstr("unknown node 3"));
+  EXPECT_THAT(complaint([](auto& g) { edge(g).to = NodeId(9); }), HasSubstr("unknown node 9"));
+  EXPECT_THAT(complaint([](auto& g) { edge(g).from = NodeId(-1); }), HasSubstr("unknown node -1"));
+  EXPECT_THAT(complaint([](auto& g) { position(g).node = NodeId(3); }),
+              HasSubstr("unknown node 3"));
 }
 
 TEST(PoseGraphCheck, RefusesAConstraintOfANodeWithItself) {
-  EXPECT_THAT(complaint([](auto& g) { edge(g).to = 7; }), HasSubstr("joins a node to itself"));
+  EXPECT_THAT(complaint([](auto& g) { edge(g).to = NodeId(7); }),
+              HasSubstr("joins a node to itself"));
 }
 
 TEST(PoseGraphCheck, RefusesWhatIsNotFinite) {
@@ -149,9 +151,9 @@ TEST(PoseGraph, KindIsThatOfItsNodes) {
 
 TEST(PoseGraph, IndexFindsPositionsOfAnyIds) {
   const auto index = make_graph({-5, 1'000'000'000'000, 3}, {}).index_by_id();
-  EXPECT_EQ(index.at(-5), 0);
-  EXPECT_EQ(index.at(1'000'000'000'000), 1);
-  EXPECT_EQ(index.at(3), 2);
+  EXPECT_EQ(index.at(NodeId(-5)), 0);
+  EXPECT_EQ(index.at(NodeId(1'000'000'000'000)), 1);
+  EXPECT_EQ(index.at(NodeId(3)), 2);
 }
 
 TEST(PoseGraph, ComponentsCountFromTheFirstNode) {
@@ -162,7 +164,7 @@ TEST(PoseGraph, ComponentsCountFromTheFirstNode) {
 
 TEST(PoseGraph, PositionsJoinNothing) {
   PoseGraph graph = make_graph({1, 2}, {});
-  for (const std::int64_t node : {1, 2}) {
+  for (const NodeId node : {NodeId(1), NodeId(2)}) {
     PositionConstraint gps;
     gps.node = node;
     graph.constraints.push_back(gps);
@@ -224,7 +226,7 @@ TEST(PoseGraph, OdometryIsIntegratedOnFromAFixedPoseWhichStays) {
   PoseGraph graph = make_graph({0, 1, 2}, {relative(0, 1), relative(1, 2)});
   for (Constraint& constraint : graph.constraints)
     std::get<RelativePoseConstraint>(constraint).T_from_to = SE3(SO3(), {1, 0, 0});
-  graph.nodes[1] = {1, SE3(SO3(), {5, 0, 0}), true};
+  graph.nodes[1] = {NodeId(1), SE3(SO3(), {5, 0, 0}), true};
   integrate_odometry(graph);
   EXPECT_EQ(position_of(graph, 1), Eigen::Vector3d(5, 0, 0));
   EXPECT_EQ(position_of(graph, 2), Eigen::Vector3d(6, 0, 0));

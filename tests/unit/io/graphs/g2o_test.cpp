@@ -29,7 +29,7 @@ TEST(G2o, ReadsAPlanarGraph) {
   const PoseGraph graph = read_g2o(folder.write("a.g2o", kPlanar));
   ASSERT_EQ(graph.nodes.size(), 2u);
   EXPECT_EQ(graph.kind(), PoseKind::kSE2);
-  EXPECT_EQ(graph.nodes[0].id, 5);
+  EXPECT_EQ(graph.nodes[0].id, NodeId(5));
   EXPECT_TRUE(graph.nodes[0].fixed);
   EXPECT_FALSE(graph.nodes[1].fixed);
   // T_world_node: a point one metre ahead of node 6, which looks along world y.

@@ -19,8 +19,8 @@ PlaceGraph three_places() {
   }
   graph.places[1].labels = {"a \"hall\" <wide>", "west & east"};
   RelativePoseConstraint loop;
-  loop.from = 2;
-  loop.to = 0;
+  loop.from = NodeId(2);
+  loop.to = NodeId(0);
   loop.source = ConstraintSource::kLoop;
   graph.constraints = {loop, loop};
   return graph;

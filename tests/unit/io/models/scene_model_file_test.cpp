@@ -18,7 +18,7 @@ DecisionForest small_forest(int classes) {
   forest.classes = classes;
   forest.dimension = 3;
   forest.roots = {0, 3};
-  forest.nodes = {{NodeId(2), 17, 2},
+  forest.nodes = {{2, 17, 2},
                   {DecisionForest::kLeaf, 0, 0},
                   {DecisionForest::kLeaf, 0, 1},
                   {DecisionForest::kLeaf, 0, 2}};

@@ -20,7 +20,7 @@ WordTree small_tree(WordTree::Kind kind) {
   WordTree tree;
   tree.kind = kind;
   tree.words = 2;
-  tree.nodes = {{NodeId(1), 2, -1}, {-1, 0, 0}, {-1, 0, 1}};
+  tree.nodes = {{1, 2, -1}, {-1, 0, 0}, {-1, 0, 1}};
   if (kind == WordTree::Kind::kBinary) {
     tree.bit_centres = {{}, {1, 2, 3, 4}, {5, 6, 7, 8}};
   } else {

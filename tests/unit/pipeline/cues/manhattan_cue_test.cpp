@@ -113,7 +113,7 @@ TEST(ManhattanCue, EdgesOfSeveralKeyframesBeginAManhattanFrame) {
   EXPECT_LT((R.matrix() - R.matrix().array().round().matrix()).norm(), 0.02);
   int along[3] = {0, 0, 0};
   for (const FrameView::DirectedLine& line : walk.cue.view())
-    if (line.axis >= 0) ++along[line.axis];
+    if (line.axis) ++along[*line.axis];
   EXPECT_GE(std::min({along[0] + along[1], along[1] + along[2], along[0] + along[2]}), 10);
 }
 
@@ -181,7 +181,7 @@ struct Turned {
     window.add_keyframe(KeyframeId(0), SE3());
     const SO3 R_odom_world = SO3::exp({0, 0.3, 0});
     window.add_world(ManhattanFrameId(7), R_odom_world);
-    heading.world = 7;
+    heading.world = ManhattanFrameId(7);
     heading.R_cam_world = (T_odom_cam.rotation() * SO3::exp(off)).inverse() * R_odom_world;
     heading.information = information * Eigen::Matrix3d::Identity();
   }
@@ -232,7 +232,7 @@ TEST(WithHeading, WithoutAHeadingOrItsManhattanFrameAPoseStays) {
   };
   EXPECT_GT(moved(turned.heading), 0.05);
   EXPECT_EQ(moved(std::nullopt), 0);
-  turned.heading.world = 8;
+  turned.heading.world = ManhattanFrameId(8);
   EXPECT_EQ(moved(turned.heading), 0);
 }
 

@@ -171,7 +171,7 @@ TEST(LineCompass, FewLinesPoseAFrameWhoseRotationIsSeen) {
     walk->keyframe(0, way(0));
     // Of every direction one or two are left.
     std::array<int, 3> kept{};
-    for (const std::int64_t id : walk->window.lines()) {
+    for (const LineId id : walk->window.lines()) {
       Eigen::Index axis = 0;
       walk->window.line(id)->direction().cwiseAbs().maxCoeff(&axis);
       if (++kept[static_cast<std::size_t>(axis)] > 2) walk->window.remove_line(id);

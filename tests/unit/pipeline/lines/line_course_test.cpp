@@ -16,7 +16,8 @@ using Eigen::Vector3d;
 struct Corridor {
   SlidingWindow window{{}, line_camera()};
   LineSightings sightings;
-  std::vector<DirectionCompass::Family> families{{Vector3d::UnitZ(), 1e-3, {1, 2, 3, 4}}};
+  std::vector<DirectionCompass::Family> families{
+      {Vector3d::UnitZ(), 1e-3, {LineId(1), LineId(2), LineId(3), LineId(4)}}};
 
   explicit Corridor(const Vector3d& way, const Vector3d& error = Vector3d::Zero(),
                     double roll_rad = 0) {
@@ -28,8 +29,9 @@ struct Corridor {
       const double x = i % 2 ? -1.5 : 1.5, y = i <= 2 ? -1 : 1;
       for (int k = 0; k < 2; ++k) {
         const LineTrack track =
-            track_of(i, k ? second : first, Vector3d(x, y, 6), Vector3d(x, y, 20));
-        sightings[i].push_back({KeyframeId(k), track.edge.line.carriers(0.1), std::nullopt});
+            track_of(LineId(i), k ? second : first, Vector3d(x, y, 6), Vector3d(x, y, 20));
+        sightings[LineId(i)].push_back(
+            {KeyframeId(k), track.edge.line.carriers(0.1), std::nullopt});
       }
     }
   }
@@ -84,7 +86,7 @@ TEST(LineCourse, AWayAcrossTheEdgesHoldsNothing) {
 
 TEST(LineCourse, LinesOfTheWindowAndLinesThatTurnedDoNotCount) {
   Corridor placed({0, 0, 1});
-  for (int i = 1; i <= 4; ++i) placed.window.add_line(i, Line3());
+  for (int i = 1; i <= 4; ++i) placed.window.add_line(LineId(i), Line3());
   EXPECT_TRUE(placed.course().empty());
   // The camera left the edges' direction by 30 cm: their planes turned by more than two degrees.
   EXPECT_TRUE(Corridor({0.3, 0, 2}, {-0.3, 0, 0}).course().empty());

@@ -28,7 +28,7 @@ Map two_places() {
     map.place_graph.places.push_back(place);
   }
   RelativePoseConstraint edge;
-  edge.from = 0, edge.to = 1;
+  edge.from = NodeId(0), edge.to = NodeId(1);
   edge.T_from_to = map.place_graph.places[1].T_map_place;
   edge.information = 100 * Matrix6d::Identity();
   edge.source = ConstraintSource::kOdometry;

@@ -63,7 +63,7 @@ TEST(PlaceLabeller, GivesEachPlaceWhatItsViewsSay) {
   EXPECT_GT(labels[0].probability, 0.8);
   EXPECT_EQ(labels[1].place, PlaceId(10));
   EXPECT_EQ(labels[1].label, 1);
-  EXPECT_EQ(labels[2].label, -1);  // without views
+  EXPECT_EQ(labels[2].label, std::nullopt);  // without views
   EXPECT_EQ(labels[2].views, 0);
 }
 
@@ -76,7 +76,7 @@ TEST(PlaceLabeller, LeavesAPlaceOfTwoMindsWithoutLabel) {
   const auto labels = label_places(
       three_places(), classifier, [&](const Keyframe&) { return view_of(view++ % 2, random); },
       options);
-  EXPECT_EQ(labels[0].label, -1);  // three views against two
+  EXPECT_EQ(labels[0].label, std::nullopt);  // three views against two
   EXPECT_LT(labels[0].probability, 0.7);
 }
 

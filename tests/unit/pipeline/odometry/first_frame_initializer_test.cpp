@@ -64,7 +64,7 @@ TEST(FirstFrameInitializer, AFrameWithoutSurfacesLeavesTheMapEmpty) {
   b.tracker.shows_a_keyframe = false;
   const Initialization waits = b.add(0);
   EXPECT_EQ(waits.state, TrackingState::kWaiting);
-  EXPECT_EQ(waits.reason, "no surface to begin with");
+  EXPECT_EQ(waits.outcome.reason, "no surface to begin with");
   EXPECT_FALSE(waits.is_reference);
   EXPECT_TRUE(b.map.empty());
   EXPECT_EQ(b.tracker.asked, (Calls{"see_first", "prepare", "reset"}));
@@ -76,7 +76,7 @@ TEST(FirstFrameInitializer, AKeyframeThatTheTrackerRefusesIsTakenBack) {
   b.tracker.begins = Outcome::failure(Outcome::Code::kTooFewData, "3 of 90 points");
   const Initialization waits = b.add(0);
   EXPECT_EQ(waits.state, TrackingState::kWaiting);
-  EXPECT_EQ(waits.reason, "3 of 90 points");
+  EXPECT_EQ(waits.outcome.reason, "3 of 90 points");
   EXPECT_TRUE(waits.keyframes.empty());
   EXPECT_TRUE(b.map.empty());
   EXPECT_TRUE(b.map.window().landmarks().empty());
@@ -96,14 +96,15 @@ TEST(FirstFrameInitializer, AFrameThatIsRecognizedStillBeginsWhereItWasToldTo) {
 }
 
 TEST(Initialization, IsAnUpdateOfTheOdometry) {
-  Initialization waits = Initialization::waiting("too dark");
+  Initialization waits =
+      Initialization::waiting(Outcome::failure(Outcome::Code::kTooFewData, "too dark"));
   waits.is_reference = true;
   waits.T_odom_reference = SE3(SO3(), Eigen::Vector3d(1, 2, 3));
   waits.rotation = PureRotation{SO3::exp({0, 0.1, 0}), Eigen::Matrix3d::Identity()};
   waits.posed = {{FrameId(3), SE3()}};
   const OdometryUpdate update = waits.update();
   EXPECT_EQ(update.state, TrackingState::kWaiting);
-  EXPECT_EQ(update.reason, "too dark");
+  EXPECT_EQ(update.outcome.reason, "too dark");
   EXPECT_TRUE(update.reference);
   EXPECT_EQ(update.T_odom_cam.translation(), Eigen::Vector3d(1, 2, 3));
   ASSERT_TRUE(update.rotation);

@@ -61,7 +61,7 @@ TEST(LineViewInitializer, AnEmptyFrameIsNothingToBeginWith) {
   const Initialization dark = b.add_dark(0);
   EXPECT_EQ(dark.state, TrackingState::kWaiting);
   EXPECT_FALSE(dark.is_reference);
-  EXPECT_NE(dark.reason.find("lines to follow"), std::string::npos);
+  EXPECT_NE(dark.outcome.reason.find("lines to follow"), std::string::npos);
   EXPECT_FALSE(b.initializer.started());
   EXPECT_TRUE(b.add(1).is_reference);
 }
@@ -70,7 +70,7 @@ TEST(LineViewInitializer, SeveralViewsOfLinesBeginAMap) {
   BoardsBeginning b;
   int last = 0;
   const Initialization begun = b.begin(0, &last);
-  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.outcome.reason;
   EXPECT_GE(last, 7);  // eight views are the fewest
   ASSERT_GE(begun.keyframes.size(), 3u);
   EXPECT_EQ(begun.keyframes.front().frame.id, FrameId(0));
@@ -126,7 +126,7 @@ TEST(LineViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   BoardsBeginning b(Scale::kFromMap);
   Initialization waits;
   int i = 0;
-  for (; i < kFrames && waits.reason != "nothing gives the map's unit"; ++i) {
+  for (; i < kFrames && waits.outcome.reason != "nothing gives the map's unit"; ++i) {
     waits = b.add(i);
     ASSERT_NE(waits.state, TrackingState::kTracking) << i;
   }
@@ -135,7 +135,7 @@ TEST(LineViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   Initialization begun;
   for (; i < kFrames && begun.state != TrackingState::kTracking; ++i)
     begun = b.add(i, b.T_odom_start * (way(0).inverse() * way(i)).scaled(kUnit));
-  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.outcome.reason;
   const double length = distance_m(b.map.pose(b.map.newest()), b.T_odom_start);
   EXPECT_NEAR(length / distance_m(way(i - 1), way(0)), kUnit, 0.05 * kUnit);
 }
@@ -159,7 +159,7 @@ TEST(LineViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
   (void)b.add(1);
   const Initialization lost = b.add_dark(2);
   EXPECT_EQ(lost.state, TrackingState::kLost);
-  EXPECT_FALSE(lost.reason.empty());
+  EXPECT_FALSE(lost.outcome.reason.empty());
   EXPECT_TRUE(b.map.empty());
 }
 
@@ -172,7 +172,7 @@ TEST(LineViewInitializer, ACameraThatStandsWaitsAndLeavesTheMapEmpty) {
     waits = b.initializer.add(still, {}, b.map, b.mapping);
     ASSERT_EQ(waits.state, TrackingState::kWaiting);
   }
-  EXPECT_FALSE(waits.reason.empty());
+  EXPECT_FALSE(waits.outcome.reason.empty());
   EXPECT_TRUE(b.map.empty());
   EXPECT_TRUE(b.map.window().lines().empty());
   EXPECT_EQ(b.map.median_depth(), LocalMap::kUnknownDepth);

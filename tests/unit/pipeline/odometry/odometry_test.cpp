@@ -47,7 +47,7 @@ TEST(Odometry, AStereoCameraBeginsWithTheFirstFrameAndFollowsTheStreet) {
   Street run(Sensor::kStereo, "points");
   for (int i = 0; i < 8; ++i) {
     const OdometryUpdate update = run.add(i);
-    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.reason;
+    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.outcome.reason;
     EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(i)), 0.03) << i;
     if (i == 0) EXPECT_EQ(update.new_keyframes.size(), 1u);
   }
@@ -60,7 +60,7 @@ TEST(Odometry, AnRgbdCameraBeginsWithTheFirstFrame) {
   Street run(Sensor::kRgbd, "points");
   for (int i = 0; i < 5; ++i) {
     const OdometryUpdate update = run.add(i);
-    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.reason;
+    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.outcome.reason;
     EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(i)), 0.03) << i;
   }
 }
@@ -123,7 +123,7 @@ TEST(Odometry, SurfacesAloneFollowTheGround) {
   Street run(Sensor::kStereo, "plane", kStreetHeight_m);
   for (int i = 0; i < 5; ++i) {
     const OdometryUpdate update = run.add(i);
-    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.reason;
+    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.outcome.reason;
     EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(i)), 0.1) << i;
   }
   EXPECT_FALSE(run.odometry.view().surfaces.empty());
@@ -136,10 +136,10 @@ TEST(Odometry, AFrameThatCannotBePosedLeavesTheTracksAsTheyWere) {
   dark.image = black();
   const OdometryUpdate lost = run.odometry.add_frame(dark);
   EXPECT_EQ(lost.state, TrackingState::kLost);
-  EXPECT_FALSE(lost.reason.empty());
+  EXPECT_FALSE(lost.outcome.reason.empty());
   EXPECT_TRUE(run.odometry.view().tracks.empty());
   const OdometryUpdate found = run.add(4);
-  ASSERT_EQ(found.state, TrackingState::kTracking) << found.reason;
+  ASSERT_EQ(found.state, TrackingState::kTracking) << found.outcome.reason;
   EXPECT_LT(error(found.T_odom_cam, street_T_world_cam(4)), 0.05);
 }
 
@@ -150,7 +150,7 @@ TEST(Odometry, AnEmptyFirstFrameIsNothingToBeginWith) {
     dark.image = black();
     const OdometryUpdate nothing = run.odometry.add_frame(dark);
     EXPECT_EQ(nothing.state, TrackingState::kWaiting);
-    EXPECT_FALSE(nothing.reason.empty());
+    EXPECT_FALSE(nothing.outcome.reason.empty());
     EXPECT_FALSE(nothing.reference);
     EXPECT_FALSE(run.odometry.started());
     EXPECT_TRUE(run.odometry.map().empty());

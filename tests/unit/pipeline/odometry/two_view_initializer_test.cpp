@@ -56,7 +56,7 @@ TEST(TwoViewInitializer, TwoViewsWithParallaxBeginAMap) {
   StreetBeginning b(drive());
   (void)b.add(0);
   const Initialization begun = b.add(1);
-  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.outcome.reason;
   ASSERT_EQ(begun.keyframes.size(), 2u);
   EXPECT_EQ(begun.keyframes[0].frame.id, FrameId(0));
   EXPECT_EQ(begun.keyframes[1].frame.id, FrameId(1));
@@ -105,7 +105,7 @@ TEST(TwoViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   (void)b.add(0);
   const Initialization waits = b.add(1);
   EXPECT_EQ(waits.state, TrackingState::kWaiting);
-  EXPECT_EQ(waits.reason, "nothing gives the map's unit");
+  EXPECT_EQ(waits.outcome.reason, "nothing gives the map's unit");
   EXPECT_TRUE(b.map.empty());
   const SE3 T_known = b.T_odom_start * pose({0, 0, 0}, {0, 0, 4});
   ASSERT_EQ(b.add(2, T_known).state, TrackingState::kTracking);
@@ -156,7 +156,7 @@ TEST(TwoViewInitializer, FramesFromBeforeAReferenceThatRotatedOutOfViewArePosed)
       EXPECT_TRUE(begun.rotation) << i;
     }
   }
-  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.outcome.reason;
   ASSERT_GT(reference, 1);
   std::map<FrameId, SE3> posed;  // later ones are better
   for (const PosedFrame& frame : begun.posed) posed[frame.first] = frame.second;
@@ -187,7 +187,7 @@ TEST(TwoViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
   (void)b.add(0);
   const Initialization lost = b.add_dark(1);
   EXPECT_EQ(lost.state, TrackingState::kLost);
-  EXPECT_NE(lost.reason.find("points of the first view are left"), std::string::npos);
+  EXPECT_NE(lost.outcome.reason.find("points of the first view are left"), std::string::npos);
   EXPECT_TRUE(b.map.empty());
 }
 

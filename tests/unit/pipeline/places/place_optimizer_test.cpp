@@ -10,15 +10,15 @@ namespace {
 using namespace test;
 using Kind = PlaceConstraint::Kind;
 
-PoseNode node(std::int64_t place, const SE3& T_map_place = SE3()) {
-  return {place, Pose(T_map_place), false};
+PoseNode node(int place, const SE3& T_map_place = SE3()) {
+  return {NodeId(place), Pose(T_map_place), false};
 }
 
 PlaceConstraint constraint(Kind kind, std::int64_t number, std::int64_t from, std::int64_t to,
                            const SE3& T_from_to, double sigma_m = 0.1) {
   RelativePoseConstraint measured;
-  measured.from = from;
-  measured.to = to;
+  measured.from = NodeId(from);
+  measured.to = NodeId(to);
   measured.T_from_to = Pose(T_from_to);
   measured.information = information_of(sigma_m, 0.1 * sigma_m);
   return {{kind, number}, measured};
@@ -127,11 +127,11 @@ TEST_F(PlaceOptimizerTest, ResettingForgetsPlacesAndConstraints) {
 TEST_F(PlaceOptimizerTest, PlacesOfUnknownScaleAreSimilarities) {
   const Sim3 S_0_1(SO3(), Eigen::Vector3d(0, 0, 1), 2);
   RelativePoseConstraint link;
-  link.from = 0;
-  link.to = 1;
+  link.from = NodeId(0);
+  link.to = NodeId(1);
   link.T_from_to = Pose(S_0_1);
   link.information = Matrix7d::Identity() * 100;
-  (void)optimizer.begin({{0, Pose(Sim3()), false}, {1, Pose(Sim3()), false}},
+  (void)optimizer.begin({{NodeId(0), Pose(Sim3()), false}, {NodeId(1), Pose(Sim3()), false}},
                         {{{Kind::kLink, 1}, link}});
   EXPECT_EQ(optimizer.kind(), PoseKind::kSim3);
   (void)optimizer.finish();

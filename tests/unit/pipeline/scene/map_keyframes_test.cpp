@@ -36,7 +36,7 @@ Map two_places(bool scaled = false) {
 }
 void join(Map& map) {
   RelativePoseConstraint edge;
-  edge.from = 0, edge.to = 10;
+  edge.from = NodeId(0), edge.to = NodeId(10);
   edge.T_from_to = SE3();
   edge.information = Matrix6d::Identity();
   map.place_graph.constraints.push_back(edge);

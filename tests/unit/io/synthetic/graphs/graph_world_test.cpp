@@ -16,6 +16,10 @@ template <class Group>
 const Group& pose(const PoseGraph& graph, std::size_t i) {
   return std::get<Group>(graph.nodes[i].T_world_node);
 }
+template <class Group>
+const Group& pose(const PoseGraph& graph, NodeId id) {
+  return pose<Group>(graph, static_cast<std::size_t>(id.value()));
+}
 
 /// The odometry agrees with the start: that is how it was made.
 template <class Group>
@@ -67,7 +71,7 @@ TEST(GraphWorld, ALongLoopHasItsClosuresWhereItIsDrivenAgain) {
     for (const Constraint& constraint : graph.constraints) {
       const auto& edge = std::get<RelativePoseConstraint>(constraint);
       if (edge.source == ConstraintSource::kLoop) {
-        EXPECT_EQ(edge.to - edge.from, 200);
+        EXPECT_EQ(edge.to.value() - edge.from.value(), 200);
       }
     }
   }

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/linear/front_assembly.h>
-#include <placegraph/backend/internal/linear/front_covariance.h>
-#include <placegraph/backend/internal/linear/front_kernels.h>
+#include <placegraph/backend/internal/elimination/front_assembly.h>
+#include <placegraph/backend/internal/elimination/front_covariance.h>
+#include <placegraph/backend/internal/elimination/front_kernels.h>
 
-#include "random_system.h"
+#include "tests/support/random_system.h"
 
 namespace placegraph {
 namespace {

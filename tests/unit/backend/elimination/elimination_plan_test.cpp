@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/linear/elimination_plan.h>
+#include <placegraph/backend/internal/elimination/elimination_plan.h>
 
 #include <algorithm>
 #include <random>

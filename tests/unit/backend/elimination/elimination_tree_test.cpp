@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/internal/linear/elimination_tree.h>
+#include <placegraph/backend/internal/elimination/elimination_tree.h>
 
 #include <algorithm>
 
-#include "random_system.h"
+#include "tests/support/random_system.h"
 
 namespace placegraph {
 namespace {
