@@ -6,10 +6,10 @@ foreach(folder graph frontend backend io eval pipeline)
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${PLACEGRAPH_INCLUDE_DIR}/placegraph/${folder} SYMBOLIC)
 endforeach()
 
-# Eigen aligns its types by what instructions a source is compiled for; types that cross the library's
-# boundary must be aligned alike on both sides, so who uses the library aligns as it does. (graph/geometry/so3.h
-# asserts it.)
-set(PLACEGRAPH_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=16)
+# Eigen aligns its types, and allocates, by what instructions a source is compiled for. Types that cross the
+# library's boundary must be alike on both sides, so who uses the library takes what every processor offers: 16
+# bytes, as malloc aligns. (graph/geometry/so3.h asserts it.)
+set(PLACEGRAPH_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
 
 # The header of all doors stands beside the folders.
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/pipeline/placegraph.h ${PLACEGRAPH_INCLUDE_DIR}/placegraph/placegraph.h SYMBOLIC)

@@ -20,6 +20,9 @@ enum class PoseGraphStart {
 };
 
 /// The robust cost that graduated non-convexity approaches.
+/// "auto", "file", "odometry", ...: the names of the options' values.
+const char* to_string(PoseGraphStart start);
+
 enum class GncSurrogate { kTruncated, kGemanMcClure };
 
 /// The schedule of graduated non-convexity (Yang et al. 2020).

@@ -4,8 +4,9 @@
 
 // The library's own alignment, which the targets of its CMake package hand on: a program whose
 // Eigen types are aligned otherwise (by -mavx) would disagree with it on their layout.
-static_assert(EIGEN_MAX_ALIGN_BYTES == 16,
-              "compile with -DEIGEN_MAX_ALIGN_BYTES=16, as the targets placegraph::* do");
+static_assert(EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MALLOC_ALREADY_ALIGNED == 1,
+              "compile with -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1, as the "
+              "targets placegraph::* do");
 
 namespace [[gnu::visibility("default")]] placegraph {
 

@@ -20,12 +20,12 @@ for _ in range(11):
 print(f"{1e3 * sorted(spans)[5]:.1f} {resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024:.1f}")
 PY
 }
-behind=$(g++ -std=c++20 -DEIGEN_MAX_ALIGN_BYTES=16 -I"$include" -I/usr/include/eigen3 -I/usr/include/opencv4 -M \
+behind=$(g++ -std=c++20 -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1 -I"$include" -I/usr/include/eigen3 -I/usr/include/opencv4 -M \
   "$include/placegraph/pipeline/slam.h" | tr ' ' '\n' | grep -c "$include/placegraph/")
 compiled=$(for k in 1 2 3 4 5; do
   python3 - "$include" << 'PY'
 import resource, subprocess, sys
-subprocess.run(["g++", "-std=c++20", "-O2", "-DEIGEN_MAX_ALIGN_BYTES=16", f"-I{sys.argv[1]}", "-isystem", "/usr/include/eigen3",
+subprocess.run(["g++", "-std=c++20", "-O2", "-DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1", f"-I{sys.argv[1]}", "-isystem", "/usr/include/eigen3",
                 "-c", "tests/install/optimize_only.cpp", "-o", "/dev/null"], check=True)
 usage = resource.getrusage(resource.RUSAGE_CHILDREN)
 print(usage.ru_utime + usage.ru_stime)

@@ -3,6 +3,8 @@
 // How the tiny image stands zoom and shift: bench_place_study FOLDER --robustness
 #include <fmt/format.h>
 #include <placegraph/eval/internal/plots/growth_plot.h>
+#include <placegraph/frontend/internal/places/cues/cue_grid.h>
+#include <placegraph/frontend/internal/places/place_view.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
 #include <placegraph/graph/internal/core/random.h>

@@ -18,8 +18,8 @@ FILES = {
 PLANTED = (
     ("README.md", "See `io/files/`.", "no such file or folder: io/files/"),
     ("README.md", "See `scripts/demos`.", "no such file or folder: scripts/demos"),
-    ("README.md", "See `io/internal/graphs/toro.cpp`.", "no such file or folder: io/internal/graphs/toro.cpp"),
-    ("README.md", "See `io/graphs/{g2o,isam}.h`.", "no such file or folder: io/internal/graphs/isam.h"),
+    ("README.md", "See `io/graphs/toro.cpp`.", "no such file or folder: io/graphs/toro.cpp"),
+    ("README.md", "See `io/graphs/{g2o,isam}.h`.", "no such file or folder: io/graphs/isam.h"),
     ("README.md", "See `io/graphs/*.txt`.", "no such file or folder: io/graphs/*.txt"),
     ("README.md", "See `eval/<name>`.", "no such file or folder: eval/<name>"),
     ("README.md", "See `G2o::write`.", "no such name in the sources: write"),

@@ -4,8 +4,6 @@
 
 namespace placegraph {
 
-const char* to_string(PoseGraphStart start);
-
 /// Sets the poses to a start; kAuto and kFile leave them.
 template <class Group>
 void set_start(PackedGraph<Group>& graph, PoseGraphStart start, RotationError rotation_error);

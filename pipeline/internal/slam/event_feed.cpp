@@ -34,7 +34,10 @@ void EventFeed::places_changed(const PlaceMapper& mapper) {
   for (const auto& [id, before] : places_) {
     const auto place = now.find(id);
     if (place == now.end()) {
-      events_->places_merged({mapper.place_of(before.anchor), id});
+      const PlaceId kept = mapper.place_of(before.anchor);
+      events_->places_merged({kept, id});
+      if (const int into = now.at(kept).component; into != before.component)
+        joined.emplace(before.component, into);
       continue;
     }
     if (place->second.component != before.component)

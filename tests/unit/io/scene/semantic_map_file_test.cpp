@@ -80,7 +80,8 @@ TEST_F(SemanticMapFile, RefusesWhatIsCutOffOrAnother) {
 }
 
 TEST_F(SemanticMapFile, CountsClassesAndWhatPlacesSee) {
-  const json document = json::parse(to_json(road_with_a_tree(), {{PlaceId(3), {0.25F, 0.75F}}, {PlaceId(4), {}}}));
+  const json document =
+      json::parse(to_json(road_with_a_tree(), {{PlaceId(3), {0.25F, 0.75F}}, {PlaceId(4), {}}}));
   EXPECT_EQ(document["classes"][0]["cells"], 11);
   EXPECT_EQ(document["classes"][1]["area_m2"], 0.25);
   EXPECT_EQ(document["unknown_cells"], 1);

@@ -102,10 +102,24 @@ TEST(EventFeed, TellsThatASubMapHasJoinedAnother) {
   mapper.add_keyframe(KeyframeId(2), std::nullopt, {}, kDepth_m);
   feed.places_changed(mapper);
   EXPECT_THAT(heard.news(), ElementsAre("place 0 0", "place 1 1", "place 2 2"));
-  mapper.add_loop(loop(2, 0, kLong, 0.01, 0.001));
+  mapper.add_loop(loop(2, 0, kLong * kLong, 0.01, 0.001));
   optimized(mapper);
   feed.places_changed(mapper);
   EXPECT_THAT(heard.news(), ElementsAre("joined 1 0", "moved"));
+}
+
+TEST(EventFeed, TellsThatASubMapHasJoinedAnotherWhereItsOnlyPlaceIsMerged) {
+  Heard heard;
+  EventFeed feed(&heard);
+  PlaceMapper mapper({});
+  mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
+  mapper.add_keyframe(KeyframeId(1), std::nullopt, {}, kDepth_m);
+  feed.places_changed(mapper);
+  heard.news();
+  mapper.add_loop(loop(1, 0, SE3(), 0.01, 0.001));
+  optimized(mapper);
+  feed.places_changed(mapper);
+  EXPECT_THAT(heard.news(), ElementsAre("merged 0 1", "joined 1 0"));
 }
 
 LoopRecord record(std::int64_t query, std::int64_t match, LoopStage stage) {

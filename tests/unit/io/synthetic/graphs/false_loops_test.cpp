@@ -48,8 +48,8 @@ TEST(FalseLoops, AreMeasuredLikeTrueOnesBetweenPosesThatStandApart) {
   for (std::size_t i = 11; i < 211; ++i) {
     const RelativePoseConstraint& loop = edge_of(graph, i);
     EXPECT_EQ(loop.source, ConstraintSource::kLoop);
-    EXPECT_GE(loop.to.value() - loop.from.value(),
-              2);  // a metre is more than 0.9 m, but that would be odometry
+    // A metre is more than 0.9 m, but that would be odometry.
+    EXPECT_GE(loop.to.value() - loop.from.value(), 2);
     const double said_m = std::get<SE2>(loop.T_from_to).translation()[0];
     EXPECT_EQ(loop.information(0, 0), said_m);
     over_two |= said_m == 2;
