@@ -1,19 +1,35 @@
 include(CMakePackageConfigHelpers)
 
-get_property(libraries GLOBAL PROPERTY PLACEGRAPH_LIBRARIES)
-add_library(placegraph_all INTERFACE)
-add_library(placegraph::placegraph ALIAS placegraph_all)
-set_target_properties(placegraph_all PROPERTIES EXPORT_NAME placegraph)
-target_link_libraries(placegraph_all INTERFACE ${libraries})
-
-install(TARGETS ${libraries} placegraph_all EXPORT placegraphTargets)
+# Programs name the libraries they need (placegraph::graph, placegraph::slam ...), whether these are static or all
+# one shared library.
+if(BUILD_SHARED_LIBS)
+  set(installed placegraph_all)
+  foreach(library IN LISTS PLACEGRAPH_STATIC_LIBRARIES)
+    get_target_property(name ${library} EXPORT_NAME)
+    add_library(${library}_shared INTERFACE)
+    set_target_properties(${library}_shared PROPERTIES EXPORT_NAME ${name})
+    target_link_libraries(${library}_shared INTERFACE placegraph_all)
+    list(APPEND installed ${library}_shared)
+  endforeach()
+else()
+  set(installed ${PLACEGRAPH_STATIC_LIBRARIES} placegraph_all)
+  list(REMOVE_ITEM installed placegraph_graph placegraph_backend)
+  install(TARGETS placegraph_graph placegraph_backend EXPORT placegraphBackendTargets)
+  install(EXPORT placegraphBackendTargets NAMESPACE placegraph:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)
+endif()
+install(TARGETS ${installed} EXPORT placegraphTargets)
 install(EXPORT placegraphTargets NAMESPACE placegraph:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)
 install(TARGETS placegraph_cli)
+install(TARGETS placegraph_opencv_plugin LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/placegraph)
 install(DIRECTORY configs/models DESTINATION ${CMAKE_INSTALL_DATADIR}/placegraph)
 foreach(folder graph frontend backend io eval pipeline)
-  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/placegraph FILES_MATCHING PATTERN "*.h")
+  install(DIRECTORY ${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/placegraph
+    FILES_MATCHING PATTERN "*.h" PATTERN internal EXCLUDE PATTERN placegraph.h EXCLUDE)
 endforeach()
+install(FILES pipeline/placegraph.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/placegraph)
+set(PLACEGRAPH_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/placegraph)
 configure_package_config_file(cmake/placegraphConfig.cmake.in ${CMAKE_BINARY_DIR}/placegraphConfig.cmake
+  PATH_VARS PLACEGRAPH_PLUGIN_DIR
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/placegraphConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/placegraphConfig.cmake ${CMAKE_BINARY_DIR}/placegraphConfigVersion.cmake

@@ -6,6 +6,14 @@ foreach(folder graph frontend backend io eval pipeline)
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${PLACEGRAPH_INCLUDE_DIR}/placegraph/${folder} SYMBOLIC)
 endforeach()
 
+# Eigen aligns its types, and allocates, by what instructions a source is compiled for. Types that cross the
+# library's boundary must be alike on both sides, so who uses the library takes what every processor offers: 16
+# bytes, as malloc aligns. (graph/geometry/so3.h asserts it.)
+set(PLACEGRAPH_EIGEN_ALIGNMENT EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
+
+# The header of all doors stands beside the folders.
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/pipeline/placegraph.h ${PLACEGRAPH_INCLUDE_DIR}/placegraph/placegraph.h SYMBOLIC)
+
 # GCC takes fixed-size Eigen decompositions for uninitialized wherever it inlines them.
 function(placegraph_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor
@@ -62,16 +70,17 @@ endfunction()
 
 # placegraph_library(name SOURCES ... [PUBLIC targets] [PRIVATE targets]
 #                    [PRECOMPILE headers | PRECOMPILED_BY library])
-# makes placegraph_<name>, alias placegraph::<name>. PRECOMPILED_BY takes the precompiled headers of another
+# makes the static library placegraph_<name>, alias placegraph::<name>. PRECOMPILED_BY takes the precompiled headers of another
 # library, whose options must be the same.
 function(placegraph_library name)
   cmake_parse_arguments(ARG "" "PRECOMPILED_BY" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   set(target placegraph_${name})
-  add_library(${target} ${ARG_SOURCES})
+  add_library(${target} STATIC ${ARG_SOURCES})
   add_library(placegraph::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION 0)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PLACEGRAPH_INCLUDE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_definitions(${target} PUBLIC ${PLACEGRAPH_EIGEN_ALIGNMENT})
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   placegraph_compile_options(${target})
   placegraph_unity(${target})

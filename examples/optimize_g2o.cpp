@@ -1,36 +1,37 @@
-// Optimizes a pose graph: optimize_g2o IN.g2o OUT.g2o
+// Optimizes a pose graph whose loops may be false: optimize_g2o IN.g2o OUT.g2o
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/graphs/g2o.h>
 
 #include <cstdio>
 
-int main(int argc, char** argv) {
+using namespace placegraph;
+
+int main(int argc, char** argv) try {
   if (argc != 3) {
-    std::fprintf(stderr, "usage: optimize_g2o IN.g2o OUT.g2o\n");
+    std::fprintf(stderr, "usage: %s IN.g2o OUT.g2o\n", argv[0]);
     return 2;
   }
-  try {
-    placegraph::PoseGraph graph = placegraph::read_g2o(argv[1]);
-    for (placegraph::Constraint& constraint : graph.constraints) {
-      // A false loop must not bend the map: let the far ones go.
-      auto* relative = std::get_if<placegraph::RelativePoseConstraint>(&constraint);
-      if (relative && relative->source == placegraph::ConstraintSource::kLoop)
-        relative->kernel = {placegraph::RobustKernel::Kind::kDcs, 3.0};
-    }
-    placegraph::PoseGraphOptions options;
-    options.rotation_error = placegraph::RotationError::kQuaternion;  // as g2o counts
-    const placegraph::PoseGraphReport report = placegraph::optimize_pose_graph(graph, options);
-    std::printf("%zu nodes, %zu constraints: chi2 %g -> %g in %d iterations\n", graph.nodes.size(),
-                graph.constraints.size(), report.chi2_initial, report.chi2_final,
-                report.iterations);
-    if (!report.outcome) {
-      std::fprintf(stderr, "no optimum: %s\n", report.outcome.reason.c_str());
-      return 1;
-    }
-    placegraph::write_g2o(argv[2], report.graph);
-  } catch (const placegraph::Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 2;
+  const PoseGraph graph = read_g2o(argv[1]);
+  PoseGraphOptions options;
+  options.rotation_error = RotationError::kQuaternion;  // as g2o counts
+  options.robust.method = RobustMethod::kAuto;          // finds out which loops are false
+  const PoseGraphReport report = optimize_pose_graph(graph, options);
+  if (!report.outcome) {
+    std::fprintf(stderr, "no optimum: %s\n", report.outcome.reason.c_str());
+    return 1;
   }
+  std::printf("%zu nodes, %zu edges: chi2 %g -> %g in %d iterations\n", graph.nodes.size(),
+              graph.constraints.size(), report.chi2_initial, report.chi2_final, report.iterations);
+  for (const RejectedEdge& edge : report.rejected) {
+    const auto& loop = std::get<RelativePoseConstraint>(
+        graph.constraints[static_cast<std::size_t>(edge.constraint)]);
+    std::printf("false loop from %lld to %lld: %s\n", static_cast<long long>(loop.from.value()),
+                static_cast<long long>(loop.to.value()), edge.reason.c_str());
+  }
+  write_g2o(argv[2], report.graph);
+  return 0;
+} catch (const Error& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
 }

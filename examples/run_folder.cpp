@@ -1,9 +1,6 @@
-/// Runs the system over a recorded sequence, frame by frame as a robot would, prints where the
-/// camera is and writes the trajectory: run_folder SEQUENCE OUT.tum
-#include <placegraph/graph/core/error.h>
-#include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/trajectories/trajectory_file.h>
-#include <placegraph/pipeline/slam.h>
+// Runs a recorded sequence or a folder of images, frame by frame as a robot would, and writes the
+// trajectory: run_folder SEQUENCE OUT.tum
+#include <placegraph/placegraph.h>
 
 #include <cstdio>
 
@@ -22,10 +19,9 @@ int main(int argc, char** argv) try {
     const FrameResult result = slam.add_frame(dataset->frame(i, sensor));
     if (result.T_map_cam) {
       const Eigen::Vector3d& p = result.T_map_cam->translation();
-      std::printf("frame %zu: %.3f %.3f %.3f m%s\n", i, p.x(), p.y(), p.z(),
-                  result.loops_accepted > 0 ? ", a known place" : "");
+      std::printf("frame %zu: %.3f %.3f %.3f m\n", i, p.x(), p.y(), p.z());
     } else {
-      std::printf("frame %zu: no pose\n", i);
+      std::printf("frame %zu: no pose: %s\n", i, result.outcome.reason.c_str());
     }
   }
   const Map map = slam.finish();

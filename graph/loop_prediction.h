@@ -1,16 +1,17 @@
 #pragma once
-#include <cstdint>
+#include <placegraph/graph/core/ids.h>
+
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What a place recognizer says of one image: that it shows what an older one showed.
+/// A place recognizer's claim that an image shows the same place as an older one.
 struct LoopPrediction {
-  std::int64_t query = 0;
-  std::int64_t candidate = 0;
+  FrameId query;      ///< the image
+  FrameId candidate;  ///< the older image
   double score = 0;   ///< larger is surer, comparable over all queries
-  std::string stage;  ///< that rejected it, or "accepted", where the recognizer says so
-  int line = 0;       ///< of the file it was read from
+  std::string stage;  ///< the test that refused it, or "accepted"; empty where it is not known
+  int line = 0;       ///< of the file that it was read from; 0 if it was not read
 };
 
 }  // namespace placegraph

@@ -1,27 +1,43 @@
 #pragma once
-#include <placegraph/graph/loop_model.h>
 
-namespace placegraph {
+#include <optional>
+#include <string_view>
 
-/// How far a loop candidate came: the test that refused it, or kAccepted. In the order of the
-/// tests.
-enum class LoopStage {
-  kRetrieval,   ///< the views are not similar enough
-  kReach,       ///< by odometry the two views are too far apart for any loop between them
-  kGeometry,    ///< no relative pose that the features agree with
-  kDrift,       ///< odometry cannot have drifted to the relative pose that was found
-  kCovariance,  ///< the map is too sure of another relative pose
-  kSupport,     ///< no second loop agrees (yet)
-  kAccepted,
+namespace [[gnu::visibility("default")]] placegraph {
+
+/// The geometric model by which the relative pose of a loop was found.
+enum class LoopModel {
+  kNone,        ///< it was not looked for, or not found
+  kPoints3d2d,  ///< points of known depth in one keyframe, pixels in the other
+  kEssential,   ///< pixels in both; a few known depths give the length of the translation
+  kHomography,  ///< the same for points on one plane
 };
+
+/// The name of a model in files: "none", "3d2d", "essential" or "homography".
+const char* to_string(LoopModel model);
+/// The model of a name; nothing for any other text.
+std::optional<LoopModel> loop_model(std::string_view name);
+
+/// The test that refused a loop candidate, or kAccepted, in the order of the tests.
+enum class LoopStage {
+  kRetrieval,   ///< the images are not similar enough
+  kReach,       ///< by odometry the two keyframes are too far apart for any loop between them
+  kGeometry,    ///< no relative pose that the features agree with
+  kDrift,       ///< the relative pose differs from that of the odometry by more than its drift
+  kCovariance,  ///< the relative pose contradicts that of the map, given the map's covariance
+  kSupport,     ///< no second loop agrees (yet)
+  kAccepted,    ///< the loop became a constraint of the map
+};
+/// Number of stages.
 inline constexpr int kLoopStageCount = static_cast<int>(LoopStage::kAccepted) + 1;
 
-/// As files have it: "retrieval", "drift", "geometry", "drift", "covariance", "support",
-/// "accepted". Both tests by odometry are called "drift": kReach is judged before a relative pose
-/// is sought and kDrift afterwards.
+/// The name of a stage in files.
+/// In the order of LoopStage: "retrieval", "drift", "geometry", "drift", "covariance", "support",
+/// "accepted". Both tests by odometry are called "drift": kReach is tested before a relative pose
+/// is computed, kDrift afterwards.
 const char* to_string(LoopStage stage);
-/// The stage of a loop that was found by `model`, which tells the two that are called "drift"
-/// apart; nothing for an unknown name.
+/// The stage of a name; nothing for any other text.
+/// `model` tells the two stages that are called "drift" apart: with kNone it is kReach.
 std::optional<LoopStage> loop_stage(std::string_view name, LoopModel model);
 
 }  // namespace placegraph

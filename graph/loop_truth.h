@@ -1,26 +1,27 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
+
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Which images show the place of one image, among the candidates first..last.
+/// The true matches of one image among the candidates first..last.
 struct LoopQuery {
-  std::int64_t first = 0;
-  std::int64_t last = std::numeric_limits<std::int64_t>::max();
-  std::vector<std::int64_t> matches;  ///< ascending; empty: any detection is false
+  FrameId first;                      ///< first candidate
+  FrameId last = FrameId::highest();  ///< last candidate
+  std::vector<FrameId> matches;       ///< ascending; empty: any detection is false
 };
 
-/// Which images of a set show the same place.
+/// Ground truth of place recognition: which images of a sequence show the same place.
 struct LoopTruth {
-  std::map<std::int64_t, LoopQuery> queries;
-  /// Whether images that are not listed have no true match (so that any detection there is false);
-  /// else they are not judged.
+  std::map<FrameId, LoopQuery> queries;  ///< by the image that is looked up
+  /// Whether images that are not listed have no true match, so that any detection there is false;
+  /// else detections there are not judged.
   bool unlisted_have_none = false;
-  /// Candidates younger than this are neither hits nor misses [images]; 0: the queries' ranges
-  /// alone say who is a candidate.
+  /// Candidates less than this many images before the query are neither hits nor misses. 0: the
+  /// ranges of the queries alone define the candidates.
   std::int64_t min_age = 0;
 };
 

@@ -1,33 +1,34 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 #include <placegraph/graph/place_history.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What a map in the making has gained, and what has changed in it, since it was last asked.
+/// What has been added to a map under construction, or changed in it, since the last call.
 struct MapChanges {
-  /// A constraint of the place graph that is new, has changed, or (without value) is gone. Keys
-  /// order the constraints and last for as long as they exist.
+  /// A constraint of the place graph that is new, has changed or, without a value, is gone.
+  /// (kind, number) identifies it for as long as it exists and orders the constraints.
   struct ConstraintChange {
-    int kind = 0;
-    std::int64_t number = 0;
-    std::optional<RelativePoseConstraint> constraint;
+    int kind = 0;                                      ///< first part of its key
+    std::int64_t number = 0;                           ///< second part of its key
+    std::optional<RelativePoseConstraint> constraint;  ///< as it is now; nothing: it is gone
   };
 
-  std::vector<Place> places;  ///< all, with their members, without appearances
-  std::vector<std::pair<std::int64_t, Appearance>> appearances;  ///< new or changed, by place
-  std::vector<ConstraintChange> constraints;
-  /// New, or their features have changed; their view is empty where it has not. The places of the
-  /// others stand in `places`.
+  std::vector<Place> places;  ///< all of the map, with their members, without appearances
+  std::vector<std::pair<PlaceId, Appearance>> appearances;  ///< new or changed ones
+  std::vector<ConstraintChange> constraints;                ///< new, changed or removed ones
+  /// Those that are new or whose features have changed; their view is empty if it has not changed.
+  /// The places of all others stand in `places`.
   std::vector<Keyframe> keyframes;
-  std::size_t first_frame = 0;  ///< frames and poses online before it are as they were
-  std::vector<FrameRecord> frames;
-  std::vector<StampedPose> online;
-  std::size_t first_landmark = 0;  ///< as above
-  std::vector<PointLandmark> landmarks;
-  std::vector<LoopRecord> loops;  ///< all
-  PlaceHistory history;           ///< the whole
-  bool metric = false;
+  std::size_t first_frame = 0;      ///< frames and online poses before this position are unchanged
+  std::vector<FrameRecord> frames;  ///< from `first_frame` on
+  std::vector<StampedPose> online;  ///< T_map_cam from `first_frame` on
+  std::size_t first_landmark = 0;   ///< landmarks before this position are unchanged
+  std::vector<PointLandmark> landmarks;  ///< from `first_landmark` on
+  std::vector<LoopRecord> loops;         ///< all of the map
+  PlaceHistory history;                  ///< all of the map
+  bool metric = false;                   ///< whether the map's unit of length is the metre now
 };
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop.h>
 #include <placegraph/graph/pose_graph/constraint.h>
 
@@ -7,64 +8,70 @@
 #include <set>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// The motion to a keyframe from the one before it in the same run of tracking, or from where the
-/// run hangs on an earlier one.
+/// The measured motion to a keyframe from an earlier one.
+/// Within a track segment that is the keyframe before; the first keyframe of a segment may be
+/// linked to any earlier one, by which the segment is joined to the map.
 struct KeyframeLink {
-  std::int64_t from = 0;
-  SE3 T_from_this;  ///< in the unit of `from`
-  Matrix6d information = Matrix6d::Zero();
-  ConstraintSource source = ConstraintSource::kOdometry;
-  double sigma_log_scale = 0;  ///< how far the unit of length may have changed
-  double scale = 1;            ///< length at `from` of one unit at this keyframe
+  KeyframeId from;                                        ///< the earlier keyframe
+  SE3 T_from_this;                                        ///< in the unit of length of `from`
+  Matrix6d information = Matrix6d::Zero();                ///< of T_from_this in its right tangent
+  ConstraintSource source = ConstraintSource::kOdometry;  ///< kOdometry within a track segment
+  /// Standard deviation of the logarithm by which the unit of length changed on the way.
+  double sigma_log_scale = 0;
+  double scale = 1;  ///< length at `from` of one unit of length at this keyframe
 };
 
-/// How the places of a map came about, beyond what its PlaceGraph says of the outcome: what a run
-/// that goes on has to know.
+/// How the places of a map came about: what a resumed run needs beyond the map itself.
 struct PlaceHistory {
+  /// A keyframe and its link to an earlier one.
   struct Keyframe {
-    std::int64_t id = 0;
-    std::int64_t part = 0;  ///< anchor of the stretch of keyframes that it belongs to
-    int run = 0;            ///< of tracking
-    std::optional<KeyframeLink> link;
+    KeyframeId id;                     ///< of the keyframe
+    KeyframeId part;                   ///< anchor of the part that it belongs to
+    int run = 0;                       ///< number of its track segment, from 0
+    std::optional<KeyframeLink> link;  ///< nothing where a component began
   };
   /// A stretch of keyframes within reach of its first one, the anchor.
   struct Part {
-    std::int64_t anchor = 0, place = 0;
-    Sim3 S_place_part;
-    Matrix7d covariance = Matrix7d::Zero();     ///< of that, in its right tangent
+    KeyframeId anchor;                          ///< identifies the part
+    PlaceId place;                              ///< the place that it belongs to
+    Sim3 S_place_part;                          ///< identity if the part founded the place
+    Matrix7d covariance = Matrix7d::Zero();     ///< of S_place_part in its right tangent
     std::optional<Matrix6d> motion_covariance;  ///< of the motion from the previous anchor
   };
+  /// What is kept of a place besides its parts.
   struct Place {
-    std::int64_t id = 0;
-    double reach = 0;  ///< in its own unit
-    std::int64_t last_keyframe = 0;
+    PlaceId id;                ///< as in the place graph
+    double reach = 0;          ///< radius within which keyframes join it, in its unit of length
+    KeyframeId last_keyframe;  ///< its latest member
   };
-  /// Between two anchors, by other sensors.
+  /// A motion between two anchors that another sensor measured.
   struct Motion {
-    std::int64_t from = 0, to = 0;
-    SE3 T_from_to;
-    Matrix6d covariance = Matrix6d::Zero();
+    KeyframeId from, to;                     ///< the anchors
+    SE3 T_from_to;                           ///< [m]
+    Matrix6d covariance = Matrix6d::Zero();  ///< of T_from_to in its right tangent
   };
 
-  /// Parts that came into a place with a younger one, and what they knew of each other there.
+  /// A younger place that was merged into an older one, so that the merger can be undone.
   struct Merged {
-    std::int64_t anchor = 0;  ///< of the younger place
-    std::map<std::int64_t, Matrix7d> covariance_of_part;
+    KeyframeId anchor;  ///< of the younger place
+    /// By anchor: the parts of the younger place, with the covariances that they had there.
+    std::map<KeyframeId, Matrix7d> covariance_of_part;
   };
 
-  std::vector<Keyframe> keyframes;  ///< by ascending id, as the next two
-  std::vector<Part> parts;
-  std::vector<Place> places;
-  std::vector<Motion> motions;
-  std::vector<Loop> loops;
-  std::vector<Merged> merged;                              ///< in the order it was done
-  std::set<std::pair<std::int64_t, std::int64_t>> parted;  ///< anchors that are not one place
-  std::int64_t founded = 0;                                ///< places so far, with those gone
-  std::size_t judged_loops = 0;                            ///< that mergers were judged with
-  std::vector<bool> unit_measured;                         ///< of every run of tracking
-  double median_depth_m = 10;                              ///< of the scene at the last keyframe
+  std::vector<Keyframe> keyframes;  ///< by ascending id
+  std::vector<Part> parts;          ///< by ascending anchor
+  std::vector<Place> places;        ///< by ascending id
+  std::vector<Motion> motions;      ///< by other sensors
+  std::vector<Loop> loops;          ///< accepted ones, in order
+  std::vector<Merged> merged;       ///< mergers that hold, in the order in which they were made
+  /// Anchors of places whose merger was undone; they are not merged again.
+  std::set<std::pair<KeyframeId, KeyframeId>> parted;
+  std::int64_t founded = 0;         ///< places founded so far, merged ones included
+  std::size_t judged_loops = 0;     ///< number of loops when mergers were last checked
+  std::vector<bool> unit_measured;  ///< of every track segment: whether its lengths are metres
+  double median_depth_m = 10;       ///< of the scene at the last keyframe
 };
 
 }  // namespace placegraph

@@ -1,18 +1,20 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/map.h>
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// How often the camera went straight from one place to another.
+/// How often the camera went directly from one place to another.
 struct PlaceTransition {
-  std::int64_t from = 0, to = 0;
-  int count = 0;
+  PlaceId from, to;  ///< two different places
+  int count = 0;     ///< pairs of consecutive frames, at least 1
 };
 
-/// Of the consecutive frames of a map, by `from`, then `to`; frames that are lost or in another
-/// component interrupt. Throws ArgumentError if a frame's keyframe is not in the map.
+/// Counts the transitions between consecutive frames of a map, sorted by `from`, then `to`.
+/// Lost frames and changes of the component are no transitions. Throws ArgumentError if a frame's
+/// keyframe is not in the map.
 std::vector<PlaceTransition> place_transitions(const Map& map);
 
 }  // namespace placegraph

@@ -4,34 +4,37 @@
 #include <cstdint>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What a cue says of an image: one vector per cell of a grid laid over it, in whole numbers, so
-/// that comparing is quick and memory small; their common scale means nothing.
+/// The descriptor of an image by one cue: one vector for each cell of a grid laid over it.
+/// Integers make comparing quick and memory small; their common scale means nothing.
 struct CueGrid {
-  int columns = 0, rows = 0, channels = 0;
-  std::vector<std::int16_t> values;  ///< row after row, a cell's channels together
-  /// Sum of the squared lengths of all cells above and left, (columns + 1) x (rows + 1).
+  int columns = 0, rows = 0, channels = 0;  ///< of the grid; channels: size of a cell's vector
+  std::vector<std::int16_t> values;         ///< row after row, a cell's channels together
+  /// Integral image of the squared lengths of the cells' vectors, (columns + 1) x (rows + 1).
   std::vector<std::int64_t> energy;
+  /// Whether the cue was not computed.
   bool empty() const { return values.empty(); }
 };
 
-/// CueGrid::energy of these values.
+/// The integral image CueGrid::energy of these values, row after row.
+/// Throws ArgumentError unless there are columns * rows * channels values.
 std::vector<std::int64_t> cell_energy(int columns, int rows, int channels,
                                       const std::vector<std::int16_t>& values);
 
-/// An image in all cues (frontend/places/place_view.h makes and compares them).
+/// An image's descriptors in all cues of place recognition.
 struct PlaceView {
-  /// At scale 1 and, of a query, at 1 / zoom and zoom.
+  /// Small image and gradients, at scale 1 and, of a query, at 1 / zoom and zoom too.
   std::vector<CueGrid> tiny, gradients;
   CueGrid colour;  ///< empty for a grey image: there is no colour cue
-  CueGrid gabor;   ///< texture; empty unless it counts
-  CueGrid coarse;  ///< the tiny image at half its columns, for a second look
-  /// All grids pooled to a few cells, of unit length each and rounded to whole numbers: a first
-  /// look at tens of thousands of views is a dot product.
+  CueGrid gabor;   ///< texture; empty where the cue has no weight
+  CueGrid coarse;  ///< the tiny image at half its columns, for the second of three comparisons
+  /// Colour, coarse and gradients pooled to a few cells, each of unit length and rounded to
+  /// integers: the first comparison, with tens of thousands of images, is a dot product.
   std::vector<std::int16_t> glance;
-  std::vector<Feature> corners;
-  bool empty() const { return glance.empty(); }  ///< none was made
+  std::vector<Feature> corners;  ///< for the cue that counts agreeing features
+  /// Whether no descriptor was computed.
+  bool empty() const { return glance.empty(); }
 };
 
 }  // namespace placegraph

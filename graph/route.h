@@ -1,31 +1,33 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/place_graph.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A place on a way.
+/// A place on a route. Lengths are in the map's unit: the metre if the map is metric.
 struct RouteStep {
-  std::int64_t place = 0;
-  SE3 T_previous_place;    ///< seen from the place before, in the map's unit; identity at the first
-  double leg_m = 0;        ///< from the place before, in the map's unit, as all lengths here
-  double travelled_m = 0;  ///< from the first place on
+  PlaceId place;           ///< the place
+  SE3 T_previous_place;    ///< relative to the place before; identity at the first
+  double leg_m = 0;        ///< distance from the place before
+  double travelled_m = 0;  ///< length of the route up to this place
 };
 
-/// A way over places.
+/// A route over places, each joined to the next by a constraint.
 struct Route {
-  Outcome outcome;
-  std::vector<RouteStep> steps;  ///< from the first place to the last
+  Outcome outcome;               ///< kDegenerate: nothing joins the two places
+  std::vector<RouteStep> steps;  ///< from the first place to the last; empty without a route
+  /// Length of the whole route in the map's unit; 0 without a route.
   double length_m() const { return steps.empty() ? 0 : steps.back().travelled_m; }
 };
 
-/// The shortest way from place to place (Dijkstra 1959): every constraint is a road both ways, as
-/// long as its places lie apart in the map. What makes motion memory one is that it leads back
-/// (Siddiqui 2014, 2.4). Outcomes: degenerate (nothing joins the two). Throws ArgumentError for
-/// places that are not there.
-Route shortest_route(const PlaceGraph& graph, std::int64_t from, std::int64_t to);
+/// The shortest route from one place to another (Dijkstra 1959).
+/// Every constraint can be travelled both ways and is as long as its places lie apart in the map.
+/// kDegenerate if nothing joins the two. Throws ArgumentError for places that are not there. That a
+/// memory of motion leads back: Siddiqui 2014, section 2.4.
+Route shortest_route(const PlaceGraph& graph, PlaceId from, PlaceId to);
 
-/// The same places the other way round.
+/// The same route in the opposite direction.
 Route backtracked(const Route& route);
 
 }  // namespace placegraph

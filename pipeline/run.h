@@ -1,110 +1,94 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/map/map_database.h>
-#include <placegraph/pipeline/scene/indoor_mapper.h>
-#include <placegraph/pipeline/scene/urban_mapper.h>
+#include <placegraph/pipeline/run_options.h>
 #include <placegraph/pipeline/slam.h>
+#include <placegraph/pipeline/slam/environment_sight.h>
 
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-enum class SensorChoice { kAuto, kMono, kStereo, kRgbd };
+struct FrameView;
 
-/// Motion of a body by other sensors, beside the pictures.
-struct MotionOptions {
-  std::string file;                                     ///< see docs/odometry.md; none if empty
-  std::vector<double> T_cam_body{0, 0, 0, 0, 0, 0, 1};  ///< tx ty tz [m], qx qy qz qw
-  MotionNoise noise;
-  void check() const;
-};
-void visit(OptionVisitor& field, MotionOptions& options);
-
-/// What is made of the scene beside the places, from the finished map.
-struct SceneOptions {
-  bool geometry = false;   ///< a floor plan with walls, doors and rooms (docs/indoor.md)
-  bool semantics = false;  ///< a map of what is where in a street (docs/urban_map.md)
-  /// Models that label streets; empty: those that came with the program.
-  std::string urban_model, surfaces_model;
-  IndoorMapperOptions indoor;
-  UrbanMapperOptions urban;
-};
-void visit(OptionVisitor& field, SceneOptions& options);
-
-/// A run over a recorded sequence: what `placegraph run` and configs/*.yaml set.
-struct RunOptions {
-  SensorChoice sensor = SensorChoice::kAuto;  ///< auto: the best the sequence offers
-  double camera_height_m = 0;  ///< above the ground; 0: as the sequence says, or unknown
-  int first_frame = 0;
-  int max_frames = 0;  ///< 0: all
-  int threads = 2;     ///< 2 or more: the next frame is read while this one is worked on
-  MotionOptions motion;
-  LensOptions lens;
-  SceneOptions scene;
-  SlamOptions slam;
-  void check() const;
-};
-/// The SLAM options stand beside the others, not in a group of their own.
+/// Lists the SLAM options beside the others, not in a group of their own.
 void visit(OptionVisitor& field, RunOptions& options);
 
-/// Frames of a run that have no pose in the end, by the reason that was given when they were done.
+/// Frames of a run that have no pose in the end, for one reason.
 struct UnposedFrames {
-  std::string reason;  ///< of the first of them
-  int count = 0;
+  /// Of the first of them: that of FrameResult::outcome, or that its component was never joined.
+  std::string reason;
+  int count = 0;  ///< how many frames there are, at least 1
 };
 
+/// What run_sequence returns.
 struct RunResult {
-  Sensor sensor = Sensor::kMono;
-  Calibration calibration;
-  /// Radial distortion (k1) that was taken out of the images, which should have had none.
+  Sensor sensor = Sensor::kMono;  ///< what the sequence was run as
+  Calibration calibration;        ///< of the images as they were used, without their distortion
+  /// Radial distortion (k1 of OpenCV's model) that was removed from the images, which should have
+  /// had none; 0: nothing was removed.
   double lens_k1 = 0;
-  Map map;
-  /// A frame could not be read: the map holds the frames before it. The message of its FileError.
+  Map map;  ///< optimized to convergence
+  /// The message of the FileError if a frame could not be read: the map holds the frames before it.
   std::optional<std::string> broken_off;
-  /// The first frame that was worked on, where the run went on with one that had been broken off.
-  std::optional<std::int64_t> resumed_at;
-  /// Reading and the stages of Slam. With more than one thread the next frame is read while the
-  /// last is worked on, and counts for the stage that is open then.
+  /// The first frame that was processed, if the run resumed one that had been broken off.
+  std::optional<FrameId> resumed_at;
+  /// CPU time of reading and of the stages of Slam. With more than one thread the next frame is
+  /// read while the last is processed, and its time counts for the stage that is open then.
   std::vector<StageTimes::Stage> stages;
   /// Why frames have no pose, the most frequent reason first; reasons that differ in numbers alone
-  /// are one. Frames before a resumed run are not told.
+  /// are one. Frames before a resumed run are not counted.
   std::vector<UnposedFrames> unposed;
-  /// What keyframes say of their surroundings, where `context` is enabled.
+  /// What each keyframe shows of its environment; empty unless `context` is enabled.
   std::vector<EnvironmentSight> environments;
 };
 
-/// Where a run saves its map as it goes (io/map/map_database.h): after every new place and at the
-/// end.
+/// Where a run saves its map (io/map/map_database.h), after every new place and at the end.
 struct MapFile {
-  std::string path;
-  std::string sequence;  ///< as it can be opened again
+  std::string path;      ///< of the database; created with the first place
+  std::string sequence;  ///< path of the sequence by which open_dataset finds it again
   bool resume = false;   ///< go on with the run that was broken off there
 };
 
-/// The sensor that a sequence is run as. Throws ArgumentError if it lacks what that needs.
+/// The sensor that a sequence is run as: the one asked for, or the best offered for kAuto.
+///
+/// Throws ArgumentError if the sequence lacks the images that the sensor needs.
 Sensor choose_sensor(const Dataset& dataset, SensorChoice choice);
 
-/// Called after each frame with the number done and of all, and what became of it.
+/// Called after each frame with the number of frames done, of all frames, and its result.
 using RunProgress = std::function<void(std::size_t done, std::size_t total, const FrameResult&)>;
 
-/// Called after each frame with its images, what became of it, and what the frontend sees in it.
+/// Called after each frame with its images, its result, and what the frontend sees in it.
 using FrameObserver =
     std::function<void(const Frame& frame, const FrameResult& result, const FrameView& view)>;
 
-/// Runs the system over a sequence, every frame, never sleeping; once or twice from the beginning
-/// where the images of one eye prove to be distorted. Same result for any number of threads. Throws
-/// as Slam and the data set do; an unreadable frame that is not the first ends the run. With a
-/// `map_file` to resume, the frames up to the last committed place are as they were. `surfaces`: a
-/// model of surfaces, needed if `semantics` or `context` are enabled.
-RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
-                       const RunProgress& progress = {}, const LogSink& log = {},
-                       const FrameObserver& observer = {},
-                       const std::optional<MapFile>& map_file = {},
-                       const std::shared_ptr<const SceneModel>& surfaces = {});
+/// What a run may be given beside the sequence and its options.
+struct RunInputs {
+  /// A trained model that labels surfaces; needed if `semantics` or `context` are enabled.
+  std::shared_ptr<const SceneModel> surfaces;
+  /// Where the map is saved, or resumed from: the frames up to the last committed place are then
+  /// taken from the file.
+  std::optional<MapFile> map_file;
+  RunProgress progress;    ///< empty: nobody is told
+  FrameObserver observer;  ///< empty: nobody is told
+  /// Receives events; not owned. If the run begins again without distortion, so do the events.
+  SlamEvents* events = nullptr;
+  LogSink log;  ///< where messages go; empty: nowhere
+};
 
-/// "mono", "stereo", "rgbd".
+/// Runs the system over every frame of a sequence, as fast as it can.
+///
+/// Begins again, at most twice, where the images of a monocular or RGB-D camera prove to be
+/// distorted (LensOptions). The result is the same for any number of threads. An unreadable frame
+/// that is not the first ends the run (RunResult::broken_off). Throws ArgumentError for options
+/// that their check() refuses or a sequence that does not offer what they ask for, FileError for
+/// files that cannot be read or written.
+RunResult run_sequence(const Dataset& dataset, const RunOptions& options,
+                       const RunInputs& inputs = {});
+
+/// Name of a sensor: "mono", "stereo" or "rgbd".
 const char* to_string(Sensor sensor);
 
 }  // namespace placegraph

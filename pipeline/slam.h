@@ -1,62 +1,46 @@
 #pragma once
-#include <placegraph/frontend/places/place_view.h>
-#include <placegraph/graph/map_changes.h>
-#include <placegraph/pipeline/odometry/odometry.h>
-#include <placegraph/pipeline/loops/loop_closer.h>
-#include <placegraph/pipeline/places/place_mapper.h>
-#include <placegraph/pipeline/slam/environment_monitor.h>
+#include <placegraph/graph/core/log.h>
+#include <placegraph/graph/core/stage_times.h>
+#include <placegraph/graph/image/frame.h>
+#include <placegraph/graph/map.h>
+#include <placegraph/pipeline/slam/frame_result.h>
+#include <placegraph/pipeline/slam_options.h>
 
-namespace placegraph {
+#include <limits>
+#include <memory>
+#include <vector>
 
-/// How keyframes look in all cues: kept in the map, so that images can be placed in it later.
-struct KeyframeViewOptions {
-  bool enabled = true;
-  PlaceCueOptions cues;
+namespace [[gnu::visibility("default")]] placegraph {
+
+class MeasuredMotion;
+class SlamEvents;
+struct EnvironmentSight;
+struct FrameView;
+struct MapChanges;
+struct PlaceHistory;
+struct SceneModel;
+
+/// Radial distortion that images still show, though undistorted ones should have none.
+struct LensDistortion {
+  double k1 = 0;  ///< first radial coefficient of OpenCV's model; 0 before anything was estimated
+  /// Standard deviation of k1; infinite before the evidence of about four windows.
+  double sigma_k1 = std::numeric_limits<double>::infinity();
+  /// Displacement of the tracks by k1 that no other motion or structure explains: root mean square
+  /// in standard deviations of the tracks.
+  double effect = 0;
 };
-void visit(OptionVisitor& field, KeyframeViewOptions& options);
 
-/// Labels of surfaces for motion and places; the model is given by Slam::set_scene.
-struct SceneUseOptions {
-  bool enabled = false;
-  SceneMaskOptions masks;
-};
-void visit(OptionVisitor& field, SceneUseOptions& options);
-
-/// The kind of environment the camera is in, and what is assumed there.
-struct ContextOptions {
-  bool enabled = false;
-  bool assume = true;  ///< the odometry takes for granted what holds there, and nothing else
-  EnvironmentFilterOptions filter;
-};
-void visit(OptionVisitor& field, ContextOptions& options);
-
-struct SlamOptions {
-  std::uint64_t seed = 0;  ///< of every random stream
-  OdometryOptions odometry;
-  LoopOptions loops;
-  PlaceOptions places;
-  IncrementalOptions pose_graph;
-  KeyframeViewOptions views;
-  SceneUseOptions semantics;
-  ContextOptions context;
-  int max_lost_frames = 10;  ///< then a new component of the map begins
-  void check() const;
-};
-void visit(OptionVisitor& field, SlamOptions& options);
-
-/// What became of one frame.
-struct FrameResult {
-  std::int64_t frame = 0;
-  TrackingState state =
-      TrackingState::kWaiting;   ///< waiting for the second view, tracking, or lost
-  std::optional<SE3> T_map_cam;  ///< in the frame of `component`; nothing while unknown
-  bool keyframe = false;
-  bool new_place = false;
-  int inliers = 0;
-  int component = 0;
-  int loops_accepted = 0;  ///< with this frame
-  /// Why it has no pose (yet), or one that stands only if a second view confirms it; else empty.
-  std::string reason;
+/// What Slam may be given beside options and calibration.
+struct SlamInputs {
+  /// Motion of the (left) camera that other sensors measured (wheels, laser, inertial sensors), on
+  /// the clock of the frames [ns]. It gives a monocular camera its scale, adds robust constraints
+  /// to the place graph, and carries on where nothing is seen.
+  std::shared_ptr<const MeasuredMotion> motion;
+  /// A trained model that labels surfaces; needed if `semantics` or `context` are enabled.
+  std::shared_ptr<const SceneModel> surfaces;
+  /// Receives events as they happen; not owned, must outlive the Slam object.
+  SlamEvents* events = nullptr;
+  LogSink log;  ///< where messages go; empty: nowhere
 };
 
 /// The whole system: frames in, place graph and trajectory out.
@@ -65,45 +49,53 @@ struct FrameResult {
 ///     for (frame : frames) slam.add_frame(frame);
 ///     Map map = slam.finish();
 ///
-/// Stereo if the calibration has a baseline, RGB-D if it has a depth camera, mono otherwise; mono
-/// is metric if it has a camera height. Objects share nothing: any number may live in one process.
-/// Same frames, options and libraries: same bits. Throws ArgumentError for options, calibration or
-/// frames that break their contract (image of another size or type, stamps that do not increase).
+/// Stereo if the calibration has a baseline, RGB-D if it has a depth camera, monocular otherwise; a
+/// monocular map is metric if the camera height is known or other sensors measure the motion.
+/// Objects share nothing: any number may live in one process. Same frames, options and libraries:
+/// same bits. Poses are T_map_cam of the (left) camera.
 class Slam {
  public:
-  Slam(const SlamOptions& options, const Calibration& calibration, LogSink log = {});
+  /// Prepares a run. Nothing is processed before the first frame.
+  ///
+  /// Throws ArgumentError for options or a calibration that their check() refuses, or if
+  /// `semantics` or `context` are enabled without a model of surfaces.
+  Slam(const SlamOptions& options, const Calibration& calibration, const SlamInputs& inputs = {});
   ~Slam();
   Slam(Slam&&) noexcept;
   Slam& operator=(Slam&&) noexcept;
 
-  /// The camera's motion as other sensors measured it (wheels, a laser, inertial ones), stamps
-  /// those of the frames; to be given before the first frame. It gives a single eye its unit, bears
-  /// on the place graph as robust constraints, and carries on where nothing is seen.
-  void set_motion(const MeasuredMotion& motion_cam);
-  /// Takes up a run that was broken off, before the first frame: its map and history, and the
-  /// frame of its last keyframe, which is seen again; tracking begins there as after a loss.
-  /// Records of frames after that one are dropped: they come next. Throws ArgumentError if map and
-  /// history contradict each other or the frame is another.
-  void go_on_from(const Map& map, const PlaceHistory& history, const Frame& last);
-  /// A model of surfaces (ArgumentError otherwise), to be given before the first frame if
-  /// `semantics` or `context` are enabled.
-  void set_scene(std::shared_ptr<const SceneModel> surfaces);
+  /// Resumes a run that was broken off; call it before the first frame.
+  ///
+  /// `map` and `history` are those of the saved run, `last` is the frame of its last keyframe,
+  /// which is processed again: tracking begins there as after a loss. Records of later frames are
+  /// dropped; add_frame goes on with the frame after `last`. Throws ArgumentError if map and
+  /// history contradict each other, the frame is another, or frames have been added already.
+  void resume(const Map& map, const PlaceHistory& history, const Frame& last);
+  /// Processes one frame; returns its pose as it is known now, or why it has none.
+  ///
+  /// Throws ArgumentError if an image has another size or type than the calibration says, if id or
+  /// stamp do not increase, or after finish().
   FrameResult add_frame(const Frame& frame);
-  /// What the map has gained since the last call, at the cost of what it is. The views of keyframes
-  /// that it tells are kept no longer.
+  /// Returns what the map has gained since the last call, for MapDatabase::commit.
+  ///
+  /// The cost grows with what is new, not with the map. The appearance of keyframes is handed over:
+  /// later calls and snapshots do not hold it.
   MapChanges take_changes();
-  /// Map and trajectories as they stand; may be called between frames.
+  /// A copy of map and trajectories as they stand; may be called between frames.
   Map snapshot() const;
-  /// Optimizes once more and returns the map; neither it nor add_frame may be called afterwards.
+  /// Optimizes the place graph to convergence and returns the map.
+  ///
+  /// Afterwards, finish() and add_frame() throw ArgumentError.
   Map finish();
-  /// The radial distortion that the images of one eye (or of a depth camera's) still show, though
-  /// they should not; run_sequence begins again without it.
-  const LensEstimator& lens() const;
-  /// Of every keyframe of this run, in their order; nothing unless `context` is enabled.
+  /// Radial distortion that the images have shown so far; for a stereo pair it stays unknown.
+  ///
+  /// run_sequence begins again with undistorted images where LensOptions call it proven.
+  LensDistortion lens() const;
+  /// One entry per keyframe of this run, in their order; empty unless `context` is enabled.
   const std::vector<EnvironmentSight>& environments() const;
-  /// What the frontend sees in the last frame.
+  /// What the frontend sees in the last frame, in pixels; empty lists if that frame is lost.
   FrameView view() const;
-  /// CPU time that each stage has taken so far.
+  /// CPU time [s] that each stage has taken so far.
   const std::vector<StageTimes::Stage>& stages() const;
 
  private:

@@ -16,16 +16,17 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-/// True poses of the places: where the true camera was at the frames of their anchors.
-std::map<std::int64_t, SE3> true_places(const Trajectory& truth, const RunMap& map) {
-  std::map<std::int64_t, SE3> result;
+/// True poses of the places, by node of the graph: where the true camera was at the frames of their
+/// anchors.
+std::map<NodeId, SE3> true_places(const Trajectory& truth, const RunMap& map) {
+  std::map<NodeId, SE3> result;
   for (const Place& place : map.graph.places) {
-    const std::int64_t frame = map.anchor_frame(place);
-    require(frame >= 0 && frame < static_cast<std::int64_t>(truth.size()),
-            "place " + std::to_string(place.id) + " was seen in frame " + std::to_string(frame) +
+    const FrameId frame = map.anchor_frame(place);
+    require(frame.value() >= 0 && frame.value() < static_cast<std::int64_t>(truth.size()),
+            "place " + to_string(place.id) + " was seen in frame " + to_string(frame) +
                 ", and the truth has " + std::to_string(truth.size()));
-    if (const auto& pose = truth.poses[static_cast<std::size_t>(frame)].T_world_body)
-      result.emplace(place.id, SE3(*pose));
+    if (const auto& pose = truth.poses[static_cast<std::size_t>(frame.value())].T_world_body)
+      result.emplace(node_of_place(place.id), SE3(*pose));
   }
   return result;
 }

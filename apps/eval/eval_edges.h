@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/eval/trajectory/edge_consistency.h>
+#include <placegraph/eval/internal/trajectory/edge_consistency.h>
 #include <placegraph/graph/pose_graph/constraint_source.h>
 
 #include <map>

@@ -1,8 +1,9 @@
 #include "apps/eval/loops.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/precision_recall_plot.h>
+#include <placegraph/eval/internal/plots/precision_recall_plot.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ Protocol protocol_of(const LoopsArguments& arguments) {
 void require_known(const std::string& path, const std::vector<LoopPrediction>& predictions,
                    std::int64_t images) {
   for (const LoopPrediction& p : predictions)
-    if (p.query >= images || p.candidate >= images)
+    if (p.query.value() >= images || p.candidate.value() >= images)
       throw FileError(
           path, p.line,
           fmt::format("image {}, and the poses are of {}", std::max(p.query, p.candidate), images));
@@ -62,7 +63,7 @@ std::vector<LoopJudgement> judge(const LoopsArguments& arguments, const Protocol
     const LoopFileFormat format = arguments.formats[arguments.formats.size() == 1 ? 0 : i];
     const auto predictions = read_loop_predictions(path, format);
     if (!arguments.poses.empty() && !protocol.truth.queries.empty())
-      require_known(path, predictions, protocol.truth.queries.rbegin()->first + 1);
+      require_known(path, predictions, protocol.truth.queries.rbegin()->first.value() + 1);
     const std::string name = arguments.names.empty()
                                  ? std::filesystem::path(path).filename().string()
                                  : arguments.names[i];

@@ -1,7 +1,11 @@
 #include "apps/graph/graph_solution.h"
 
 #include <fmt/format.h>
-#include <placegraph/backend/incremental/incremental_replay.h>
+#include <placegraph/backend/internal/incremental/incremental_replay.h>
+#include <placegraph/backend/internal/pose_graph/initialization_selection.h>
+#include <placegraph/backend/internal/solver/free_directions.h>
+#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/log_message.h>
 #include <placegraph/graph/pose_graph/graph_parts.h>
 
 #include <algorithm>
@@ -63,7 +67,7 @@ void solve_parts(PoseGraph graph, const GraphTask& task, const LogSink& log,
   solution.graph = std::move(graph);
   if (!task.incremental) solution.chi2_by_constraint.resize(solution.graph.constraints.size());
   for (GraphPart& part : parts) {
-    const std::int64_t first = part.graph.nodes.front().id;
+    const NodeId first = part.graph.nodes.front().id;
     PoseGraphReport report;
     try {
       report = optimize(std::move(part.graph), task, log, solution);

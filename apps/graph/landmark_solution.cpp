@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-std::int64_t id_of(const LandmarkGraph& graph, int variable) {
+NodeId id_of(const LandmarkGraph& graph, int variable) {
   const auto i = static_cast<std::size_t>(variable), nodes = graph.poses.nodes.size();
   return i < nodes ? graph.poses.nodes[i].id : graph.points[i - nodes].id;
 }

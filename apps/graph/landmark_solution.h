@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/pose_graph/landmark_graph.h>
 
 #include <cstdint>
@@ -21,9 +22,8 @@ struct LandmarkSolution {
   int iterations = 0;
   double cpu_ms = 0, wall_ms = 0, peak_mb = 0;
   int free_directions = 0;
-  std::vector<std::int64_t> free_vertices;  ///< ids of poses and points
-  std::vector<std::int64_t>
-      held_vertices;  ///< one of each component that nothing ties to the world
+  std::vector<NodeId> free_vertices;  ///< ids of poses and points
+  std::vector<NodeId> held_vertices;  ///< one of each component that nothing ties to the world
 };
 
 /// Throws NoAnswer where the graph has no solution.

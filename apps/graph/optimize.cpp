@@ -1,9 +1,11 @@
 #include "apps/graph/optimize.h"
+#include <placegraph/graph/internal/core/log_message.h>
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/pose_graph_plot.h>
-#include <placegraph/graph/core/chi_squared.h>
+#include <placegraph/eval/internal/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 
@@ -75,7 +77,7 @@ std::optional<double> misfit_of(const OptimizeResult& result) {
 }
 
 /// "3, 5, 7 and 12 more"
-std::string some_ids(const std::vector<std::int64_t>& ids) {
+std::string some_ids(const std::vector<NodeId>& ids) {
   constexpr std::size_t kMost = 10;
   std::string text;
   for (std::size_t i = 0; i < std::min(kMost, ids.size()); ++i)
@@ -86,7 +88,7 @@ std::string some_ids(const std::vector<std::int64_t>& ids) {
 
 /// One line where another start may end elsewhere at the same cost.
 void warn_of_free_directions(const std::string& in, int count,
-                             const std::vector<std::int64_t>& vertices) {
+                             const std::vector<NodeId>& vertices) {
   if (count == 0) return;
   warn(
       fmt::format("{}: the minimum is not unique: the constraints leave {}{} directions free, at "
@@ -98,7 +100,7 @@ void warn_of_free_directions(const std::string& in, int count,
 
 /// One line where parts of a graph with priors or landmarks stand for themselves.
 void warn_of_parts(const std::string& in, const LandmarkSolution& solution) {
-  const std::vector<std::int64_t>& held = solution.held_vertices;
+  const std::vector<NodeId>& held = solution.held_vertices;
   if (solution.components < 2 || held.empty()) return;
   warn(
       fmt::format("{}: the graph falls into {} components, of which {} are tied to the world by "
@@ -106,8 +108,8 @@ void warn_of_parts(const std::string& in, const LandmarkSolution& solution) {
                   in, solution.components, held.size(), some_ids(held)));
 }
 
-std::vector<std::int64_t> free_vertices(const GraphSolution& solution) {
-  std::vector<std::int64_t> ids;
+std::vector<NodeId> free_vertices(const GraphSolution& solution) {
+  std::vector<NodeId> ids;
   for (const int node : solution.free.nodes) ids.push_back(solution.graph.nodes[node].id);
   return ids;
 }

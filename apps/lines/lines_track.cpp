@@ -1,10 +1,12 @@
 #include "apps/lines/lines_track.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/lines/track_consistency.h>
-#include <placegraph/graph/core/median.h>
+#include <placegraph/frontend/internal/lines/track_consistency.h>
+#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/internal/core/median.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
+#include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>
@@ -18,10 +20,10 @@ namespace placegraph::apps {
 namespace {
 
 struct TrackedLine {
-  std::int64_t frame = 0;
+  FrameId frame;
   FrameView::Line line;
 };
-using LineTracks = std::map<std::int64_t, std::vector<TrackedLine>>;
+using LineTracks = std::map<LineId, std::vector<TrackedLine>>;
 
 RunOptions run_options(const LinesTrackArguments& arguments) {
   RunOptions options;
@@ -38,7 +40,7 @@ LineTracksJudgement judge(const LineTracks& tracks, const Camera& camera, const 
   for (const auto& [id, track] : tracks) {
     std::vector<LineSighting> sightings;
     for (const TrackedLine& s : track) {
-      const auto index = static_cast<std::size_t>(s.frame);
+      const auto index = static_cast<std::size_t>(s.frame.value());
       if (index >= truth.poses.size() || !truth.poses[index].T_world_body) continue;
       const Eigen::Isometry3d& T = *truth.poses[index].T_world_body;
       sightings.push_back(
@@ -85,13 +87,13 @@ LinesTrackResult lines_track(const LinesTrackArguments& arguments) {
   const RunOptions options = run_options(arguments);
   const auto dataset = open_dataset(arguments.sequence);
   LineTracks tracks;
-  const RunResult run =
-      run_sequence(*dataset, options, {}, {},
-                   [&](const Frame& frame, const FrameResult& frame_result, const FrameView& view) {
-                     if (frame_result.state != TrackingState::kTracking) return;
-                     for (const FrameView::Line& line : view.lines)
-                       tracks[line.id].push_back({frame.id, line});
-                   });
+  RunInputs inputs;
+  inputs.observer = [&](const Frame& frame, const FrameResult& frame_result,
+                        const FrameView& view) {
+    if (frame_result.state != TrackingState::kTracking) return;
+    for (const FrameView::Line& line : view.lines) tracks[line.id].push_back({frame.id, line});
+  };
+  const RunResult run = run_sequence(*dataset, options, inputs);
   if (run.broken_off) throw NoAnswer(*run.broken_off);
   if (tracks.empty()) throw NoAnswer(arguments.sequence + ": no line was followed");
   if (!arguments.out.empty()) write_file(arguments.out, tracks_text(tracks));

@@ -17,7 +17,10 @@ void add_explain_command(CLI::App& app) {
       "Where one frame of a map is, how that is known, what it sees and what was refused");
   command->footer("placegraph explain out/drive 250 --json");
   command->add_option("MAP", a.map, "map.db, or the folder of placegraph run with it")->required();
-  command->add_option("FRAME", a.frame, "number of the frame in its sequence")
+  command
+      ->add_option_function<std::int64_t>(
+          "FRAME", [&a](std::int64_t frame) { a.frame = FrameId(frame); },
+          "number of the frame in its sequence")
       ->required()
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}));
   command->add_flag("--json", *json, "for machines");

@@ -18,8 +18,14 @@ void add_route_command(CLI::App& app) {
   command->add_option("MAP", a.map, "folder that placegraph run has written, or a map.db")
       ->required()
       ->check(CLI::ExistingPath);
-  command->add_option("--from", a.from, "place the way begins at")->required();
-  command->add_option("--to", a.to, "place it leads to")->required();
+  const auto place_option = [&](const char* name, PlaceId& place, const char* what) {
+    command
+        ->add_option_function<std::int64_t>(
+            name, [&place](std::int64_t number) { place = PlaceId(number); }, what)
+        ->required();
+  };
+  place_option("--from", a.from, "place the way begins at");
+  place_option("--to", a.to, "place it leads to");
   command->add_flag("--backtrack", a.backtrack,
                     "then print the way back: the same places from the last to the first");
   command->add_option("--out", a.out,

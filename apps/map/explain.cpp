@@ -1,9 +1,10 @@
 #include "apps/map/explain.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/labels/urban_labels.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/frontend/internal/labels/urban_labels.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/graph/scene/environment.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -23,14 +24,10 @@ namespace {
 using nlohmann::json;
 
 json json_of(const LoopRecord& loop) {
-  return {{"query_frame", loop.query_frame},
-          {"match_frame", loop.match_frame},
-          {"stage", to_string(loop.stage)},
-          {"probability", loop.probability},
-          {"likeness", loop.likeness},
-          {"model", to_string(loop.model)},
-          {"inliers", loop.inliers},
-          {"lines", loop.lines}};
+  return {{"query_frame", loop.query_frame}, {"match_frame", loop.match_frame},
+          {"stage", to_string(loop.stage)},  {"probability", loop.probability},
+          {"likeness", loop.likeness},       {"model", to_string(loop.model)},
+          {"inliers", loop.inliers},         {"lines", loop.lines}};
 }
 
 json list_of(const std::vector<LoopRecord>& loops) {
@@ -45,9 +42,9 @@ json where(const Explanation& told, const Map& map) {
   const Eigen::Vector3d& t = told.T_map_cam.translation();
   const Eigen::Quaterniond q = told.T_map_cam.rotation().quaternion();
   json at = {{"posed", true},
-             {"place", told.place},
+             {"place", *told.place},
              {"labels", told.labels},
-             {"keyframe", told.keyframe},
+             {"keyframe", *told.keyframe},
              {"way_to_keyframe", told.way_to_keyframe},
              {"component", told.component},
              {"unit", map.metric ? "m" : "arbitrary"},
@@ -87,7 +84,7 @@ json shares_of(const std::vector<float>& probabilities, const std::vector<std::s
 
 /// What the picture shows, by the models that came with the program; why not, where it cannot be
 /// told.
-json seen_in(const StoredMap& stored, std::int64_t frame) {
+json seen_in(const StoredMap& stored, FrameId frame) {
   const std::string& sequence = stored.origin.sequence;
   if (sequence.empty() || !std::filesystem::exists(sequence))
     return {{"unknown", "the pictures are not where they were: " + sequence}};
@@ -99,9 +96,10 @@ json seen_in(const StoredMap& stored, std::int64_t frame) {
     return {{"unknown", error.what()}};
   }
   const auto dataset = open_dataset(sequence);
-  if (frame >= static_cast<std::int64_t>(dataset->size()))
+  if (frame.value() >= static_cast<std::int64_t>(dataset->size()))
     return {{"unknown", sequence + " has " + std::to_string(dataset->size()) + " frames now"}};
-  const Frame picture = dataset->frame(static_cast<std::size_t>(frame), stored.origin.sensor);
+  const Frame picture =
+      dataset->frame(static_cast<std::size_t>(frame.value()), stored.origin.sensor);
   const SceneView view = view_scene(picture.colour.empty() ? picture.image : picture.colour);
   const UrbanLabels labels = label_urban(urban, surfaces, view);
   return {{"surfaces", shares_of(labels.surfaces, surfaces.classes, view)},
@@ -117,7 +115,7 @@ json assumed_by(const StoredMap& stored, const RunOptions& options, const Explan
                   {"cues", options.slam.odometry.cues},
                   {"metric", stored.map.metric}};
   if (one_eye && height_m > 0) assumed["ground_below_camera_m"] = height_m;
-  const Place* place = told.posed ? stored.map.place_graph.find(told.place) : nullptr;
+  const Place* place = told.posed ? stored.map.place_graph.find(*told.place) : nullptr;
   if (const auto kind = place ? environment_of(*place) : std::nullopt) {
     const Assumptions there = assumptions_of(*kind);
     assumed["environment"] = {{"kind", environment_name(*kind)},
@@ -195,7 +193,7 @@ std::string sees_text(const json& sees) {
 ExplainResult explain(const ExplainArguments& arguments) {
   const StoredMap stored = read_stored_map(arguments.map);
   const auto told = explain_frame(stored.map, arguments.frame);
-  if (!told) throw NoAnswer(arguments.map + ": has no frame " + std::to_string(arguments.frame));
+  if (!told) throw NoAnswer(arguments.map + ": has no frame " + to_string(arguments.frame));
   RunOptions options;
   if (!stored.origin.options.empty())
     read_options_text(map_path_of(arguments.map), stored.origin.options, options);

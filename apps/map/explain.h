@@ -1,13 +1,14 @@
 #pragma once
-#include <cstdint>
+#include <placegraph/graph/core/ids.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 
 namespace placegraph::apps {
 
 struct ExplainArguments {
-  std::string map;         ///< map.db, or the folder of placegraph run with it
-  std::int64_t frame = 0;  ///< its number in the sequence
+  std::string map;  ///< map.db, or the folder of placegraph run with it
+  FrameId frame;    ///< its number in the sequence
 };
 
 struct ExplainResult {

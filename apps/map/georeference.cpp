@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
-#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/geo_export.h>
-#include <placegraph/io/sensors/oxts_file.h>
+#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/internal/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <cmath>
@@ -68,7 +68,7 @@ void set_what_is_known(const GeoreferenceArguments& arguments, GeoreferenceInput
 
 /// The times of the nodes that were placed; of several visits the first.
 std::vector<std::int64_t> stamps_of(const PoseGraph& graph, const std::vector<NodeVisit>& visits) {
-  std::unordered_map<std::int64_t, std::int64_t> first;
+  std::unordered_map<NodeId, std::int64_t> first;
   for (const NodeVisit& visit : visits) {
     const auto [entry, fresh] = first.emplace(visit.node, visit.stamp_ns);
     if (!fresh) entry->second = std::min(entry->second, visit.stamp_ns);

@@ -1,10 +1,13 @@
 #include "apps/map/georeference_files.h"
 
 #include <fmt/format.h>
+#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
-#include <placegraph/io/sensors/oxts_file.h>
+#include <placegraph/io/internal/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <filesystem>
@@ -29,8 +32,7 @@ std::vector<NodeVisit> read_visits(const std::string& path) {
   try {
     for (const json& place : document.at("places"))
       for (const json& member : place.at("members"))
-        visits.push_back(
-            {member.at("stamp_ns").get<std::int64_t>(), place.at("id").get<std::int64_t>()});
+        visits.push_back({member.at("stamp_ns").get<std::int64_t>(), place.at("id").get<NodeId>()});
   } catch (const json::exception& error) {
     throw FileError(path, std::string("is not what placegraph run writes: ") + error.what());
   }
@@ -77,10 +79,10 @@ GeoreferenceInput read_georeference_input(const std::string& path, const std::st
   require(!times_path.empty(), "--times: needed with a file of a graph (line i: time of node i)");
   const std::vector<std::int64_t> stamps_ns = read_kitti_times(times_path);
   for (const PoseNode& node : input.graph.nodes) {
-    if (node.id < 0 || node.id >= static_cast<std::int64_t>(stamps_ns.size()))
+    if (node.id.value() < 0 || node.id.value() >= static_cast<std::int64_t>(stamps_ns.size()))
       throw FileError(times_path,
                       fmt::format("holds {} times, none for node {}", stamps_ns.size(), node.id));
-    input.visits.push_back({stamps_ns[static_cast<std::size_t>(node.id)], node.id});
+    input.visits.push_back({stamps_ns[static_cast<std::size_t>(node.id.value())], node.id});
   }
   return input;
 }
@@ -118,11 +120,11 @@ std::string fixes_csv(const GeoreferenceResult& result, const std::vector<GpsFix
                  "sigma_vertical_m,weight,rejected\n");
   for (std::size_t i = 0; i < fixes.size(); ++i) {
     const FixReport& fix = result.fixes[i];
-    if (fix.node < 0)
+    if (!fix.node)
       fmt::format_to(out, "{},,,,,,,,\n", fixes[i].stamp_ns);
     else
       fmt::format_to(out, "{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:d}\n",
-                     fixes[i].stamp_ns, result.graph.nodes[fix.node].id, fix.residual_enu[0],
+                     fixes[i].stamp_ns, result.graph.nodes[*fix.node].id, fix.residual_enu[0],
                      fix.residual_enu[1], fix.residual_enu[2], fix.sigma_horizontal_m,
                      fix.sigma_vertical_m, fix.weight, static_cast<int>(fix.rejected));
   }

@@ -37,10 +37,17 @@ LocalizerOptions options_of(const LocalizeArguments& arguments, const StoredMap&
   return options;
 }
 
+/// As files have it: -1 stands for none.
+template <class Id>
+std::int64_t number_of(const std::optional<Id>& id) {
+  return id ? id->value() : -1;
+}
+
 std::string line_of(std::int64_t image, const Localization& at) {
-  std::string line =
-      fmt::format("{} {} {} {:.6f} {}", image, at.placed ? at.place : -1, at.placed ? at.frame : -1,
-                  at.probability, at.placed ? at.stage : "refused:" + at.stage);
+  const std::int64_t place = at.placed ? number_of(at.place) : -1;
+  const std::int64_t frame = at.placed ? number_of(at.frame) : -1;
+  std::string line = fmt::format("{} {} {} {:.6f} {}", image, place, frame, at.probability,
+                                 at.placed ? at.stage : "refused:" + at.stage);
   if (at.T_map_cam) {
     const auto& t = at.T_map_cam->translation();
     const auto& q = at.T_map_cam->rotation().quaternion();
@@ -51,8 +58,12 @@ std::string line_of(std::int64_t image, const Localization& at) {
 }
 
 json json_of(std::int64_t image, const Localization& at) {
-  json entry = {{"image", image},   {"placed", at.placed},     {"place", at.place},
-                {"view", at.frame}, {"keyframe", at.keyframe}, {"probability", at.probability},
+  json entry = {{"image", image},
+                {"placed", at.placed},
+                {"place", number_of(at.place)},
+                {"view", number_of(at.frame)},
+                {"keyframe", number_of(at.keyframe)},
+                {"probability", at.probability},
                 {"stage", at.stage}};
   if (at.T_map_cam) entry["T_map_cam"] = pose_json(*at.T_map_cam);
   if (!at.without_pose.empty()) entry["without_pose"] = at.without_pose;

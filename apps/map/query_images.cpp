@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/calibration/camera_change.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/pipeline/lens_correction.h>
+#include <placegraph/io/internal/calibration/camera_change.h>
+#include <placegraph/pipeline/internal/lens_correction.h>
 
 #include <memory>
 

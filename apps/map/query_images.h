@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 #include <placegraph/io/map/map_database.h>
 
 #include <functional>

@@ -1,9 +1,10 @@
 #include "apps/map/route.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/plot.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/id_format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,8 +53,8 @@ Plot route_plot(const Route& route, const RunMap& map) {
   plot.curves = {places, way};
   for (const RelativePoseConstraint& edge : map.graph.constraints)
     if (edge.source == ConstraintSource::kLoop)
-      plot.links_m.emplace_back(map.graph.find(edge.from)->T_map_place.translation(),
-                                map.graph.find(edge.to)->T_map_place.translation());
+      plot.links_m.emplace_back(map.graph.find(place_of_node(edge.from))->T_map_place.translation(),
+                                map.graph.find(place_of_node(edge.to))->T_map_place.translation());
   return plot;
 }
 
@@ -90,9 +91,9 @@ std::string to_text(const RouteResult& result) {
   std::string text = fmt::format("{} places, {:.2f} m\n place  frame    leg [m]  travelled [m]\n",
                                  route.steps.size(), route.length_m());
   for (const RouteStep& step : route.steps)
-    text += fmt::format("{:>6} {:>6} {:>10.3f} {:>14.3f}\n", step.place,
-                        result.map.anchor_frame(*result.map.graph.find(step.place)), step.leg_m,
-                        step.travelled_m);
+    text += fmt::format("{:>6} {:>6} {:>10.3f} {:>14.3f}\n", step.place.value(),
+                        result.map.anchor_frame(*result.map.graph.find(step.place)).value(),
+                        step.leg_m, step.travelled_m);
   return text;
 }
 

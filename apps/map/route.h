@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/route.h>
 
 #include <cstdint>
@@ -9,11 +10,11 @@
 namespace placegraph::apps {
 
 struct RouteArguments {
-  std::string map;                ///< folder that placegraph run has written, or a map.db
-  std::string out, plot;          ///< files to write: JSON, and .png or .svg; empty: none
-  std::int64_t from = 0, to = 0;  ///< places
-  bool backtrack = false;         ///< the way back from `to`
-  bool force = false;             ///< overwrite files
+  std::string map;         ///< folder that placegraph run has written, or a map.db
+  std::string out, plot;   ///< files to write: JSON, and .png or .svg; empty: none
+  PlaceId from, to;        ///< places
+  bool backtrack = false;  ///< the way back from `to`
+  bool force = false;      ///< overwrite files
 };
 
 struct RouteResult {

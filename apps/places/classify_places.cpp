@@ -1,11 +1,12 @@
 #include "apps/places/classify_places.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/places/classifiers/place_classifier.h>
+#include <placegraph/frontend/internal/places/classifiers/place_classifier.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/image_list.h>
-#include <placegraph/io/measurements/label_file.h>
+#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/internal/measurements/label_file.h>
 #include <placegraph/io/measurements/loop_file.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Halves {
-  std::set<std::int64_t> training, asked;
+  std::set<FrameId> training, asked;
 };
 
 // The candidates of gt.txt are the training half, its queries the other.
@@ -44,20 +45,20 @@ Halves halves_of(const ClassifyPlacesArguments& arguments, int images) {
     require(*arguments.train < images,
             fmt::format("--train {}: there are {} images", *arguments.train, images));
     for (int i = 0; i < images; ++i)
-      (i < *arguments.train ? halves.training : halves.asked).insert(i);
+      (i < *arguments.train ? halves.training : halves.asked).insert(FrameId(i));
     return halves;
   }
   const LoopTruthFile file = read_loop_truth(listed);
   if (file.format != LoopTruthFormat::kRanges)
     throw FileError(listed, "lists no candidates (query first last ...): use --train");
   for (const auto& [image, query] : file.truth.queries) {
-    if (image >= images || query.last >= images)
+    if (image.value() >= images || query.last.value() >= images)
       throw FileError(
           listed, fmt::format("image {}, and there are {}", std::max(image, query.last), images));
     halves.asked.insert(image);
-    for (std::int64_t i = query.first; i <= query.last; ++i) halves.training.insert(i);
+    for (FrameId i = query.first; i <= query.last; ++i) halves.training.insert(i);
   }
-  for (const std::int64_t image : halves.asked)
+  for (const FrameId image : halves.asked)
     require(!halves.training.contains(image),
             fmt::format("{}: image {} is a query and a candidate", listed, image));
   return halves;
@@ -92,11 +93,11 @@ struct LabelledViews {
 
 LabelledViews read_lesson(const ClassifyPlacesArguments& arguments,
                           const std::vector<std::string>& images,
-                          const std::set<std::int64_t>& training) {
+                          const std::set<FrameId>& training) {
   const std::string label_path = (fs::path(arguments.folder) / "labels.txt").string();
-  const std::map<std::int64_t, int> all_labels = read_labels(label_path);
+  const std::map<FrameId, int> all_labels = read_labels(label_path);
   LabelledViews lesson;
-  for (const std::int64_t image : training) {
+  for (const FrameId image : training) {
     const auto label = all_labels.find(image);
     if (label == all_labels.end())
       throw FileError(label_path, fmt::format("no label for training image {}", image));
@@ -105,20 +106,20 @@ LabelledViews read_lesson(const ClassifyPlacesArguments& arguments,
       throw FileError(label_path,
                       fmt::format("label {}: at most {} places", label->second, kMostPlaces));
     lesson.labels.push_back(label->second);
-    lesson.views.push_back(read_view(images[static_cast<std::size_t>(image)], arguments.cues));
+    lesson.views.push_back(
+        read_view(images[static_cast<std::size_t>(image.value())], arguments.cues));
   }
   require_some_cue(arguments, lesson.views.front());
   return lesson;
 }
 
 std::vector<ToldPlace> tell(const ClassifyPlacesArguments& arguments,
-                            const std::vector<std::string>& images,
-                            const std::set<std::int64_t>& asked, const PlaceClassifier& classifier,
-                            LabelFilter filter) {
+                            const std::vector<std::string>& images, const std::set<FrameId>& asked,
+                            const PlaceClassifier& classifier, LabelFilter filter) {
   std::vector<ToldPlace> told;
-  for (const std::int64_t image : asked) {
-    Eigen::VectorXd probabilities =
-        classifier.classify(read_view(images[static_cast<std::size_t>(image)], arguments.cues));
+  for (const FrameId image : asked) {
+    Eigen::VectorXd probabilities = classifier.classify(
+        read_view(images[static_cast<std::size_t>(image.value())], arguments.cues));
     if (arguments.sequence) probabilities = filter.update(probabilities);
     Eigen::Index best = 0;
     const double probability = probabilities.maxCoeff(&best);

@@ -1,4 +1,6 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,7 +29,7 @@ struct ClassifyPlacesArguments {
 };
 
 struct ToldPlace {
-  std::int64_t image = 0;
+  FrameId image;
   int label = -1;  ///< -1 where it was refused
   double probability = 0;
 };

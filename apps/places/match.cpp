@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/internal/models/vocabulary_file.h>
 #include <placegraph/io/measurements/loop_file.h>
-#include <placegraph/io/models/vocabulary_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -56,11 +57,11 @@ std::vector<MatchQuery> listed_queries(const std::string& path, int images) {
     throw FileError(path, "lists no candidates (query first last ...): use --min-age");
   std::vector<MatchQuery> queries;
   for (const auto& [image, query] : file.truth.queries) {
-    if (image >= images || query.last >= images)
+    if (image.value() >= images || query.last.value() >= images)
       throw FileError(
           path, fmt::format("image {}, and there are {}", std::max(image, query.last), images));
-    queries.push_back(
-        {static_cast<int>(image), static_cast<int>(query.first), static_cast<int>(query.last)});
+    queries.push_back({static_cast<int>(image.value()), static_cast<int>(query.first.value()),
+                       static_cast<int>(query.last.value())});
   }
   return queries;
 }
@@ -159,7 +160,7 @@ std::vector<LoopPrediction> matches_of(const MatchArguments& arguments,
         look_up(compared_view(images[static_cast<std::size_t>(i)], colour), among);
     if (among) {
       if (const auto answer = best.of(*query, list))
-        found.push_back({i, answer->view, answer->score, {}, 0});
+        found.push_back({FrameId(i), FrameId(answer->view), answer->score, {}, 0});
       ++query;
     }
     progress.update(i + 1);

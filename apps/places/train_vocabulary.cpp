@@ -1,11 +1,11 @@
 #include "apps/places/train_vocabulary.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/places/code_memory.h>
-#include <placegraph/frontend/places/float_vocabulary.h>
+#include <placegraph/frontend/internal/places/code_memory.h>
+#include <placegraph/frontend/internal/places/float_vocabulary.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/image_list.h>
-#include <placegraph/io/models/vocabulary_file.h>
+#include <placegraph/io/internal/files/image_list.h>
+#include <placegraph/io/internal/models/vocabulary_file.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "apps/support/json_file.h"
 
 #include <fmt/format.h>
+#include <placegraph/graph/internal/image/png_codec.h>
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace placegraph::apps {
@@ -90,9 +90,7 @@ std::string track_picture(const Image& image, const PlaneTrack& track, std::size
                         track.similarity)
           : fmt::format("{}: lost, {}", frame, track.outcome.reason);
   cv::putText(picture, text, {8, 20}, cv::FONT_HERSHEY_SIMPLEX, 0.5, colour, 1, cv::LINE_AA);
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes);
-  return {bytes.begin(), bytes.end()};
+  return encode_png(picture);
 }
 
 }  // namespace placegraph::apps

@@ -3,20 +3,20 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/measurements/point_cloud_file.h>
+#include <placegraph/io/internal/measurements/point_cloud_file.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/planes/planarity_file.h"
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"
+#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {
@@ -81,9 +81,7 @@ void write_labels(const PlanesCloudArguments& arguments, const PointCloud& cloud
   std::transform(labels.begin(), labels.end(), image.begin<unsigned char>(), [](int label) {
     return static_cast<unsigned char>(label <= kMostLabels ? label : 0);
   });
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", image, bytes);
-  write_file(arguments.out, std::string(bytes.begin(), bytes.end()));
+  write_png(arguments.out, image);
 }
 
 ordered_json plane_json(int id, const CloudPlane& plane) {

@@ -1,3 +1,4 @@
+#include <placegraph/pipeline/slam/environment_sight.h>
 #include "apps/results/environment_files.h"
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ std::string environment_csv(const std::vector<EnvironmentSight>& sights) {
     csv += fmt::format(",p_{}", environment_name(static_cast<Environment>(k)));
   csv += ",kind\n";
   for (const EnvironmentSight& sight : sights) {
-    csv += std::to_string(sight.frame);
+    csv += to_string(sight.frame);
     for (const double value : sight.evidence.values)
       csv += std::isfinite(value) ? fmt::format(",{:.4g}", value) : ",";
     for (const double p : sight.probabilities) csv += fmt::format(",{:.3f}", p);

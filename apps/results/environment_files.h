@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/pipeline/slam/environment_sight.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,11 +1,11 @@
 #include "apps/results/floor_plan_files.h"
 
-#include <placegraph/eval/plots/floor_plan_plot.h>
-#include <placegraph/eval/scene/floor_plan_check.h>
+#include <placegraph/eval/internal/plots/floor_plan_plot.h>
+#include <placegraph/eval/internal/scene/floor_plan_check.h>
 #include <placegraph/io/datasets/dataset.h>
+#include <placegraph/io/internal/scene/indoor_map_file.h>
 #include <placegraph/io/map/map_database.h>
-#include <placegraph/io/scene/indoor_map_file.h>
-#include <placegraph/pipeline/lens_correction.h>
+#include <placegraph/pipeline/internal/lens_correction.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -60,7 +60,7 @@ IndoorMap plan_of_map(const Map& map, const Calibration& calibration, const Data
   return map_indoors(
       map, calibration,
       [&](const Keyframe& keyframe) {
-        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame), sensor);
+        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame.value()), sensor);
         if (lens_k1 != 0) lens.apply(frame);
         return frame;
       },
@@ -104,7 +104,7 @@ json describe_floor_plan(const IndoorMap& plan, const Map& map, const Dataset& d
   const BuildingPlan building = read_building_plan(truth_path.string());
   std::vector<SE3> poses;
   for (const FrameRecord& record : map.frames)
-    if (const auto frame = static_cast<std::size_t>(record.frame);
+    if (const auto frame = static_cast<std::size_t>(record.frame.value());
         frame < truth->size() && truth->poses[frame].T_world_body)
       poses.emplace_back(*truth->poses[frame].T_world_body);
   const SE3 T_map_plan(plan.R_plan_map.inverse(), Eigen::Vector3d::Zero());

@@ -1,6 +1,6 @@
 #include "apps/results/run_files.h"
 
-#include <placegraph/eval/plots/plot.h>
+#include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/place_transitions.h>
@@ -20,8 +20,8 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<std::int64_t> lost_frames(const Map& map, const Trajectory& trajectory) {
-  std::vector<std::int64_t> lost;
+std::vector<FrameId> lost_frames(const Map& map, const Trajectory& trajectory) {
+  std::vector<FrameId> lost;
   for (std::size_t i = 0; i < trajectory.size(); ++i)
     if (!trajectory.poses[i].T_world_body) lost.push_back(map.frames[i].frame);
   return lost;
@@ -110,8 +110,8 @@ json describe_motion(const PlaceGraph& graph) {
     if (constraint.source != ConstraintSource::kOther) continue;
     const Sim3 S_from_to =
         std::visit([](const auto& T) { return similarity_of(T); }, constraint.T_from_to);
-    const Sim3 S_seen = graph.find(constraint.from)->S_map_place().inverse() *
-                        graph.find(constraint.to)->S_map_place();
+    const Sim3 S_seen = graph.find(place_of_node(constraint.from))->S_map_place().inverse() *
+                        graph.find(place_of_node(constraint.to))->S_map_place();
     const Eigen::VectorXd error =
         (S_from_to.inverse() * S_seen).log().head(constraint.information.rows());
     deviations.push_back(

@@ -1,7 +1,7 @@
 #include "apps/results/run_judgement.h"
 
+#include <placegraph/eval/internal/loops/place_check.h>
 #include <placegraph/eval/loops/loop_check.h>
-#include <placegraph/eval/loops/place_check.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/umeyama.h>
 
@@ -77,7 +77,7 @@ std::vector<std::pair<SE3, SE3>> known_pairs(const Trajectory& truth, const Map&
                                              const Trajectory& estimate) {
   std::vector<std::pair<SE3, SE3>> pairs;
   for (std::size_t i = 0; i < estimate.size() && i < map.frames.size(); ++i) {
-    const auto frame = static_cast<std::size_t>(map.frames[i].frame);
+    const auto frame = static_cast<std::size_t>(map.frames[i].frame.value());
     if (estimate.poses[i].T_world_body && frame < truth.size() && truth.poses[frame].T_world_body)
       pairs.emplace_back(*truth.poses[frame].T_world_body, *estimate.poses[i].T_world_body);
   }
@@ -89,7 +89,7 @@ std::vector<std::pair<SE3, SE3>> known_pairs(const Trajectory& truth, const Map&
 Trajectory truth_of_frames(const Trajectory& truth, const Map& map) {
   Trajectory result;
   for (const FrameRecord& frame : map.frames)
-    result.poses.push_back(truth.poses.at(static_cast<std::size_t>(frame.frame)));
+    result.poses.push_back(truth.poses.at(static_cast<std::size_t>(frame.frame.value())));
   return result;
 }
 

@@ -17,18 +17,18 @@ using nlohmann::json;
 
 Place place_of(const json& entry, RunMap& map) {
   Place place;
-  place.id = entry.at("id").get<std::int64_t>();
-  place.anchor_keyframe = entry.at("anchor_keyframe").get<std::int64_t>();
+  place.id = entry.at("id").get<PlaceId>();
+  place.anchor_keyframe = entry.at("anchor_keyframe").get<KeyframeId>();
   place.component = entry.at("component").get<int>();
   place.T_map_place = pose_of(entry.at("T_map_place"));
   place.scale = entry.at("scale").get<double>();
   place.labels = entry.at("labels").get<std::vector<std::string>>();
   for (const json& member : entry.at("members")) {
-    place.members.push_back({member.at("keyframe").get<std::int64_t>(),
+    place.members.push_back({member.at("keyframe").get<KeyframeId>(),
                              pose_of(member.at("T_place_keyframe")),
                              member.at("scale").get<double>()});
     if (member.contains("frame"))
-      map.frame_of_keyframe[place.members.back().keyframe] = member.at("frame").get<std::int64_t>();
+      map.frame_of_keyframe[place.members.back().keyframe] = member.at("frame").get<FrameId>();
   }
   return place;
 }
@@ -39,8 +39,11 @@ void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
   require(edges.size() == written.constraints.size(), mismatch);
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const auto* edge = std::get_if<RelativePoseConstraint>(&written.constraints[i]);
-    require(edge && edges[i].at("from") == edge->from && edges[i].at("to") == edge->to, mismatch);
-    require(map.graph.find(edge->from) && map.graph.find(edge->to), mismatch);
+    require(
+        edge && edges[i].at("from") == edge->from.value() && edges[i].at("to") == edge->to.value(),
+        mismatch);
+    require(map.graph.find(place_of_node(edge->from)) && map.graph.find(place_of_node(edge->to)),
+            mismatch);
     map.graph.constraints.push_back(*edge);
     const auto source = constraint_source(edges[i].at("source").get<std::string>());
     require(source.has_value(), "an edge's source is no source");
@@ -50,10 +53,10 @@ void take_edges(const json& edges, const PoseGraph& written, RunMap& map) {
 
 }  // namespace
 
-std::int64_t RunMap::anchor_frame(const Place& place) const {
+FrameId RunMap::anchor_frame(const Place& place) const {
   const auto frame = frame_of_keyframe.find(place.anchor_keyframe);
   require(frame != frame_of_keyframe.end(),
-          "place " + std::to_string(place.id) + " has no frame of its anchor");
+          "place " + to_string(place.id) + " has no frame of its anchor");
   return frame->second;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/place_graph.h>
 
 #include <map>
@@ -10,10 +11,10 @@ namespace placegraph::apps {
 /// map (map.db).
 struct RunMap {
   PlaceGraph graph;  ///< without appearances
-  std::map<std::int64_t, std::int64_t> frame_of_keyframe;
+  std::map<KeyframeId, FrameId> frame_of_keyframe;
 
   /// The frame that a place's anchor was seen in. Throws ArgumentError for a place without.
-  std::int64_t anchor_frame(const Place& place) const;
+  FrameId anchor_frame(const Place& place) const;
 };
 
 /// Throws FileError where a file is missing or not what `placegraph run` writes, ArgumentError for

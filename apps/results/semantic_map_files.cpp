@@ -1,14 +1,14 @@
 #include "apps/results/semantic_map_files.h"
 
-#include <placegraph/eval/plots/semantic_map_plot.h>
-#include <placegraph/eval/scene/semantic_map_check.h>
-#include <placegraph/frontend/scene/moving_classes.h>
+#include <placegraph/eval/internal/plots/semantic_map_plot.h>
+#include <placegraph/eval/internal/scene/semantic_map_check.h>
+#include <placegraph/frontend/internal/scene/moving_classes.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/io/scene/labelled_mesh_file.h>
-#include <placegraph/io/scene/semantic_map_file.h>
+#include <placegraph/io/internal/scene/labelled_mesh_file.h>
+#include <placegraph/io/internal/scene/semantic_map_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
-#include <placegraph/pipeline/lens_correction.h>
+#include <placegraph/pipeline/internal/lens_correction.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -50,10 +50,10 @@ json check_json(const SemanticMapCheck& check, const SemanticMap& map) {
           {"confusion", confusion}};
 }
 
-std::vector<std::pair<std::int64_t, std::vector<float>>> shares_by_place(const UrbanMapper& mapper,
-                                                                         const Map& map) {
+std::vector<std::pair<PlaceId, std::vector<float>>> shares_by_place(const UrbanMapper& mapper,
+                                                                    const Map& map) {
   const std::vector<std::vector<float>> shares = class_shares(mapper, map);
-  std::vector<std::pair<std::int64_t, std::vector<float>>> result;
+  std::vector<std::pair<PlaceId, std::vector<float>>> result;
   for (std::size_t i = 0; i < shares.size(); ++i)
     result.emplace_back(map.place_graph.places[i].id, shares[i]);
   return result;
@@ -77,7 +77,7 @@ Georeference read_georeference(const std::string& folder, const Map& map) {
   }
   const Trajectory trajectory = read_trajectory((fs::path(folder) / "trajectory_enu.tum").string());
   constexpr std::int64_t kSame_ns = 1000000;  // stamps were written in decimal seconds
-  std::map<std::int64_t, SE3> poses;
+  std::map<KeyframeId, SE3> poses;
   for (const Keyframe& keyframe : map.keyframes) {
     const auto at = std::lower_bound(
         trajectory.poses.begin(), trajectory.poses.end(), keyframe.stamp_ns - kSame_ns,
@@ -86,7 +86,7 @@ Georeference read_georeference(const std::string& folder, const Map& map) {
         at->stamp_ns <= keyframe.stamp_ns + kSame_ns)
       poses.emplace(keyframe.id, SE3(*at->T_world_body));
   }
-  result.T_enu_keyframe = [poses = std::move(poses)](std::int64_t id) -> std::optional<SE3> {
+  result.T_enu_keyframe = [poses = std::move(poses)](KeyframeId id) -> std::optional<SE3> {
     const auto found = poses.find(id);
     if (found == poses.end()) return std::nullopt;
     return found->second;
@@ -112,7 +112,7 @@ UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, cons
   add_keyframes(
       mapper, map, options,
       [&](const Keyframe& keyframe) {
-        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame), sensor);
+        Frame frame = dataset.frame(static_cast<std::size_t>(keyframe.frame.value()), sensor);
         if (lens_k1 != 0) lens.apply(frame);
         return frame;
       },

@@ -1,25 +1,23 @@
 #include "apps/run/draw_frame.h"
+#include <placegraph/pipeline/cues/frame_view.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/support/output.h"
 #include "apps/support/subpixel.h"
+#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {
 
 std::string directions(const FrameView& view) {
   if (view.directed.empty()) return "";
-  std::int64_t world = -1;
+  std::optional<ManhattanFrameId> world;
   for (const FrameView::DirectedLine& line : view.directed) world = std::max(world, line.world);
-  std::string text = world < 0 ? ", no rectangular world" : ", rectangular world ";
-  if (world >= 0) text += std::to_string(world);
-  return text;
+  return world ? ", rectangular world " + to_string(*world) : ", no rectangular world";
 }
 
 cv::Scalar colour_of(std::optional<double> off_px) {
@@ -32,7 +30,7 @@ cv::Scalar colour_of(std::optional<double> off_px) {
 /// Red, green and blue along the axes of a rectangular world, grey along none.
 cv::Scalar colour_of(const FrameView::DirectedLine& line) {
   static const cv::Scalar kColours[] = {{64, 64, 255}, {64, 224, 64}, {255, 96, 64}};
-  return line.axis < 0 ? cv::Scalar(128, 128, 128) : kColours[line.axis];
+  return line.axis ? kColours[*line.axis] : cv::Scalar(128, 128, 128);
 }
 
 std::string caption(const FrameResult& result, const FrameView& view) {
@@ -41,7 +39,7 @@ std::string caption(const FrameResult& result, const FrameView& view) {
                                                                : "waiting";
   const auto mapped = std::count_if(view.tracks.begin(), view.tracks.end(),
                                     [](const auto& track) { return track.px_projected; });
-  return std::to_string(result.frame) + " " + state + (result.keyframe ? ", keyframe" : "") + ", " +
+  return to_string(result.frame) + " " + state + (result.keyframe ? ", keyframe" : "") + ", " +
          std::to_string(view.tracks.size()) + " tracks, " + std::to_string(mapped) + " landmarks" +
          (view.lines.empty() ? "" : ", " + std::to_string(view.lines.size()) + " lines") +
          directions(view) + (result.loops_accepted > 0 ? ", loop" : "");
@@ -83,11 +81,10 @@ Image draw_frame(const Frame& frame, const FrameResult& result, const FrameView&
 
 void write_frame_drawing(const std::string& folder, const Frame& frame, const FrameResult& result,
                          const FrameView& view) {
-  std::vector<unsigned char> png;
-  cv::imencode(".png", draw_frame(frame, result, view), png, {cv::IMWRITE_PNG_COMPRESSION, 3});
   char name[32];
-  std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(frame.id));
-  write_file((std::filesystem::path(folder) / name).string(), {png.begin(), png.end()});
+  std::snprintf(name, sizeof name, "%06lld.png", static_cast<long long>(frame.id.value()));
+  write_png((std::filesystem::path(folder) / name).string(), draw_frame(frame, result, view),
+            {.level = 3});
 }
 
 }  // namespace placegraph::apps

@@ -1,5 +1,6 @@
 #pragma once
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
+#include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <string>

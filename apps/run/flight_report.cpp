@@ -1,8 +1,8 @@
 #include "apps/run/flight_report.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/trajectory/body_state_error.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/eval/internal/trajectory/body_state_error.h>
+#include <placegraph/graph/internal/core/angle.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #include "apps/run/run.h"
 
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/pose_graph/rigid_graph.h>
 #include <placegraph/graph/place_transitions.h>
-#include <placegraph/graph/pose_graph/rigid_graph.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/place_graph_export.h>
@@ -149,21 +149,20 @@ PreparedRun prepare(RunArguments arguments) {
 RunResult run_prepared(const PreparedRun& prepared, const LogSink& log) {
   const RunArguments& arguments = prepared.arguments;
   const Dataset& dataset = *prepared.dataset;
-  FrameObserver observer;
+  RunInputs inputs;
   if (!arguments.draw.empty())
-    observer = [&](const Frame& frame, const FrameResult& result, const FrameView& view) {
+    inputs.observer = [&](const Frame& frame, const FrameResult& result, const FrameView& view) {
       write_frame_drawing(arguments.draw, frame, result, view);
     };
   Progress progress("running " + dataset.name(), frames_to_run(dataset, prepared.options));
-  return run_sequence(
-      dataset, prepared.options,
-      [&](std::size_t done, std::size_t, const FrameResult&) {
-        progress.update(static_cast<std::int64_t>(done));
-      },
-      log, observer,
-      MapFile{run_map_path(arguments.out), fs::absolute(arguments.sequence).string(),
-              !arguments.resume.empty()},
-      prepared.surfaces);
+  inputs.progress = [&](std::size_t done, std::size_t, const FrameResult&) {
+    progress.update(static_cast<std::int64_t>(done));
+  };
+  inputs.log = log;
+  inputs.map_file = {run_map_path(arguments.out), fs::absolute(arguments.sequence).string(),
+                     !arguments.resume.empty()};
+  inputs.surfaces = prepared.surfaces;
+  return run_sequence(dataset, prepared.options, inputs);
 }
 
 /// What result.json says of the work; of its scene, its cost and its truth others say it.

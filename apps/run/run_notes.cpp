@@ -1,8 +1,8 @@
 #include "apps/run/run_notes.h"
 
-#include <placegraph/io/calibration/calibration_plausibility.h>
-#include <placegraph/pipeline/motion_check.h>
-#include <placegraph/pipeline/stereo_check.h>
+#include <placegraph/io/internal/calibration/calibration_plausibility.h>
+#include <placegraph/pipeline/internal/motion_check.h>
+#include <placegraph/pipeline/internal/stereo_check.h>
 
 #include <nlohmann/json.hpp>
 

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/id_format.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/files/text_file.h>
-#include <placegraph/io/measurements/label_file.h>
+#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/internal/measurements/label_file.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -66,17 +67,17 @@ std::function<Frame(const Keyframe&)> frames_of(const StoredMap& stored) {
     const ImageRange images = images_of(stored.origin.sequence, {});
     const std::int64_t count = static_cast<std::int64_t>(images.paths.size());
     for (const Keyframe& keyframe : stored.map.keyframes)
-      if (keyframe.frame >= count)
+      if (keyframe.frame.value() >= count)
         throw FileError(stored.origin.sequence,
                         fmt::format("has {} images, and keyframe {} of the map is of image {}",
                                     count, keyframe.id, keyframe.frame));
     return [images](const Keyframe& keyframe) {
-      return read_frame(images, static_cast<std::size_t>(keyframe.frame));
+      return read_frame(images, static_cast<std::size_t>(keyframe.frame.value()));
     };
   }
   const std::shared_ptr<Dataset> dataset = open_dataset(stored.origin.sequence);
   return [dataset, sensor = stored.origin.sensor](const Keyframe& keyframe) {
-    return dataset->frame(static_cast<std::size_t>(keyframe.frame), sensor);
+    return dataset->frame(static_cast<std::size_t>(keyframe.frame.value()), sensor);
   };
 }
 
@@ -88,7 +89,7 @@ PlaceClassifier learn(const MapLabelArguments& arguments, bool colour, int& plac
   std::vector<PlaceCueVectors> views;
   std::vector<int> labels;
   for (std::size_t i = 0; i < images.paths.size(); ++i) {
-    const auto label = known.find(images.first + static_cast<std::int64_t>(i));
+    const auto label = known.find(FrameId(images.first + static_cast<std::int64_t>(i)));
     if (label == known.end()) continue;
     const Frame frame = read_frame(images, i);
     if (colour && frame.colour.empty())
@@ -109,9 +110,9 @@ PlaceClassifier learn(const MapLabelArguments& arguments, bool colour, int& plac
 json relabelled(const PlaceLabel& of, const std::vector<std::string>& names, Place& place) {
   std::vector<std::string>& written = place.labels;
   written.clear();
-  if (of.label >= 0)
-    written.push_back(names.empty() ? std::to_string(of.label)
-                                    : names[static_cast<std::size_t>(of.label)]);
+  if (of.label)
+    written.push_back(names.empty() ? std::to_string(*of.label)
+                                    : names[static_cast<std::size_t>(*of.label)]);
   return {{"place", of.place},
           {"label", written.empty() ? json(nullptr) : json(written.front())},
           {"probability", of.probability},
@@ -147,7 +148,7 @@ MapLabelResult map_label(const MapLabelArguments& arguments) {
   result.accuracy = classifier.cross_validated_accuracy();
   for (std::size_t i = 0; i < labels.size(); ++i) {
     result.list.push_back(relabelled(labels[i], names, map.place_graph.places[i]));
-    result.labelled += labels[i].label >= 0;
+    result.labelled += labels[i].label.has_value();
   }
   write_map(result.map, stored);
   return result;

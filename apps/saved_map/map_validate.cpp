@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/pipeline/internal/places/place_mapper.h>
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -14,7 +15,7 @@ namespace {
 
 /// Keyframes and loops name frames of the map.
 void require_frames(const std::string& path, const Map& map) {
-  std::set<std::int64_t> frames;
+  std::set<FrameId> frames;
   for (const FrameRecord& record : map.frames) frames.insert(record.frame);
   for (const Keyframe& keyframe : map.keyframes)
     if (!frames.count(keyframe.frame))

@@ -1,6 +1,6 @@
 #include "apps/scene/scene_label.h"
 
-#include <placegraph/frontend/labels/urban_labels.h>
+#include <placegraph/frontend/internal/labels/urban_labels.h>
 
 #include "apps/support/scene_models.h"
 

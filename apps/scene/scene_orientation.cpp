@@ -1,17 +1,16 @@
 #include "apps/scene/scene_orientation.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/segments/segment_detector.h>
-#include <placegraph/frontend/vanishing/scene_directions.h>
+#include <placegraph/frontend/internal/segments/segment_detector.h>
+#include <placegraph/frontend/internal/vanishing/scene_directions.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/measurements/plane_truth.h>
+#include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/internal/measurements/plane_truth.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/support/output.h"
@@ -75,12 +74,6 @@ Image draw(const SeenOrientation& seen, const Camera& camera) {
   return picture;
 }
 
-void write_map_image(const std::string& path, const Image& image) {
-  AtomicFile file(path);
-  if (!cv::imwrite(file.temporary_path(), image)) throw FileError(path, "cannot be written");
-  file.commit();
-}
-
 SceneOrientationResult orientation_of_image(const SceneOrientationArguments& arguments) {
   require(!arguments.camera.empty(), "--calib: an image needs its camera");
   for (const std::string& path : {arguments.out, arguments.drawing})
@@ -93,8 +86,8 @@ SceneOrientationResult orientation_of_image(const SceneOrientationArguments& arg
   const double cpu_ms = watch.cpu_ms();
   if (!seen.map.outcome) throw NoAnswer(arguments.in + ": " + seen.map.outcome.reason);
   const Image surfaces = indoor_surfaces(seen.map, camera, seen.R_cam_manhattan);
-  if (!arguments.out.empty()) write_map_image(arguments.out, seen.map.labels);
-  if (!arguments.drawing.empty()) write_map_image(arguments.drawing, draw(seen, camera));
+  if (!arguments.out.empty()) write_image(arguments.out, seen.map.labels);
+  if (!arguments.drawing.empty()) write_image(arguments.drawing, draw(seen, camera));
   const auto share = [&](IndoorSurface surface) {
     return cv::countNonZero(surfaces == static_cast<int>(surface)) /
            static_cast<double>(surfaces.total());
@@ -160,9 +153,9 @@ SceneOrientationResult orientation_of_sequence(const SceneOrientationArguments& 
     found.coverage += seen.map.coverage;
     const std::string name = fmt::format("{:06d}.png", i);
     if (!arguments.out.empty())
-      write_map_image((fs::path(arguments.out) / name).string(), seen.map.labels);
+      write_image((fs::path(arguments.out) / name).string(), seen.map.labels);
     if (!arguments.drawing.empty() && seen.map.outcome)
-      write_map_image((fs::path(arguments.drawing) / name).string(), draw(seen, camera));
+      write_image((fs::path(arguments.drawing) / name).string(), draw(seen, camera));
     if (truth.known()) truth.check(i, seen, check);
   }
   found.coverage /= std::max(1, found.images);

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/parallel.h>
+#include <placegraph/graph/internal/core/parallel.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/internal/files/image_list.h>
 
 #include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <set>
 #include <utility>
@@ -19,6 +18,7 @@
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"
+#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {
@@ -73,12 +73,6 @@ std::vector<std::pair<std::string, double>> shares_of(const ScenePictureResult& 
 }
 
 }  // namespace
-
-void write_png(const std::string& path, const Image& image) {
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".png", image, bytes);
-  write_file(path, {bytes.begin(), bytes.end()});
-}
 
 Image draw_labels(const Image& bgr, const Image& labels, int classes) {
   Image table(1, 256, CV_8UC3, cv::Scalar::all(0));

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/labels/scene_labeller.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/frontend/internal/labels/scene_labeller.h>
+#include <placegraph/graph/image/image.h>
 
 #include <cstdint>
 #include <functional>
@@ -41,9 +41,6 @@ ScenePictureResult label_pictures(const ScenePictureArguments& arguments,
 /// How much of the pictures is what, in one line.
 std::string to_text(const ScenePictureResult& result);
 std::string to_json(const ScenePictureResult& result);
-
-/// Writes a PNG file as a whole or not at all; throws FileError.
-void write_png(const std::string& path, const Image& image);
 
 /// A colour for each class, the picture under it, and black where it is unknown.
 Image draw_labels(const Image& bgr, const Image& labels, int classes);

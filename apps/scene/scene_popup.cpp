@@ -1,9 +1,9 @@
 #include "apps/scene/scene_popup.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
-#include <placegraph/frontend/scene/popup.h>
-#include <placegraph/frontend/segments/segment_detector.h>
+#include <placegraph/frontend/internal/labels/surface_classifier.h>
+#include <placegraph/frontend/internal/scene/popup.h>
+#include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
 
@@ -17,6 +17,7 @@
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/scene_models.h"
+#include "apps/support/write_png.h"
 
 namespace placegraph::apps {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/internal/files/image_list.h>
 
 #include "apps/support/image_folder_of.h"
 
@@ -29,7 +29,8 @@ ImageRange images_of(const std::string& folder, const std::vector<int>& range) {
 Frame read_frame(const ImageRange& images, std::size_t index) {
   const GreyAndColour image = read_image(images.paths.at(index));
   Frame frame;
-  frame.id = frame.stamp_ns = images.first + static_cast<std::int64_t>(index);
+  frame.stamp_ns = images.first + static_cast<std::int64_t>(index);
+  frame.id = FrameId(frame.stamp_ns);
   frame.image = image.grey;
   frame.colour = image.colour;
   return frame;

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 #include <placegraph/graph/scene/scene_model.h>
 
 #include <string>

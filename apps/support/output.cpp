@@ -1,7 +1,7 @@
 #include "apps/support/output.h"
 
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/files/atomic_file.h>
+#include <placegraph/io/internal/files/atomic_file.h>
 
 #include <cstdio>
 #include <filesystem>

@@ -13,7 +13,8 @@ void add_train_environment_command(CLI::App& train_command) {
   auto json = std::make_shared<bool>(false);
   TrainEnvironmentArguments& a = *arguments;
   CLI::App* command = train_command.add_subcommand(
-      "environment", "What kind of surroundings a view shows: frontend/scene/environment.txt");
+      "environment",
+      "What kind of surroundings a view shows: frontend/internal/scene/environment.txt");
   command->footer("placegraph train environment camvid --out environment.txt");
   command->add_option("DATA", a.data, "labelled pictures of streets and roads to learn from too");
   command->add_option("--out", a.out, "write the model")->required();

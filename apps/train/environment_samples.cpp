@@ -1,12 +1,12 @@
 #include "apps/train/environment_samples.h"
 
-#include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/synthetic/render/renderer.h>
-#include <placegraph/io/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/synthetic/worlds/tours.h>
+#include <placegraph/io/internal/synthetic/render/renderer.h>
+#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/internal/synthetic/worlds/tours.h>
 
 #include <algorithm>
 #include <cmath>

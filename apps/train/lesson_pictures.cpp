@@ -1,9 +1,9 @@
 #include "apps/train/lesson_pictures.h"
 
-#include <placegraph/frontend/labels/scene_variants.h>
-#include <placegraph/graph/core/parallel.h>
+#include <placegraph/frontend/internal/labels/scene_variants.h>
+#include <placegraph/graph/internal/core/parallel.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/frontend/labels/scene_training.h>
-#include <placegraph/graph/core/image.h>
+#include <placegraph/frontend/internal/labels/scene_training.h>
+#include <placegraph/graph/image/image.h>
 
 #include <cstdint>
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 
 #include <cstdint>
 #include <string>

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/parallel.h>
+#include <placegraph/graph/internal/core/parallel.h>
 #include <placegraph/io/models/scene_model_file.h>
 
 #include <algorithm>

@@ -1,18 +1,18 @@
 #include "apps/views/flow.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/flow/optical_flow.h>
+#include <placegraph/frontend/internal/flow/optical_flow.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/measurements/flow_file.h>
+#include <placegraph/io/internal/measurements/flow_file.h>
 
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/usage.h"
+#include "apps/support/write_png.h"
 #include "apps/views/draw_flow.h"
 #include "apps/views/flow_cues_report.h"
 
@@ -71,9 +71,7 @@ std::int64_t known_pixels(const Image& flow) {
 void write_flow_files(const FlowArguments& arguments, const Image& from, const Image& flow) {
   if (!arguments.out.empty()) write_flow(arguments.out, flow);
   if (arguments.drawing.empty()) return;
-  std::vector<unsigned char> png;
-  cv::imencode(".png", draw_flow(from, flow), png);
-  write_file(arguments.drawing, std::string(png.begin(), png.end()));
+  write_png(arguments.drawing, draw_flow(from, flow));
 }
 
 }  // namespace

@@ -1,21 +1,21 @@
 #include "apps/views/markers_detect.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/markers/marker_dictionary.h>
+#include <placegraph/frontend/internal/markers/marker_dictionary.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/measurements/marker_layout_file.h>
+#include <placegraph/io/internal/measurements/marker_layout_file.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 
 #include "apps/support/choice.h"
 #include "apps/support/output.h"
 #include "apps/support/read_calib.h"
 #include "apps/support/rows_json.h"
 #include "apps/support/usage.h"
+#include "apps/support/write_png.h"
 #include "apps/views/draw_markers.h"
 
 namespace placegraph::apps {
@@ -100,9 +100,7 @@ void write_drawing(const std::string& path, const Image& grey,
     drawn.push_back({marker.sighting, std::nullopt, marker.side_m});
     if (marker.poses.outcome) drawn.back().T_cam_marker = marker.poses.poses[0].T_cam_marker;
   }
-  std::vector<unsigned char> png;
-  cv::imencode(".png", draw_markers(grey, drawn, camera), png);
-  write_file(path, std::string(png.begin(), png.end()));
+  write_png(path, draw_markers(grey, drawn, camera));
 }
 
 }  // namespace

@@ -1,31 +1,24 @@
 #pragma once
-#include <placegraph/graph/core/options.h>
+#include <placegraph/backend/factor_graph/factor_graph_options.h>
 #include <placegraph/graph/core/outcome.h>
-#include <placegraph/graph/core/robust_kernel.h>
 #include <placegraph/graph/pose_graph/bundle.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-struct BundleOptions {
-  int max_iterations = 200;
-  double relative_decrease = 1e-7;  ///< stop when the cost falls by less than this share
-  RobustKernel kernel;              ///< width in pixels
-  void check() const;
-};
-void visit(OptionVisitor& field, BundleOptions& options);
-
+/// The result of a bundle adjustment.
 struct BundleReport {
-  Outcome outcome;
-  Bundle bundle;                            ///< with the estimate; as it came if there is none
+  Outcome outcome;                          ///< see adjust_bundle
+  Bundle bundle;                            ///< with the estimate; the input if there is none
   double cost_initial = 0, cost_final = 0;  ///< half the sum of rho(squared error [px^2])
-  double rms_px = 0;                        ///< of the reprojection errors at the end, no kernel
-  int iterations = 0;
+  double rms_px = 0;   ///< root of the mean squared reprojection error at the end, without kernel
+  int iterations = 0;  ///< steps of Levenberg-Marquardt
 };
 
-/// Full bundle adjustment: the poses, focal lengths and distortions of all cameras and all points
-/// that least squares of the reprojection errors give (RadialReprojectionFactor in a FactorGraph).
-/// Seven directions stay open (position, heading, scale of the whole): there nothing moves. Throws
-/// as Bundle::check. kTooFewData: no observations; kNotConverged: the estimate so far is there.
+/// Full bundle adjustment of poses, focal lengths, distortions and points.
+/// It minimizes the reprojection errors, each with a standard deviation of 1 px. They do not
+/// determine position, orientation and scale of the whole, which stay near the start. Throws
+/// ArgumentError as Bundle::check and for options out of range. kTooFewData: no observations;
+/// kNotConverged: the report has the estimate so far.
 [[nodiscard]] BundleReport adjust_bundle(const Bundle& bundle, const BundleOptions& options);
 
 }  // namespace placegraph

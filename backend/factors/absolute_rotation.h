@@ -1,23 +1,25 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// The Manhattan frame of a camera's surroundings, as its vanishing points give it:
+/// A measured Manhattan frame, as the vanishing points of a camera's image give it:
 ///
 ///   r = W log(E),   E = R_world_manhattan^T R_world_cam R_cam_manhattan
 ///   d r / d phi_cam       =  W right_jacobian_inverse(log E) R_cam_manhattan^T
 ///   d r / d phi_manhattan = -W right_jacobian_inverse(log E) E^T
 ///
-/// W^T W = information about the turn of E on the right, of any rank: where the lines of an image
-/// show fewer than two directions a turn stays open. Which of the 24 frames along the same axes is
-/// meant is the measurement's to say. A rotation that is known outright is one by a variable
-/// R_world_manhattan that is held.
+/// W^T W = information about the rotation of E on the right, of any rank: where the lines of an
+/// image show fewer than two directions, a rotation stays undetermined. The measurement says which
+/// of the 24 frames along the same axes is meant. To measure a camera's absolute rotation, hold the
+/// variable R_world_manhattan.
 class AbsoluteRotationFactor final : public SizedFactor<3, SE3, SO3> {
  public:
+  /// Measured rotation and W [1/rad].
   AbsoluteRotationFactor(const SO3& R_cam_manhattan, const Eigen::Matrix3d& whitening)
       : R_cam_manhattan_(R_cam_manhattan), W_(whitening) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const SE3& T_world_cam, const SO3& R_world_manhattan, Residual& r,
                Jacobians* J) const override {
     const SO3 E = R_world_manhattan.inverse() * T_world_cam.rotation() * R_cam_manhattan_;
@@ -30,6 +32,7 @@ class AbsoluteRotationFactor final : public SizedFactor<3, SE3, SO3> {
     std::get<1>(*J).noalias() = -J_E * E.matrix().transpose();
     return true;
   }
+  /// A copy: the measurement depends neither on the world frame nor on the unit of length.
   std::shared_ptr<const Factor> transformed(const Sim3&) const override {
     return std::make_shared<AbsoluteRotationFactor>(*this);
   }

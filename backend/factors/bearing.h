@@ -1,22 +1,24 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// The direction from one camera to another without the distance, as two-view geometry or three
-/// views of lines give it:
+/// A measured direction from one camera to another, without the distance:
 ///
 ///   r = W (u - u_measured),   u = t / |t|,   t = R_a^T (t_b - t_a),   |u_measured| = 1
 ///   d u / d t = (I - u u^T) / |t|,   d t / d xi_a = [-I, hat(t)],   d t / d xi_b = [R_a^T R_b, 0]
 ///
-/// W^T W = information of u; what it says along u itself carries nothing. The chord is used, not
-/// its projection: the opposite direction is the worst, not a second minimum. Where the cameras
-/// coincide the direction is undefined: the derivatives are zero.
+/// Two-view geometry and three views of lines give such a direction. W^T W = information of u; its
+/// part along u has no effect. The residual is the chord, not its projection: the opposite
+/// direction is the worst, not a second minimum. Where the cameras coincide, the direction is
+/// undefined and the derivatives are zero.
 class BearingFactor final : public SizedFactor<3, SE3, SE3> {
  public:
+  /// Measured direction in frame a, of any length but zero, and W.
   BearingFactor(const Eigen::Vector3d& direction_a, const Eigen::Matrix3d& whitening)
       : measured_(direction_a.normalized()), W_(whitening) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const SE3& T_world_a, const SE3& T_world_b, Residual& r,
                Jacobians* J) const override {
     const Eigen::Matrix3d R_a_world = T_world_a.rotation().matrix().transpose();

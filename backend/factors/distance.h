@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Distance between the origins of two poses, in standard deviations:
 ///
@@ -12,9 +12,11 @@ namespace placegraph {
 /// derivatives are zero.
 class DistanceFactor final : public SizedFactor<1, SE3, SE3> {
  public:
+  /// Measured distance and its standard deviation, which must be positive.
   DistanceFactor(double distance_m, double sigma_m)
       : distance_(distance_m), inverse_(1.0 / sigma_m) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const SE3& T_map_a, const SE3& T_map_b, Residual& r, Jacobians* J) const override {
     const Eigen::Vector3d t_a_b_map = T_map_b.translation() - T_map_a.translation();
     const double length = t_a_b_map.norm();
@@ -26,6 +28,7 @@ class DistanceFactor final : public SizedFactor<1, SE3, SE3> {
     std::get<1>(*J) << inverse_ * u * T_map_b.rotation().matrix(), 0, 0, 0;
     return true;
   }
+  /// The distance and its standard deviation in the new unit of length.
   std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
     const auto result = std::make_shared<DistanceFactor>(*this);
     result->distance_ *= S_new_old.scale();

@@ -8,35 +8,36 @@
 #include <utility>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A term of a factor graph: a whitened residual r of a few variables, with its derivatives. The
-/// graph minimizes the sum of rho(|r|^2) / 2. Derive from this, or more easily from SizedFactor. A
-/// factor must not change once it is in a graph.
+/// A term of a factor graph: a whitened residual r of a few variables, with its derivatives.
+/// The graph minimizes the sum of rho(|r|^2) / 2. Derive from this, or more easily from
+/// SizedFactor. A factor must not change once it is in a graph.
 class Factor {
  public:
   virtual ~Factor() = default;
 
-  /// Number of rows of r.
+  /// Number of rows of r, at least 1.
   virtual int residual_size() const = 0;
   /// The kinds of the variables, in order: indices of the alternatives of Variable.
   virtual std::vector<std::size_t> variable_kinds() const = 0;
-  /// Writes r and, where jacobians is not empty, the derivative of r by the tangent of every
-  /// variable (residual_size x degrees_of_freedom, T [+] xi = T exp(xi)); sizes are right already.
-  /// False where the residual cannot be computed: the solver then tries a shorter step.
+  /// Writes r and, where `jacobians` is not empty, its derivatives by the variables' tangents.
+  /// There is one Jacobian for each variable, residual_size x degrees_of_freedom, with
+  /// T [+] xi = T exp(xi); all sizes are set already. Returns false where the residual cannot be
+  /// computed: the solver then tries a shorter step.
   virtual bool evaluate(std::span<const Variable* const> values, Eigen::Ref<Eigen::VectorXd> r,
                         std::span<Eigen::MatrixXd> jacobians) const = 0;
-  /// The same measurement where the frame of the poses, planes and rotations is another one and so
-  /// is the unit of length, p_new = S_new_old p_old: its residual at the variables in the new frame
-  /// is that of this factor at the same variables in the old one. Null (the default) where that is
-  /// not known: such a factor cannot be in a sliding window, which is moved and rescaled.
+  /// The same measurement in another world frame and unit of length, p_new = S_new_old p_old.
+  /// Its residual at the variables in the new frame is that of this factor at the variables in the
+  /// old one. Null (the default) where that is not known: such a factor cannot be in a sliding
+  /// window, which is moved and rescaled.
   virtual std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const {
     static_cast<void>(S_new_old);
     return nullptr;
   }
 };
 
-/// The derivative of `Rows` residuals by one variable.
+/// The derivative of `Rows` residuals by the tangent of one variable.
 template <int Rows, class T>
 using FactorJacobian = Eigen::Matrix<double, Rows, VariableBlock<T>::kDof>;
 
@@ -51,17 +52,25 @@ using FactorJacobian = Eigen::Matrix<double, Rows, VariableBlock<T>::kDof>;
 template <int Rows, class... Variables>
 class SizedFactor : public Factor {
  public:
-  static constexpr int kRows = Rows;
+  static constexpr int kRows = Rows;  ///< number of rows of the residual
+  /// The types of the variables, in order.
   using VariableTuple = std::tuple<Variables...>;
+  /// The whitened residual.
   using Residual = Eigen::Matrix<double, Rows, 1>;
+  /// The derivatives of the residual by the tangents of the variables, in order.
   using Jacobians = std::tuple<FactorJacobian<Rows, Variables>...>;
 
+  /// Writes the residual and, unless `J` is null, all derivatives, as Factor::evaluate.
+  /// Returns false where the residual cannot be computed.
   virtual bool compute(const Variables&... variables, Residual& r, Jacobians* J) const = 0;
 
+  /// `Rows`.
   int residual_size() const final { return Rows; }
+  /// The indices of `Variables` among the alternatives of Variable.
   std::vector<std::size_t> variable_kinds() const final {
     return {Variable(std::in_place_type<Variables>).index()...};
   }
+  /// Calls compute(); the values must be of the kinds of the variables.
   bool evaluate(std::span<const Variable* const> values, Eigen::Ref<Eigen::VectorXd> r,
                 std::span<Eigen::MatrixXd> jacobians) const final {
     return evaluate_all(values, r, jacobians, std::index_sequence_for<Variables...>());

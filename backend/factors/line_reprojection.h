@@ -3,22 +3,25 @@
 #include <placegraph/backend/factors/point_in_camera.h>
 #include <placegraph/graph/geometry/camera.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A segment seen of a line: signed distances of its end points from the projected line, in
-/// standard deviations (undistorted pinhole camera):
+/// An observed segment of a line: distances of its ends from the projected line.
+/// Signed, in standard deviations, for an undistorted pinhole camera:
 ///
-///   l = K_line m_eye,   K_line = det(K) K^-T,   [m_cam, v_cam] = the line in the camera
-///   m_eye = m_cam - c x v_cam,   c = the eye that sees it, oriented as the camera is; 0: itself
+///   l = K_line m_c,   K_line = det(K) K^-T,   [m_cam, v_cam] = the line in the camera frame
+///   m_c = m_cam - c x v_cam,   c = centre of the observing camera in the camera frame
 ///   r = [p_start^T l, p_end^T l] / (sqrt(l_1^2 + l_2^2) sigma),   p = [u, v, 1]
 ///   d r_i / d l = (p_i - (p_i^T l) [l_1, l_2, 0] / (l_1^2 + l_2^2)) / (sqrt(l_1^2 + l_2^2) sigma)
 ///   d m_cam / d xi = [hat(v_cam), hat(m_cam)],   d v_cam / d xi = [0, hat(v_cam)],
 ///   d [m_cam, v_cam] / d line: see transform_to
 ///
-/// The end points say where across the line, never where along it. A line whose plane with the
-/// camera's centre is parallel to the image has no image: kUnprojectableResidual, and no pull.
+/// The observing camera has the orientation of the camera frame: c = 0 for the camera itself,
+/// [baseline, 0, 0] for the right camera of a stereo pair. The ends measure the line's position
+/// across its direction only. A line whose plane with the centre is parallel to the image has no
+/// image: its residual is kUnprojectableResidual, its derivatives are zero.
 class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
  public:
+  /// Intrinsics (distortion is ignored), both ends, their standard deviation, and c [m].
   LineReprojectionFactor(const Camera& camera, const Eigen::Vector2d& start_px,
                          const Eigen::Vector2d& end_px, double sigma_px,
                          const Eigen::Vector3d& eye_cam = Eigen::Vector3d::Zero())
@@ -29,6 +32,7 @@ class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
     ends_ << start_px.transpose(), 1, end_px.transpose(), 1;
   }
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const SE3& T_map_cam, const Line3& line_map, Residual& r,
                Jacobians* J) const override {
     return compute(T_map_cam, line_map, T_map_cam, r, J);

@@ -1,24 +1,27 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A vehicle that does not slip sideways: its rear axle moves along an arc, so that its step has
-/// opposite components across in the frames of start and end, in standard deviations:
+/// The constraint that a wheeled vehicle does not slip sideways.
+/// Its rear axle moves along an arc, so the step has opposite components across the vehicle in the
+/// frames of start and end; r is their sum in standard deviations:
 ///
 ///   r = a^T (t + R^T t + (R - R^T) l) / (2 sigma),   (R, t) = E = T_world_from^-1 T_world_to
 ///   d r / d xi_to   =  a^T [R + I, hat(R^T t) - R hat(l) - hat(R^T l)] / (2 sigma)
 ///   d r / d xi_from = -(d r / d xi_to) Ad(E^-1)
 ///
-/// `across` a: unit vector across the wheels in the node's frame (or, for a road that does not jump
-/// up, the vertical one); `lever_arm` l: the middle of the rear axle in that frame [m]; `sigma_m`
-/// typically 2 to 5 % of the step.
+/// `across` a: direction across the wheels in the node's frame, of any length (or the vertical, for
+/// a vehicle that stays on a smooth road); `lever_arm` l: the middle of the rear axle in that frame
+/// [m]; `sigma_m` typically 2 to 5 % of the step.
 class NonHolonomicFactor final : public SizedFactor<1, SE3, SE3> {
  public:
+  /// a, l and the standard deviation of half the sum of the two components [m].
   NonHolonomicFactor(const Eigen::Vector3d& across, const Eigen::Vector3d& lever_arm,
                      double sigma_m)
       : weighted_(across.normalized().transpose() / (2 * sigma_m)), lever_arm_(lever_arm) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const SE3& T_world_from, const SE3& T_world_to, Residual& r,
                Jacobians* J) const override {
     const SE3 E = T_world_from.inverse() * T_world_to;

@@ -3,7 +3,7 @@
 
 #include <Eigen/LU>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A plane measured in a sensor's frame (Kaess 2015):
 ///
@@ -14,9 +14,11 @@ namespace placegraph {
 /// W^T W = information of the plane's tangent, see plane_information.
 class PlaneObservationFactor final : public SizedFactor<3, SE3, Plane3> {
  public:
+  /// The measured plane in the sensor's frame, and W.
   PlaneObservationFactor(const Plane3& plane_sensor, const Eigen::Matrix3d& whitening)
       : measured_(plane_sensor), W_(whitening) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const SE3& T_world_sensor, const Plane3& plane_world, Residual& r,
                Jacobians* J) const override {
     const Plane3 plane_sensor =
@@ -30,8 +32,9 @@ class PlaneObservationFactor final : public SizedFactor<3, SE3, Plane3> {
     std::get<1>(*J) = J_e * std::get<1>(*J).eval();
     return true;
   }
-  /// Another unit of length bends the tangent of a plane: then the residual is the same to first
-  /// order of the error.
+  /// The plane in the new unit of length.
+  /// The tangent of a plane is not linear in the unit, so that the residual is the same only to
+  /// first order of the error.
   std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
     const auto result = std::make_shared<PlaneObservationFactor>(*this);
     if (S_new_old.scale() == 1.0) return result;

@@ -1,16 +1,18 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Two planes that are about parallel, as opposite walls are:
+/// Two planes that are nearly parallel, such as opposite walls:
 ///
 ///   r = (n_a x n_b) / sigma,   |n_a x n_b| = sine of the angle between them
 ///   d r / d w_a = -hat(n_b) d n_a / d w_a / sigma,   d r / d w_b = hat(n_a) d n_b / d w_b / sigma
 class PlaneParallelFactor final : public SizedFactor<3, Plane3, Plane3> {
  public:
+  /// Standard deviation of the angle, which must be positive.
   explicit PlaneParallelFactor(double sigma_rad) : inverse_sigma_(1.0 / sigma_rad) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const Plane3& plane_a, const Plane3& plane_b, Residual& r,
                Jacobians* J) const override {
     Eigen::Matrix3d J_a, J_b;
@@ -21,6 +23,7 @@ class PlaneParallelFactor final : public SizedFactor<3, Plane3, Plane3> {
     std::get<1>(*J).noalias() = inverse_sigma_ * hat(n_a) * J_b;
     return true;
   }
+  /// A copy: an angle depends neither on the world frame nor on the unit of length.
   std::shared_ptr<const Factor> transformed(const Sim3&) const override {
     return std::make_shared<PlaneParallelFactor>(*this);
   }

@@ -1,20 +1,24 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// error = T_world_node^-1 p_world - p_node of a point [m], the point a pose that does not
-/// turn, T_world_point = (I, p_world), and its derivatives by T exp(xi) of both:
+/// The error T_world_node^-1 p_world - p_node of a point [m], with its derivatives.
+/// The point is treated as a pose without rotation, T_world_point = (I, p_world); derivatives are
+/// by T exp(xi) of both:
 ///
 ///   d e / d rho_node = -I,   d e / d phi_node = hat(e + p_node),   d e / d rho_point = R_node^T
 ///
-/// In the plane the third component is left out (zero). Similarities see at their scale: 1 / s.
+/// In the plane the third component is left out (zero). A similarity measures in its own unit of
+/// length: d e / d rho_point is divided by its scale.
 template <class Group>
 struct SightLinearization {
-  Eigen::Vector3d e = Eigen::Vector3d::Zero();
+  Eigen::Vector3d e = Eigen::Vector3d::Zero();  ///< the error, in the node's frame
+  /// Derivatives of the error by the tangents of the node and of the point.
   Eigen::Matrix<double, 3, Group::kDof> J_node = Eigen::Matrix<double, 3, Group::kDof>::Zero(),
                                         J_point = Eigen::Matrix<double, 3, Group::kDof>::Zero();
 
+  /// Linearizes at a pose and a point; `p_node` is the measured position in the node's frame.
   SightLinearization(const Group& T_world_node, const Eigen::Vector3d& p_world,
                      const Eigen::Vector3d& p_node) {
     constexpr int dim = Group::kDof == 3 ? 2 : 3;
@@ -38,8 +42,8 @@ struct SightLinearization {
   }
 };
 
-/// A point of the world as a node sees it: r = W e, W^T W = information; e and its derivatives are
-/// those of SightLinearization.
+/// A measured position of a point in a node's frame: r = W e, W^T W = information.
+/// e and its derivatives are those of SightLinearization.
 template <class Group>
 class PointInNodeFactor final
     : public SizedFactor<(Group::kDof == 3 ? 2 : 3), Group, Eigen::Vector3d> {
@@ -48,9 +52,11 @@ class PointInNodeFactor final
   using Whitening = Eigen::Matrix<double, kDim, kDim>;
 
  public:
+  /// Measured position [m] and W; in the plane W is 2x2 and z is ignored.
   PointInNodeFactor(const Eigen::Vector3d& p_node, const Whitening& whitening)
       : p_node_(p_node), W_(whitening) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const Group& T_world_node, const Eigen::Vector3d& p_world,
                typename Base::Residual& r, typename Base::Jacobians* J) const override {
     const SightLinearization<Group> at(T_world_node, p_world, p_node_);

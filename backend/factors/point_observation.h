@@ -4,18 +4,21 @@
 #include <placegraph/backend/factors/point_in_camera.h>
 #include <placegraph/backend/factors/reprojection.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A measurement of a point in a camera (Reprojection, InverseDepth), of the variables T_world_cam
-/// and p_world: r and A = d r / d p_cam are the measurement's, the rest is PointInCamera. A point
-/// that cannot be projected gets kUnprojectableResidual and pulls nowhere.
+/// A measurement of a point in a camera as a factor of T_world_cam and p_world.
+/// `Measurement` (Reprojection, InverseDepth) gives r and A = d r / d p_cam, PointInCamera the
+/// rest. For a point that cannot be projected the residual is kUnprojectableResidual and the
+/// derivatives are zero.
 template <class Measurement>
 class PointObservationFactor final : public SizedFactor<Measurement::kRows, SE3, Eigen::Vector3d> {
   using Base = SizedFactor<Measurement::kRows, SE3, Eigen::Vector3d>;
 
  public:
+  /// The factor of a measurement, which is copied.
   explicit PointObservationFactor(const Measurement& measurement) : measurement_(measurement) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const SE3& T_world_cam, const Eigen::Vector3d& p_world, typename Base::Residual& r,
                typename Base::Jacobians* J) const override {
     const Eigen::Matrix3d R_world_cam = T_world_cam.rotation().matrix();

@@ -1,15 +1,17 @@
 #pragma once
 #include <placegraph/backend/factors/factor.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A point that lies on a plane, in standard deviations:
 ///
 ///   r = (n^T p - d) / sigma,   d r / d p = n^T / sigma,   d r / d w: see Plane3::distance_to
 class PointOnPlaneFactor final : public SizedFactor<1, Eigen::Vector3d, Plane3> {
  public:
+  /// Standard deviation of the distance from the plane, which must be positive.
   explicit PointOnPlaneFactor(double sigma_m) : inverse_sigma_(1.0 / sigma_m) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const Eigen::Vector3d& p, const Plane3& plane, Residual& r,
                Jacobians* J) const override {
     Eigen::RowVector3d J_plane;

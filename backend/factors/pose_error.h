@@ -1,18 +1,12 @@
 #pragma once
 #include <placegraph/graph/geometry/lie.h>
+#include <placegraph/graph/pose_graph/constraint.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// How the rotation part of a relative-pose error is written: one .g2o file has several costs.
-enum class RotationError {
-  kLog,  ///< Log of SE(2) / SE(3) / Sim(3): the default
-  /// g2o: translation of the error pose, vector part of its quaternion (half the angle); in the
-  /// plane, where g2o has no quaternion, translation and angle.
-  kQuaternion,
-};
-
-/// The error pose E = T_from_to^-1 T_world_from^-1 T_world_to in coordinates, and its derivative by
-/// E exp(xi), exact at any size of the error.
+/// The coordinates e of an error pose E, and their derivative by E exp(xi).
+/// E = T_from_to^-1 T_world_from^-1 T_world_to for a relative pose. The derivative is exact at any
+/// size of the error.
 ///
 ///   kLog:        e = log(E),                d e / d xi = right_jacobian_inverse(e)
 ///   kQuaternion: e = [t_E, v_E, (log s_E)], with the quaternion's sign such that w_E >= 0,
@@ -55,15 +49,16 @@ typename Group::Tangent pose_error(const Group& E, RotationError kind,
   return e;
 }
 
-/// e(E) of a relative pose and its derivatives by right perturbations of both poses:
+/// The error e(E) of a relative pose, and its derivatives by the tangents of both poses:
 ///
 ///   d e / d xi_to   =  d e / d xi
 ///   d e / d xi_from = -d e / d xi Ad((T_world_from^-1 T_world_to)^-1)
 template <class Group>
 struct RelativePoseLinearization {
-  typename Group::Tangent e;
-  typename Group::Jacobian J_from, J_to;
+  typename Group::Tangent e;              ///< the error, see pose_error
+  typename Group::Jacobian J_from, J_to;  ///< its derivatives by the tangents of the two poses
 
+  /// Linearizes at two poses; T_to_from_measured is the inverse of the measured T_from_to.
   RelativePoseLinearization(const Group& T_to_from_measured, const Group& T_world_from,
                             const Group& T_world_to, RotationError kind) {
     const Group T_from_to = T_world_from.inverse() * T_world_to;

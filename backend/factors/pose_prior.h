@@ -2,19 +2,21 @@
 #include <placegraph/backend/factors/factor.h>
 #include <placegraph/backend/factors/pose_error.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What is known of one pose beforehand: r = W e(E), E = T_world_node_measured^-1 T_world_node,
+/// A measured pose: r = W e(E), E = T_world_node_measured^-1 T_world_node.
 /// W^T W = information of any rank; d r / d xi = W d e / d xi, see pose_error.
 template <class Group>
 class PosePriorFactor final : public SizedFactor<Group::kDof, Group> {
   using Base = SizedFactor<Group::kDof, Group>;
 
  public:
+  /// The measured pose, W, and which coordinates of the error pose W refers to.
   PosePriorFactor(const Group& T_world_node, const typename Group::Jacobian& whitening,
                   RotationError kind = RotationError::kLog)
       : T_node_world_(T_world_node.inverse()), W_(whitening), kind_(kind) {}
 
+  /// The residual and its Jacobian as above; always true.
   bool compute(const Group& T_world_node, typename Base::Residual& r,
                typename Base::Jacobians* J) const override {
     typename Group::Jacobian J_e_xi;
@@ -22,7 +24,7 @@ class PosePriorFactor final : public SizedFactor<Group::kDof, Group> {
     if (J) std::get<0>(*J).noalias() = W_ * J_e_xi;
     return true;
   }
-  /// Of poses in space; null for other groups.
+  /// The measured pose in the new frame and unit of length, for SE3; null for other groups.
   std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
     if constexpr (std::is_same_v<Group, SE3>) {
       const SE3 T_old_node = T_node_world_.inverse();

@@ -1,19 +1,21 @@
 #pragma once
 #include <placegraph/graph/geometry/lie.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// error = T_world_node * lever_arm - position_world [m] and its derivative by T_world_node
-/// exp(xi):
+/// The error T_world_node * lever_arm - position_world [m], with its derivative.
+/// The derivative is by T_world_node exp(xi):
 ///
 ///   d e / d rho = s R,   d e / d phi = -s R hat(lever_arm),   d e / d log s = s R lever_arm
 ///
 /// A node of SE(2) lies in the plane: the third component of the error is left out (zero).
 template <class Group>
 struct PositionLinearization {
-  Eigen::Vector3d e = Eigen::Vector3d::Zero();
+  Eigen::Vector3d e = Eigen::Vector3d::Zero();  ///< the error, in the world frame
+  /// Its derivative by the tangent of the pose.
   Eigen::Matrix<double, 3, Group::kDof> J = Eigen::Matrix<double, 3, Group::kDof>::Zero();
 
+  /// Linearizes at a pose.
   PositionLinearization(const Group& T_world_node, const Eigen::Vector3d& lever_arm,
                         const Eigen::Vector3d& position_world) {
     if constexpr (Group::kDof == 3) {

@@ -2,19 +2,22 @@
 #include <placegraph/backend/factors/factor.h>
 #include <placegraph/backend/factors/pose_error.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Relative pose of two nodes: r = W e(E), E = T_from_to_measured^-1 T_world_from^-1 T_world_to,
-/// W^T W = information; e and its derivatives are those of RelativePoseLinearization.
+/// A measured relative pose of two nodes: r = W e(E), W^T W = information.
+/// E = T_from_to_measured^-1 T_world_from^-1 T_world_to; e and its derivatives are those of
+/// RelativePoseLinearization.
 template <class Group>
 class RelativePoseFactor final : public SizedFactor<Group::kDof, Group, Group> {
   using Base = SizedFactor<Group::kDof, Group, Group>;
 
  public:
+  /// The measured pose, W, and which coordinates of the error pose W refers to.
   RelativePoseFactor(const Group& T_from_to, const typename Group::Jacobian& whitening,
                      RotationError kind = RotationError::kLog)
       : T_to_from_(T_from_to.inverse()), W_(whitening), kind_(kind) {}
 
+  /// The residual and its Jacobians as above; always true.
   bool compute(const Group& T_world_from, const Group& T_world_to, typename Base::Residual& r,
                typename Base::Jacobians* J) const override {
     if (!J) {
@@ -27,7 +30,7 @@ class RelativePoseFactor final : public SizedFactor<Group::kDof, Group, Group> {
     std::get<1>(*J).noalias() = W_ * at.J_to;
     return true;
   }
-  /// Of poses in space; null for other groups.
+  /// The measured pose in the new unit of length, for SE3; null for other groups.
   std::shared_ptr<const Factor> transformed(const Sim3& S_new_old) const override {
     if constexpr (std::is_same_v<Group, SE3>) {
       const auto result = std::make_shared<RelativePoseFactor>(*this);

@@ -5,30 +5,34 @@
 
 #include <variant>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A square marker of known size: x right, y up, z out of its face, origin in the middle.
 struct Marker {
-  SE3 T_world_marker;
-  double size_m = 1;  ///< length of a side; known, it does not move
+  SE3 T_world_marker;  ///< pose, which is estimated
+  double size_m = 1;   ///< length of a side; known, not estimated
 };
 
 /// What a factor graph can estimate: a scalar (a scale, a bias), poses `T_world_node` of three
-/// kinds, a Manhattan frame `R_world_manhattan`, a point of the world (or any three numbers), a
-/// line, a plane, a marker.
+/// kinds, a Manhattan frame `R_world_manhattan`, a point in the world frame (or any three numbers),
+/// a line, a plane, a marker.
 using Variable = std::variant<double, SE2, SE3, Sim3, SO3, Eigen::Vector3d, Line3, Plane3, Marker>;
 
-/// How a variable moves and how it lies in memory: `kDof`, x [+] xi = plus(x, xi), y [-] x =
-/// minus(y, x), and a block of `kSize` >= kDof doubles with `store` and `load`.
+/// The tangent and the memory layout of a kind of variable.
+/// `kDof` is the size of the tangent, x [+] xi = plus(x, xi), y [-] x = minus(y, x); `store` and
+/// `load` convert to and from a block of `kSize` >= kDof doubles.
 template <class T>
 struct VariableBlock;
 
-/// The groups: x [+] xi = x exp(xi), y [-] x = log(x^-1 y).
+/// The tangent of a Lie group: x [+] xi = x exp(xi), y [-] x = log(x^-1 y).
 template <class Group>
 struct GroupBlock {
-  static constexpr int kDof = Group::kDof;
+  static constexpr int kDof = Group::kDof;  ///< size of the tangent
+  /// The group's own tangent.
   using Tangent = typename Group::Tangent;
+  /// x [+] xi.
   static Group plus(const Group& x, const Tangent& xi) { return x.plus(xi); }
+  /// y [-] x.
   static Tangent minus(const Group& y, const Group& x) { return (x.inverse() * y).log(); }
 };
 
@@ -148,18 +152,19 @@ struct VariableBlock<Marker> {
   static Marker load(const double* x) { return {VariableBlock<SE3>::load(x), x[7]}; }
 };
 
-/// Number of directions in which a variable can move.
+/// Size of the variable's tangent.
 int degrees_of_freedom(const Variable& variable);
-/// "SE3", "plane", ...: for messages.
+/// The name of the variable's kind for messages: "scalar", "SE2", "SE3", "plane" and so on.
 const char* kind_name(const Variable& variable);
-/// Number of doubles of its block, and the block's values: VariableBlock of whatever it holds.
+/// Number of doubles in the variable's block, see VariableBlock.
 int block_size(const Variable& variable);
+/// Writes the variable's value to `block`, which has room for block_size doubles.
 void store_block(const Variable& variable, double* block);
 /// Gives `variable` the value in `block`; its kind stays.
 void load_block(const double* block, Variable& variable);
-/// y [-] x of two variables of one kind; throws ArgumentError if they are of different kinds.
+/// y [-] x of two variables; throws ArgumentError if they are of different kinds.
 Eigen::VectorXd minus(const Variable& y, const Variable& x);
-/// Whether all of it is finite numbers.
+/// Whether all numbers of the variable's block are finite.
 bool is_finite(const Variable& variable);
 /// x [+] xi; throws ArgumentError if `xi` has another size than degrees_of_freedom(x).
 Variable plus(const Variable& x, const Eigen::Ref<const Eigen::VectorXd>& xi);

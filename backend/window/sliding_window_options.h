@@ -1,31 +1,26 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
-#include <placegraph/graph/core/outcome.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
+/// Size and optimization of the sliding window of keyframes behind visual odometry.
 struct SlidingWindowOptions {
-  int max_keyframes = 8;  ///< the oldest is marginalized beyond this
-  int max_iterations = 10;
-  double huber_px = 2.0;            ///< width of the Huber kernel on reprojection errors, in sigmas
-  double relative_decrease = 1e-4;  ///< of the cost, to stop
-  /// The prior forgets its unit of length by this deviation (logarithm) with each keyframe that
-  /// leaves: a single eye's unit wanders by more than the noise of its points explains.
+  int max_keyframes = 8;            ///< beyond this the oldest keyframe is marginalized
+  int max_iterations = 10;          ///< steps of Levenberg-Marquardt of one optimization, at most
+  double huber_px = 2.0;            ///< width of Huber's kernel, in standard deviations of a pixel
+  double relative_decrease = 1e-4;  ///< stop when the cost falls by less than this share
+  /// Standard deviation of the logarithm of the scale that the prior loses with each keyframe that
+  /// leaves, in [0, 1]: the scale of a monocular camera drifts by more than the noise of its points
+  /// explains.
   double scale_drift = 0;
-  /// Where the window lies as a whole is integrated out as it moves on, and its oldest keyframe
-  /// stays where it is: for drives whose past is not corrected by the window any more. Otherwise
-  /// the prior holds the window in the map's frame, and a hair of heading it learns late moves all
-  /// of it, the more the longer the way behind it.
+  /// Whether the pose of the window as a whole is marginalized as it moves on, so that its oldest
+  /// keyframe stays where it is: for drives in which the window no longer corrects the past.
+  /// Otherwise the prior ties the window to the map's frame, and a small late correction of the
+  /// heading moves all of it, the more the longer the path behind it.
   bool hold_oldest = false;
   void check() const;
 };
 /// All but what follows from the sensor: scale_drift and hold_oldest are set by the window's owner.
 void visit(OptionVisitor& field, SlidingWindowOptions& options);
-
-struct WindowSummary {
-  Outcome outcome;
-  double cost_initial = 0, cost_final = 0;  ///< half the robust sum of squares
-  int iterations = 0;
-};
 
 }  // namespace placegraph

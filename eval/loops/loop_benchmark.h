@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/eval/loops/precision_recall.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/loop_prediction.h>
 #include <placegraph/graph/loop_truth.h>
 
@@ -7,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// How a place recognizer's answer to one image was judged.
 enum class LoopVerdict {
@@ -17,37 +18,41 @@ enum class LoopVerdict {
   kTooYoung,    ///< all that was proposed is younger than the truth's min_age
   kOutOfRange,  ///< all that was proposed lies outside the candidates of the query
 };
+/// Name of a verdict: "hit", "miss", "silent", "too_young" or "out_of_range".
 std::string to_string(LoopVerdict verdict);
 
+/// A query of a place recognizer, judged.
 struct JudgedQuery {
-  std::int64_t query = 0;
-  LoopVerdict verdict = LoopVerdict::kSilent;
-  bool has_match = false;  ///< whether there was one to be found
-  LoopPrediction best;     ///< of a hit or a miss
-  int rank = 0;            ///< of the first true candidate, from 1; 0 if there is none
+  FrameId query;                               ///< the image that was asked about
+  LoopVerdict verdict = LoopVerdict::kSilent;  ///< how its best candidate was judged
+  bool has_match = false;                      ///< whether it has a true match among its candidates
+  LoopPrediction best;  ///< the candidate of the highest score; only of a hit or a miss
+  int rank = 0;         ///< rank of the first true candidate, from 1; 0 if none is true
 };
 
+/// Figures of a place recognizer over a set of images.
 struct LoopBenchmark {
   int positives = 0;  ///< queries that have a true match
   int answered = 0;   ///< queries with a candidate that counts
   int dropped = 0;    ///< predictions that are neither hit nor miss: too young or out of range
-  int unjudged = 0;   ///< predictions for images that the truth does not speak of
-  /// Share of the positives with a true candidate among the 1, 5 and 10 best; nothing without
-  /// positives.
+  int unjudged = 0;   ///< predictions for images that the truth does not judge
+  /// Share of the positives with a true candidate among the kRanks best; nothing without positives.
   std::array<std::optional<double>, 3> recall_at;
-  static constexpr std::array<int, 3> kRanks = {1, 5, 10};
-  PrecisionRecall curve;
-  /// Every candidate that counts, not the best alone; in the order of the queries.
+  static constexpr std::array<int, 3> kRanks = {1, 5, 10};  ///< the ranks of `recall_at`
+  PrecisionRecall curve;  ///< over the best candidate of every query
+  /// All candidates that count, not the best alone; in the order of the queries.
   std::vector<ScoredAnswer> candidates;
   std::vector<JudgedQuery> queries;  ///< ascending; all that the truth lists, and all answered ones
 };
 
-/// Judges what a place recognizer said of a set of images. A query's answer is its best candidate;
-/// it is a hit if it lies within `tolerance` images of a true match. Candidates that the truth
-/// excludes (younger than its min_age, outside a query's range) are left out whether right or
-/// wrong. Of candidates with equal scores the false ones stand first, so that the order of the
-/// predictions plays no part. Precision = hits / (hits + misses) and recall = hits / positives over
-/// the threshold on the score.
+/// Judges the loop closures that a place recognizer proposed for a set of images.
+///
+/// A query's answer is its best candidate; it is a hit if it lies within `tolerance` images of a
+/// true match. Candidates that the truth excludes (younger than its min_age, outside a query's
+/// range) are left out whether right or wrong. Of candidates with equal scores the false ones come
+/// first, so that the order of the predictions plays no part. Precision = hits / (hits + misses)
+/// and recall = hits / positives over the threshold on the score. Throws ArgumentError for a
+/// negative tolerance or a score that is not finite.
 LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
                           int tolerance = 0);
 

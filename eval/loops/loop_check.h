@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/map.h>
@@ -6,34 +7,37 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What a loop constraint may differ from the truth by and still be a true one.
+/// How far a loop constraint may be from the truth to count as correct.
 struct LoopCheckOptions {
-  double max_translation_m = 0.1;
-  double max_rotation_deg = 5;
-  int min_frames_apart = 33;  ///< constraints between nearer frames count as neither
+  double max_translation_m = 0.1;  ///< largest error in translation
+  double max_rotation_deg = 5;     ///< largest error in rotation
+  int min_frames_apart = 33;       ///< constraints between nearer frames count as neither
   void check() const;
 };
 void visit(OptionVisitor& field, LoopCheckOptions& options);
 
-/// An accepted loop against the true relative pose.
+/// An accepted loop, compared with the true relative pose.
 struct CheckedLoop {
-  int query_frame = 0, match_frame = 0;
-  double translation_error_m = 0;
-  double rotation_error_deg = 0;
-  bool correct = false;
+  FrameId query_frame, match_frame;  ///< the newer and the older frame of the loop
+  double translation_error_m = 0;    ///< |trans E|, see check_loops
+  double rotation_error_deg = 0;     ///< angle of E
+  bool correct = false;              ///< both errors are within the options
 };
 
+/// How many accepted loops of a run are correct.
 struct LoopCheck {
   std::vector<CheckedLoop> loops;  ///< the accepted ones that could be judged, in their order
-  int correct = 0, wrong = 0;
-  int too_near = 0;  ///< accepted ones nearer than min_frames_apart
-  int unjudged = 0;  ///< accepted ones without ground truth at one of their frames
+  int correct = 0, wrong = 0;      ///< numbers of them
+  int too_near = 0;                ///< accepted ones nearer than min_frames_apart
+  int unjudged = 0;                ///< accepted ones without ground truth at one of their frames
 };
 
-/// Judges accepted loops by E = (T_match_query)_truth^-1 (T_match_query)_measured. `truth` has one
-/// line per frame of the sequence, indexed by LoopRecord's frames. Measured poses must be metric.
+/// Judges accepted loops by E = (T_match_query)_truth^-1 (T_match_query)_measured.
+///
+/// `truth` holds T_world_cam with one entry per frame of the sequence, indexed by the frames of
+/// LoopRecord. Measured poses must be metric. Loops that are not accepted are ignored.
 LoopCheck check_loops(const Trajectory& truth, const std::vector<LoopRecord>& loops,
                       const LoopCheckOptions& options);
 

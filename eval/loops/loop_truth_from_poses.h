@@ -3,18 +3,20 @@
 #include <placegraph/graph/geometry/trajectory.h>
 #include <placegraph/graph/loop_truth.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What counts as a revisit. The defaults are those of drives at 10 Hz.
+/// When an image shows a place again; the defaults suit drives at 10 Hz.
 struct RevisitOptions {
-  SameView same;
+  SameView same;      ///< when two poses see the same place
   int min_age = 300;  ///< images from the older to the younger, at least
   void check() const;
 };
 void visit(OptionVisitor& field, RevisitOptions& options);
 
-/// Revisits of a trajectory that has one pose per image. Images without a pose are not judged, nor
-/// are they matches; those that are too early for an old enough candidate are listed without one.
+/// Finds the true loop closures of a trajectory that has one pose T_world_cam per image [m].
+///
+/// Images without a pose are not judged, nor are they matches; images too early for an old enough
+/// candidate are listed without a match. Throws ArgumentError for options that check() refuses.
 LoopTruth loop_truth_from_poses(const Trajectory& truth, const RevisitOptions& options);
 
 }  // namespace placegraph

@@ -5,18 +5,19 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Absolute trajectory error: distance between true and estimated position of every posed frame.
+/// Absolute trajectory error: distances of true and estimated positions of the posed frames.
 struct ApeResult {
-  Outcome outcome;
+  Outcome outcome;                     ///< kTooFewData if no frame is posed
   Statistics error_m;                  ///< meaningful only if outcome; the RMSE is the ATE
   std::vector<int> frames;             ///< the posed frames, as FramePair::frame
   std::vector<double> frame_errors_m;  ///< of each of them
 };
 
-/// Of pairs whose estimate is aligned already (Sturm et al. 2012, section V.B). Outcome:
-/// kTooFewData if no frame is posed.
+/// Computes the absolute trajectory error of pairs whose estimate is aligned already.
+///
+/// Sturm et al. 2012, section V.B. Lost frames are left out.
 [[nodiscard]] ApeResult ape(const std::vector<FramePair>& aligned_pairs);
 
 }  // namespace placegraph

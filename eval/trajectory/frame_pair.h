@@ -5,25 +5,29 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// One frame of the ground truth and what the estimate says of it. The matrices stand as the files
-/// gave them, not re-orthonormalized: the peers' figures are computed so.
+/// A pose of the ground truth and the pose of the estimate for the same frame.
+///
+/// Matrices are as the files gave them, not re-orthonormalized: the KITTI devkit and other tools
+/// compute their figures so.
 struct FramePair {
   int frame = 0;              ///< index in the ground truth
   std::int64_t stamp_ns = 0;  ///< of the ground truth; an index where it has no times
-  Eigen::Isometry3d T_world_truth = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_world_truth = Eigen::Isometry3d::Identity();  ///< the true pose [m]
   std::optional<Eigen::Isometry3d> T_world_estimate;  ///< nothing where the frame is lost
 };
 
-/// A^-1 B by the general 4x4 inverse, as the KITTI devkit has it: matrices with seven digits are
-/// not exactly orthonormal, and transposing the rotation instead changes the fourth digit of r_rel.
+/// T_a_b = T_world_a^-1 T_world_b by the general 4x4 inverse, as in the KITTI devkit.
+///
+/// Matrices with seven digits are not exactly orthonormal, and transposing the rotation instead
+/// changes the fourth digit of r_rel.
 inline Eigen::Matrix4d relative_pose(const Eigen::Isometry3d& T_world_a,
                                      const Eigen::Isometry3d& T_world_b) {
   return T_world_a.matrix().inverse() * T_world_b.matrix();
 }
 
-/// Distance driven [m] up to every frame along the ground truth, the first 0.
+/// Length of the true path [m] up to every frame; 0 at the first.
 std::vector<double> travelled_m(const std::vector<FramePair>& pairs);
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/eval/trajectory/evaluation_options.h>
 #include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/trajectory.h>
@@ -6,38 +7,34 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-enum class Association {
-  kAuto,   ///< by time if both have times, by index if neither has; otherwise refused
-  kIndex,  ///< frames of the same number: line i with line i, both of the same length, unless the
-           ///< files number their frames
-  kTime,   ///< nearest stamps
-};
+/// Name of an association: "auto", "index" or "time".
+std::string to_string(Association association);
 
-std::string to_string(Association association);  ///< "auto", "index", "time"
-
-/// Which line of the estimate belongs to which of the ground truth.
+/// Which pose of the estimate belongs to which pose of the ground truth.
 struct PairingResult {
-  Outcome outcome;
+  Outcome outcome;                               ///< see pair_trajectories
   Association association = Association::kAuto;  ///< the one used, kIndex or kTime
-  /// The frames to judge, in time order: posed lines of the ground truth that the estimate has a
-  /// pose of, or should have one and is lost. By time, a line without a partner counts as lost only
+  /// The frames to judge, in time order: posed lines of the ground truth for which the estimate has
+  /// a pose, or should have one and is lost. By time, a line without a partner counts as lost only
   /// where no pose of the estimate is within three quarters of the estimate's spacing; where the
   /// ground truth is clearly denser (a motion capture system at 200 Hz), one per missing pose.
   std::vector<FramePair> pairs;
-  bool has_times = false;             ///< FramePair::stamp_ns are times
-  bool has_orientation = true;        ///< on both sides
+  bool has_times = false;             ///< FramePair::stamp_ns are times, not indices
+  bool has_orientation = true;        ///< both trajectories have orientations
   int truth_frames = 0;               ///< posed lines of the ground truth
   int posed = 0;                      ///< pairs with an estimate
   int estimate_frames = 0;            ///< posed lines of the estimate
-  int estimate_without_truth = 0;     ///< of those, without a posed partner
+  int estimate_without_truth = 0;     ///< posed lines of the estimate without a posed partner
   std::vector<std::string> warnings;  ///< what is odd about the times of either
 };
 
-/// Pairs two trajectories, or says in `outcome` why it would be a guess: lines of different number
-/// without times, times on one side only, stamps that do not overlap, fewer than two pairs
-/// (kTooFewData or kInconsistent). Throws ArgumentError if stamps of either do not increase.
+/// Pairs the poses of two trajectories, or says in `outcome` why that would be a guess.
+///
+/// kInconsistent: different numbers of lines without times, times on one side only, stamps that do
+/// not overlap. kTooFewData: fewer than two pairs. Throws ArgumentError if stamps of either do not
+/// increase.
 [[nodiscard]] PairingResult pair_trajectories(const Trajectory& truth, const Trajectory& estimate,
                                               Association association,
                                               const AssociationOptions& options);

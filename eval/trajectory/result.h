@@ -9,42 +9,41 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// How the figures of a result were made: they do not travel without it.
+/// How the figures of a result were computed; every report states it.
 struct Protocol {
-  Alignment alignment = Alignment::kSe3;
-  Association association = Association::kAuto;  ///< as used
+  Alignment alignment = Alignment::kSe3;         ///< what was fitted
+  Association association = Association::kAuto;  ///< the one used, kIndex or kTime
   double max_difference_s = 0, offset_s = 0;     ///< of the association by time
-  std::vector<double> lengths_m;
-  int step = 0;
+  std::vector<double> lengths_m;                 ///< SegmentOptions::lengths_m
+  int step = 0;                                  ///< SegmentOptions::step
 };
 
-/// One estimate judged against one ground truth.
+/// One estimated trajectory evaluated against one ground truth.
 struct EvaluationResult {
-  Outcome outcome;   ///< of the association and the alignment; without it no figure is meaningful
-  std::string name;  ///< of the estimate, for tables and legends
-  Protocol protocol;
-  int frames = 0;                  ///< posed ones of the ground truth
-  int judged = 0;                  ///< of those; see PairingResult::pairs
-  int posed = 0;                   ///< judged frames with an estimate
-  int estimate_frames = 0;         ///< posed ones of the estimate
-  int estimate_without_truth = 0;  ///< of those
-  double coverage = 0;             ///< share of the judged frames that are posed, 0 to 1
-  std::vector<int> lost_frames;    ///< judged frames without an estimate, ground-truth indices
-  double path_m = 0;               ///< length of the true path
-  double posed_path_m = 0;         ///< of its part from the first posed frame to the last
-  AlignmentResult alignment;
-  ApeResult ape;
-  RpeResult rpe;
-  SegmentResult segments;
-  std::vector<std::string> warnings;
-  /// The judged frames, estimates aligned, and the distance travelled [m]: what plots show.
-  std::vector<FramePair> aligned_pairs;
-  std::vector<double> travelled_m;
+  Outcome outcome;    ///< of the association and the alignment; without it no figure is meaningful
+  std::string name;   ///< of the estimate, for tables and legends
+  Protocol protocol;  ///< how the figures were computed
+  int frames = 0;     ///< posed frames of the ground truth
+  int judged = 0;     ///< those of them that are judged, see PairingResult::pairs
+  int posed = 0;      ///< judged frames with an estimate
+  int estimate_frames = 0;            ///< posed frames of the estimate
+  int estimate_without_truth = 0;     ///< those of them without a true pose
+  double coverage = 0;                ///< share of the judged frames that are posed, 0 to 1
+  std::vector<int> lost_frames;       ///< judged frames without an estimate, ground-truth indices
+  double path_m = 0;                  ///< length of the true path
+  double posed_path_m = 0;            ///< of its part from the first posed frame to the last
+  AlignmentResult alignment;          ///< the transformation that was fitted
+  ApeResult ape;                      ///< absolute errors after the alignment
+  RpeResult rpe;                      ///< errors of the motion between consecutive frames
+  SegmentResult segments;             ///< t_rel and r_rel
+  std::vector<std::string> warnings;  ///< one line each: what is odd, and what to try
+  std::vector<FramePair> aligned_pairs;  ///< the judged frames, with aligned estimates
+  std::vector<double> travelled_m;       ///< of each of them, the true path so far
 };
 
-/// A figure with its unit and how it was made.
+/// A figure with its unit and how it was computed.
 struct Metric {
   std::string key;              ///< as in JSON: "t_rel_percent"
   std::string name;             ///< for people: "t_rel"
@@ -53,17 +52,18 @@ struct Metric {
   std::string protocol;         ///< one line
 };
 
-/// All figures of a result in a fixed order; of a failed one, without values.
+/// All figures of a result in a fixed order; those of a failed one have no value.
 std::vector<Metric> metrics(const EvaluationResult& result);
 
-/// Of several sequences: every metric is the mean over the sequences that have it, and t_rel and
-/// r_rel are given pooled too, the mean over all segments of all sequences, as the devkit averages.
+/// Averages over several sequences.
 struct AverageResult {
-  int sequences = 0;  ///< with an outcome
-  int segments = 0;   ///< pooled
-  std::vector<Metric> means;
+  int sequences = 0;          ///< those whose outcome is ok
+  int segments = 0;           ///< of all of them together
+  std::vector<Metric> means;  ///< of every metric, over the sequences that have a value
+  /// Means over all segments of all sequences, as the KITTI devkit averages.
   Metric pooled_t_rel, pooled_r_rel;
 };
+/// Averages the results of several sequences; those that failed are left out.
 AverageResult average(const std::vector<EvaluationResult>& results);
 
 }  // namespace placegraph

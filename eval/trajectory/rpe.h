@@ -5,19 +5,22 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Relative pose error over consecutive frames, E = (T_i^-1 T_j)_truth^-1 (T_i^-1 T_j)_estimate.
+/// Relative pose error over consecutive frames.
+///
+/// E = (T_i^-1 T_j)_truth^-1 (T_i^-1 T_j)_estimate.
 struct RpeResult {
-  Outcome outcome;
+  Outcome outcome;           ///< kTooFewData if no two neighbours are posed
   Statistics translation_m;  ///< |trans E|; meaningful only if outcome
   Statistics rotation_deg;   ///< angle of E; its RMSE and its median are reported
 };
 
-/// Over every two neighbours of the list that both have an estimate (Sturm et al. 2012, section
-/// V.A, with delta = one frame). The angle is taken from the skew part as well as the trace: acos
-/// of the trace alone cannot tell 0.02 deg from zero in matrices of seven digits. Outcome:
-/// kTooFewData if there are no such two.
+/// Computes the relative pose error over every two neighbours that both have an estimate.
+///
+/// Sturm et al. 2012, section V.A, with delta = one frame. The angle is taken from the skew part as
+/// well as the trace: acos of the trace alone cannot tell 0.02 deg from zero in matrices of seven
+/// digits.
 [[nodiscard]] RpeResult rpe(const std::vector<FramePair>& pairs);
 
 /// Angle [rad], in [0, pi], of a rotation matrix that may be orthonormal to some digits only.

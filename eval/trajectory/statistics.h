@@ -1,18 +1,18 @@
 #pragma once
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Of a list of errors; all in the unit of the list.
+/// Statistics of a list of errors, in the unit of the list.
 struct Statistics {
-  double rmse = 0;
-  double mean = 0;
+  double rmse = 0;    ///< root of the mean square
+  double mean = 0;    ///< arithmetic mean
   double median = 0;  ///< mean of the two middle ones where their number is even
-  double max = 0;
-  int count = 0;
+  double max = 0;     ///< the largest error
+  int count = 0;      ///< how many errors there are
 };
 
-/// Throws ArgumentError if `errors` is empty: there are no statistics of nothing.
+/// Computes the statistics of a list of errors. Throws ArgumentError if it is empty.
 Statistics statistics_of(const std::vector<double>& errors);
 
 }  // namespace placegraph

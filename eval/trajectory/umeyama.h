@@ -1,52 +1,47 @@
 #pragma once
+#include <placegraph/eval/trajectory/evaluation_options.h>
 #include <placegraph/eval/trajectory/frame_pair.h>
 #include <placegraph/graph/core/outcome.h>
 
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What is fitted before an estimate is compared with the ground truth.
-enum class Alignment {
-  kNone,    ///< nothing: the estimate as it stands
-  kOrigin,  ///< the first associated pose is put on the ground truth's; nothing is fitted
-  kSe3,     ///< rotation and translation that fit the positions best
-  kSim3,    ///< rotation, translation and scale
-  kScale,   ///< as kOrigin, and one scale fitted about that first pose
-};
-
-/// "none", "origin", "se3", "sim3", "scale": the spelling of the command line and of results.
+/// Name of an alignment on the command line and in results: "none", "origin", "se3", ...
 std::string to_string(Alignment alignment);
 
-/// A similarity that takes estimated positions to true ones: p_truth = scale R p_estimate + t.
+/// A similarity from estimated to true positions: p_truth = scale R p_estimate + t.
 struct AlignmentResult {
-  Outcome outcome;
-  double scale = 1;
-  Eigen::Matrix3d R_truth_estimate = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d t_truth_estimate = Eigen::Vector3d::Zero();  ///< [m]
-  double rmse_m = 0;                                           ///< of the positions after alignment
-  int pairs = 0;                                               ///< used for the fit
+  Outcome outcome;   ///< see umeyama and align
+  double scale = 1;  ///< metres of the truth per unit of the estimate
+  Eigen::Matrix3d R_truth_estimate = Eigen::Matrix3d::Identity();  ///< its rotation
+  Eigen::Vector3d t_truth_estimate = Eigen::Vector3d::Zero();      ///< [m]
+  double rmse_m = 0;  ///< of the positions after alignment
+  int pairs = 0;      ///< used for the fit
   /// Directions the positions spread in, 0 to 3. With 1 (a straight line) the rotation about the
   /// line is free: the outcome is kDegenerate, though the similarity is one of the best and
   /// `rmse_m` is the unique minimum.
   int rank = 0;
 
-  /// A pose of the estimate in the frame of the ground truth.
+  /// Transforms a pose of the estimate into the coordinate frame of the ground truth.
   Eigen::Isometry3d apply(const Eigen::Isometry3d& T_world_estimate) const;
 };
 
-/// Least-squares similarity from `points_from` to `points_to`, Nx3 [m] (Umeyama 1991, eq. 34-43);
-/// scale stays 1 unless `with_scale`. Outcomes: kTooFewData below three points; kDegenerate if the
-/// points coincide (nothing fitted) or lie on a line (see `rank`). Throws ArgumentError if the
-/// sizes differ.
+/// Fits the least-squares similarity from `points_from` to `points_to` [m] (Umeyama 1991).
+///
+/// Equations 34 to 43; scale stays 1 unless `with_scale`. Outcomes: kTooFewData below three points;
+/// kDegenerate if the points coincide (nothing fitted) or lie on a line (see `rank`). Throws
+/// ArgumentError if the sizes differ.
 [[nodiscard]] AlignmentResult umeyama(const std::vector<Eigen::Vector3d>& points_from,
                                       const std::vector<Eigen::Vector3d>& points_to,
                                       bool with_scale);
 
-/// The alignment of the given kind over all pairs that have an estimate. Outcomes: kTooFewData (no
-/// pair; fewer than three for kSe3 and kSim3, than two for kScale); kDegenerate as umeyama, and if
-/// the estimate never moves for kScale, or the fitted scale is not positive.
+/// Fits the alignment of the given kind over all pairs that have an estimate.
+///
+/// Outcomes: kTooFewData (no pair; fewer than three for kSe3 and kSim3, than two for kScale);
+/// kDegenerate as umeyama, and for kScale if the estimate never moves or the fitted scale is not
+/// positive.
 [[nodiscard]] AlignmentResult align(const std::vector<FramePair>& pairs, Alignment alignment);
 
 }  // namespace placegraph

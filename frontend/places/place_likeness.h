@@ -1,16 +1,12 @@
 #pragma once
+#include <placegraph/frontend/places/place_recognizer.h>
+
 #include <algorithm>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// How much a stored view looks like the query: comparable over queries, no probability.
-struct PlaceLikeness {
-  int view = 0;
-  double score = 0;
-};
-
-/// Sorts by score, best first, equal ones by view, and keeps the first `count`.
+/// Keeps the `count` best of a list, sorted by score, best first; equal ones by view.
 inline void keep_best(std::vector<PlaceLikeness>& list, int count) {
   const auto kept = std::min(list.size(), static_cast<std::size_t>(std::max(count, 0)));
   const auto better = [](const PlaceLikeness& a, const PlaceLikeness& b) {

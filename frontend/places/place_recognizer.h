@@ -1,40 +1,57 @@
 #pragma once
-#include <placegraph/frontend/places/dense_index.h>
-#include <placegraph/frontend/places/place_likeness.h>
-#include <placegraph/frontend/places/place_view.h>
+#include <placegraph/frontend/places/recognition_options.h>
+#include <placegraph/graph/image/image.h>
+#include <placegraph/graph/place_view.h>
 
-#include <optional>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-struct PlaceRecognizerOptions {
-  PlaceCueOptions cues;
-  int glanced = 300;    ///< views that pass a first look at all, at pooled cues
-  int short_list = 60;  ///< of those, the views that are compared in full, after a second look
-  int verified = 12;    ///< of those, the first by all cues, whose corners are compared
-  int nominated = 8;    ///< and the first by each cue alone
-  /// From so many views on, the first look follows a graph of neighbours instead of all views.
-  int indexed_from = 20000;
-  void check() const;
+class DenseIndex;
+
+/// Describes the appearance of an image by all cues whose weight is not 0.
+///
+/// `image` is grey or BGR, 8 bits (ArgumentError otherwise). A `query` is described at three scales
+/// (1, 1 / zoom, zoom) instead of one, for which it takes about three times as long.
+PlaceView describe_place(const Image& image, const PlaceCueOptions& options, bool query);
+
+/// How similar a stored image is to a query.
+struct PlaceLikeness {
+  int view = 0;      ///< index of the stored image
+  double score = 0;  ///< larger is more similar; comparable over queries, but no probability
 };
-void visit(OptionVisitor& field, PlaceRecognizerOptions& options);
 
-/// Views in the order they were added, and which of them an image resembles. Nothing is learned:
-/// every score depends on two images alone. All cues are joined by a weighted sum; two coarse
-/// looks name the views compared in full, so that only the first, a dot product, grows with their
-/// number, and that not for long: many views are looked for along a graph of neighbours.
+/// Finds the stored images (views) that look most like a query.
+///
+/// Nothing is learned: every score depends on two images alone, as the weighted sum of all cues.
+/// Two coarse comparisons choose the views that are compared in full. Only the first, a dot
+/// product, takes time that grows with the number of views, up to
+/// PlaceRecognizerOptions::indexed_from; beyond, a graph of neighbours is searched.
 class PlaceRecognizer {
  public:
+  /// Begins without views. Throws ArgumentError for options that check() refuses.
   explicit PlaceRecognizer(const PlaceRecognizerOptions& options);
+  ~PlaceRecognizer();
+  PlaceRecognizer(PlaceRecognizer&&) noexcept;
+  PlaceRecognizer& operator=(PlaceRecognizer&&) noexcept;
 
-  /// The index of the new view: 0, 1, ... Of a query's scales only the first is kept. Views are all
-  /// grey or all in colour (ArgumentError otherwise).
+  /// Adds a view (describe_place) and returns its index: 0, 1, 2, ...
+  ///
+  /// Of a query's scales only the first is kept. Throws ArgumentError if it is grey and the others
+  /// are in colour, or the reverse, or it was described by other cues.
   int add(PlaceView view);
-  /// The short list among the views first..last (cut to those there are), best first.
+  /// The most similar views among first..last, at most `short_list`, best first.
+  ///
+  /// The range is cut to the views that exist; the list is empty if there are none. `query` is a
+  /// describe_place with `query` set, by the same cues (ArgumentError otherwise).
   std::vector<PlaceLikeness> query(const PlaceView& query, int first, int last) const;
+  /// A stored view. Throws std::out_of_range for an index that no view has.
   const PlaceView& view(int index) const { return views_.at(static_cast<std::size_t>(index)); }
+  /// Number of stored views.
   int size() const { return static_cast<int>(views_.size()); }
+  /// The options it was made with.
   const PlaceRecognizerOptions& options() const { return options_; }
 
  private:
@@ -45,7 +62,7 @@ class PlaceRecognizer {
   PlaceRecognizerOptions options_;
   std::vector<PlaceView> views_;
   std::vector<std::int16_t> glances_;  ///< of the views, one after the other
-  std::optional<DenseIndex> graph_;    ///< of the same; from half of indexed_from on
+  std::unique_ptr<DenseIndex> graph_;  ///< of the same; from half of indexed_from on
 };
 
 }  // namespace placegraph

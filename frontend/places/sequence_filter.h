@@ -1,38 +1,37 @@
 #pragma once
 #include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/core/options.h>
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-struct SequenceFilterOptions {
-  double memory = 0.9;        ///< weight of the past against the present image
-  double pace_penalty = 0.4;  ///< of the score, per squared view a step is off the pace
-  int max_step = 3;           ///< views between the answers of two images, at most
-  double present = 0.5;       ///< weight of the present image in how sure an answer is
-  void check() const;
-};
-void visit(OptionVisitor& field, SequenceFilterOptions& options);
-
-/// Evidence of past images for where the present one is: the best path through the views that led
-/// to each, a max-product filter over view, direction of travel (forward or back) and pace (half a
-/// view, one and two views an image). It looks at the past alone. A score is the mean of the
-/// recognizer's along the path, what is longer ago counting less, so that scores remain comparable
-/// over queries. SeqSLAM (Milford & Wyeth 2012) searches straight lines to the same end.
+/// Joins the similarities of consecutive images into the best path through the stored views.
+///
+/// A max-product filter over view, direction of travel (forwards or backwards) and pace (half a
+/// view, one or two views per image). It uses past images only. A score is the mean of the
+/// recognizer's scores along the path, weighted by SequenceFilterOptions::memory per image, so that
+/// scores remain comparable over queries. SeqSLAM (Milford & Wyeth 2012) searches straight lines
+/// for the same purpose.
 class SequenceFilter {
  public:
+  /// Begins without a past. Throws ArgumentError for options that check() refuses.
   explicit SequenceFilter(const SequenceFilterOptions& options);
 
-  /// The next image's likeness to views among first..last (what is not listed counts as the least
-  /// listed), turned into scores with the past's evidence, best first; as many as views. None for
-  /// an empty list, which ends the sequence.
+  /// Takes the next image's similarities; returns a score for every view in first..last.
+  ///
+  /// `list` holds views of first..last (ArgumentError otherwise); views that are not listed count
+  /// as the least similar listed one. Sorted by score, best first. An empty list ends the sequence,
+  /// and nothing is returned.
   std::vector<PlaceLikeness> update(const std::vector<PlaceLikeness>& list, int first, int last);
-  /// How sure an answer of `update` is, comparable over images: its score, and how like the present
-  /// image alone is to that view by `list`, as it was given. A path goes on for a while where its
-  /// street has been left; which view it leads to is not changed by that.
+  /// Confidence of an answer of `update`, comparable over images.
+  ///
+  /// The weighted mean of its score and of the similarity that `list`, as it was given to `update`
+  /// and sorted best first, has for that view: a path goes on for a while where its street has been
+  /// left. Which view is the best is not changed by that.
   double confidence(const PlaceLikeness& answer, const std::vector<PlaceLikeness>& list) const;
-  /// Forgets the past, but not how much scores vary.
+  /// Forgets the past: the next image begins a new sequence.
   void restart() { states_.clear(); }
 
  private:

@@ -2,11 +2,12 @@
 #include <stdexcept>
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Base of every exception the library throws: a caller's mistake, a bad option or a broken file.
-/// The message is one line that names the field or `file:line` and the value seen.
-/// When the data merely allow no estimate, nothing is thrown: see outcome.h.
+/// Base of every exception that the library throws itself.
+/// It reports a caller's mistake, a bad option or a broken file. The message is one line that names
+/// the field or `file:line` and the value seen. When the data merely allow no estimate, nothing is
+/// thrown: see outcome.h.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -18,11 +19,13 @@ class ArgumentError : public Error {
   using Error::Error;
 };
 
-/// A file that is missing, truncated or malformed. `what()` is "path:line: message", or
-/// "path: message" when `line` is 0 (lines count from 1).
+/// A file that is missing, truncated or malformed.
 class FileError : public Error {
  public:
+  /// `what()` is "path:line: message"; lines count from 1.
+  /// With a line of 0 or less it is "path: message".
   FileError(const std::string& path, int line, const std::string& message);
+  /// `what()` is "path: message", for a fault of the file as a whole.
   FileError(const std::string& path, const std::string& message) : FileError(path, 0, message) {}
 };
 
@@ -30,6 +33,7 @@ class FileError : public Error {
 inline void require(bool condition, const char* message) {
   if (!condition) throw ArgumentError(message);
 }
+/// Throws ArgumentError(message) unless `condition` holds; for messages that are composed.
 inline void require(bool condition, const std::string& message) {
   if (!condition) throw ArgumentError(message);
 }

@@ -1,21 +1,14 @@
 #pragma once
-#include <fmt/core.h>
-
 #include <functional>
 #include <string>
-#include <utility>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
+/// How important a message is, in ascending order; an error is an exception instead.
 enum class LogLevel { kDebug, kInfo, kWarning };
 
-/// Where messages go: handed to whoever wants to speak, never global. Empty means silence.
+/// Receives the messages of the call that it is handed to; there is no global log. An empty sink
+/// discards them.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
-
-/// Formats the message, in the way of std::format, and hands it over, if there is a sink.
-template <class... Args>
-void log(const LogSink& sink, LogLevel level, fmt::format_string<Args...> message, Args&&... args) {
-  if (sink) sink(level, fmt::format(message, std::forward<Args>(args)...));
-}
 
 }  // namespace placegraph

@@ -5,16 +5,17 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// The closed interval an option may lie in.
+/// The closed interval that the value of an option may lie in; by default any number.
 struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
+  double min = -std::numeric_limits<double>::infinity();  ///< smallest value allowed
+  double max = std::numeric_limits<double>::infinity();   ///< largest value allowed
 };
 
-/// Visits the fields of an options struct: the one protocol from which come strict YAML reading,
-/// `placegraph config`, `--set a.b.c=v`, range checks and docs/options.md.
+/// Visits the fields of an options struct.
+/// From this one protocol come strict YAML reading, `placegraph config`, `--set a.b.c=v`, range
+/// checks and docs/options.md.
 ///
 /// Each `XOptions` aggregate has one free function beside it that lists key, member, doc, range:
 ///
@@ -27,11 +28,17 @@ class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
 
+  /// A switch: YAML's true or false.
   virtual void operator()(const char* key, bool& value, const char* doc) = 0;
+  /// An integer within `range`.
   virtual void operator()(const char* key, int& value, const char* doc, Range range = {}) = 0;
+  /// An integer that is not negative, such as the seed of a random generator.
   virtual void operator()(const char* key, std::uint64_t& value, const char* doc) = 0;
+  /// A number within `range`; NaN is in no range.
   virtual void operator()(const char* key, double& value, const char* doc, Range range = {}) = 0;
+  /// A text, such as a path; it may be empty.
   virtual void operator()(const char* key, std::string& value, const char* doc) = 0;
+  /// A list of any length whose elements all lie within `range`.
   virtual void operator()(const char* key, std::vector<double>& value, const char* doc,
                           Range range = {}) = 0;
 
@@ -44,6 +51,9 @@ class OptionVisitor {
     value = static_cast<Enum>(index);
   }
 
+  /// Nested options, whose fields get the paths "key.field".
+  /// `visit(OptionVisitor&, Options&)` must be found by argument-dependent lookup. A visitor that
+  /// checks calls `options.check()` instead, where there is one.
   template <class Options>
   void group(const char* key, Options& options, const char* doc) {
     begin_group(key, doc);
@@ -69,14 +79,14 @@ class OptionVisitor {
   virtual void check_group(const std::function<void()>& check) { check(); }
 };
 
-/// One field of an options struct, flattened: what `placegraph config` and docs/options.md print.
+/// One field of an options struct, or the head of a group, with its full path.
 struct OptionEntry {
-  std::string path;   ///< "frontend.tracker.window_px"
-  std::string value;  ///< the present value, as YAML would write it
-  std::string doc;    ///< one line
+  std::string path;   ///< keys from the outermost group on: "frontend.tracker.window_px"
+  std::string value;  ///< the present value, as YAML would write it; empty for a group
+  std::string doc;    ///< what it means, one line
   std::string type;   ///< bool | int | uint | double | string | list | choice | group
-  Range range;        ///< int, double, list elements
-  std::vector<std::string> choices;  ///< of a choice
+  Range range;        ///< of an int, a double or the elements of a list
+  std::vector<std::string> choices;  ///< the names that a choice may have, else empty
 };
 
 namespace internal {
@@ -120,8 +130,9 @@ std::vector<OptionEntry> list_options(const Options& options) {
   return collector.entries;
 }
 
-/// Throws ArgumentError naming the first field that is NaN or outside its range; of a group, what
-/// its own `check()` refuses, with the group's name before it.
+/// Throws ArgumentError naming the first field that is NaN or outside its range.
+/// The message is "path: value outside [min, max]". Of a group it is what the group's own `check()`
+/// refuses, with the group's name before it.
 template <class Options>
 void check_ranges(const Options& options) {
   internal::OptionCollector collector(true);

@@ -2,14 +2,16 @@
 #include <string>
 #include <utility>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Whether an estimator's result may be used. It is the first member of every result struct whose
-/// computation the data may not allow; the evidence beside it (inliers, condition, residual) is
-/// always filled. Test it before using the estimate: `if (!result.outcome) ...`.
+/// Whether an estimator's result may be used, and if not, why.
+/// It is the first member of every result struct whose computation the data may not allow; the
+/// evidence beside it (inliers, condition, residual) is always filled. Test it before using the
+/// estimate: `if (!result.outcome) ...`.
 struct [[nodiscard]] Outcome {
+  /// The kind of failure, for programs that treat kinds differently.
   enum class Code {
-    kOk,
+    kOk,            ///< the estimate may be used
     kTooFewData,    ///< fewer measurements than the method needs
     kNoConsensus,   ///< RANSAC found no model with enough support
     kDegenerate,    ///< the measurements leave the wanted quantity unobservable
@@ -18,16 +20,19 @@ struct [[nodiscard]] Outcome {
     kNotAttempted,  ///< the default: nothing was computed yet
   };
 
-  Code code = Code::kNotAttempted;
-  std::string reason;  ///< one line for people; empty when ok
+  Code code = Code::kNotAttempted;  ///< what `if (outcome)` tests for kOk
+  std::string reason;               ///< one line for people; empty when ok
 
+  /// True if the estimate may be used.
   explicit operator bool() const { return code == Code::kOk; }
 
+  /// Success, without a reason.
   static Outcome ok() { return {Code::kOk, {}}; }
+  /// Failure of that kind, with one line that says what was seen and what was needed.
   static Outcome failure(Code code, std::string reason) { return {code, std::move(reason)}; }
 };
 
-/// "ok", "too few data", ...
+/// The name of a code: "ok", "too few data", "no consensus", "degenerate" and so on.
 const char* to_string(Outcome::Code code);
 
 }  // namespace placegraph

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// CPU time that the stages of a program took, each without the stages it called.
 ///
@@ -13,14 +13,17 @@ namespace placegraph {
 /// counts for the open stage, as does any other work of the process.
 class StageTimes {
  public:
+  /// What one stage has taken so far.
   struct Stage {
-    std::string name;
-    double cpu_s = 0;
-    std::int64_t calls = 0;
+    std::string name;        ///< as given to `measure`
+    double cpu_s = 0;        ///< CPU time of all threads of the process, inner stages excluded [s]
+    std::int64_t calls = 0;  ///< spans that were closed
   };
 
+  /// Measures from its construction to its destruction; made by `measure`.
   class Span {
    public:
+    /// Opens a span of the stage at position `stage` of `times`, which must outlive it.
     Span(StageTimes& times, std::size_t stage);
     ~Span();
     Span(const Span&) = delete;
@@ -30,8 +33,10 @@ class StageTimes {
     StageTimes& times_;
   };
 
+  /// Opens a span of the stage of that name, which ends with the scope it is kept in.
   [[nodiscard]] Span measure(const std::string& name);
-  /// In the order in which they were first met; open spans are not in it.
+  /// The stages in the order in which they were first met.
+  /// A stage whose first span is still open has no calls and no time yet.
   const std::vector<Stage>& stages() const { return stages_; }
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// Time from one stamp to another [s]; negative if `to_ns` is earlier.
 inline double seconds(std::int64_t from_ns, std::int64_t to_ns) {

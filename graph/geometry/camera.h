@@ -4,32 +4,35 @@
 #include <array>
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
+/// The lens distortion model, applied to normalized coordinates [x/z, y/z].
 enum class Distortion {
-  kNone,
+  kNone,              ///< pinhole, or an undistorted image
   kRadialTangential,  ///< k1 k2 p1 p2 k3 (Brown 1966; OpenCV's order)
   kEquidistant,       ///< k1 k2 k3 k4 (Kannala & Brandt 2006; OpenCV's fisheye)
 };
 
 /// A pinhole camera: x right, y down, z forward; pixel centres at integer coordinates.
 struct Camera {
-  int width = 0, height = 0;              ///< [px]
-  double fx = 0, fy = 0, cx = 0, cy = 0;  ///< [px]
-  Distortion distortion = Distortion::kNone;
-  std::array<double, 5> coefficients{};  ///< in the order of the distortion model; the rest 0
+  int width = 0, height = 0;                  ///< of the image [px]
+  double fx = 0, fy = 0, cx = 0, cy = 0;      ///< focal lengths and principal point [px]
+  Distortion distortion = Distortion::kNone;  ///< model of the lens
+  std::array<double, 5> coefficients{};       ///< in the order of the distortion model; the rest 0
 
   /// Throws ArgumentError naming the field that is not finite or not positive where it must be.
   void check() const;
 
+  /// The calibration matrix [fx 0 cx; 0 fy cy; 0 0 1], without distortion.
   Eigen::Matrix3d K() const;
-  /// The pixel of a point in the camera frame [m]; nothing if it lies behind the camera (z <= 0) or
-  /// beyond the angle up to which the distortion model is monotonic. `J_px_cam`, if given,
-  /// receives the 2x3 derivative.
+  /// The pixel of a point in the camera frame [m], which may lie outside the image.
+  /// Nothing if the point lies behind the camera (z <= 0) or beyond the angle up to which the
+  /// distortion model is monotonic. `J_px_cam`, if given, receives the 2x3 derivative.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_cam,
                                          Eigen::Matrix<double, 2, 3>* J_px_cam = nullptr) const;
-  /// The viewing ray of a pixel, scaled to z = 1. Distortion is inverted by Newton iteration to
-  /// 1e-10; nothing where it does not converge.
+  /// The viewing ray of a pixel in the camera frame, scaled to z = 1.
+  /// Distortion is inverted by Newton iteration to 1e-10 in normalized coordinates; nothing where
+  /// that does not converge.
   std::optional<Eigen::Vector3d> unproject(const Eigen::Vector2d& px) const;
   /// Whether the pixel lies at least `border_px` inside the image.
   bool contains(const Eigen::Vector2d& px, double border_px = 0) const {
@@ -38,18 +41,21 @@ struct Camera {
   }
 };
 
-/// The depth sensor of an RGB-D camera: depth images need not be registered to the colour image.
+/// The depth sensor of an RGB-D camera; its images need not be registered to the colour's.
 struct DepthCamera {
-  Camera camera;
-  SE3 T_cam_depth;             ///< maps depth-camera coordinates into the colour camera's
+  Camera camera;               ///< intrinsics of the depth images
+  SE3 T_cam_depth;             ///< maps coordinates of the depth camera to the colour camera's
   double sigma_at_1m = 0.005;  ///< depth noise [m] at 1 m; grows with the square of the depth
 };
 
-/// What is known of the sensors before the first frame. The (left) camera's frame is "cam".
+/// The images that a camera delivers: one, a rectified stereo pair, or one with its depth.
+enum class Sensor { kMono, kStereo, kRgbd };
+
+/// What is known of the sensors before the first frame; the left camera's frame is "cam".
 struct Calibration {
-  Camera camera;          ///< the left or only eye, of the images as they are handed over
-  double baseline_m = 0;  ///< > 0: there is a right eye, rectified, same intrinsics
-  std::optional<DepthCamera> depth;       ///< there is a depth image
+  Camera camera;          ///< the left or only camera, for the images as they are handed over
+  double baseline_m = 0;  ///< > 0: stereo pair, rectified, both images with these intrinsics
+  std::optional<DepthCamera> depth;       ///< present: frames have a depth image
   std::optional<double> camera_height_m;  ///< height of the camera above the ground it drives on
 
   void check() const;

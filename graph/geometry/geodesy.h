@@ -3,10 +3,10 @@
 
 #include <memory>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A position on the WGS84 ellipsoid. What the height is measured from is the receiver's affair; it
-/// is treated as height above the ellipsoid.
+/// A position relative to the WGS84 ellipsoid.
+/// The height is taken as height above the ellipsoid, whatever the receiver measures it from.
 struct GeodeticPosition {
   double latitude_deg = 0;   ///< [-90, 90]
   double longitude_deg = 0;  ///< [-540, 540)
@@ -16,18 +16,19 @@ struct GeodeticPosition {
   void check() const;
 };
 
-/// East-north-up coordinates [m] about an origin: Cartesian, tangent to the ellipsoid at the
-/// origin, no map projection, so that lengths are true (LocalCartesian of GeographicLib, Karney
-/// 2013).
+/// Cartesian east-north-up coordinates [m] about an origin.
+/// The axes are tangent to the ellipsoid at the origin; there is no map projection, so lengths are
+/// true (LocalCartesian of GeographicLib, Karney 2013).
 class EnuFrame {
  public:
   /// Throws as GeodeticPosition::check.
   explicit EnuFrame(const GeodeticPosition& origin);
 
+  /// The position whose ENU coordinates are zero.
   const GeodeticPosition& origin() const { return origin_; }
-  /// Throws as GeodeticPosition::check.
+  /// East, north and up of a position [m]; throws as GeodeticPosition::check.
   Eigen::Vector3d to_enu(const GeodeticPosition& position) const;
-  /// Longitude in [-180, 180].
+  /// The inverse of `to_enu`, with the longitude in [-180, 180] degrees.
   GeodeticPosition to_geodetic(const Eigen::Vector3d& position_enu) const;
 
  private:

@@ -1,37 +1,45 @@
 #pragma once
 #include <placegraph/graph/geometry/se3.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A plane of space without orientation: the points with n^T p = d, |n| = 1, where (n, d) and
-/// (-n, -d) are the same. Held as the unit quaternion of vector part n / sqrt(1 + d^2) and scalar
-/// part -d / sqrt(1 + d^2) (Kaess 2015, "Simultaneous localization and mapping with infinite
-/// planes"), whose sign does not matter either. Tangent: rotation vector of that quaternion,
-/// perturbed on the right: q [+] w = q exp(w); at a distance of zero the part of w across n is
-/// twice the turn of the normal [rad], the part along n twice the shift [m].
+/// A plane of space without orientation: the points with n^T p = d, |n| = 1.
+/// (n, d) and (-n, -d) are the same plane. It is held as the unit quaternion of vector part
+/// n / sqrt(1 + d^2) and scalar part -d / sqrt(1 + d^2) (Kaess 2015, "Simultaneous localization and
+/// mapping with infinite planes"), whose sign does not matter either. Tangent: rotation vector of
+/// that quaternion, perturbed on the right: q [+] w = q exp(w). At a distance of zero the part of w
+/// across n is twice the rotation of the normal [rad], the part along n twice the shift [m].
 class Plane3 {
  public:
-  static constexpr int kDof = 3;
+  static constexpr int kDof = 3;  ///< degrees of freedom: size of the tangent
+  /// Rotation vector w of the quaternion, on the right.
   using Tangent = Eigen::Vector3d;
 
+  /// The plane z = 0.
   Plane3() : Plane3(Eigen::Vector3d::UnitZ(), 0) {}
-  /// Throws ArgumentError if `normal` is zero or anything is not finite. Distance [m].
+  /// The plane across `normal`, of any length, at a signed distance from the origin [m].
+  /// Throws ArgumentError if the normal is zero or anything is not finite.
   Plane3(const Eigen::Vector3d& normal, double distance);
+  /// The plane of that quaternion, see above; its vector part must not be zero.
   explicit Plane3(const SO3& quaternion) : q_(quaternion) {}
-  /// Of its point nearest to the origin, n d [m]. Throws ArgumentError if that is the origin (which
-  /// leaves the normal open) or not finite.
+  /// The plane whose point nearest to the origin is `closest` = n d [m].
+  /// Throws ArgumentError if that is the origin (which leaves the normal open) or not finite.
   static Plane3 from_closest_point(const Eigen::Vector3d& closest);
-  /// n d [m], whatever the sign of the quaternion, and its derivative by w. Of a plane through the
-  /// origin it is zero, and its derivative has rank one.
+  /// The point nearest to the origin, n d [m], and its derivative by w.
+  /// It does not depend on the sign of the quaternion. Of a plane through the origin it is zero,
+  /// and its derivative has rank one.
   Eigen::Vector3d closest_point(Eigen::Matrix3d* J_closest = nullptr) const;
 
-  /// n and d, both of the sign of the quaternion, and their derivatives by w.
+  /// The unit normal n, of the sign that the quaternion has, and its derivative by w.
   Eigen::Vector3d normal(Eigen::Matrix3d* J_normal = nullptr) const;
+  /// The signed distance d from the origin [m] along `normal()`, and its derivative by w.
   double distance(Eigen::RowVector3d* J_distance = nullptr) const;
+  /// The quaternion that the plane is held as; it and its negative are the same plane.
   const SO3& quaternion() const { return q_; }
-  /// Signed distance n^T p - d of a point, and its derivative by w.
+  /// Signed distance n^T p - d of a point [m], and its derivative by w.
   double distance_to(const Eigen::Vector3d& p, Eigen::RowVector3d* J_plane = nullptr) const;
 
+  /// This [+] w.
   Plane3 plus(const Tangent& w) const { return Plane3(q_.plus(w)); }
   /// The tangent w with other [+] w = this.
   Tangent minus(const Plane3& other) const { return (other.q_.inverse() * q_).log(); }
@@ -40,18 +48,20 @@ class Plane3 {
   SO3 q_;
 };
 
-/// A plane of frame a seen from frame b: n_b = R^T n_a, d_b = d_a - n_a^T t with T_a_b = (R, t).
-/// Derivatives of its tangent by T_a_b exp(xi) and by the tangent of `plane_a`.
+/// A plane that is given in frame a, in frame b: n_b = R^T n_a, d_b = d_a - n_a^T t.
+/// T_a_b = (R, t). The Jacobians, if asked for, are the derivatives of its tangent by
+/// T_a_b exp(xi) and by the tangent of `plane_a`.
 Plane3 transform_to(const SE3& T_a_b, const Plane3& plane_a,
                     Eigen::Matrix<double, 3, 6>* J_pose = nullptr,
                     Eigen::Matrix3d* J_plane = nullptr);
 
-/// Covariance of a plane's tangent from that of its closest point [m^2]. Throws ArgumentError where
-/// the plane passes through the origin.
+/// Covariance of a plane's tangent from that of its closest point [m^2].
+/// Throws ArgumentError if the plane passes through the origin.
 Eigen::Matrix3d tangent_covariance(const Plane3& plane, const Eigen::Matrix3d& covariance_closest);
 
-/// Information of a plane's tangent when its normal is known to `sigma_normal_rad` and its distance
-/// from the origin to `sigma_distance_m`.
+/// Information of a plane's tangent from the standard deviations of its normal and distance.
+/// `sigma_normal_rad` is that of each of the two angles of the normal, `sigma_distance_m` that of
+/// the distance from the origin. Throws ArgumentError if one is not finite or not positive.
 Eigen::Matrix3d plane_information(const Plane3& plane, double sigma_normal_rad,
                                   double sigma_distance_m);
 

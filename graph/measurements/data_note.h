@@ -1,13 +1,13 @@
 #pragma once
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What whoever uses data should know of how they were read: what was left out and why, and what is
-/// odd about their numbers and what to try.
+/// A remark about data that were read, for those who use them.
+/// It says what was left out and why, or what is odd about the numbers and what to try.
 struct DataNote {
   std::string text;           ///< one line
-  bool doubts_scale = false;  ///< lengths may be wrong: a result is not to be called metric
+  bool doubts_scale = false;  ///< lengths may be wrong: results must not be called metric
 };
 
 }  // namespace placegraph

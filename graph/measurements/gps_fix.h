@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <optional>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// One reading of a GPS receiver, or of a unit that fuses GPS and inertial sensors.
 struct GpsFix {
   std::int64_t stamp_ns = 0;  ///< by the receiver's clock
-  GeodeticPosition position;  ///< of the antenna, or of the point the unit refers to
+  GeodeticPosition position;  ///< of the antenna, or of the point that the unit refers to
   double accuracy_m = 0;      ///< standard deviation of each coordinate as the receiver states it
-  std::optional<Eigen::Vector3d> velocity_enu;  ///< [m/s]
+  std::optional<Eigen::Vector3d> velocity_enu;  ///< east, north, up [m/s]
   std::optional<SO3> R_enu_body;                ///< attitude; body: forward, left, up
 };
 

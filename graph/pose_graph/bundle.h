@@ -3,29 +3,30 @@
 
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A camera of a bundle: pinhole with radial distortion, principal point at zero,
+/// A camera of a bundle: pinhole with radial distortion, principal point at zero.
 /// px = f (1 + k1 s + k2 s^2) q with q = [x/z, y/z], s = |q|^2 (x right, y down, z forward).
 struct BundleCamera {
-  SE3 T_world_cam;
-  double focal_px = 1, k1 = 0, k2 = 0;
+  SE3 T_world_cam;                      ///< pose
+  double focal_px = 1, k1 = 0, k2 = 0;  ///< focal length and coefficients of radial distortion
 };
 
-/// A point seen in a camera.
+/// The observation of a point in a camera.
 struct BundleObservation {
   int camera = 0, point = 0;  ///< positions in Bundle::cameras and Bundle::points
   Eigen::Vector2d px = Eigen::Vector2d::Zero();  ///< from the principal point
 };
 
-/// Cameras, points and who sees what: a bundle-adjustment problem, its start or its solution.
+/// A problem of bundle adjustment: cameras, points and observations; a start or a solution.
 struct Bundle {
-  std::vector<BundleCamera> cameras;
-  std::vector<Eigen::Vector3d> points;  ///< in the world
-  std::vector<BundleObservation> observations;
+  std::vector<BundleCamera> cameras;            ///< with intrinsics of their own
+  std::vector<Eigen::Vector3d> points;          ///< in the world frame
+  std::vector<BundleObservation> observations;  ///< in any order
 
-  /// Throws ArgumentError: an observation of a camera or point that is not there, a focal length
-  /// that is not positive, anything that is not finite.
+  /// Throws ArgumentError naming the first entry that is invalid.
+  /// Invalid are an observation of a camera or point that is not there, a focal length that is not
+  /// positive, and anything that is not finite.
   void check() const;
 };
 

@@ -1,51 +1,67 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/robust_kernel.h>
 #include <placegraph/graph/geometry/lie.h>
 
 #include <cstdint>
 #include <variant>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// A pose of the graph, `T_world_node`. All nodes of one graph are of one kind.
 using Pose = std::variant<SE2, SE3, Sim3>;
-enum class PoseKind { kSE2, kSE3, kSim3 };  ///< in the order of Pose's alternatives
+/// The kind of a pose, in the order of the alternatives of Pose.
+enum class PoseKind { kSE2, kSE3, kSim3 };
 
+/// The alternative that a pose holds.
 inline PoseKind kind_of(const Pose& pose) { return static_cast<PoseKind>(pose.index()); }
+/// Size of the tangent: 3, 6 or 7.
 int degrees_of_freedom(PoseKind kind);
 
 /// Symmetric, positive semi-definite, of any rank; order of the tangent: translation, rotation,
 /// log scale. At most 7x7, without heap.
 using Information = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 7, 7>;
 
+/// Where a constraint comes from: robust methods trust odometry and doubt loops.
 enum class ConstraintSource { kOdometry, kLoop, kOther };
 
-/// What is wrong with an information matrix, as in "information is indefinite"; nullptr if nothing
-/// is. Wrong are values that are not finite, asymmetry (beyond 1e-9 of the largest entry), an
+/// What is wrong with an information matrix, as in "information is indefinite"; else nullptr.
+/// Wrong are values that are not finite, asymmetry (beyond 1e-9 of the largest entry), an
 /// eigenvalue below -1e-9 of the largest, all zeros, and any size but 3x3, 6x6 and 7x7.
 const char* fault_of(const Information& information);
+/// The same for a matrix of fixed size, as of a position.
 const char* fault_of(const Eigen::Matrix3d& information);
+
+/// How the rotation part of a relative-pose error is written.
+/// A .g2o file leaves that open, so that one file has several costs.
+enum class RotationError {
+  kLog,  ///< Log of SE(2) / SE(3) / Sim(3): the default
+  /// g2o: translation of the error pose, vector part of its quaternion (half the angle); in the
+  /// plane, where g2o has no quaternion, translation and angle.
+  kQuaternion,
+};
 
 /// Node `to` seen from node `from`: error = Log(T_from_to^-1 * T_world_from^-1 * T_world_to).
 struct RelativePoseConstraint {
-  std::int64_t from = 0, to = 0;
-  Pose T_from_to;
-  Information information;
-  ConstraintSource source = ConstraintSource::kOdometry;
-  RobustKernel kernel;
+  NodeId from, to;                                        ///< two different nodes
+  Pose T_from_to;                                         ///< measured; of the kind of the nodes
+  Information information;                                ///< of the error, in the right tangent
+  ConstraintSource source = ConstraintSource::kOdometry;  ///< what measured it
+  RobustKernel kernel;                                    ///< of e^T Omega e; none by default
 };
 
-/// The position of a point that a node carries [m], as of a GPS receiver's antenna:
+/// The measured position [m] of a point that a node carries, such as a GPS antenna:
 /// error = T_world_node * lever_arm - position_world. In the plane the third components are left
 /// out.
 struct PositionConstraint {
-  std::int64_t node = 0;
-  Eigen::Vector3d position_world = Eigen::Vector3d::Zero();
-  Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  ///< of the antenna, in the node's frame [m]
-  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
-  RobustKernel kernel;
+  NodeId node;                                               ///< the node that carries the point
+  Eigen::Vector3d position_world = Eigen::Vector3d::Zero();  ///< measured
+  Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  ///< of the antenna, in the node's frame
+  Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< of the error [1/m^2]
+  RobustKernel kernel;                                        ///< of e^T Omega e; none by default
 };
 
+/// A constraint of a pose graph.
 using Constraint = std::variant<RelativePoseConstraint, PositionConstraint>;
 
 }  // namespace placegraph

@@ -4,11 +4,11 @@
 #include <optional>
 #include <string_view>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// "odometry", "loop", "other": the names of sources in every file.
+/// The name of a source in files: "odometry", "loop" or "other".
 const char* to_string(ConstraintSource source);
-/// The source of a name; nothing for any other.
+/// The source of a name; nothing for any other text.
 std::optional<ConstraintSource> constraint_source(std::string_view name);
 
 }  // namespace placegraph

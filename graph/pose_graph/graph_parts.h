@@ -1,17 +1,16 @@
 #pragma once
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A connected component as a graph of its own, and where its nodes and constraints stand in the
-/// whole.
+/// A connected component of a pose graph, as a graph of its own.
 struct GraphPart {
-  PoseGraph graph;
-  std::vector<int> nodes, constraints;
+  PoseGraph graph;                      ///< nodes and constraints in the order of the whole
+  std::vector<int> nodes, constraints;  ///< their positions in the whole, ascending
 };
 
-/// The components in the order of PoseGraph::components, each in the order of the whole. Throws
-/// ArgumentError for a constraint on an unknown node.
+/// Splits a graph into its connected components, in the order of PoseGraph::components.
+/// Throws ArgumentError for a constraint on an unknown node.
 std::vector<GraphPart> split_components(const PoseGraph& graph);
 
 }  // namespace placegraph

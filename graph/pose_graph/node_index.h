@@ -1,35 +1,43 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
+
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Where the node of an id stands. Ids that lie close together (0..n-1 as in most files) are looked
-/// up in a table, any others in a hash map; memory is linear in the number of nodes either way.
+/// Positions of nodes by their ids.
+/// Ids that lie close together (0..n-1 as in most files) are looked up in a table, any others in a
+/// hash map; memory is linear in the number of nodes either way.
 class NodeIndex {
  public:
-  static constexpr int kNone = -1;
-
   NodeIndex() = default;
-  /// Of ids that are there several times the first counts.
-  explicit NodeIndex(const std::vector<std::int64_t>& ids);
+  /// Indexes `ids` by their positions; of an id that is there several times the first counts.
+  explicit NodeIndex(const std::vector<NodeId>& ids);
 
-  /// Position of the id, kNone if it is not there.
-  int find(std::int64_t id) const {
+  /// Position of the id; nothing if it is not there.
+  std::optional<int> find(NodeId id) const {
     if (table_.empty()) return find_in_map(id);
-    const std::uint64_t offset = static_cast<std::uint64_t>(id) - static_cast<std::uint64_t>(low_);
-    return offset < table_.size() ? table_[offset] : kNone;
+    const std::uint64_t offset =
+        static_cast<std::uint64_t>(id.value()) - static_cast<std::uint64_t>(low_);
+    if (offset >= table_.size() || table_[offset] == kNone) return std::nullopt;
+    return table_[offset];
   }
-  bool contains(std::int64_t id) const { return find(id) != kNone; }
-  /// Throws ArgumentError if the id is not there.
-  int at(std::int64_t id) const;
+  /// Whether the id is there.
+  bool contains(NodeId id) const { return find(id).has_value(); }
+  /// Position of the id; throws ArgumentError if it is not there.
+  int at(NodeId id) const;
 
  private:
-  int find_in_map(std::int64_t id) const;
+  static constexpr int kNone = -1;  // in the table: no node has this id
+
+  std::optional<int> find_in_map(NodeId id) const;
+
   std::int64_t low_ = 0;
   std::vector<int> table_;
-  std::unordered_map<std::int64_t, int> map_;
+  std::unordered_map<NodeId, int> map_;
 };
 
 }  // namespace placegraph

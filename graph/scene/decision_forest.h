@@ -4,25 +4,26 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Trees that ask one byte of a row at a time and end in a distribution over classes
-/// (Breiman 2001).
+/// Decision trees over features of one byte, with a distribution over classes in every leaf.
+/// A forest answers with the mean of its trees' distributions (Breiman 2001).
 struct DecisionForest {
-  static constexpr std::uint16_t kLeaf = 0xffff;
-  /// Goes on with the next node where row[feature] <= threshold, else with node `other`. A leaf:
-  /// feature = kLeaf, `other` its number.
+  static constexpr std::uint16_t kLeaf = 0xffff;  ///< the feature of a leaf
+  /// A node of a tree: an inner node compares one feature, a leaf has a distribution.
+  /// Descent goes to the next node if row[feature] <= threshold, else to node `other`.
   struct Node {
-    std::uint16_t feature = kLeaf;
-    std::uint16_t threshold = 0;
-    std::uint32_t other = 0;
+    std::uint16_t feature = kLeaf;  ///< position in the row; kLeaf: this is a leaf
+    std::uint16_t threshold = 0;    ///< compared with the feature
+    std::uint32_t other = 0;        ///< position in `nodes`; of a leaf its number
   };
-  int classes = 0, dimension = 0;    ///< of an answer and of a row
-  std::vector<std::uint32_t> roots;  ///< one a tree
-  std::vector<Node> nodes;
-  std::vector<std::uint8_t> leaves;  ///< leaf x classes, 255 = 1
+  int classes = 0, dimension = 0;    ///< sizes of a distribution and of a row of features
+  std::vector<std::uint32_t> roots;  ///< positions in `nodes`, one for each tree
+  std::vector<Node> nodes;           ///< of all trees
+  std::vector<std::uint8_t> leaves;  ///< leaf x classes, row by row; 255 is a probability of 1
 
-  /// The leaf a row falls into.
+  /// The distribution of the leaf that a row falls into in the tree at `root`: `classes` bytes.
+  /// The forest must be sound, see problem().
   const std::uint8_t* leaf_of(std::uint32_t root, const std::uint8_t* row) const {
     const Node* node = &nodes[root];
     while (node->feature != kLeaf)
@@ -31,11 +32,12 @@ struct DecisionForest {
            static_cast<std::size_t>(node->other) * static_cast<std::size_t>(classes);
   }
 
-  /// The mean of the trees' answers as shares that sum to 1: `shares`, one a class.
+  /// Writes the mean of the trees' distributions to `shares`: one for each class, sum 1.
+  /// The forest must be sound, see problem(). `row` has `dimension` features.
   void predict(const std::uint8_t* row, float* shares) const;
 
-  /// What keeps it from being walked safely: a node that leads back or outside, sizes that do not
-  /// agree. Nothing if it is sound.
+  /// What makes descent unsafe, in a few words; nothing if the forest is sound.
+  /// Unsafe are a node that leads back or outside, and sizes that do not agree.
   std::optional<std::string> problem() const;
 };
 

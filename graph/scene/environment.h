@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 /// The kind of surroundings a place is in.
 enum class Environment : std::uint8_t {
@@ -15,24 +15,29 @@ enum class Environment : std::uint8_t {
   kRoom,      ///< indoors, a few metres to the walls
   kHall       ///< indoors, high and wide
 };
+/// Number of kinds.
 constexpr int kEnvironmentCount = 5;
-/// "street", "road", "corridor", "room", "hall".
+/// The name of a kind: "street", "road", "corridor", "room" or "hall".
 const std::string& environment_name(Environment kind);
+/// The kind of a name; nothing for any other text.
 std::optional<Environment> environment_of_name(const std::string& name);
 
-/// What may be taken for granted in an environment.
+/// What an estimator may assume in an environment.
 struct Assumptions {
-  /// The camera stands at its known height above a ground that fills the view before it.
+  /// The camera is at its known height above a ground plane that fills the image ahead of it.
   bool ground_height = true;
-  /// Edges keep to the axes of a rectangular world.
+  /// Edges are parallel to the axes of a Manhattan frame.
   bool manhattan_world = true;
-  /// What was learned from streets says what surfaces are: sky, ground, things that may move.
+  /// A labelling trained on streets recognizes the surfaces: sky, ground, objects that may move.
   bool street_surfaces = true;
 };
+/// The assumptions that hold in an environment; outdoors, for example, no Manhattan frame.
 Assumptions assumptions_of(Environment kind);
 
-/// A place's label says its kind as "environment:street"; other labels stay.
+/// Labels a place with its environment, as in "environment:street".
+/// An earlier label of this form is replaced; other labels stay.
 void label_environment(Place& place, Environment kind);
+/// The environment that a place is labelled with; nothing without such a label.
 std::optional<Environment> environment_of(const Place& place);
 
 }  // namespace placegraph

@@ -1,76 +1,80 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/geometry/so3.h>
 
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// A point of a surface as a keyframe sees it, in the keyframe's camera frame.
+/// A point of a surface as a keyframe observes it, in the keyframe's camera frame.
 struct SurfacePoint {
-  Eigen::Vector3f point = Eigen::Vector3f::Zero();
-  /// Unit, towards the camera; zero where only the point is known.
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();  ///< position [m]
+  /// Unit normal towards the camera; zero where only the point is known.
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  float sigma = 0;  ///< of the distance along the normal, or along the ray where there is none
+  float sigma = 0;  ///< of the distance along the normal, or along the ray where there is none [m]
 };
 
-/// What one keyframe tells of the surfaces around it, and where it hangs. It moves with its place.
+/// The surface points that one keyframe observes; in its frame, so that they move with it.
 struct SurfaceSight {
-  std::int64_t keyframe = 0;
-  std::vector<SurfacePoint> points;
+  KeyframeId keyframe;               ///< the keyframe
+  std::vector<SurfacePoint> points;  ///< in its camera frame
 };
 
-/// A straight upright surface that reaches the ceiling, as it was seen from one side.
+/// A straight upright surface that reaches the ceiling, observed from one side.
 struct IndoorWall {
   Eigen::Vector2d a, b;          ///< ends, plan coordinates [m]
-  Eigen::Vector2d normal;        ///< unit, towards the side it was seen from
-  double sigma_m = 0;            ///< of its position along the normal
-  double low_m = 0, high_m = 0;  ///< heights above the floor between which it was seen
+  Eigen::Vector2d normal;        ///< unit, towards the side from which it was observed
+  double sigma_m = 0;            ///< standard deviation of its position along the normal
+  double low_m = 0, high_m = 0;  ///< heights above the floor between which it was observed
   int sights = 0;                ///< surface points that it was fitted to
-  std::int64_t place = -1;       ///< the place that saw most of it
+  std::optional<PlaceId> place;  ///< the place from which most of it was observed
+  /// Distance between its ends [m].
   double length() const { return (b - a).norm(); }
 };
 
-/// A passage of a wall, or a leaf that closes one.
+/// A doorway in a wall, open or closed by a door leaf.
 struct IndoorDoor {
-  Eigen::Vector2d a, b;  ///< ends of the opening
-  double height_m = 0;   ///< of its head above the floor; 0: none was seen
-  bool closed = false;
-  std::array<int, 2> rooms{-1, -1};  ///< indices that it joins; -1: unknown
+  Eigen::Vector2d a, b;  ///< ends of the opening, plan coordinates [m]
+  double height_m = 0;   ///< of its head above the floor; 0: none was observed
+  bool closed = false;   ///< a leaf was observed in it
+  /// Positions in IndoorMap::rooms that it joins; nothing where unknown.
+  std::array<std::optional<int>, 2> rooms;
 };
 
 /// A part of the free space between walls and doors.
 struct IndoorRoom {
   std::string label;                     ///< "corridor 1", "room 2"
-  std::vector<Eigen::Vector2d> outline;  ///< closed polygon, counter-clockwise in (x, z)
-  std::vector<std::vector<Eigen::Vector2d>> holes;
-  double area_m2 = 0;
-  double ceiling_m = 0;  ///< above the floor; 0: not seen
-  bool entered = false;  ///< the camera was in it
-  std::vector<std::int64_t> places;
+  std::vector<Eigen::Vector2d> outline;  ///< closed polygon, counter-clockwise in (x, z) [m]
+  std::vector<std::vector<Eigen::Vector2d>> holes;  ///< polygons within it that are not free
+  double area_m2 = 0;                               ///< of the outline without the holes
+  double ceiling_m = 0;                             ///< height above the floor; 0: not observed
+  bool entered = false;                             ///< whether the camera was in it
+  std::vector<PlaceId> places;                      ///< places of the map that lie in it
 };
 
-/// Walls, doors and rooms seen from above. Plan coordinates are x and z of a frame with y straight
-/// down: the map's own, turned by `R_plan_map` so that its vertical is the building's.
+/// A floor plan of walls, doors and rooms.
+/// Plan coordinates are x and z of the plan frame: the map's frame, rotated by `R_plan_map` so that
+/// its y axis points straight down.
 struct IndoorMap {
-  /// Too few data (no upright surfaces), degenerate (no vertical, no floor).
-  Outcome outcome;
-  SO3 R_plan_map;
-  double floor_y = 0;  ///< of the floor in the plan frame, y down
-  double yaw_rad = 0;  ///< of the walls' directions: x towards z, modulo a quarter turn
-  std::vector<IndoorWall> walls;
-  std::vector<IndoorDoor> doors;
-  std::vector<IndoorRoom> rooms;
-  /// Cells of the plan, rows along the second axis of the walls: log-odds that something stands
-  /// there at any height, 0 where nothing is known.
+  Outcome outcome;     ///< kTooFewData: no upright surfaces; kDegenerate: no vertical or no floor
+  SO3 R_plan_map;      ///< maps directions of the map frame to the plan frame
+  double floor_y = 0;  ///< y of the floor in the plan frame, y down [m]
+  double yaw_rad = 0;  ///< of the walls' axes, from x towards z, modulo pi / 2
+  std::vector<IndoorWall> walls;  ///< one for each side of a wall that was observed
+  std::vector<IndoorDoor> doors;  ///< doorways between rooms
+  std::vector<IndoorRoom> rooms;  ///< free space, divided by walls and doors
+  /// Occupancy grid of the plan, its columns and rows along the two axes of the walls.
   struct Cells {
-    double size_m = 0.1;
-    Eigen::Vector2d low = Eigen::Vector2d::Zero();  ///< corner, in the walls' axes [m]
-    int columns = 0, rows = 0;
+    double size_m = 0.1;                            ///< side of a cell
+    Eigen::Vector2d low = Eigen::Vector2d::Zero();  ///< corner of the grid, in the walls' axes [m]
+    int columns = 0, rows = 0;                      ///< along the first and the second axis
+    /// Log-odds that something stands in the cell at any height, row by row; 0: nothing is known.
     std::vector<float> log_odds;
   } cells;
 };

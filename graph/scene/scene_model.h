@@ -6,45 +6,49 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What a surface of a scene is, geometrically.
+/// The geometric kind of a surface; kObject is a thing that may move, such as a car.
 enum class Surface : std::uint8_t { kSky, kGround, kVertical, kObject };
+/// Number of kinds.
 constexpr int kSurfaceCount = 4;
-/// "sky", "ground", "vertical", "object".
+/// The name of a kind: "sky", "ground", "vertical" or "object".
 const std::string& surface_name(Surface surface);
+/// The kind of a name; nothing for any other text.
 std::optional<Surface> surface_of_name(const std::string& name);
 
-/// A class of a labelled set: its number in label images, and nothing as surface where it is void.
+/// A class of a labelled data set.
 struct SceneClass {
-  int id = 0;
-  std::string name;
-  std::optional<Surface> surface;
+  int id = 0;                      ///< its value in label images
+  std::string name;                ///< as in the data set's list of classes
+  std::optional<Surface> surface;  ///< nothing for void, which is neither learned nor judged
 };
 
-/// How classes lie to each other: log P(a, b in this relation) / (P(a) P(b)), a x b, row by row;
-/// 0 where it is chance.
+/// Spatial relations between classes: log P(a, b in this relation) / (P(a) P(b)).
+/// Tables are class a x class b, row by row; 0 where the relation is as frequent as by chance.
 struct RelationTable {
   std::vector<float> above;   ///< a above b
-  std::vector<float> beside;  ///< symmetric
+  std::vector<float> beside;  ///< a beside b, symmetric
 };
 
-/// A trained labelling of superpixels: a forest on what they show, a second one that sees the first
-/// one's answers around too, and a random field.
+/// A trained model that labels superpixels: two decision forests and a random field.
+/// The first forest sees the features of a superpixel, the second one the first one's answers
+/// around it too; the random field smooths the result.
 struct SceneModel {
+  /// What it labels: geometric surfaces, or the classes of a street.
   enum class Kind : std::uint32_t { kSurfaces, kUrban };
-  Kind kind = Kind::kSurfaces;
-  std::vector<std::string> classes;
-  std::vector<Surface> surfaces;  ///< of each class
-  DecisionForest first, second;
-  RelationTable relations;
-  float smoothness = 0, relation_weight = 0;  ///< of the random field
-  float sharpness = 1;                        ///< exponent that makes its shares probabilities
-  /// What they were learned from, one line.
-  std::string origin;
+  Kind kind = Kind::kSurfaces;                ///< what it labels
+  std::vector<std::string> classes;           ///< names, 2 to 64
+  std::vector<Surface> surfaces;              ///< of each class
+  DecisionForest first, second;               ///< both over all classes
+  RelationTable relations;                    ///< classes x classes
+  float smoothness = 0, relation_weight = 0;  ///< weights of the random field's terms
+  float sharpness = 1;  ///< exponent that turns the result's shares into probabilities
+  std::string origin;   ///< what it was trained on, one line
 
+  /// Number of classes.
   int class_count() const { return static_cast<int>(classes.size()); }
-  /// What is inconsistent in it, if anything.
+  /// What is inconsistent in it, in a few words; nothing if it is sound.
   std::optional<std::string> problem() const;
 };
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
 namespace internal {
 
@@ -40,10 +40,11 @@ class OptionAssignment {
 
 }  // namespace internal
 
-/// Sets the options that the YAML file at `path` names and leaves the others. Strict: an unknown or
-/// duplicate key, a wrong type, NaN, or a value out of range is a FileError
-/// "configs/kitti.yaml:12: frontend.flow.level: unknown key", and `options` is untouched. Relations
-/// between fields are not checked: call `options.check()` once everything is set.
+/// Sets the options that the YAML file at `path` names; the others keep their values.
+///
+/// Throws FileError for an unknown or duplicate key, a wrong type, NaN, or a value out of range, as
+/// in "configs/kitti.yaml:12: frontend.flow.level: unknown key"; `options` is untouched then.
+/// Relations between fields are not checked: call `options.check()` once everything is set.
 template <class Options>
 void read_options(const std::string& path, Options& options) {
   internal::OptionsFile file(path);
@@ -53,7 +54,9 @@ void read_options(const std::string& path, Options& options) {
   options = changed;
 }
 
-/// The same from a text that stands in the file at `path`, as dump_options made it.
+/// Sets the options that a YAML text names, as dump_options writes it.
+///
+/// `path` is the file that holds the text, for messages; otherwise as read_options.
 template <class Options>
 void read_options_text(const std::string& path, const std::string& text, Options& options) {
   internal::OptionsFile file(path, text);
@@ -63,7 +66,9 @@ void read_options_text(const std::string& path, const std::string& text, Options
   options = changed;
 }
 
-/// Sets one option from "a.b.c=value" (lists as [1, 2]). Throws ArgumentError
+/// Sets one option from a text "a.b.c=value"; lists are written as [1, 2].
+///
+/// Throws ArgumentError for an unknown key, a wrong type or a value out of range, as in
 /// "--set a.b.c=value: unknown key; similar: a.b.d"; `options` is untouched then.
 template <class Options>
 void set_option(Options& options, const std::string& assignment) {
@@ -74,16 +79,17 @@ void set_option(Options& options, const std::string& assignment) {
   options = changed;
 }
 
-/// The entries as YAML that read_options takes back, each one's doc and range as a comment above
-/// it.
+/// Writes options as YAML that read_options takes back; meaning and range stand as comments.
 std::string dump_options(const std::vector<OptionEntry>& entries);
+/// Writes all fields of `options` as YAML that read_options takes back.
 template <class Options>
 std::string dump_options(const Options& options) {
   return dump_options(list_options(options));
 }
 
-/// The entries as Markdown: one table (key, default, range, meaning) a group.
+/// Writes options as Markdown: one table (key, default, range, meaning) for each group.
 std::string options_markdown(const std::vector<OptionEntry>& entries);
+/// Writes all fields of `options` as Markdown; their present values stand as defaults.
 template <class Options>
 std::string options_markdown(const Options& options) {
   return options_markdown(list_options(options));

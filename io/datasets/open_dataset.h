@@ -2,17 +2,18 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/dataset.h>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Nothing at a path is of a known layout.
+/// No sequence of a known layout lies at a path; the message says what was looked for.
 class UnknownLayout : public FileError {
  public:
   using FileError::FileError;
 };
 
-/// Recognizes what lies at `path` and opens it; see docs/datasets.md for the layouts. Throws
-/// UnknownLayout saying what was looked for if nothing is recognized, FileError if what was is
-/// broken.
+/// Recognizes the layout of a folder or video file and opens it as a sequence.
+///
+/// docs/datasets.md describes the layouts. Throws UnknownLayout if none is recognized, FileError if
+/// `path` does not exist or the recognized sequence is broken.
 std::unique_ptr<Dataset> open_dataset(const std::string& path);
 
 }  // namespace placegraph

@@ -6,29 +6,34 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What goes on a map: a trajectory and a graph of places in the ENU frame about `origin`.
+/// What is drawn on the earth: a trajectory and a pose graph in the ENU frame about `origin`.
 struct GeoDocument {
-  std::string name;  ///< title of the document
-  GeodeticPosition origin;
-  Trajectory trajectory;  ///< T_enu_body; a lost frame interrupts the line
-  PoseGraph graph;        ///< T_enu_node: nodes as points, relative poses as lines between them
-  /// One per node of `graph`, or empty.
+  std::string name;         ///< title of the document
+  GeodeticPosition origin;  ///< of the local east-north-up frame, on WGS84
+  Trajectory trajectory;    ///< T_enu_body; a lost frame interrupts the line
+  PoseGraph graph;          ///< T_enu_node: nodes as points, relative poses as lines between them
+  /// Times of the nodes [ns], one per node of `graph`, or empty.
   std::vector<std::int64_t> node_stamps_ns;
 };
 
-/// GeoJSON (RFC 7946): a FeatureCollection of the origin (Point), the trajectory (MultiLineString),
-/// the edges (MultiLineString, properties from, to, source) and the nodes (Point, properties id,
-/// stamp_ns). Coordinates are [longitude, latitude, height] on WGS84, 9 and 4 digits; lines are cut
-/// where they cross the 180th meridian. The top-level member `placegraph` repeats the origin.
-/// Atomically; throws FileError, and ArgumentError for an invalid origin or a number of
-/// stamps that is not that of the nodes.
+/// Writes a document as GeoJSON (RFC 7946).
+///
+/// A FeatureCollection of the origin (Point), the trajectory (MultiLineString), the edges
+/// (MultiLineString, properties from, to, source) and the nodes (Point, properties id, stamp_ns).
+/// Coordinates are [longitude, latitude, height] on WGS84 [deg, deg, m] with 9, 9 and 4 digits
+/// after the point; lines are cut where they cross the 180th meridian. The top-level member
+/// `placegraph` repeats the origin. The file is replaced as a whole or not at all. Throws FileError
+/// if it cannot be written, ArgumentError for an invalid origin or another number of stamps than of
+/// nodes.
 void write_geojson(const std::string& path, const GeoDocument& document);
 
-/// The same as KML 2.2, in folders "trajectory", "edges" and "nodes". Programs draw it on the
-/// ground (clampToGround): KML counts heights from the sea level, GPS from the ellipsoid. The
-/// origin stands in the document's description and as a placemark.
+/// Writes a document as KML 2.2, in folders "trajectory", "edges" and "nodes".
+///
+/// Programs draw it on the ground (clampToGround): KML counts heights from sea level, GPS from the
+/// ellipsoid. The origin stands in the document's description and as a placemark. Throws as
+/// write_geojson.
 void write_kml(const std::string& path, const GeoDocument& document);
 
 }  // namespace placegraph

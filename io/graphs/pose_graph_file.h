@@ -1,22 +1,16 @@
 #pragma once
-#include <placegraph/io/graphs/pose_graph_builder.h>
+#include <placegraph/graph/pose_graph/landmark_graph.h>
+#include <placegraph/io/graphs/pose_graph_reading.h>
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-enum class PoseGraphFormat { kG2o, kToro, kIsam };
-
-/// What the tags say: VERTEX_*, EDGE_*, FIX, PARAMS_* are g2o's, VERTEX2 and VERTEX3 are TORO's,
-/// ODOMETRY and LANDMARK are iSAM's; EDGE2 and EDGE3 are TORO's in a file with its vertices and
-/// iSAM's in a file of edges alone, unless the six numbers of an EDGE2 have a zero where iSAM's
-/// root has its diagonal. Leaves the file at its begin. Throws FileError for a tag of none of them
-/// and for a file without any.
-PoseGraphFormat pose_graph_format(TextFile& file);
-
-/// Reads a graph in any of these forms. Throws FileError as read_g2o.
+/// Reads a pose graph in the form of g2o, TORO or iSAM; the tags of its lines tell which.
+///
+/// Throws FileError as read_g2o, also for a file that is of none of these forms.
 PoseGraph read_pose_graph(const std::string& path, const PoseGraphReading& reading = {});
-/// The same with the priors and point landmarks that a file in g2o's form may hold.
+/// Reads a graph as read_pose_graph, with the priors and point landmarks of a g2o file.
 LandmarkGraph read_landmark_graph(const std::string& path, const PoseGraphReading& reading = {});
 
 }  // namespace placegraph

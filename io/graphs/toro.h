@@ -1,12 +1,15 @@
 #pragma once
-#include <placegraph/io/graphs/pose_graph_builder.h>
+#include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/io/graphs/pose_graph_reading.h>
 
 #include <string>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// Reads a graph in the text form of TORO (Grisetti et al., openslam.org/toro.html); lines in any
-/// order, comments (#) passed over:
+/// Reads a pose graph in the form of TORO.
+///
+/// TORO is by Grisetti et al. (openslam.org/toro.html). Lines may come in any order; comments (#)
+/// are skipped:
 ///
 ///   VERTEX2 id x y theta
 ///   EDGE2 from to forward sideward rotate I_ff I_fs I_ss I_rr I_fr I_sr
@@ -20,7 +23,5 @@ namespace placegraph {
 /// that of our tangent [translation, rotation] and belongs to RotationError::kLog. Errors as
 /// read_g2o.
 PoseGraph read_toro(const std::string& path, const PoseGraphReading& reading = {});
-/// The same from a file that is open.
-PoseGraph parse_toro(TextFile& file, const PoseGraphReading& reading);
 
 }  // namespace placegraph

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// How a file says what a place recognizer found.
+/// Forms of a file with the loop closures that a place recognizer proposes.
 enum class LoopFileFormat {
-  kScores,  ///< `query candidate score [stage]` a line
+  kScores,  ///< a line `query candidate score [stage]` per proposal
   /// iBoW-LCD's output (Garcia-Fidalgo & Ortiz 2018), one line per image with seven columns: the
   /// window of matched images (both 0: nothing proposed), the matched image, whether it is
   /// consistent over time, the inliers of the epipolar geometry, words known, seconds.
@@ -19,31 +19,35 @@ enum class LoopFileFormat {
   kRun,
 };
 
-/// Hypotheses of a recognizer. Of iBoW's the score is the number of inliers, and those without any
-/// are none: their geometry was never found. Blank lines and `#` begin no prediction in `kScores`.
-/// Throws FileError with the line: columns missing, no number, negative images, one pair said
-/// twice.
+/// Reads the loop closures that a place recognizer proposes.
+///
+/// The score of iBoW-LCD is its number of inliers; lines without any are left out, as no geometry
+/// was found. Blank lines and comments (#) are skipped in `kScores`. Throws FileError with the
+/// line: columns missing, not a number, negative images, a pair that is there twice.
 std::vector<LoopPrediction> read_loop_predictions(const std::string& path, LoopFileFormat format);
 
-/// Writes `query candidate score` lines, atomically. Throws FileError.
+/// Writes `query candidate score` lines; the file is replaced as a whole. Throws FileError.
 void write_loop_predictions(const std::string& path,
                             const std::vector<LoopPrediction>& predictions);
 
+/// Forms of a file with the true loop closures of a sequence.
 enum class LoopTruthFormat {
   kRanges,  ///< `q first last m1 m2 ...`: the candidates of q, both ends included, and its matches
   kLists,   ///< `q m1 m2 ...`; images that are not listed have no match
   kMatrix,  ///< a square of 0 and 1, row q and column m, blanks or commas between them
 };
 
+/// True loop closures as read from a file.
 struct LoopTruthFile {
-  LoopTruthFormat format = LoopTruthFormat::kRanges;
-  LoopTruth truth;  ///< min_age is 0
+  LoopTruthFormat format = LoopTruthFormat::kRanges;  ///< the form that was recognized
+  LoopTruth truth;                                    ///< min_age is 0
 };
 
-/// Ground truth in any of the three forms, told apart by what the lines hold: `-` (no match) or
-/// matches inside the range make ranges, as many lines as columns of 0 and 1 a matrix, ascending
-/// images lists. Throws FileError with the line: another form, an image listed twice, matches
-/// outside their range, more than 1e9 images.
+/// Reads true loop closures in any of the three forms.
+///
+/// The lines tell the form: `-` (no match) or matches inside the range mean ranges, as many lines
+/// as columns of 0 and 1 a matrix, ascending images lists. Throws FileError with the line: another
+/// form, an image listed twice, matches outside their range, more than 1e9 images.
 LoopTruthFile read_loop_truth(const std::string& path);
 
 }  // namespace placegraph

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/geometry/line_segment.h>
 
@@ -6,40 +7,45 @@
 #include <optional>
 #include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-/// What the frontend sees in one frame, for drawing and looking on; pixels of the (left) eye.
-/// Nothing in a frame that is lost.
+/// What the frontend sees in one frame, for drawing and inspection.
+///
+/// Pixels are those of the (left) camera. All lists are empty for a frame that is lost.
 struct FrameView {
+  /// A tracked point.
   struct Track {
-    std::int64_t id = 0;
-    Eigen::Vector2d px = Eigen::Vector2d::Zero();
+    LandmarkId id;                                          ///< of the track and its landmark
+    Eigen::Vector2d px = Eigen::Vector2d::Zero();           ///< in this frame
     Eigen::Vector2d px_previous = Eigen::Vector2d::Zero();  ///< in the frame before
-    /// Where the landmark of this track projects to, if the track has one and the frame a pose.
+    /// Projection of the track's landmark [px]; nothing without a landmark or if it cannot be
+    /// projected.
     std::optional<Eigen::Vector2d> px_projected;
   };
-  std::vector<Track> tracks;
+  std::vector<Track> tracks;  ///< every tracked point, with or without a landmark
+  /// A tracked straight edge.
   struct Line {
-    std::int64_t id = 0;
-    LineSegment segment;       ///< its support in this frame
-    ImageLine::Carriers seen;  ///< its infinite line
-    /// How far off, at the worse carrier, the line of the window is projected [px], if it has one.
+    LineId id;                 ///< of the track and its landmark
+    LineSegment segment;       ///< its visible part in this frame [px]
+    ImageLine::Carriers seen;  ///< two points that stand for its infinite line
+    /// Distance of the projected line landmark from the worse carrier [px]; nothing without one.
     std::optional<double> off_px;
   };
-  std::vector<Line> lines;
-  /// An edge that was looked at for the directions of rectangular worlds.
+  std::vector<Line> lines;  ///< empty where lines are not among the cues
+  /// An edge that was examined for the directions of Manhattan frames.
   struct DirectedLine {
-    LineSegment segment;
-    std::int64_t world = -1;
-    int axis = -1;  ///< of that world; -1: along none
+    LineSegment segment;                    ///< [px]
+    std::optional<ManhattanFrameId> world;  ///< the frame that it belongs to, if any
+    std::optional<int> axis;                ///< 0, 1 or 2: the axis of that frame it lies along
   };
-  /// Of keyframes only, where those directions are among the cues.
+  /// Of keyframes only, and only where Manhattan frames are among the cues.
   std::vector<DirectedLine> directed;
+  /// A pixel of a plane that was aligned directly.
   struct SurfacePixel {
-    Eigen::Vector2d px;
-    double residual_sigmas = 0;  ///< of its grey value
+    Eigen::Vector2d px;          ///< in this frame
+    double residual_sigmas = 0;  ///< residual of its grey value, in standard deviations
   };
-  std::vector<SurfacePixel> surfaces;  ///< pixels of planes that were aligned
+  std::vector<SurfacePixel> surfaces;  ///< empty where no planes are aligned
   /// Outline of the ground that is aligned for the scale; empty if it is not looked at.
   std::vector<Eigen::Vector2d> ground_px;
 };

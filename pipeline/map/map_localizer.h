@@ -1,74 +1,65 @@
 #pragma once
-#include <placegraph/frontend/places/place_recognizer.h>
-#include <placegraph/frontend/places/recognition_odds.h>
-#include <placegraph/io/map/map_database.h>
-#include <placegraph/pipeline/loops/loop_closer.h>
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/image/frame.h>
+#include <placegraph/io/map/stored_map.h>
+#include <placegraph/pipeline/map/map_options.h>
 
-#include <set>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
-namespace placegraph {
+namespace [[gnu::visibility("default")]] placegraph {
 
-struct LocalizerOptions {
-  PlaceRecognizerOptions recognizer;  ///< its cues are those of the map
-  /// Images behind and ahead count, and none hurries: evidence is gathered over a longer way than
-  /// where only the past is known.
-  SequenceFilterOptions sequence{.memory = 0.97};
-  double min_probability = 0.95;  ///< of an answer
-  int calibration_views = 300;    ///< of the map, that tell how wrong answers look, at most
-  bool geometry = true;           ///< verify by features where the map has their depth
-  LoopOptions loops;              ///< as the run that made the map
-  void check() const;
-};
-void visit(OptionVisitor& field, LocalizerOptions& options);
-
-/// Where an image was taken, or why that is not said.
+/// Where an image was taken, or why that is not known.
 struct Localization {
-  bool placed = false;
-  std::int64_t place = -1, keyframe = -1, frame = -1;  ///< of the map; the best guess if refused
-  double probability = 0;
-  /// The test that decided: "geometry" and "appearance" of placed ones; of others "blank" (there is
-  /// nothing to compare), "calibration" (the map's views do not tell how wrong answers look),
-  /// "appearance" (not sure enough), "geometry" (the features contradict).
+  bool placed = false;  ///< whether `probability` reaches LocalizerOptions::min_probability
+  /// The place of the map; the best guess if not placed, nothing if there is none.
+  std::optional<PlaceId> place;
+  std::optional<KeyframeId> keyframe;  ///< the keyframe that the image was matched to
+  std::optional<FrameId> frame;        ///< the frame of that keyframe
+  double probability = 0;              ///< that the place is right
+  /// The test that decided. Of placed images "geometry" or "appearance"; of others "blank" (there
+  /// is nothing to compare), "calibration" (the map's keyframes do not show what wrong answers look
+  /// like), "appearance" (not sure enough), "geometry" (the features contradict).
   std::string stage;
-  std::optional<SE3> T_map_cam;  ///< if geometry verified it
-  std::string without_pose;      ///< why it is placed without a pose; empty if it is not
+  std::optional<SE3> T_map_cam;  ///< if placed and verified by geometry
+  std::string without_pose;      ///< why a placed image has no pose; empty otherwise
 };
 
-/// Places images in a saved map: by the likeness of whole views, with a probability that the map
-/// itself calibrates (RecognitionOdds), and by features against points of known depth.
+/// Localizes images in a saved map, with a calibrated probability.
+///
+/// Whole images are compared with the keyframes by appearance; the map's own keyframes calibrate
+/// the probability of an answer. Where the map has points of known depth, features verify it and
+/// give a pose.
 class MapLocalizer {
  public:
-  /// Throws ArgumentError for a map of fewer than ten views, or whose views cannot be compared.
+  /// Takes the map over and prepares its keyframes for comparison.
+  ///
+  /// Throws ArgumentError for options that check() refuses, for fewer than ten keyframes with an
+  /// appearance, or if it was described by other cues than those of the options.
   MapLocalizer(const LocalizerOptions& options, StoredMap stored);
+  ~MapLocalizer();
+  MapLocalizer(MapLocalizer&&) noexcept;
+  MapLocalizer& operator=(MapLocalizer&&) noexcept;
 
-  /// Images one by one, or consecutive ones of one drive, each with the evidence of those around
-  /// it. `frames`: grey image as by the map's camera (others are placed without a pose),
-  /// and `colour` where the map's views have colour (ArgumentError). Called with each index once.
+  /// Reads the frame of an index; called once for each, in ascending order.
+  ///
+  /// `image` is grey, as taken by the map's camera (images of another size are placed without a
+  /// pose); `colour` is needed where the map's keyframes were kept in colour.
   using Frames = std::function<Frame(std::size_t)>;
+  /// Localizes `count` images; one result for each, in their order.
+  ///
+  /// `sequence`: the images are consecutive ones of one drive, and each is judged with the evidence
+  /// of those around it; otherwise each is judged by itself. Throws ArgumentError if colour is
+  /// missing.
   std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
 
  private:
-  std::string why_no_features(const Image& grey) const;
-  std::vector<PlaceLikeness> likenesses(const PlaceView& view) const;
-  void learn_near();
-  int lag_of_likeness() const;
-  bool near(int a, int b) const;
-  std::optional<RecognitionOdds> odds(bool sequence) const;
-  std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
-                                     bool sequence) const;
-  Localization described(const ViewAnswer& answer, double probability) const;
-  std::optional<Loop> verify(const Frame& frame, const std::vector<PlaceLikeness>& list) const;
-  void take_geometry(const Loop& loop, Localization& result) const;
-  const Keyframe& keyframe_of(int view) const;
-
-  LocalizerOptions options_;
-  StoredMap stored_;
-  bool in_colour_ = false;
-  PlaceRecognizer recognizer_;
-  std::vector<int> keyframes_;  ///< of the views, indices in the map's
-  int lag_ = 1;                 ///< views so far apart look like any others
-  std::set<std::pair<std::int64_t, std::int64_t>> adjacent_;  ///< places
-  std::optional<LoopCloser> closer_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace placegraph

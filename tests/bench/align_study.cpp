@@ -8,8 +8,8 @@
 // writes OUT_PREFIX.tsv, OUT_PREFIX.md, OUT_PREFIX_optimizers.png, OUT_PREFIX_similarities.png
 // and, of rendered templates, OUT_PREFIX_targets.tsv.
 #include <fmt/format.h>
-#include <placegraph/frontend/align/aligner.h>
-#include <placegraph/frontend/align/grey_pyramid.h>
+#include <placegraph/frontend/internal/align/aligner.h>
+#include <placegraph/frontend/internal/align/grey_pyramid.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -19,11 +19,11 @@
 #include <ctime>
 #include <fstream>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
 
 #include "tests/bench/rate_plot.h"
+#include "tests/support/pictures.h"
 #include "tests/support/scenes/warped_template.h"
 
 namespace {
@@ -115,7 +115,7 @@ Matrix3d read_homography(const std::string& path) {
 }
 
 Image read_grey(const std::string& path) {
-  Image image = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  Image image = test::read_grey_picture(path);
   require(!image.empty(), path + ": cannot be read");
   return image;
 }

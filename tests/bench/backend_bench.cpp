@@ -26,7 +26,8 @@ SlidingWindow window_of(const benchmark::State& state, int max_keyframes) {
   SlidingWindow window(options, world.camera);
   fill_window(window, world, random, 0.05, 0.005, 0.3);
   if (state.range(2) == 0)
-    add_distance(window, {0, 1, test::distance_m(world.T_map_cam[0], world.T_map_cam[1]), 0.01});
+    add_distance(window, {KeyframeId(0), KeyframeId(1),
+                          test::distance_m(world.T_map_cam[0], world.T_map_cam[1]), 0.01});
   return window;
 }
 
@@ -66,8 +67,8 @@ void PoseGraphOptimize(benchmark::State& state) {
   std::vector<SE3> truth;
   const auto relative = [&](std::int64_t from, std::int64_t to, ConstraintSource source) {
     RelativePoseConstraint c;
-    c.from = from;
-    c.to = to;
+    c.from = NodeId(from);
+    c.to = NodeId(to);
     c.T_from_to = truth[static_cast<std::size_t>(from)].inverse() *
                   truth[static_cast<std::size_t>(to)] * test::random_motion(random, 0.02, 0.01);
     c.information = Matrix6d(Matrix6d::Identity() * 1e3);
@@ -83,7 +84,7 @@ void PoseGraphOptimize(benchmark::State& state) {
     if (i > 0)
       T_world_node = std::get<SE3>(graph.nodes.back().T_world_node) *
                      relative(i - 1, i, ConstraintSource::kOdometry);
-    graph.nodes.push_back({i, T_world_node, false});
+    graph.nodes.push_back({NodeId(i), T_world_node, false});
     const int across = (row - 1) * side + (side - 1 - i % side);
     if (row > 0 && across < i - 1) relative(across, i, ConstraintSource::kLoop);
   }

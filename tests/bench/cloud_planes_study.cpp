@@ -1,18 +1,18 @@
 // Planes in point clouds with known labels: found by each method, with and without noise added.
 //   bench_cloud_planes_study castle FOLDER | synpeb FILE | world NAME | generated SEED
 #include <fmt/format.h>
-#include <placegraph/eval/scene/plane_check.h>
-#include <placegraph/frontend/cloud_planes/cloud_planes.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/eval/internal/scene/plane_check.h>
+#include <placegraph/frontend/internal/cloud_planes/cloud_planes.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/median.h>
-#include <placegraph/graph/core/random.h>
 #include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/text_file.h>
-#include <placegraph/io/measurements/point_cloud_file.h>
-#include <placegraph/io/synthetic/worlds/cloud_scene.h>
-#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/internal/measurements/point_cloud_file.h>
+#include <placegraph/io/internal/synthetic/worlds/cloud_scene.h>
+#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 
 #include <algorithm>
 #include <cstdio>

@@ -1,11 +1,11 @@
 // How the cost of pose-graph optimization grows with the graph: grid worlds, each solved in a
 // process of its own, so that its peak memory is its own too.
 //   bench_graph_growth OUT.png|OUT.svg [POSES...]        (default 1000 3000 10000 30000 100000)
+#include <placegraph/backend/internal/solver/normal_equations.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
-#include <placegraph/backend/solver/normal_equations.h>
-#include <placegraph/eval/plots/growth_plot.h>
+#include <placegraph/eval/internal/plots/growth_plot.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/synthetic/graphs/graph_world.h>
+#include <placegraph/io/internal/synthetic/graphs/graph_world.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

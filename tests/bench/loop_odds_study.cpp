@@ -1,5 +1,5 @@
-// Fits the coefficients of pipeline/loops/loop_probability to candidates of runs whose truth is
-// known.
+// Fits the coefficients of pipeline/internal/loops/loop_probability to candidates of runs whose
+// truth is known.
 //   bench_loop_odds_study MAP TRUTH RADIUS [MAP TRUTH RADIUS ...]
 // MAP: map.db of a run; TRUTH: a pose per frame of its sequence; two views show one place where
 // their true positions are within RADIUS [m] and their headings within 40 deg. Every run weighs
@@ -9,7 +9,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
-#include <placegraph/pipeline/loops/loop_probability.h>
+#include <placegraph/pipeline/internal/loops/loop_probability.h>
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -49,9 +49,10 @@ std::vector<Candidate> candidates_of(const std::string& map, const std::string& 
   const SameView same{radius_m, 40};
   std::vector<Candidate> candidates;
   for (const LoopRecord& loop : read_map(map).map.loops) {
-    const auto at = [&](std::int64_t frame) {
-      require(frame < static_cast<std::int64_t>(truth.size()), truth_file + ": too few poses");
-      return truth.poses[static_cast<std::size_t>(frame)].T_world_body;
+    const auto at = [&](FrameId frame) {
+      require(frame.value() < static_cast<std::int64_t>(truth.size()),
+              truth_file + ": too few poses");
+      return truth.poses[static_cast<std::size_t>(frame.value())].T_world_body;
     };
     const auto query = at(loop.query_frame), match = at(loop.match_frame);
     if (query && match) candidates.push_back({loop_features(loop), same.holds(*query, *match)});

@@ -5,24 +5,25 @@
 // horizon and surfaces; camera and its height are known. Writes OUT_PREFIX_targets.tsv (figure,
 // tab, value) and OUT_PREFIX_K.png for the first six frames.
 #include <fmt/format.h>
-#include <placegraph/frontend/labels/surface_classifier.h>
-#include <placegraph/frontend/scene/horizon.h>
-#include <placegraph/frontend/scene/popup.h>
-#include <placegraph/frontend/segments/segment_detector.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/frontend/internal/labels/surface_classifier.h>
+#include <placegraph/frontend/internal/scene/horizon.h>
+#include <placegraph/frontend/internal/scene/popup.h>
+#include <placegraph/frontend/internal/segments/segment_detector.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/median.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/internal/synthetic/worlds/tours.h>
 #include <placegraph/io/models/scene_model_file.h>
-#include <placegraph/io/synthetic/worlds/synthetic_world.h>
-#include <placegraph/io/synthetic/worlds/tours.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+
+#include "tests/support/pictures.h"
 
 namespace placegraph {
 namespace {
@@ -160,7 +161,7 @@ void judge_frame(const SyntheticWorld& world, std::size_t k, const SceneModel& m
       picture = overlay_box(draw.empty() ? bgr : picture, popup, view, box.size, &mask);
       judge_pixels(box, truth.camera, frame.depth, mask, score);
     }
-  if (!draw.empty()) cv::imwrite(draw, picture);
+  if (!draw.empty()) test::write_picture(draw, picture);
 }
 
 void run(int count, char** arguments) {

@@ -1,7 +1,7 @@
 // What commands say of pairs of images, held against what people marked: planes of point matches
 // and matches of segments.
 #include <fmt/format.h>
-#include <placegraph/io/files/text_file.h>
+#include <placegraph/io/internal/files/text_file.h>
 
 #include <cstdio>
 #include <exception>

@@ -2,13 +2,15 @@
 // filter over past images; and the memory of a view. bench_place_study FOLDER [--plot FILE] [N...]
 // How the tiny image stands zoom and shift: bench_place_study FOLDER --robustness
 #include <fmt/format.h>
-#include <placegraph/eval/plots/growth_plot.h>
+#include <placegraph/eval/internal/plots/growth_plot.h>
+#include <placegraph/frontend/internal/places/cues/cue_grid.h>
+#include <placegraph/frontend/internal/places/place_view.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/frontend/places/sequence_filter.h>
-#include <placegraph/graph/core/random.h>
-#include <placegraph/io/files/atomic_file.h>
+#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/io/files/image_list.h>
+#include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/internal/files/image_list.h>
 
 #include <malloc.h>
 #include <algorithm>

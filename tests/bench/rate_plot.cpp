@@ -1,7 +1,7 @@
 #include "tests/bench/rate_plot.h"
 
 #include <fmt/format.h>
-#include <placegraph/eval/plots/plot_canvas.h>
+#include <placegraph/eval/internal/plots/plot_canvas.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>

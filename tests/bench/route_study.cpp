@@ -4,7 +4,7 @@
 // The map is made of the first MAP_FRAMES frames; the way back is replayed with frames of later
 // passes where there are any. Prints figure, tab, value.
 #include <fmt/format.h>
-#include <placegraph/eval/loops/route_check.h>
+#include <placegraph/eval/internal/loops/route_check.h>
 #include <placegraph/eval/trajectory/statistics.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/datasets/open_dataset.h>
@@ -26,14 +26,14 @@ void tell(const std::string& figure, double value) { fmt::print("{}\t{:.5g}\n", 
 
 /// Places by what became of them on the way back; a step of a way is one of them.
 struct Replay {
-  std::map<std::int64_t, ViewOnTheWay> views;
-  std::map<std::int64_t, Recognition> recognitions;
+  std::map<PlaceId, ViewOnTheWay> views;
+  std::map<PlaceId, Recognition> recognitions;
 };
 
 Replay replay_places(const Map& map, const WayBack& back) {
   Replay replay;
   for (const auto& [place, frame] : test::frames_of_places(map)) {
-    replay.views[place] = back.view_at(frame);
+    replay.views[place] = back.view_at(frame.value());
     replay.recognitions[place] = back.recognize(replay.views[place]);
   }
   return replay;

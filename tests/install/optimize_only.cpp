@@ -7,7 +7,7 @@
 
 int main() {
   using namespace placegraph;
-  const auto edge = [](int from, int to, const SE2& T_from_to) {
+  const auto edge = [](NodeId from, NodeId to, const SE2& T_from_to) {
     RelativePoseConstraint constraint;
     constraint.from = from;
     constraint.to = to;
@@ -19,9 +19,9 @@ int main() {
   PoseGraph graph;
   SE2 T_world_node;
   for (int i = 0; i < 4; ++i) {
-    graph.nodes.push_back({i, T_world_node, i == 0});
+    graph.nodes.push_back({NodeId(i), T_world_node, i == 0});
     T_world_node = T_world_node * SE2(1.1, 0.05, quarter + 0.05);
-    graph.constraints.push_back(edge(i, (i + 1) % 4, SE2(1, 0, quarter)));
+    graph.constraints.push_back(edge(NodeId(i), NodeId((i + 1) % 4), SE2(1, 0, quarter)));
   }
   const PoseGraphReport report = optimize_pose_graph(graph, {});
   std::printf("chi2 %g -> %g\n", report.chi2_initial, report.chi2_final);

@@ -1,9 +1,10 @@
 // Rectangular worlds in a run through a rendered corridor.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/segments/segment_detector.h>
-#include <placegraph/frontend/vanishing/scene_directions.h>
-#include <placegraph/graph/core/angle.h>
-#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/frontend/internal/segments/segment_detector.h>
+#include <placegraph/frontend/internal/vanishing/scene_directions.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <Eigen/Dense>
@@ -84,7 +85,7 @@ TEST(SlamInARenderedCorridor, TakesDirectionsOfARectangularWorld) {
     }
     ++keyframes;
     int along = 0;
-    for (const FrameView::DirectedLine& line : view.directed) along += line.axis >= 0;
+    for (const FrameView::DirectedLine& line : view.directed) along += line.axis.has_value();
     seen += along >= 8;
   }
   // Two views wait for a third before a world begins.

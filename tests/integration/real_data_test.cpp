@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/evaluate.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/io/datasets/open_dataset.h>
 #include <placegraph/pipeline/run.h>
 
@@ -75,15 +75,15 @@ TEST(RealData, SevenScenesClosesTrueLoopsOnly) {
   for (const LoopRecord& loop : judged.run.map.loops) {
     if (!loop.accepted()) continue;
     ++accepted;
-    const auto at = [&](std::int64_t frame) {
-      return SE3(*truth.poses.at(static_cast<std::size_t>(frame)).T_world_body);
+    const auto at = [&](FrameId frame) {
+      return SE3(*truth.poses.at(static_cast<std::size_t>(frame.value())).T_world_body);
     };
     const SE3 T_match_query = at(loop.match_frame).inverse() * at(loop.query_frame);
     const double error_m = distance_m(T_match_query, loop.T_match_query);
     const double error_rad = angle_rad(T_match_query, loop.T_match_query);
     worst_m = std::max(worst_m, error_m), worst_rad = std::max(worst_rad, error_rad);
-    const bool is_right = std::abs(loop.query_frame - loop.match_frame) >= 33 && error_m <= 0.10 &&
-                          error_rad <= deg_to_rad(5);
+    const bool is_right = std::abs(loop.query_frame.value() - loop.match_frame.value()) >= 33 &&
+                          error_m <= 0.10 && error_rad <= deg_to_rad(5);
     right += is_right;
     EXPECT_TRUE(is_right) << "frames " << loop.query_frame << " and " << loop.match_frame << ", "
                           << loop.inliers << " inliers: " << error_m << " m, "

@@ -74,11 +74,11 @@ TEST(SlamBySurfaces, OneEyeNeedsItsHeight) {
 TEST(SlamBySurfaces, AreLostInTheDarkAndSaySo) {
   const StreetDataset dataset(16, 8, 11);
   std::vector<std::string> lost;
-  const RunResult run = run_sequence(dataset, run_by("plane", SensorChoice::kStereo), {},
-                                     [&](LogLevel, const std::string& message) {
-                                       if (message.find(" lost:") != message.npos)
-                                         lost.push_back(message);
-                                     });
+  RunInputs inputs;
+  inputs.log = [&](LogLevel, const std::string& message) {
+    if (message.find(" lost:") != message.npos) lost.push_back(message);
+  };
+  const RunResult run = run_sequence(dataset, run_by("plane", SensorChoice::kStereo), inputs);
   EXPECT_EQ(lost.size(), 3u);
   for (const std::string& message : lost)
     EXPECT_GT(message.size(), message.find("lost: ") + 6) << message << " gives no reason";

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/evaluate.h>
-#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/pipeline/run.h>
 
 #include <opencv2/core/utility.hpp>
@@ -81,7 +81,7 @@ TEST(SlamOnAStreet, FillsInTheFramesBeforeItsSecondViewLater) {
   Slam slam(small_options(), drive().calibration(Sensor::kMono));
   for (int i = 0; i < 12; ++i) {
     Frame frame = drive().frame(static_cast<std::size_t>(std::max(0, i - 3)), Sensor::kMono);
-    frame.id = i;
+    frame.id = FrameId(i);
     frame.stamp_ns = i;
     slam.add_frame(frame);
   }
@@ -182,9 +182,9 @@ TEST(SlamOnAStreet, CanBeLookedAtBetweenFramesWithoutChangingIt) {
 TEST(SlamOnAStreet, IsLostInTheDarkAndFindsItselfAgain) {
   const StreetDataset dataset(kFrames, 12, 15);
   std::vector<std::string> messages;
-  const RunResult run =
-      run_sequence(dataset, run_as(SensorChoice::kStereo), {},
-                   [&](LogLevel, const std::string& m) { messages.push_back(m); });
+  RunInputs inputs;
+  inputs.log = [&](LogLevel, const std::string& m) { messages.push_back(m); };
+  const RunResult run = run_sequence(dataset, run_as(SensorChoice::kStereo), inputs);
   const Trajectory optimized = run.map.trajectory_optimized();
   for (int i = 0; i < kFrames; ++i) {
     const bool dark = i >= 12 && i < 15;
@@ -223,7 +223,7 @@ TEST(SlamOnAStreet, MovesEvenlyFromOneKeyframeToTheNext) {
   EXPECT_EQ(run.lens_k1, 0);
   const Trajectory optimized = run.map.trajectory_optimized(), truth = *drive().ground_truth();
   std::vector<double> units;  // of each step until the last keyframe
-  const auto last = static_cast<std::size_t>(run.map.keyframes.back().frame);
+  const auto last = static_cast<std::size_t>(run.map.keyframes.back().frame.value());
   ASSERT_GT(last, drive().size() / 2);
   for (std::size_t i = 1; i <= last; ++i) {
     const auto step_m = [i](const Trajectory& t) {
@@ -242,7 +242,8 @@ TEST(SlamOnAStreet, NeedsNoKeyframesToTurnWhereItsTurnIsTakenOut) {
   for (int i = 0; i < 20; ++i) {
     const SE3 T_world_left = pose({0, deg_to_rad(0.4 * i), 0}, {0, -kStreetHeight_m, 0});
     Frame frame;
-    frame.id = frame.stamp_ns = i;
+    frame.id = FrameId(i);
+    frame.stamp_ns = i;
     frame.image = render(street_camera(), T_world_left, street(), 2).grey;
     frame.right = render(street_camera(), T_world_left * pose({0, 0, 0}, {kStreetBaseline_m, 0, 0}),
                          street(), 2)
@@ -269,7 +270,7 @@ TEST(SlamOnAStreet, GoesOnWithOneEyeAfterAJumpToAKnownPlace) {
   for (int i = 0; i < kFrames + 14; ++i) {
     const std::size_t source = i < kFrames ? i : i - kFrames + 8;
     Frame frame = drive().frame(source, Sensor::kMono);
-    frame.id = i;
+    frame.id = FrameId(i);
     frame.stamp_ns = 100000000LL * i;
     online.push_back(slam.add_frame(frame).T_map_cam);
   }
@@ -313,7 +314,7 @@ TEST(SlamOnAStreet, BeginsANewComponentWhenNothingIsKnownAgain) {
 
 /// The drive as a wheel sensor tells it: 1 % too long, turning 0.02 degrees a frame too much, and a
 /// burst of slip in which the wheels go three times as far.
-MeasuredMotion slipping_wheels(int slip_begin, int slip_end) {
+std::shared_ptr<const MeasuredMotion> slipping_wheels(int slip_begin, int slip_end) {
   std::vector<MotionStep> steps;
   for (int i = 0; i + 1 < kFrames; ++i) {
     const SE3 T = street_T_world_cam(i).inverse() * street_T_world_cam(i + 1);
@@ -323,14 +324,13 @@ MeasuredMotion slipping_wheels(int slip_begin, int slip_end) {
                      drive().stamp_ns(static_cast<std::size_t>(i) + 1), measured,
                      MotionNoise().covariance(measured)});
   }
-  return MeasuredMotion(std::move(steps));
+  return std::make_shared<const MeasuredMotion>(std::move(steps));
 }
 
 TEST(SlamOnAStreet, TakesItsUnitFromMeasuredMotionAndDoesNotSlipWithIt) {
   SlamOptions options = small_options();
   options.odometry.keyframe.min_tracked_share = 0.85;  // the unit takes five ways
-  Slam slam(options, drive().calibration(Sensor::kMono));
-  slam.set_motion(slipping_wheels(14, 16));
+  Slam slam(options, drive().calibration(Sensor::kMono), {.motion = slipping_wheels(14, 16)});
   for (int i = 0; i < kFrames; ++i)
     slam.add_frame(drive().frame(static_cast<std::size_t>(i), Sensor::kMono));
   const Map map = slam.finish();
@@ -343,22 +343,20 @@ TEST(SlamOnAStreet, TakesItsUnitFromMeasuredMotionAndDoesNotSlipWithIt) {
 }
 
 TEST(SlamOnAStreet, IsNotLedAstrayBySlipWithTwoEyes) {
-  Slam slam(small_options(), drive().calibration(Sensor::kStereo));
-  slam.set_motion(slipping_wheels(10, 13));
+  Slam slam(small_options(), drive().calibration(Sensor::kStereo),
+            {.motion = slipping_wheels(10, 13)});
   for (int i = 0; i < kFrames; ++i)
     slam.add_frame(drive().frame(static_cast<std::size_t>(i), Sensor::kStereo));
   const Trajectory optimized = slam.finish().trajectory_optimized();
   const EvaluationResult result = judge(drive(), optimized, Alignment::kOrigin);
   EXPECT_LT(result.ape.error_m.rmse, 0.01 * result.path_m);
-  EXPECT_THROW(slam.set_motion(slipping_wheels(0, 0)), ArgumentError);
 }
 
 TEST(SlamOnAStreet, IsCarriedThroughTheDarkByMeasuredMotion) {
   // Dark for so long that nothing is known again: the pictures behind are mirrored.
   SlamOptions options = small_options();
   options.max_lost_frames = 2;
-  Slam slam(options, drive().calibration(Sensor::kStereo));
-  slam.set_motion(slipping_wheels(0, 0));
+  Slam slam(options, drive().calibration(Sensor::kStereo), {.motion = slipping_wheels(0, 0)});
   for (int i = 0; i < kFrames; ++i) {
     Frame frame = drive().frame(static_cast<std::size_t>(i), Sensor::kStereo);
     frame.image = frame.image.clone(), frame.right = frame.right.clone();
@@ -414,15 +412,16 @@ TEST(RunSequence, RunsAPartAndReportsItsProgress) {
   options.first_frame = 3;
   options.max_frames = 4;
   std::vector<std::size_t> done;
-  const RunResult run = run_sequence(
-      drive(), options, [&](std::size_t d, std::size_t total, const FrameResult& result) {
-        EXPECT_EQ(total, 4u);
-        EXPECT_EQ(result.frame, static_cast<std::int64_t>(2 + d));
-        done.push_back(d);
-      });
+  RunInputs inputs;
+  inputs.progress = [&](std::size_t d, std::size_t total, const FrameResult& result) {
+    EXPECT_EQ(total, 4u);
+    EXPECT_EQ(result.frame, FrameId(2 + d));
+    done.push_back(d);
+  };
+  const RunResult run = run_sequence(drive(), options, inputs);
   EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3, 4}));
   ASSERT_EQ(run.map.frames.size(), 4u);
-  EXPECT_EQ(run.map.frames.front().frame, 3);
+  EXPECT_EQ(run.map.frames.front().frame, FrameId(3));
 }
 
 }  // namespace

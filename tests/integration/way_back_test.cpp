@@ -3,8 +3,8 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/eval/loops/route_check.h>
-#include <placegraph/io/synthetic/worlds/synthetic_world.h>
+#include <placegraph/eval/internal/loops/route_check.h>
+#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/run.h>
 
@@ -88,8 +88,8 @@ TEST(WayBackThroughARenderedTown, IsTheShortestAndEveryPlaceOnItIsRecognized) {
   EXPECT_EQ(check.same_places, check.pairs);
   EXPECT_LT(check.worst_length_error, 0.03);
   EXPECT_GT(check.within_5_percent, 0.7 * check.pairs);
-  const std::int64_t first = run.map.place_graph.places.front().id,
-                     last = run.map.place_graph.places.back().id;
+  const PlaceId first = run.map.place_graph.places.front().id,
+                last = run.map.place_graph.places.back().id;
   const Route back = backtracked(shortest_route(run.map.place_graph, first, last));
   ASSERT_TRUE(back.outcome);
   EXPECT_EQ(back.steps.back().place, first);
@@ -100,8 +100,8 @@ TEST(WayBackThroughARenderedTown, IsTheShortestAndEveryPlaceOnItIsRecognized) {
   const test::WayBack replay(run.map, memory, dataset, run.sensor, kMapFrames);
   int other_passes = 0;
   for (const auto& [place, frame] : frames) {
-    const test::ViewOnTheWay view = replay.view_at(frame);
-    EXPECT_NE(view.frame, frame);
+    const test::ViewOnTheWay view = replay.view_at(frame.value());
+    EXPECT_NE(FrameId(view.frame), frame);
     other_passes += view.another_pass;
     const Recognition seen = replay.recognize(view);
     EXPECT_EQ(seen.result, Recognition::Result::kRight)

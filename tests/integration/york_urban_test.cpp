@@ -1,10 +1,10 @@
 // Vanishing points of real segments against those that people marked.
 #include <gtest/gtest.h>
-#include <placegraph/frontend/vanishing/scene_directions.h>
-#include <placegraph/graph/core/angle.h>
-#include <placegraph/io/calibration/camera_file.h>
-#include <placegraph/io/files/text_file.h>
-#include <placegraph/io/measurements/segment_file.h>
+#include <placegraph/frontend/internal/vanishing/scene_directions.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/io/internal/calibration/camera_file.h>
+#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/internal/measurements/segment_file.h>
 
 #include <algorithm>
 #include <iostream>

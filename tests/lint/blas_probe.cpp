@@ -3,9 +3,10 @@
 
 int main() {
   placegraph::PoseGraph graph;
-  graph.nodes = {{0, placegraph::SE2(), true}, {1, placegraph::SE2(1, 0, 0), false}};
+  graph.nodes = {{placegraph::NodeId(0), placegraph::SE2(), true},
+                 {placegraph::NodeId(1), placegraph::SE2(1, 0, 0), false}};
   placegraph::RelativePoseConstraint constraint;
-  constraint.to = 1;
+  constraint.to = placegraph::NodeId(1);
   constraint.T_from_to = placegraph::SE2(2, 0, 0.5);
   constraint.information = Eigen::Matrix3d::Identity();
   graph.constraints = {constraint};

@@ -4,7 +4,7 @@ Reads README.md, CONTRIBUTING.md, CHANGELOG.md and docs/**/*.md below ROOT; prin
 violation as file:line, and fails if there is one. Checked are
   words in backticks or code blocks that begin with a folder of the project:
     `io/graphs/`, `scripts/demo`, `backend/solver/*.h`, `io/graphs/{g2o,toro}`,
-    `backend/window/sliding_window` for the pair of .h and .cpp, `tests/unit/<folder>` up to the
+    `backend/internal/window/sliding_window` for the pair of .h and .cpp, `tests/unit/<folder>` up to the
     placeholder;
   headers after `#include <placegraph/`;
   names of a .h or .cpp file alone, which must be those of a file of the project;
@@ -113,7 +113,8 @@ def parts_of(text):
 def named_in(code):
     """The files and folders that a piece of code names; white space within braces is no end."""
     code = re.sub(r"\{[^{}]*\}", lambda braces: re.sub(r"\s+", "", braces.group(0)), code)
-    headers = INCLUDE.findall(code)
+    headers = ["pipeline/placegraph.h" if header == "placegraph.h" else header  # it is installed above its folder
+               for header in INCLUDE.findall(code)]
     return headers or [full for word in words_of(code) for full in expanded(word)]
 
 

@@ -3,8 +3,8 @@
 # each violation as file:line; fails if there is one.
 #   folders include what ROOT/tests/lint/include_directions.txt permits: include_directions.py
 #   Ceres and CHOLMOD in no header outside backend; OpenGV in no header
-#   OpenCV in headers only through graph/core/image.h, in graph and backend not at all
-#   GeographicLib only in graph/geometry/geodesy.cpp
+#   OpenCV in headers only through graph/image and graph/internal/image, in the rest of graph and in backend not at all
+#   GeographicLib only in graph/internal/geometry/geodesy.cpp
 #   libraries neither print nor end the process
 #   in apps only the command line (cmd_*, main.cpp, help.*) includes CLI11 and prints: include_directions.py
 set -eu
@@ -29,6 +29,7 @@ FNR == 1 {
   here = file
   sub(/\/.*/, "", here)
   header = file ~ /\.h$/
+  images = file ~ /^graph\/(internal\/)?image\//
   block = 0
 }
 
@@ -56,16 +57,15 @@ line ~ /^[ \t]*#[ \t]*include/ {
   if (path ~ /^placegraph\//) project = substr(path, 12)
   else if (path ~ /^(graph|frontend|backend|io|eval|pipeline|apps|tests)\//) project = path
   if (path ~ /^opencv/) {
-    if (header && file != "graph/core/image.h" && here != "apps")
+    if (header && !images && here != "apps")
       complain("OpenCV in a header: " path)
-    else if (file != "graph/core/image.h" && (here == "graph" || here == "backend"))
+    else if (!images && (here == "graph" || here == "backend"))
       complain(here " may not use OpenCV: " path)
   }
-  if ((project == "graph/core/image.h" || project == "graph/measurements/frame.h") &&
-      (here == "backend" || (!header && here == "graph")))
+  if (project ~ /^graph\/(internal\/)?image\// && !images && (here == "backend" || here == "graph"))
     complain(here " must do without OpenCV: " path)
-  if (tolower(path) ~ /geographiclib/ && file != "graph/geometry/geodesy.cpp")
-    complain("GeographicLib outside graph/geometry/geodesy.cpp: " path)
+  if (tolower(path) ~ /geographiclib/ && file != "graph/internal/geometry/geodesy.cpp")
+    complain("GeographicLib outside graph/internal/geometry/geodesy.cpp: " path)
 }
 
 header && here != "backend" && tolower(line) ~ /(^|[^a-z])(ceres|cholmod)/ {

@@ -11,12 +11,13 @@ clean_tree() {
   rm -rf "$work/tree"
   mkdir -p "$work/tree"
   cd "$work/tree"
-  mkdir -p graph/core graph/geometry graph/measurements frontend/lines backend/factors backend/solver
+  mkdir -p graph/core graph/internal/geometry graph/image frontend/lines backend/factors backend/solver
   mkdir -p io/files eval pipeline apps tests/lint
-  echo '#include <opencv2/core/mat.hpp>' > graph/core/image.h
-  printf '#include <GeographicLib/LocalCartesian.hpp>\n#include <placegraph/graph/core/a.h>\n' > graph/geometry/geodesy.cpp
-  printf '#include <placegraph/graph/geometry/se3.h>\n/// As in Ceres. /* not cholmod */\n' > graph/map.h
-  printf '#include <placegraph/graph/core/image.h>\nint at_exit(int);\n' > graph/measurements/frame.h
+  echo 'int a;' > graph/core/a.h
+  echo '#include <opencv2/core/mat.hpp>' > graph/image/image.h
+  printf '#include <GeographicLib/LocalCartesian.hpp>\n#include <placegraph/graph/core/a.h>\n' > graph/internal/geometry/geodesy.cpp
+  printf '#include <placegraph/graph/internal/geometry/se3.h>\n/// As in Ceres. /* not cholmod */\n' > graph/map.h
+  printf '#include <placegraph/graph/core/a.h>\n#include <placegraph/graph/image/image.h>\nint at_exit(int);\n' > graph/image/frame.h
   printf '#include <placegraph/graph/map.h>\n#include <opengv/types.hpp>\n#include <opencv2/core.hpp>\n/* abort()\n   printf() */\n' > frontend/tracker.cpp
   printf '/* a comment\n#include <placegraph/eval/x.h>\n*/ // "\n#include "frontend/tracker.h"\n' > frontend/lines/line.cpp
   printf '#include <ceres/ceres.h>\n#include <placegraph/backend/factors/a.h>\n' > backend/factors/b.h
@@ -29,9 +30,9 @@ clean_tree() {
 # The lines are counted below.
 [graph]
 graph/core:
-graph/geometry: graph/core
-graph: graph/geometry
-graph/measurements: graph/core
+graph/internal/geometry: graph/core
+graph: graph/internal/geometry
+graph/image: graph/core
 [frontend: graph]
 frontend: graph
 frontend/lines: frontend
@@ -80,10 +81,10 @@ clean_tree
 sh "$lint" "$work/tree" || { echo "the clean tree is refused"; failures=1; }
 
 # Includes that the table does not permit.
-plant graph/geometry/so3.h '#include <placegraph/graph/map.h>' \
-  'graph/geometry may not include placegraph/graph/map.h'
-plant graph/core/image.h '#include <placegraph/graph/geometry/so3.h>' \
-  'graph/core may not include placegraph/graph/geometry/so3.h'
+plant graph/internal/geometry/so3.h '#include <placegraph/graph/map.h>' \
+  'graph/internal/geometry may not include placegraph/graph/map.h'
+plant graph/core/a.h '#include <placegraph/graph/internal/geometry/so3.h>' \
+  'graph/core may not include placegraph/graph/internal/geometry/so3.h'
 plant graph/map.h '#include <placegraph/io/graphs/g2o.h>' 'graph may not include placegraph/io/graphs/g2o.h'
 plant graph/map.h '#include "backend/x.h"' 'graph may not include backend/x.h'
 plant frontend/tracker.cpp '#include <placegraph/frontend/lines/line.h>' \
@@ -115,15 +116,15 @@ expect 'thirty-one sources' \
   "eval/x39.h:1: folder eval holds 31 sources, more than 30: it holds more than one idea"
 table '8s/$/ graph\/core/' "$table:8: no include uses the permission frontend -> graph/core"
 table '15s/$/\nio\/graphs:/' "$table:16: folder io/graphs holds no sources"
-table '3s/$/ graph\/geometry/' "$table:3: graph/core: graph/geometry has no earlier line: the arrow points up
-$table:3: no include uses the permission graph/core -> graph/geometry"
+table '3s/$/ graph\/internal\/geometry/' "$table:3: graph/core: graph/internal/geometry has no earlier line: the arrow points up
+$table:3: no include uses the permission graph/core -> graph/internal/geometry"
 table '11s/$/ backend\/factors/' \
   "$table:11: backend/factors: backend/factors has no earlier line: the arrow points up"
 table '11{h;d};13G' "$table:12: backend/solver: backend/factors has no earlier line: the arrow points up"
 table '18s/ eval//' "$table:19: pipeline: layer pipeline may not include layer eval"
 table '7s/graph/graph eval/' "$table:7: layer frontend: layer eval is not above this line"
 table '15s/$/\nio\/files:/' "$table:16: io/files stands here a second time"
-table '6s/$/ graph\/core/' "$table:6: graph/measurements: graph/core stands here a second time"
+table '6s/$/ graph\/core/' "$table:6: graph/image: graph/core stands here a second time"
 table '15s/$/\ngraph\/map:/' "$table:16: 'graph/map:': not a folder of the layer of this heading"
 # A circle of two folders cannot be written down.
 clean_tree
@@ -140,20 +141,22 @@ plant frontend/a.h 'opengv::points_t points;' 'a header names OpenGV'
 plant backend/solver/a.h 'opengv::points_t points;' 'a header names OpenGV'
 plant io/files/file.h '#include <opencv2/core.hpp>' 'OpenCV in a header: opencv2/core.hpp'
 plant graph/map.cpp '#include <opencv2/core.hpp>' 'graph may not use OpenCV: opencv2/core.hpp'
-plant graph/geometry/so3.cpp '#include <opencv2/core.hpp>' 'graph may not use OpenCV: opencv2/core.hpp'
+plant graph/internal/geometry/so3.cpp '#include <opencv2/core.hpp>' 'graph may not use OpenCV: opencv2/core.hpp'
 plant backend/solver/a.cpp '#include <opencv2/core.hpp>' 'backend may not use OpenCV: opencv2/core.hpp'
-plant graph/measurements/frame.cpp '#include <placegraph/graph/measurements/frame.h>' \
-  'graph must do without OpenCV: placegraph/graph/measurements/frame.h'
-plant graph/geometry/so3.cpp '#include <placegraph/graph/core/image.h>' \
-  'graph must do without OpenCV: placegraph/graph/core/image.h'
-plant graph/geometry/geodesy.h '#include <GeographicLib/Geodesic.hpp>' \
-  'GeographicLib outside graph/geometry/geodesy.cpp: GeographicLib/Geodesic.hpp'
+plant graph/internal/geometry/geodesy.h '#include <GeographicLib/Geodesic.hpp>' \
+  'GeographicLib outside graph/internal/geometry/geodesy.cpp: GeographicLib/Geodesic.hpp'
 clean_tree
-echo '#include <placegraph/graph/core/image.h>' > backend/solver/a.cpp
-sed 's/^backend\/solver:/& graph\/core/' $table > edited
+echo '#include <placegraph/graph/image/image.h>' > backend/solver/a.h
+sed 's/^backend\/solver:/& graph\/image/; 13d' $table > edited
 mv edited $table
 expect 'an image in the backend' \
-  'backend/solver/a.cpp:1: backend must do without OpenCV: placegraph/graph/core/image.h'
+  'backend/solver/a.h:1: backend must do without OpenCV: placegraph/graph/image/image.h'
+clean_tree
+echo '#include <placegraph/graph/image/frame.h>' >> graph/map.h
+{ sed -n 1,4p $table; echo 'graph/image: graph/core'; echo 'graph: graph/internal/geometry graph/image'; sed 1,6d $table; } > edited
+mv edited $table
+expect 'an image in the graph' \
+  'graph/map.h:3: graph must do without OpenCV: placegraph/graph/image/frame.h'
 
 # What only programs do.
 for line in 'std::cout << 1;' 'x(); std::cerr<<1;' 'std::printf("a");' '  printf("a");' \
@@ -175,7 +178,7 @@ clean_tree
 mkdir apps/support
 sed 's/^apps: /apps\/support: graph\/core\n&apps\/support /' $table > edited
 mv edited $table
-echo '#include <placegraph/graph/core/image.h>' > apps/support/output.h
+echo '#include <placegraph/graph/core/a.h>' > apps/support/output.h
 echo '#include <apps/support/output.h>' >> apps/main.cpp
 for file in apps/cmd_run.cpp apps/help.h apps/support/cmd_option.h; do
   printf '#include <CLI/CLI.hpp>\nvoid f() { std::puts("a"); }\n' > $file

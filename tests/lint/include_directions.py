@@ -43,12 +43,15 @@ def check_folders(table, files):
     return found
 
 
+ALL_DOORS = "pipeline/placegraph.h"  # it includes what it likes, for those who want everything
+
+
 def check_includes(root, table, files):
     """The violations, and the arrows between folders that the includes make."""
     found, arrows = [], set()
     for file in files:
         here = folder_of(file)
-        for include in includes_of(root, file):
+        for include in includes_of(root, file) if file != ALL_DOORS else ():
             if not include.target:
                 if include.text.startswith("../") or "/../" in include.text:
                     found.append(f"{file}:{include.line}: "

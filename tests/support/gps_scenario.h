@@ -1,7 +1,7 @@
 #pragma once
 #include <placegraph/backend/georeference/georeference.h>
-#include <placegraph/graph/core/random.h>
-#include <placegraph/io/sensors/oxts_file.h>
+#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/io/internal/sensors/oxts_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <Eigen/Geometry>
@@ -110,7 +110,7 @@ inline GpsScenario make_gps_scenario(const std::string& folder, const GpsScenari
 
   Random drift(options.seed, 0), noise(options.seed, 1), gross(options.seed, 2);
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const auto id = static_cast<std::int64_t>(i);
+    const NodeId id(i);
     in.visits.push_back({truth.poses[i].stamp_ns, id});
     scenario.inside.push_back(in_dropout(options, truth.poses[i].stamp_ns));
     if (i == 0) {
@@ -125,7 +125,7 @@ inline GpsScenario make_gps_scenario(const std::string& folder, const GpsScenari
         Eigen::Vector3d::Constant(options.rotation_walk * root);
     for (int k = 0; k < 6; ++k) xi[k] = drift.normal(0, sigma[k]);
     RelativePoseConstraint edge;
-    edge.from = id - 1;
+    edge.from = NodeId(i - 1);
     edge.to = id;
     edge.T_from_to = T_from_to.plus(xi);
     edge.information = Matrix6d(sigma.array().square().inverse().matrix().asDiagonal());

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/internal/places/place_mapper.h>
 
 #include "tests/support/scenes/scene.h"
 
@@ -17,12 +17,13 @@ inline Matrix6d information_of(double sigma_m, double sigma_rad) {
 
 inline PlaceMapper::Link link(std::int64_t from, const SE3& T_from_this, double sigma_m = 0.05,
                               double sigma_rad = 0.005) {
-  return {from, T_from_this, information_of(sigma_m, sigma_rad), ConstraintSource::kOdometry};
+  return {KeyframeId(from), T_from_this, information_of(sigma_m, sigma_rad),
+          ConstraintSource::kOdometry};
 }
 
 inline Loop loop(std::int64_t query, std::int64_t match, const SE3& T_match_query, double sigma_m,
                  double sigma_rad) {
-  Loop loop{query, match, T_match_query};
+  Loop loop{KeyframeId(query), KeyframeId(match), T_match_query};
   loop.information.topLeftCorner<6, 6>() = information_of(sigma_m, sigma_rad);
   return loop;
 }
@@ -53,9 +54,10 @@ inline PlaceMapper square(bool merge = false) {
   options.merge = merge;
   PlaceMapper mapper(options);
   const SE3 side = pose({0, std::numbers::pi / 2 + 0.04, 0}, {0, 0, 5.2});
-  mapper.add_keyframe(0, std::nullopt, {}, kDepth_m);
-  for (int i = 1; i <= 4; ++i) mapper.add_keyframe(i, link(i - 1, side, 0.1, 0.03), {}, kDepth_m);
-  mapper.add_keyframe(5, link(4, kShort), {}, kDepth_m);
+  mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
+  for (int i = 1; i <= 4; ++i)
+    mapper.add_keyframe(KeyframeId(i), link(i - 1, side, 0.1, 0.03), {}, kDepth_m);
+  mapper.add_keyframe(KeyframeId(5), link(4, kShort), {}, kDepth_m);
   return mapper;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/io/map/map_database.h>
 
 namespace placegraph::test {
@@ -72,8 +72,8 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   map.metric = !scaled;
   std::int64_t id = 0;
   for (int p = 0; p < places; ++p) {
-    Place place{p,
-                id,
+    Place place{PlaceId(p),
+                KeyframeId(id),
                 random_pose(random),
                 p == 3 ? 1 : 0,
                 {},
@@ -83,34 +83,35 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
     place.labels.assign(static_cast<std::size_t>(random.index(3)), "a 'kitchen'");
     for (std::uint32_t word = 0; word < 5; ++word)
       place.appearance.words.emplace_back(3 * word, static_cast<float>(random.uniform()));
-    const std::int64_t anchor = id;
+    const KeyframeId anchor(id);
     for (int k = 0; k <= random.index(3); ++k, ++id) {
-      Keyframe keyframe{id,
-                        3 * id + 1,
+      Keyframe keyframe{KeyframeId(id),
+                        FrameId(3 * id + 1),
                         1000 * id,
-                        p,
+                        PlaceId(p),
                         k == 0 ? SE3() : random_pose(random),
                         random_features(random, random.index(20)),
                         1,
                         random_view(random)};
-      place.members.push_back({id, keyframe.T_place_keyframe, keyframe.scale});
-      PlaceHistory::Keyframe link{id, anchor, p == 3 ? 1 : 0, {}};
+      place.members.push_back({KeyframeId(id), keyframe.T_place_keyframe, keyframe.scale});
+      PlaceHistory::Keyframe link{KeyframeId(id), anchor, p == 3 ? 1 : 0, {}};
       if (k > 0 || (p > 0 && p != 3))
-        link.link = KeyframeLink{id - 1, random_pose(random), random_information<6>(random)};
+        link.link =
+            KeyframeLink{KeyframeId(id - 1), random_pose(random), random_information<6>(random)};
       stored.history.keyframes.push_back(link);
       map.keyframes.push_back(std::move(keyframe));
     }
     PlaceHistory::Part part{
-        anchor, p, Sim3(random_pose(random)), random_information<7>(random), {}};
+        anchor, PlaceId(p), Sim3(random_pose(random)), random_information<7>(random), {}};
     if (p % 2 == 1) part.motion_covariance = random_information<6>(random);
     stored.history.parts.push_back(part);
-    stored.history.places.push_back({p, random.uniform(1, 2), id - 1});
+    stored.history.places.push_back({PlaceId(p), random.uniform(1, 2), KeyframeId(id - 1)});
     map.place_graph.places.push_back(std::move(place));
   }
   for (int p = 1; p < places; ++p) {
     RelativePoseConstraint edge;
-    edge.from = p - 1;
-    edge.to = p;
+    edge.from = NodeId(p - 1);
+    edge.to = NodeId(p);
     edge.T_from_to = random_pose(random);
     edge.information = random_information<6>(random);
     if (scaled) {
@@ -123,28 +124,30 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
     map.place_graph.constraints.push_back(edge);
   }
   for (std::int64_t f = 0; f < 3 * id; ++f) {
-    FrameRecord record{f, 100 * f, f / 3, random_pose(random), static_cast<int>(17 * f)};
-    if (f % 7 == 5) record = {f, 100 * f, -1, std::nullopt, 0};
+    FrameRecord record{FrameId(f), 100 * f, KeyframeId(f / 3), random_pose(random),
+                       static_cast<int>(17 * f)};
+    if (f % 7 == 5) record = {FrameId(f), 100 * f, std::nullopt, std::nullopt, 0};
     map.frames.push_back(record);
     StampedPose& online = map.trajectory_online.poses.emplace_back();
     online.stamp_ns = 100 * f;
     if (record.T_keyframe_frame) online.T_world_body = random_pose(random).isometry();
   }
   for (int l = 0; l < 2500; ++l)
-    map.landmarks.push_back(
-        {l, random.index(static_cast<int>(id)), Eigen::Vector3d::Random(), random.index(9)});
-  map.loops.push_back(
-      {9, 1, 33, LoopStage::kAccepted, random_pose(random), LoopModel::kPoints3d2d, 4, 0.7, 0.9});
-  map.loops.push_back({10, 2, 0, LoopStage::kGeometry, {}});
+    map.landmarks.push_back({LandmarkId(l), KeyframeId(random.index(static_cast<int>(id))),
+                             Eigen::Vector3d::Random(), random.index(9)});
+  map.loops.push_back({FrameId(9), FrameId(1), 33, LoopStage::kAccepted, random_pose(random),
+                       LoopModel::kPoints3d2d, 4, 0.7, 0.9});
+  map.loops.push_back({FrameId(10), FrameId(2), 0, LoopStage::kGeometry, {}});
   stored.history.loops.push_back(
-      {id - 1, 0, random_pose(random), random_information<7>(random), 1});
+      {KeyframeId(id - 1), KeyframeId(0), random_pose(random), random_information<7>(random), 1});
   stored.history.founded = places + 2;
   stored.history.judged_loops = 1;
-  stored.history.merged.push_back({0, {{0, random_information<7>(random)}}});
-  stored.history.parted.insert({0, id - 1});
+  stored.history.merged.push_back(
+      {KeyframeId(0), {{KeyframeId(0), random_information<7>(random)}}});
+  stored.history.parted.insert({KeyframeId(0), KeyframeId(id - 1)});
   if (places > 1)
-    stored.history.motions.push_back(
-        {0, stored.history.parts[1].anchor, random_pose(random), random_information<6>(random)});
+    stored.history.motions.push_back({KeyframeId(0), stored.history.parts[1].anchor,
+                                      random_pose(random), random_information<6>(random)});
   return stored;
 }
 

@@ -18,7 +18,7 @@ PoseGraph ring(int n, bool wound, double step_m = 0.01) {
   PoseGraph graph;
   Group T_world_node;
   for (int i = 0; i < n; ++i) {
-    graph.nodes.push_back({10 + i, T_world_node, false});
+    graph.nodes.push_back({NodeId(10 + i), T_world_node, false});
     T_world_node = T_world_node * Group::exp(step);
     if (wound) T_world_node = T_world_node * Group::exp(turn);
     graph.constraints.emplace_back(

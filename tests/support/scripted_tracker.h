@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/tracking/frame_tracker.h>
+#include <placegraph/pipeline/internal/tracking/frame_tracker.h>
 
 #include <functional>
 #include <string>
@@ -45,7 +45,7 @@ class ScriptedTracker : public FrameTracker {
   std::vector<PosedFrame> finish_keyframe(double scale, const LocalMap&) override {
     asked.emplace_back("finish");
     scales.push_back(scale);
-    return {{7, SE3()}};
+    return {{FrameId(7), SE3()}};
   }
   Outcome enough_to_begin(const LocalMap&) const override { return begins; }
   void reset() override { asked.emplace_back("reset"); }

@@ -6,11 +6,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "tests/support/cli_test.h"
 #include "tests/support/data.h"
+#include "tests/support/pictures.h"
 #include "tests/support/scenes/clouds.h"
 
 namespace placegraph {
@@ -42,7 +42,7 @@ class CloudPlanesCli : public test::CliTest {
       binary.append(reinterpret_cast<const char*>(values), sizeof values);
       vertices.append(reinterpret_cast<const char*>(values), 3 * sizeof(float));
     }
-    cv::imwrite(dir / "depth.png", depth);
+    test::write_picture(dir / "depth.png", depth);
     dir.write("K.txt", "120 120 63.5 47.5 128 96\n");
     dir.write("cloud.txt", text.str());
     dir.write("cloud.bin", binary);
@@ -66,7 +66,7 @@ TEST_F(CloudPlanesCli, LabelsTheThreePlanesOfADepthImage) {
   const CommandResult result =
       run("planes depth.png --calib K.txt --depth-scale 0.001 --out labels.png --json");
   ASSERT_EQ(result.code, 0) << result.err;
-  const cv::Mat labels = cv::imread(dir / "labels.png", cv::IMREAD_UNCHANGED);
+  const cv::Mat labels = test::read_picture(dir / "labels.png", DecodedPixels::kAsStored);
   ASSERT_EQ(labels.type(), CV_8UC1);
   ASSERT_EQ(labels.size(), cv::Size(128, 96));
   EXPECT_EQ(test::regions_found(seen.labels,
@@ -148,9 +148,9 @@ TEST_F(CloudPlanesCli, StandsBesideTheSubcommandAndReadsStrictly) {
   expect_usage_error("planes depth.png --out l.png --calib K.txt --depth-scale 0", "--depth-scale");
   dir.write("K2.txt", "120 120 63.5 47.5 640 480\n");
   expect_usage_error("planes depth.png --out l.png --calib K2.txt", "depth.png");
-  cv::imwrite(dir / "empty.png", cv::Mat::zeros(96, 128, CV_16UC1));
+  test::write_picture(dir / "empty.png", cv::Mat::zeros(96, 128, CV_16UC1));
   expect_usage_error("planes empty.png --out l.png --calib K.txt", "0 points, 12 needed");
-  cv::imwrite(dir / "grey.png", cv::Mat::zeros(96, 128, CV_8UC1));
+  test::write_picture(dir / "grey.png", cv::Mat::zeros(96, 128, CV_8UC1));
   expect_usage_error("planes grey.png --out l.png --calib K.txt", "16 bits");
   dir.write("nan.txt", "1 2 3\n1 2 nan\n");
   expect_usage_error("planes nan.txt --out l.txt", "nan.txt:2: ");

@@ -1,8 +1,8 @@
 // `placegraph flow`.
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tests/support/cli_test.h"
+#include "tests/support/pictures.h"
 #include "tests/support/scenes/texture.h"
 
 namespace placegraph {
@@ -17,11 +17,12 @@ class FlowCli : public test::CliTest {
  protected:
   void SetUp() override {
     const test::Texture texture{.seed = 2, .wavelength = 24, .octaves = 3, .contrast = 45};
-    cv::imwrite(dir / "a.png", test::texture_image(120, 100, texture));
-    cv::imwrite(dir / "b.png", test::texture_image(120, 100, texture, -2, 1));  // flow (2, -1)
-    cv::imwrite(dir / "small.png", test::texture_image(60, 50, texture));
+    test::write_picture(dir / "a.png", test::texture_image(120, 100, texture));
+    test::write_picture(dir / "b.png",
+                        test::texture_image(120, 100, texture, -2, 1));  // flow (2, -1)
+    test::write_picture(dir / "small.png", test::texture_image(60, 50, texture));
     cv::Mat truth(100, 120, CV_16UC3, cv::Scalar(1, 32768 - 64, 32768 + 128));
-    cv::imwrite(dir / "truth.png", truth);
+    test::write_picture(dir / "truth.png", truth);
   }
 };
 
@@ -65,8 +66,8 @@ TEST_F(FlowCli, TellsWhatFlowTellsAtOnce) {
                                  1e3,
                                  {.seed = 4, .wavelength = 0.3, .octaves = 3, .contrast = 45}};
   const SE3 T_1_2(SO3::exp({0, 0.002, 0}), Eigen::Vector3d(0, 0, 0.1));
-  cv::imwrite(dir / "far.png", test::render(camera, {}, {wall}).grey);
-  cv::imwrite(dir / "near.png", test::render(camera, T_1_2, {wall}).grey);
+  test::write_picture(dir / "far.png", test::render(camera, {}, {wall}).grey);
+  test::write_picture(dir / "near.png", test::render(camera, T_1_2, {wall}).grey);
   dir.write("K.txt", "200 200 159.5 119.5 320 240\n");
   const std::string command = "flow far.png near.png --cues --calib K.txt ";
   for (const char* method : {"interpolation", "lucas-kanade", "horn-schunck", "dis"}) {
@@ -91,12 +92,12 @@ TEST_F(FlowCli, TellsWhatFlowTellsAtOnce) {
 }
 
 TEST_F(FlowCli, HasNoAnswerOfBlankImages) {
-  cv::imwrite(dir / "blank.png", cv::Mat(100, 120, CV_8UC1, cv::Scalar(90)));
+  test::write_picture(dir / "blank.png", cv::Mat(100, 120, CV_8UC1, cv::Scalar(90)));
   expect_failure("flow blank.png blank.png --method lucas-kanade", 1, "no displacement");
 }
 
 TEST_F(FlowCli, RefusesWhatIsNoPicture) {
-  cv::imwrite(dir / "line.png", cv::Mat(1, 400, CV_8UC1, cv::Scalar(90)));
+  test::write_picture(dir / "line.png", cv::Mat(1, 400, CV_8UC1, cv::Scalar(90)));
   expect_usage_error("flow line.png line.png", "line.png: image is 400x1");
 }
 

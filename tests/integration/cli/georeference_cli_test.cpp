@@ -1,5 +1,5 @@
 // `placegraph georeference`.
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/internal/core/angle.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,10 +1,10 @@
 // `placegraph lines`.
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 #include <vector>
 
 #include "tests/support/cli_test.h"
+#include "tests/support/pictures.h"
 #include "tests/support/scenes/tiles.h"
 #include "tests/support/seed.h"
 
@@ -33,8 +33,8 @@ class LinesCli : public test::CliTest {
     const test::TiledWall wall(5, 4, 60, random);
     Eigen::Matrix3d H;
     H << 0.85, -0.3, 70, 0.3, 0.85, -10, 0, 0, 1;
-    cv::imwrite(dir / "a.png", wall.seen(300, 240, Eigen::Matrix3d::Identity()));
-    cv::imwrite(dir / "b.png", wall.seen(320, 260, H));
+    test::write_picture(dir / "a.png", wall.seen(300, 240, Eigen::Matrix3d::Identity()));
+    test::write_picture(dir / "b.png", wall.seen(320, 260, H));
     dir.write("a.txt", text_of(wall.edges(Eigen::Matrix3d::Identity())));
     dir.write("b.txt", text_of(wall.edges(H)));
   }
@@ -92,7 +92,7 @@ TEST_F(LinesCli, SaysWhatIsWrong) {
 }
 
 TEST_F(LinesCli, BlankImagesAllowNoAnswer) {
-  cv::imwrite(dir / "blank.png", Image(100, 100, CV_8UC1, cv::Scalar(90)));
+  test::write_picture(dir / "blank.png", Image(100, 100, CV_8UC1, cv::Scalar(90)));
   expect_failure("lines detect blank.png -o d.txt", 1, "no straight edges");
   expect_failure("lines match blank.png a.png -o m.txt", 1, "point matches agree");
 }

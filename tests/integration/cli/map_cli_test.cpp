@@ -6,11 +6,11 @@
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "tests/support/cli_test.h"
+#include "tests/support/pictures.h"
 
 namespace placegraph {
 namespace {
@@ -41,16 +41,16 @@ class MapCli : public test::CliTest {
     fs::create_directory(dir / "broken");
     StoredMap stored = read_map(whole() + "/map.db");
     ASSERT_GT(stored.map.place_graph.places.size(), places);
-    const std::int64_t last = stored.map.place_graph.places[places - 1].anchor_keyframe;
+    const KeyframeId last = stored.map.place_graph.places[places - 1].anchor_keyframe;
     Map& map = stored.map;
     map.place_graph.places.resize(places);
     map.place_graph.places.back().members.resize(1);
     std::erase_if(map.place_graph.constraints, [&](const RelativePoseConstraint& c) {
-      return std::max(c.from, c.to) >= static_cast<std::int64_t>(places);
+      return std::max(c.from, c.to) >= NodeId(places);
     });
     std::erase_if(map.keyframes, [&](const Keyframe& k) { return k.id > last; });
     std::erase_if(map.landmarks, [&](const PointLandmark& l) { return l.keyframe > last; });
-    const std::int64_t frame = map.keyframes.back().frame;
+    const FrameId frame = map.keyframes.back().frame;
     std::erase_if(map.frames, [&](const FrameRecord& r) { return r.frame > frame; });
     map.trajectory_online.poses.resize(map.frames.size());
     std::erase_if(map.loops, [&](const LoopRecord& l) { return l.query_frame > frame; });
@@ -229,9 +229,9 @@ class LocalizeByAnotherCamera : public MapCli, public testing::WithParamInterfac
     fs::create_directory(dir / "query");
     for (int i = 0; i < 40; i += kStep) {
       const std::string name = "/" + std::string(i < 10 ? "00000" : "0000") + std::to_string(i);
-      cv::Mat image = cv::imread(drive() + "/image_0" + name + ".png", cv::IMREAD_GRAYSCALE), taken;
+      cv::Mat image = test::read_grey_picture(drive() + "/image_0" + name + ".png"), taken;
       cv::remap(image, taken, map_x, map_y, cv::INTER_AREA);
-      cv::imwrite(dir / "query" + name + ".png", taken);
+      test::write_picture(dir / "query" + name + ".png", taken);
     }
     std::ostringstream text;
     text << "width: " << query.width << "\nheight: " << query.height << "\nfx: " << query.fx
@@ -277,8 +277,9 @@ TEST_F(MapCli, QueriesWithoutOrWithABrokenCalibrationAreToldSo) {
   fs::create_directory(dir / "query");
   for (const char* name : {"/000004.png", "/000020.png"}) {
     cv::Mat small;
-    cv::resize(cv::imread(drive() + "/image_0" + name), small, {224, 140}, 0, 0, cv::INTER_AREA);
-    cv::imwrite(dir / "query" + name, small);
+    cv::resize(test::read_picture(drive() + "/image_0" + name), small, {224, 140}, 0, 0,
+               cv::INTER_AREA);
+    test::write_picture(dir / "query" + name, small);
   }
   CommandResult result = run("localize " + whole() + " query --out placed.txt --json");
   ASSERT_EQ(result.code, 0) << result.err;

@@ -1,12 +1,12 @@
 // `placegraph markers`, and the simulated tags of the research data.
-#include <placegraph/frontend/markers/marker_pose.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/frontend/internal/markers/marker_pose.h>
+#include <placegraph/graph/internal/core/angle.h>
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tests/support/cli_test.h"
 #include "tests/support/data.h"
+#include "tests/support/pictures.h"
 #include "tests/support/scenes/apriltag_sim.h"
 #include "tests/support/scenes/marker_scene.h"
 #include "tests/support/scenes/scene.h"
@@ -24,8 +24,8 @@ class MarkersCli : public CliTest {
     Random random = seeded_random(3);
     scene.camera = MarkerScene::usual_camera();
     scene.layout.markers = {{5, 0.2, SE3(SO3(), {-0.15, 0, 0})}, {9, 0.1, SE3(SO3(), {0.1, 0, 0})}};
-    cv::imwrite(dir / "two.png", scene.render(pose, random));
-    cv::imwrite(dir / "plain.png", Image(480, 640, CV_8UC1, cv::Scalar(128)));
+    test::write_picture(dir / "two.png", scene.render(pose, random));
+    test::write_picture(dir / "plain.png", Image(480, 640, CV_8UC1, cv::Scalar(128)));
     dir.write("K.txt", "460 460 322.3 237.1 640 480\n");
     dir.write("markers.yaml",
               "dictionary: apriltag_36h11\n"
@@ -55,7 +55,7 @@ TEST_F(MarkersCli, WritesIdsCornersAndBothPoses) {
     EXPECT_NEAR(marker["corners_px"][k][0], truth.x(), 0.1);
     EXPECT_NEAR(marker["corners_px"][k][1], truth.y(), 0.1);
   }
-  EXPECT_EQ(cv::imread(dir / "m.png").cols, 640);
+  EXPECT_EQ(test::read_picture(dir / "m.png").cols, 640);
 }
 
 TEST_F(MarkersCli, FindsTheCameraInALayout) {

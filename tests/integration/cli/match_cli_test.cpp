@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "tests/support/cli_test.h"
 #include "tests/support/data.h"
+#include "tests/support/pictures.h"
 
 namespace placegraph {
 namespace {
@@ -26,7 +26,7 @@ class Match : public test::CliTest {
       random.fill(coarse, cv::RNG::UNIFORM, 20, 200);
       cv::resize(coarse, image, {160, 120}, 0, 0, cv::INTER_CUBIC);
       if (i >= 6) image = image(cv::Rect(12, 0, 148, 120)).clone();
-      cv::imwrite(dir / ("images/0000" + std::to_string(i + 10) + ".png"), image);
+      test::write_picture(dir / ("images/0000" + std::to_string(i + 10) + ".png"), image);
       if (i >= 6) truth += std::to_string(i) + " 0 5 " + std::to_string(i - 6) + "\n";
     }
     write_file(dir / "gt.txt", truth);
@@ -70,7 +70,7 @@ TEST_F(Match, RefusesBrokenInput) {
 
 TEST_F(Match, SaysThatGreyImagesHaveNoColour) {
   std::filesystem::remove(dir / "images/000010.png");
-  cv::imwrite(dir / "images/000010.png", cv::Mat(120, 160, CV_8UC1, cv::Scalar(90)));
+  test::write_picture(dir / "images/000010.png", cv::Mat(120, 160, CV_8UC1, cv::Scalar(90)));
   const auto matched = run("match . --out found.txt");
   ASSERT_EQ(matched.code, 0) << matched.err;
   EXPECT_THAT(matched.err, HasSubstr("without the colour cue"));

@@ -1,9 +1,9 @@
 // `placegraph train surfaces|urban` and `placegraph scene label|surfaces|check`.
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tests/support/cli_test.h"
 #include "tests/support/data.h"
+#include "tests/support/pictures.h"
 #include "tests/support/scenes/scene_pictures.h"
 
 namespace placegraph {
@@ -31,8 +31,8 @@ class SceneCli : public test::CliTest {
       };
       fs::create_directories(fs::path(file("images")).parent_path());
       fs::create_directories(fs::path(file("labels")).parent_path());
-      cv::imwrite(file("images"), street.bgr);
-      cv::imwrite(file("labels"), street.labels);
+      test::write_picture(file("images"), street.bgr);
+      test::write_picture(file("labels"), street.labels);
     }
     write_file(dir / "set/CLASSES.txt",
                "0 Sky sky\n1 Road ground\n2 Wall vertical\n3 Car object\n11 void -\n");
@@ -111,11 +111,11 @@ TEST_F(SceneCli, SaysInOneLineWhatIsMissing) {
   expect_usage_error("scene surfaces empty --out labels --model surfaces.pgscene", "empty");
   expect_usage_error("scene label set/val --out labels --model surfaces.pgscene",
                      "a model of kind surfaces");
-  cv::imwrite(dir / "tiny.png", Image(8, 8, CV_8UC3, cv::Scalar::all(9)));
+  test::write_picture(dir / "tiny.png", Image(8, 8, CV_8UC3, cv::Scalar::all(9)));
   expect_usage_error("scene surfaces tiny.png --out labels --model surfaces.pgscene",
                      "smaller than");
   fs::create_directory(dir / "wrong");
-  cv::imwrite(dir / "wrong/one_4.png", Image(8, 8, CV_8UC1, cv::Scalar(0)));
+  test::write_picture(dir / "wrong/one_4.png", Image(8, 8, CV_8UC1, cv::Scalar(0)));
   expect_usage_error("scene check wrong set/val", "one_4.png");
 }
 

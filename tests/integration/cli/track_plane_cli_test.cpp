@@ -3,11 +3,11 @@
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "tests/support/cli_test.h"
 #include "tests/support/data.h"
+#include "tests/support/pictures.h"
 #include "tests/support/scenes/board.h"
 #include "tests/support/seed.h"
 
@@ -64,8 +64,8 @@ class TrackPlaneCli : public test::CliTest {
     for (int frame = 0; frame < kEnd; ++frame) {
       const bool there = frame < kGone || frame >= kBack;
       const auto H = there ? std::optional<Matrix3d>(view(frame)) : std::nullopt;
-      ASSERT_TRUE(cv::imwrite(dir / ("images/0" + std::to_string(frame) + ".png"),
-                              test::disturbed(board.picture(H), 2, random)));
+      ASSERT_TRUE(test::write_picture(dir / ("images/0" + std::to_string(frame) + ".png"),
+                                      test::disturbed(board.picture(H), 2, random)));
     }
   }
   Random random = test::seeded_random(131);
@@ -92,12 +92,12 @@ TEST_F(TrackPlaneCli, WritesALineAFrameAndSaysWhereItIsLost) {
     EXPECT_GT(line.similarity, 0.9);
   }
   for (int frame = 0; frame < kEnd; ++frame)
-    EXPECT_FALSE(cv::imread(dir / ("seen/00000" + std::to_string(frame) + ".png")).empty());
+    EXPECT_FALSE(test::read_picture(dir / ("seen/00000" + std::to_string(frame) + ".png")).empty());
 }
 
 TEST_F(TrackPlaneCli, TellsEverythingAsJson) {
   make_sequence();
-  ASSERT_TRUE(cv::imwrite(dir / "template.png", board.picture(Matrix3d::Identity())));
+  ASSERT_TRUE(test::write_picture(dir / "template.png", board.picture(Matrix3d::Identity())));
   write_file(dir / "camera.yaml", "width: 320\nheight: 240\nfx: 300\nfy: 300\ncx: 160\ncy: 120\n");
   const CommandResult result =
       run("track-plane images " + corners +
@@ -155,9 +155,9 @@ TEST_F(TrackPlaneCli, RefusesWithOneLineAndLeavesNothingBehind) {
 
 TEST_F(TrackPlaneCli, SaysThatABlankOrAbsentTemplateAllowsNoAnswer) {
   fs::create_directory(dir / "blank");
-  ASSERT_TRUE(cv::imwrite(dir / "blank/0.png", Image(240, 320, CV_8UC1, cv::Scalar(90))));
+  ASSERT_TRUE(test::write_picture(dir / "blank/0.png", Image(240, 320, CV_8UC1, cv::Scalar(90))));
   expect_failure("track-plane blank " + corners + "--out t.txt", 1, "too little texture");
-  ASSERT_TRUE(cv::imwrite(dir / "template.png", board.picture(Matrix3d::Identity())));
+  ASSERT_TRUE(test::write_picture(dir / "template.png", board.picture(Matrix3d::Identity())));
   expect_failure("track-plane blank " + corners + "--template-image template.png --out t.txt", 1,
                  "none of 1 frames");
   EXPECT_FALSE(fs::exists(dir / "t.txt"));

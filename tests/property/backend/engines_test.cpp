@@ -95,7 +95,7 @@ TYPED_TEST(Engines, AgreeWhereConstraintsLeaveDirectionsOpen) {
       leaf.information.setZero();
       leaf.information(0, 0) = 4;
       leaf.information(1, 1) = 1;
-      walk.graph.nodes.push_back({99, walk.truth[2]});
+      walk.graph.nodes.push_back({NodeId(99), walk.truth[2]});
       walk.graph.constraints.emplace_back(leaf);
       const PoseGraphReport report =
           optimize_pose_graph(walk.graph, tight(engine, RotationError::kQuaternion));

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/backend/incremental/incremental_optimizer.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include <algorithm>
 
@@ -97,7 +97,7 @@ TYPED_TEST(IncrementalReplacement, ANodeWithoutConstraintsStaysWhereItIs) {
   IncrementalOptimizer optimizer;
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
   optimizer.finish();
-  const std::int64_t lost = walk.graph.nodes[20].id;
+  const NodeId lost = walk.graph.nodes[20].id;
   std::vector<ConstraintWeight> of_lost;
   for (std::size_t c = 0; c < walk.graph.constraints.size(); ++c) {
     const auto& relative = std::get<RelativePoseConstraint>(walk.graph.constraints[c]);

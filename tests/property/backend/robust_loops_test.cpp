@@ -29,8 +29,8 @@ double rms_distance(const PoseGraph& a, const PoseGraph& b) {
   return std::sqrt(sum / static_cast<double>(a.nodes.size()));
 }
 
-std::set<std::pair<std::int64_t, std::int64_t>> ends_of_rejected(const PoseGraphReport& report) {
-  std::set<std::pair<std::int64_t, std::int64_t>> ends;
+std::set<std::pair<NodeId, NodeId>> ends_of_rejected(const PoseGraphReport& report) {
+  std::set<std::pair<NodeId, NodeId>> ends;
   for (const RejectedEdge& edge : report.rejected) {
     const auto& c = std::get<RelativePoseConstraint>(report.graph.constraints[edge.constraint]);
     ends.insert({c.from, c.to});
@@ -103,7 +103,8 @@ TYPED_TEST(RobustLoopsOf, WhatAloneHoldsThePartsTogetherIsKept) {
   LoopedWalk<TypeParam> walk({.nodes = 120, .false_loops = 20, .seed = 2});
   for (Constraint& constraint : walk.graph.constraints) {  // the odometry breaks at 60
     auto& relative = std::get<RelativePoseConstraint>(constraint);
-    if (relative.from == 59 && relative.to == 60) relative.source = ConstraintSource::kOther;
+    if (relative.from == NodeId(59) && relative.to == NodeId(60))
+      relative.source = ConstraintSource::kOther;
   }
   const PoseGraphReport report = optimize(walk.graph, RobustMethod::kAuto);
   EXPECT_TRUE(report.outcome) << report.outcome.reason;

@@ -21,7 +21,7 @@ constexpr double kChi2Of6At99Percent = 16.8119;
 struct Case {
   const char* name;
   WindowWorldOptions world;
-  std::int64_t kept = -1;
+  std::optional<KeyframeId> kept = {};
   bool tied_to_map = true;  ///< the prior leads back to the first keyframe
 };
 
@@ -105,17 +105,18 @@ TEST_P(WindowConsistency, TheErrorsAreAsLargeAsTheCovariancesSay) {
     drive.options.huber_px = 50;  // the noise is normal
     drive.kept = GetParam().kept;
     const SlidingWindow window = drive_window(world, drive, seed + 1000000);
-    const std::int64_t newest = window.keyframes().back();
-    const std::int64_t reference = drive.kept >= 0 ? drive.kept : window.keyframes().front();
+    const KeyframeId newest = window.keyframes().back();
+    const KeyframeId reference = drive.kept.value_or(window.keyframes().front());
     const auto in_map = keyframe_covariance(window, newest);
     const auto to_reference = relative_covariance(window, reference, newest);
     ASSERT_TRUE(to_reference) << "seed " << seed;
     ASSERT_EQ(in_map.has_value(), GetParam().tied_to_map) << "seed " << seed;
-    const SE3& truth = world.T_map_cam[static_cast<std::size_t>(newest)];
+    const SE3& truth = world.T_map_cam[static_cast<std::size_t>(newest.value())];
     if (in_map) absolute.add(nees(window.pose(newest), truth, *in_map));
-    relative.add(nees(window.pose(reference).inverse() * window.pose(newest),
-                      world.T_map_cam[static_cast<std::size_t>(reference)].inverse() * truth,
-                      *to_reference));
+    relative.add(
+        nees(window.pose(reference).inverse() * window.pose(newest),
+             world.T_map_cam[static_cast<std::size_t>(reference.value())].inverse() * truth,
+             *to_reference));
   }
   if (GetParam().tied_to_map) absolute.judge("newest keyframe in the map");
   relative.judge("newest keyframe from the reference");
@@ -123,10 +124,11 @@ TEST_P(WindowConsistency, TheErrorsAreAsLargeAsTheCovariancesSay) {
 
 INSTANTIATE_TEST_SUITE_P(Of, WindowConsistency,
                          testing::Values(Case{"stereo", stereo()},
-                                         Case{"stereo_long_tracks", long_tracks(), -1, false},
+                                         Case{"stereo_long_tracks", long_tracks(), std::nullopt,
+                                              false},
                                          Case{"stereo_with_lines", stereo_with_lines()},
                                          Case{"stereo_with_planes", stereo_with_planes()},
-                                         Case{"stereo_from_a_kept_anchor", stereo(), 3},
+                                         Case{"stereo_from_a_kept_anchor", stereo(), KeyframeId(3)},
                                          Case{"mono_over_ground", mono_over_ground()}),
                          [](const auto& c) { return std::string(c.param.name); });
 

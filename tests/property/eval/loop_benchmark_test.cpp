@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include <algorithm>
 #include <set>
@@ -23,14 +23,14 @@ Scene scene_of(Random& random) {
   scene.truth.min_age = kMinAge;
   for (int q = 0; q < kImages; ++q) {
     LoopQuery query;
-    query.last = q - kMinAge;
+    query.last = FrameId(q - kMinAge);
     for (int m = 0; m <= q - kMinAge; ++m)
-      if (below(random, 12) == 0) query.matches.push_back(m);
-    scene.truth.queries.emplace(q, query);
+      if (below(random, 12) == 0) query.matches.push_back(FrameId(m));
+    scene.truth.queries.emplace(FrameId(q), query);
     std::set<int> candidates;
     for (int k = below(random, 4); k > 0; --k) candidates.insert(below(random, kImages));
     for (const int candidate : candidates)
-      scene.predictions.push_back({q, candidate, 0.1 * below(random, 8), "", 0});
+      scene.predictions.push_back({FrameId(q), FrameId(candidate), 0.1 * below(random, 8), "", 0});
   }
   return scene;
 }
@@ -73,9 +73,9 @@ TEST(LoopBenchmark, NeverGainsByAFalsePrediction) {
   for_random_scenes([](const Scene& scene, Random& random) {
     const LoopBenchmark before = judge_loops(scene.truth, scene.predictions);
     std::vector<LoopPrediction> more = scene.predictions;
-    const auto& query = scene.truth.queries.at(kMinAge + below(random, kImages - kMinAge));
-    const std::int64_t id = query.last + kMinAge;
-    for (std::int64_t candidate = 0; candidate <= query.last; ++candidate)
+    const auto& query = scene.truth.queries.at(FrameId(kMinAge + below(random, kImages - kMinAge)));
+    const FrameId id(query.last.value() + kMinAge);
+    for (FrameId candidate; candidate <= query.last; ++candidate)
       if (!std::binary_search(query.matches.begin(), query.matches.end(), candidate) &&
           std::none_of(more.begin(), more.end(), [&](const LoopPrediction& p) {
             return p.query == id && p.candidate == candidate;
@@ -95,7 +95,9 @@ TEST(LoopBenchmark, NeverGainsByAFalsePrediction) {
 TEST(LoopBenchmark, IsNotTouchedByPredictionsThatAreTooYoung) {
   for_random_scenes([](const Scene& scene, Random&) {
     std::vector<LoopPrediction> old = scene.predictions;
-    std::erase_if(old, [](const LoopPrediction& p) { return p.query - p.candidate < kMinAge; });
+    std::erase_if(old, [](const LoopPrediction& p) {
+      return p.query.value() - p.candidate.value() < kMinAge;
+    });
     expect_same(judge_loops(scene.truth, scene.predictions), judge_loops(scene.truth, old));
   });
 }

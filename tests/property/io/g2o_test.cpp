@@ -1,4 +1,4 @@
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/io/graphs/g2o.h>
 
 #include "tests/support/temporary_folder.h"
@@ -30,7 +30,7 @@ PoseGraph random_graph(std::uint64_t seed, PoseKind kind) {
   PoseGraph graph;
   const int n = 30, dof = degrees_of_freedom(kind);
   for (int i = 0; i < n; ++i)
-    graph.nodes.push_back({3 * i - 10, random_pose(random, kind), i == 4});
+    graph.nodes.push_back({NodeId(3 * i - 10), random_pose(random, kind), i == 4});
   for (int i = 0; i < 3 * n; ++i) {
     RelativePoseConstraint edge;
     edge.from = graph.nodes[static_cast<std::size_t>(random.index(n))].id;

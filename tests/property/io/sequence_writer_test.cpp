@@ -1,10 +1,10 @@
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/synthetic/writers/sequence_writer.h>
+#include <placegraph/io/internal/synthetic/writers/sequence_writer.h>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include "tests/support/message_of.h"
+#include "tests/support/pictures.h"
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph {
@@ -69,7 +69,8 @@ TEST(SequenceWriter, FlowIsWrittenInKittisForm) {
   SequenceWriterOptions options;
   options.contents.flow = true;
   write_sequence(world, folder / "out", options);
-  const cv::Mat file = cv::imread(folder / "out/flow_0/000000.png", cv::IMREAD_UNCHANGED);
+  const cv::Mat file =
+      test::read_picture(folder / "out/flow_0/000000.png", DecodedPixels::kAsStored);
   ASSERT_EQ(file.type(), CV_16UC3);
   EXPECT_FALSE(fs::exists(folder / "out/flow_0/000001.png"));  // no next frame
   const Image flow = world.render(0, options.contents).flow;

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/odometry/two_view_initializer.h>
+#include <placegraph/pipeline/internal/odometry/two_view_initializer.h>
 
 #include "tests/support/scenes/beginning.h"
 #include "tests/support/scenes/street.h"
@@ -45,7 +45,7 @@ struct PairBeginning : Beginning<TwoViewInitializer> {
   }
   Initialization add(std::int64_t id, const Image& image) {
     Frame frame;
-    frame.id = id;
+    frame.id = FrameId(id);
     frame.stamp_ns = 100'000'000 * id;
     frame.image = image;
     return Beginning::add(frame);
@@ -73,9 +73,10 @@ TEST(TwoViewLaws, TheFrameOfTheOdometryMovesPosesAndLandmarks) {
     const auto ids = here.map.window().landmarks();
     ASSERT_EQ(ids, there.map.window().landmarks());
     int moved = 0;  // most: not those far ahead, whose depth hardly shows
-    for (const std::int64_t id : ids) {
-      const Eigen::Vector3d p = *here.map.window().landmark(id);
-      moved += (T_other * p - *there.map.window().landmark(id)).norm() < 0.05 * p.norm();
+    for (const LandmarkId id : ids) {
+      const Eigen::Vector3d p = *here.map.window().landmark(LandmarkId(id));
+      moved +=
+          (T_other * p - *there.map.window().landmark(LandmarkId(id))).norm() < 0.05 * p.norm();
     }
     EXPECT_GT(moved, 0.8 * static_cast<double>(ids.size()));
   }

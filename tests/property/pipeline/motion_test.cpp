@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/local_map/metric_scale.h>
-#include <placegraph/pipeline/slam/trajectory_recorder.h>
-#include <placegraph/pipeline/tracking/motion_model.h>
+#include <placegraph/pipeline/internal/local_map/metric_scale.h>
+#include <placegraph/pipeline/internal/slam/trajectory_recorder.h>
+#include <placegraph/pipeline/internal/tracking/motion_model.h>
 
 #include "tests/support/scenes/window_world.h"
 #include "tests/support/seed.h"
@@ -115,8 +115,8 @@ struct Walk {
       map.add_keyframe((T_odom_world * T_world_cam[k]).scaled(1 / unit));
       map.update_poses({}, false);
       Frame frame;
-      frame.id = static_cast<std::int64_t>(k);
-      frame.stamp_ns = frame.id * kSecond;
+      frame.id = FrameId(k);
+      frame.stamp_ns = frame.id.value() * kSecond;
       if (const auto rescale = scale.measure({frame, {}, nullptr}, {}, map)) return rescale->factor;
     }
     ADD_FAILURE() << "no scale";
@@ -163,12 +163,12 @@ struct Recording {
   std::vector<SE3> T_odom_frame;
 
   Recording(const std::vector<SE3>& T_world_frame, const SE3& T_odom_world, double unit) {
-    std::int64_t keyframe = -1;
+    KeyframeId keyframe;
     for (std::size_t i = 0; i < T_world_frame.size(); ++i) {
       T_odom_frame.push_back((T_odom_world * T_world_frame[i]).scaled(1 / unit));
       Frame frame;
-      frame.id = static_cast<std::int64_t>(i);
-      frame.stamp_ns = frame.id * kSecond;
+      frame.id = FrameId(i);
+      frame.stamp_ns = frame.id.value() * kSecond;
       recorder.begin(frame);
       if (i % 3 == 0) {
         keyframe = map.add_keyframe(T_odom_frame.back());
@@ -200,8 +200,8 @@ TEST(TrajectoryRecorderLaws, TheFrameOfTheOdometryChangesNoRecord) {
       posed_here.emplace_back(i, better);
       posed_there.emplace_back(i, T_other * better);
     }
-    here.recorder.correct(posed_here, 2, here.map);
-    there.recorder.correct(posed_there, 2, there.map);
+    here.recorder.correct(posed_here, KeyframeId(2), here.map);
+    there.recorder.correct(posed_there, KeyframeId(2), there.map);
     for (std::size_t i = 0; i < walk.size(); ++i) {
       const FrameRecord &a = here.recorder.records()[i], &b = there.recorder.records()[i];
       EXPECT_EQ(a.keyframe, b.keyframe);
@@ -216,8 +216,8 @@ TEST(TrajectoryRecorderLaws, ARescaledRecordIsThatOfTheOtherUnit) {
     const std::vector<SE3> walk = random_walk(random, 7);
     const double unit = random.uniform(0.1, 10), more = random.uniform(0.5, 2);
     Recording units(walk, SE3(), unit), metres(walk, SE3(), 1);
-    units.recorder.rescale(0, unit / more);  // in two steps
-    units.recorder.rescale(0, more);
+    units.recorder.rescale(KeyframeId(0), unit / more);  // in two steps
+    units.recorder.rescale(KeyframeId(0), more);
     for (std::size_t i = 0; i < walk.size(); ++i)
       EXPECT_LT(error(*units.recorder.records()[i].T_keyframe_frame,
                       *metres.recorder.records()[i].T_keyframe_frame),
@@ -231,10 +231,10 @@ TEST(TrajectoryRecorderLaws, OnlyLaterKeyframesAreRescaled) {
     const std::vector<SE3> walk = random_walk(random, 9);
     Recording before(walk, SE3(), 1), after(walk, SE3(), 1);
     const std::int64_t from = 1 + static_cast<std::int64_t>(random.index(2));
-    after.recorder.rescale(from, 3);
+    after.recorder.rescale(KeyframeId(from), 3);
     for (std::size_t i = 0; i < walk.size(); ++i) {
       const FrameRecord &a = before.recorder.records()[i], &b = after.recorder.records()[i];
-      const double factor = a.keyframe >= from ? 3 : 1;
+      const double factor = a.keyframe >= KeyframeId(from) ? 3 : 1;
       EXPECT_LT(error(a.T_keyframe_frame->scaled(factor), *b.T_keyframe_frame), 1e-9) << i;
     }
   }
@@ -254,15 +254,18 @@ TEST(LocalMapLaws, RescalingTwiceIsRescalingOnceByTheProduct) {
     }
     const Eigen::Vector3d point(1, 2, 9);
     for (LocalMap* map : {&twice, &once}) {
-      map->window().add_landmark(5, point);
+      map->window().add_landmark(LandmarkId(5), point);
       map->update_poses({4}, false);
     }
     (void)twice.rescale(a);
     (void)twice.rescale(b);
     (void)once.rescale(a * b);
     EXPECT_NEAR(twice.median_depth(), once.median_depth(), 1e-9 * once.median_depth());
-    EXPECT_LT((*twice.window().landmark(5) - *once.window().landmark(5)).norm(), 1e-9);
-    for (std::int64_t k = 0; k < 4; ++k) EXPECT_LT(error(twice.pose(k), once.pose(k)), 1e-9) << k;
+    EXPECT_LT(
+        (*twice.window().landmark(LandmarkId(5)) - *once.window().landmark(LandmarkId(5))).norm(),
+        1e-9);
+    for (std::int64_t k = 0; k < 4; ++k)
+      EXPECT_LT(error(twice.pose(KeyframeId(k)), once.pose(KeyframeId(k))), 1e-9) << k;
   }
 }
 
@@ -281,12 +284,12 @@ TEST(LocalMapLaws, RelativePosesDoNotDependOnTheFrame) {
       LocalMap map({}, world.camera, Scale::kArbitrary);
       for (const SE3& T : world.T_map_cam) map.add_keyframe(T_odom_world * T);
       for (std::size_t i = 0; i < world.points.size(); ++i)
-        map.window().add_landmark(static_cast<std::int64_t>(i), T_odom_world * world.points[i]);
+        map.window().add_landmark(LandmarkId(i), T_odom_world * world.points[i]);
       for (const WindowObservation& o : world.observations) map.window().add_observation(o);
       ASSERT_TRUE(map.optimize());
       map.update_poses({}, false);
-      motions.push_back(map.pose(1).inverse() * map.pose(3));
-      informations.push_back(map.motion_information(1, 3));
+      motions.push_back(map.pose(KeyframeId(1)).inverse() * map.pose(KeyframeId(3)));
+      informations.push_back(map.motion_information(KeyframeId(1), KeyframeId(3)));
     }
     // The descent ends within a thousandth of the decrease of its cost.
     EXPECT_LT(error(motions[0], motions[1]), 1e-3);

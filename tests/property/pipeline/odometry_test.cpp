@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/odometry/odometry.h>
+#include <placegraph/pipeline/internal/odometry/odometry.h>
 
 #include <opencv2/core.hpp>
 
@@ -44,14 +44,14 @@ Sequence drive(const Way& way, Sensor sensor) {
 }
 
 /// Poses of the frames that are tracked, later ones better; the first at `T_odom_first`.
-std::map<std::int64_t, SE3> track(const Sequence& sequence, const std::string& cues,
-                                  const SE3& T_odom_first = SE3()) {
+std::map<FrameId, SE3> track(const Sequence& sequence, const std::string& cues,
+                             const SE3& T_odom_first = SE3()) {
   StageTimes times;
   OdometryOptions options;
   options.cues = cues;
   Odometry odometry(options, sequence.calibration, 1, {}, times);
   odometry.restart(T_odom_first);
-  std::map<std::int64_t, SE3> poses;
+  std::map<FrameId, SE3> poses;
   for (const Frame& frame : sequence.frames) {
     const OdometryUpdate update = odometry.add_frame(frame);
     if (update.rescale)
@@ -62,12 +62,12 @@ std::map<std::int64_t, SE3> track(const Sequence& sequence, const std::string& c
     for (const auto& [id, T_odom_cam] : update.posed_again) poses[id] = T_odom_cam;
     if (update.state == TrackingState::kTracking) poses[frame.id] = update.T_odom_cam;
   }
-  if (!odometry.map().empty()) poses.emplace(0, odometry.map().pose(0));
+  if (!odometry.map().empty()) poses.emplace(FrameId(0), odometry.map().pose(KeyframeId(0)));
   return poses;
 }
 
 /// Motion from the first to the last frame.
-SE3 motion(const std::map<std::int64_t, SE3>& poses) {
+SE3 motion(const std::map<FrameId, SE3>& poses) {
   return poses.begin()->second.inverse() * poses.rbegin()->second;
 }
 

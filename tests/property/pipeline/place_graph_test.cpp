@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/places/place_constraints.h>
-#include <placegraph/pipeline/places/place_mapper.h>
+#include <placegraph/pipeline/internal/places/place_constraints.h>
+#include <placegraph/pipeline/internal/places/place_mapper.h>
 
 #include "tests/support/scenes/poses.h"
 #include "tests/support/seed.h"
@@ -20,11 +20,12 @@ struct Walk {
     for (std::int64_t i = 1; i < 20; ++i) {
       const SE3 T_last_this = uniform_motion(random, 3, 0.5);
       poses.push_back(poses.back() * T_last_this);
-      links.push_back({i - 1, T_last_this * uniform_motion(random, 0.03, 0.005)});
+      links.push_back({KeyframeId(i - 1), T_last_this * uniform_motion(random, 0.03, 0.005)});
       for (int k = 0; k < 6; ++k) links.back().information(k, k) = random.uniform(100, 1e4);
       if (i < 3 || random.uniform() < 0.6) continue;
       const std::int64_t match = random.index(static_cast<int>(i) - 1);
-      Loop loop{i, match, poses[match].inverse() * poses[i] * uniform_motion(random, 0.03, 0.005)};
+      Loop loop{KeyframeId(i), KeyframeId(match),
+                poses[match].inverse() * poses[i] * uniform_motion(random, 0.03, 0.005)};
       for (int k = 0; k < 6; ++k) loop.information(k, k) = random.uniform(100, 1e4);
       loops.push_back(loop);
     }
@@ -32,7 +33,7 @@ struct Walk {
   /// All lengths times `factor`.
   PlaceMapper mapped(const SE3& T_map_first, double factor = 1) const {
     PlaceMapper mapper(PlaceOptions{});
-    mapper.add_keyframe(0, std::nullopt, T_map_first, 10 * factor);
+    mapper.add_keyframe(KeyframeId(0), std::nullopt, T_map_first, 10 * factor);
     Vector7d unit = Vector7d::Ones();
     unit.head<3>().setConstant(1 / factor);
     for (std::size_t i = 0; i < links.size(); ++i) {
@@ -40,7 +41,7 @@ struct Walk {
       link.T_from_this = link.T_from_this.scaled(factor);
       link.information =
           unit.head<6>().asDiagonal() * link.information * unit.head<6>().asDiagonal();
-      mapper.add_keyframe(static_cast<std::int64_t>(i) + 1, link, {}, 10 * factor);
+      mapper.add_keyframe(KeyframeId(static_cast<std::int64_t>(i) + 1), link, {}, 10 * factor);
     }
     for (Loop loop : loops) {
       loop.T_match_query = loop.T_match_query.scaled(factor);
@@ -63,8 +64,10 @@ TEST(PlaceGraphLaw, RotatingTheWorldRotatesAllPoses) {
     const SE3 T_new_map = uniform_motion(random, 30, 2);
     const PlaceMapper here = walk.mapped(SE3()), there = walk.mapped(T_new_map);
     for (std::int64_t id = 0; id < 20; ++id) {
-      EXPECT_EQ(here.place_of(id), there.place_of(id)) << trial << " " << id;
-      EXPECT_LT(difference(Sim3(T_new_map) * here.S_map_keyframe(id), there.S_map_keyframe(id)),
+      EXPECT_EQ(here.place_of(KeyframeId(id)), there.place_of(KeyframeId(id)))
+          << trial << " " << id;
+      EXPECT_LT(difference(Sim3(T_new_map) * here.S_map_keyframe(KeyframeId(id)),
+                           there.S_map_keyframe(KeyframeId(id))),
                 kLeft)
           << trial << " " << id;
     }
@@ -78,10 +81,11 @@ TEST(PlaceGraphLaw, AnotherUnitOfLengthScalesAllPositions) {
     const double factor = random.uniform(0.5, 2);
     const PlaceMapper metres = walk.mapped(SE3()), other = walk.mapped(SE3(), factor);
     for (std::int64_t id = 0; id < 20; ++id) {
-      EXPECT_EQ(metres.place_of(id), other.place_of(id)) << trial << " " << id;
-      EXPECT_LT(
-          difference(Sim3(metres.T_map_keyframe(id).scaled(factor)), other.S_map_keyframe(id)),
-          2 * kLeft)
+      EXPECT_EQ(metres.place_of(KeyframeId(id)), other.place_of(KeyframeId(id)))
+          << trial << " " << id;
+      EXPECT_LT(difference(Sim3(metres.T_map_keyframe(KeyframeId(id)).scaled(factor)),
+                           other.S_map_keyframe(KeyframeId(id))),
+                2 * kLeft)
           << trial << " " << id;
     }
   }
@@ -94,18 +98,21 @@ TEST(PlaceGraphLaw, RescalingAChainIsMeasuringItInAnotherUnit) {
     const Walk walk(random);
     const double factor = random.uniform(0.2, 5);
     KeyframeChain rescaled, measured;
-    rescaled.add(0, std::nullopt, false);
-    measured.add(0, std::nullopt);
+    rescaled.add(KeyframeId(0), std::nullopt, false);
+    measured.add(KeyframeId(0), std::nullopt);
     for (std::size_t i = 0; i < walk.links.size(); ++i) {
       KeyframeLink link = walk.links[i];
-      rescaled.add(static_cast<std::int64_t>(i) + 1, link);
+      rescaled.add(KeyframeId(static_cast<std::int64_t>(i) + 1), link);
       link.T_from_this = link.T_from_this.scaled(factor);
-      measured.add(static_cast<std::int64_t>(i) + 1, link);
+      measured.add(KeyframeId(static_cast<std::int64_t>(i) + 1), link);
     }
-    rescaled.rescale(0, factor);
+    rescaled.rescale(KeyframeId(0), factor);
     for (std::int64_t id = 0; id < 20; ++id)
-      EXPECT_LT(difference(Sim3(rescaled.T_a_b(0, id)), Sim3(measured.T_a_b(0, id))), 1e-9);
-    EXPECT_NEAR(rescaled.odometry(0, 19)->path_length, measured.odometry(0, 19)->path_length, 1e-9);
+      EXPECT_LT(difference(Sim3(rescaled.T_a_b(KeyframeId(0), KeyframeId(id))),
+                           Sim3(measured.T_a_b(KeyframeId(0), KeyframeId(id)))),
+                1e-9);
+    EXPECT_NEAR(rescaled.odometry(KeyframeId(0), KeyframeId(19))->path_length,
+                measured.odometry(KeyframeId(0), KeyframeId(19))->path_length, 1e-9);
   }
 }
 
@@ -117,25 +124,28 @@ TEST(PlaceGraphLaw, SeparatingUndoesMerging) {
     KeyframeChain chain;
     PlacePartition partition;
     for (std::int64_t id = 0; id < 6; ++id) {
-      chain.add(id, id == 0 ? std::nullopt : std::optional(walk.links[id - 1]));
+      chain.add(KeyframeId(id), id == 0 ? std::nullopt : std::optional(walk.links[id - 1]));
       const SE3 T = uniform_motion(random, 10, 1);
-      partition.found(id, Sim3(T.rotation(), T.translation(), random.uniform(0.5, 2)), 0, 3);
+      partition.found(KeyframeId(id), Sim3(T.rotation(), T.translation(), random.uniform(0.5, 2)),
+                      0, 3);
     }
     std::vector<Sim3> before;
-    for (std::int64_t id = 0; id < 6; ++id) before.push_back(partition.S_map_keyframe(chain, id));
+    for (std::int64_t id = 0; id < 6; ++id)
+      before.push_back(partition.S_map_keyframe(chain, KeyframeId(id)));
     const auto unmoved = [&] {
       for (std::int64_t id = 0; id < 6; ++id)
-        EXPECT_LT(difference(partition.S_map_keyframe(chain, id), before[id]), 1e-9) << trial;
+        EXPECT_LT(difference(partition.S_map_keyframe(chain, KeyframeId(id)), before[id]), 1e-9)
+            << trial;
     };
-    partition.merge(3, 5, random.uniform(0, 1) * Matrix7d::Identity());
-    const Matrix7d covariance = partition.parts().at(5).covariance;
-    partition.merge(1, 3, random.uniform(0, 1) * Matrix7d::Identity());
+    partition.merge(PlaceId(3), PlaceId(5), random.uniform(0, 1) * Matrix7d::Identity());
+    const Matrix7d covariance = partition.parts().at(KeyframeId(5)).covariance;
+    partition.merge(PlaceId(1), PlaceId(3), random.uniform(0, 1) * Matrix7d::Identity());
     unmoved();
-    EXPECT_EQ(partition.place_of(5), 1);
+    EXPECT_EQ(partition.place_of(KeyframeId(5)), PlaceId(1));
     partition.separate(1);
     unmoved();
-    EXPECT_EQ(partition.place_of(5), partition.place_of(3));
-    EXPECT_EQ(partition.parts().at(5).covariance, covariance);
+    EXPECT_EQ(partition.place_of(KeyframeId(5)), partition.place_of(KeyframeId(3)));
+    EXPECT_EQ(partition.parts().at(KeyframeId(5)).covariance, covariance);
     partition.separate(0);
     unmoved();
     EXPECT_EQ(partition.places().size(), 6u);

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/scale/floor_line_scale.h>
-#include <placegraph/pipeline/scale/ground_plane_scale.h>
+#include <placegraph/pipeline/internal/scale/floor_line_scale.h>
+#include <placegraph/pipeline/internal/scale/ground_plane_scale.h>
 
 #include "tests/support/scenes/room_lines.h"
 #include "tests/support/scenes/texture.h"
@@ -96,7 +96,7 @@ std::vector<PlacedLine> placed(const SE3& T_corridor_cam, const SE3& T_odom_cam,
     Eigen::Vector4d error;
     for (int k = 0; k < 4; ++k) error[k] = sigma * random.normal();
     Eigen::Matrix4d covariance = sigma * sigma * Eigen::Matrix4d::Identity();
-    lines.push_back({static_cast<std::int64_t>(i),
+    lines.push_back({LineId(i),
                      Line3::from_direction(from, to - from).plus(error),
                      covariance,
                      {*start, *end}});

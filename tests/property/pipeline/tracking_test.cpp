@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/local_map/lens_estimator.h>
-#include <placegraph/pipeline/tracking/intermediate_frames.h>
-#include <placegraph/pipeline/tracking/keyframe_selector.h>
+#include <placegraph/pipeline/internal/local_map/lens_estimator.h>
+#include <placegraph/pipeline/internal/tracking/intermediate_frames.h>
+#include <placegraph/pipeline/internal/tracking/keyframe_selector.h>
 
 #include "tests/support/scenes/window_world.h"
 #include "tests/support/seed.h"
@@ -22,7 +22,7 @@ struct Between {
   Camera camera = window_camera();
   std::vector<Eigen::Vector3d> points;
   std::vector<SE3> T_keyframe_cam;  ///< truth
-  std::vector<std::vector<std::pair<std::int64_t, Eigen::Vector2d>>> px;
+  std::vector<std::vector<std::pair<LandmarkId, Eigen::Vector2d>>> px;
   std::vector<SE3> thought;  ///< T_keyframe_cam as it was tracked
 
   explicit Between(Random& random) {
@@ -33,25 +33,23 @@ struct Between {
       thought.push_back(T_keyframe_cam.back() * random_motion(random, 0.05, 0.005));
       px.emplace_back();
       for (std::size_t i = 0; i < points.size(); ++i)
-        px.back().emplace_back(static_cast<std::int64_t>(i),
+        px.back().emplace_back(LandmarkId(i),
                                *camera.project(T_keyframe_cam.back().inverse() * points[i]) +
                                    0.3 * Eigen::Vector2d(random.normal(), random.normal()));
     }
   }
   /// Poses of the frames where the keyframe stands at T_odom_keyframe and lengths have grown by
   /// `grown` since they were tracked.
-  std::vector<std::pair<std::int64_t, SE3>> repose(const SE3& T_odom_keyframe,
-                                                   double grown = 1) const {
+  std::vector<std::pair<FrameId, SE3>> repose(const SE3& T_odom_keyframe, double grown = 1) const {
     LocalMap map({}, camera, Scale::kArbitrary);
     map.add_keyframe(T_odom_keyframe);
     map.add_keyframe(T_odom_keyframe * pose({0, 0, 0}, {0, 0, 1}));
     for (std::size_t i = 0; i < points.size(); ++i)
-      map.window().add_landmark(static_cast<std::int64_t>(i),
-                                T_odom_keyframe * (grown * points[i]));
+      map.window().add_landmark(LandmarkId(i), T_odom_keyframe * (grown * points[i]));
     IntermediateFrames frames({}, camera);
     for (std::size_t f = 0; f < px.size(); ++f)
-      frames.remember({static_cast<std::int64_t>(f), thought[f], px[f], std::nullopt});
-    return frames.repose(map, 0, grown);
+      frames.remember({FrameId(f), thought[f], px[f], std::nullopt});
+    return frames.repose(map, KeyframeId(0), grown);
   }
 };
 
@@ -97,7 +95,7 @@ std::vector<PointTrack> tracks_of(const std::vector<Eigen::Vector3d>& points,
   for (std::size_t i = 0; i < points.size(); ++i)
     if (const auto px = window_camera().project(T_world_cam.inverse() * points[i])) {
       PointTrack track;
-      track.id = static_cast<std::int64_t>(i);
+      track.id = LandmarkId(i);
       track.px = px->cast<float>();
       tracks.push_back(track);
     }

@@ -1,12 +1,13 @@
 #pragma once
-#include <placegraph/frontend/markers/square_fit.h>
+#include <placegraph/frontend/internal/markers/square_fit.h>
 #include <placegraph/graph/core/error.h>
 
 #include <fstream>
 #include <map>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
+
+#include "tests/support/pictures.h"
 
 namespace placegraph::test {
 
@@ -28,7 +29,7 @@ struct SimulatedTags {
 /// their corners begin at the bottom left.
 inline SimulatedTags read_apriltag_sim(const std::string& folder) {
   SimulatedTags result;
-  result.image = cv::imread(folder + "/tag36_11_640x480.png", cv::IMREAD_GRAYSCALE);
+  result.image = test::read_grey_picture(folder + "/tag36_11_640x480.png");
   require(!result.image.empty(), "no picture in " + folder);
   Camera& camera = result.camera;
   camera.width = 640;

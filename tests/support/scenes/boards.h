@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/measurements/frame.h>
+#include <placegraph/graph/image/frame.h>
 
 #include <functional>
 #include <opencv2/imgproc.hpp>
@@ -68,7 +68,7 @@ inline std::vector<Frame> boards_frames(int count, const std::function<SE3(int)>
   std::vector<Frame> frames;
   for (int i = 0; i < count; ++i) {
     Frame frame;
-    frame.id = i;
+    frame.id = FrameId(i);
     frame.stamp_ns = 100'000'000L * i;
     frame.image = boards_image(T_world_cam(i));
     if (baseline_m > 0)

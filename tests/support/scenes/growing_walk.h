@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ struct GrowingWalk {
                              : truth.back() * Group::exp(step) *
                                    random_group_element<Group>(random, 0.1, 0.1));
       graph.nodes.push_back(
-          {10 + i, i == 0 ? Group() : random_group_element<Group>(random, 5, 1), false});
+          {NodeId(10 + i), i == 0 ? Group() : random_group_element<Group>(random, 5, 1), false});
       if (i > 0) graph.constraints.emplace_back(measure(i - 1, i, noise));
       for (const int back : {round, round - 2})
         if (i > back && random.uniform() < 0.2)
@@ -39,8 +39,8 @@ struct GrowingWalk {
   }
   RelativePoseConstraint measure(int from, int to, double noise) {
     RelativePoseConstraint c;
-    c.from = 10 + from;
-    c.to = 10 + to;
+    c.from = NodeId(10 + from);
+    c.to = NodeId(10 + to);
     c.T_from_to =
         truth[from].inverse() * truth[to] * random_group_element<Group>(random, noise, noise);
     c.information = Information(Information::Identity(Group::kDof, Group::kDof) * 100);

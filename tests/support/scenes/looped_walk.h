@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct LoopedWalk {
         drifting = drifting * T_previous_this;
         add(i - 1, i, T_previous_this, ConstraintSource::kOdometry);
       }
-      graph.nodes.push_back({i, drifting, false});
+      graph.nodes.push_back({NodeId(i), drifting, false});
     }
     for (int i = o.lap; i < o.nodes; i += o.loop_every)
       add(i - o.lap, i, measured(i - o.lap, i), ConstraintSource::kLoop);
@@ -60,8 +60,8 @@ struct LoopedWalk {
   void add(int from, int to, const Group& T_from_to, ConstraintSource source) {
     const double weight = 1 / (options.claimed * options.claimed);
     graph.constraints.emplace_back(RelativePoseConstraint{
-        from,
-        to,
+        NodeId(from),
+        NodeId(to),
         T_from_to,
         Information(Information::Identity(Group::kDof, Group::kDof) * weight),
         source,

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <cmath>
@@ -27,8 +27,8 @@ template <class Group>
 RelativePoseConstraint constraint(std::int64_t from, std::int64_t to, const Group& T_from_to,
                                   double weight = 100) {
   RelativePoseConstraint c;
-  c.from = from;
-  c.to = to;
+  c.from = NodeId(from);
+  c.to = NodeId(to);
   c.T_from_to = T_from_to;
   c.information = isotropic<Group>(weight);
   c.source = to == from + 1 ? ConstraintSource::kOdometry : ConstraintSource::kLoop;
@@ -54,7 +54,7 @@ struct Walk {
       graph.constraints.emplace_back(constraint<Group>(10 + from, 10 + to, T_from_to));
     };
     for (int i = 0; i < n; ++i) {
-      graph.nodes.push_back({10 + i, truth[i], false});
+      graph.nodes.push_back({NodeId(10 + i), truth[i], false});
       if (i > 0) measure(i - 1, i);
       if (i >= 5 && i % 2 == 0) measure(i - 5, i);
     }

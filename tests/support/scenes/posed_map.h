@@ -12,11 +12,12 @@ inline Map posed_map(const std::vector<SE3>& poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
     Keyframe keyframe;
-    keyframe.id = id, keyframe.frame = id, keyframe.place = id, keyframe.stamp_ns = 100 * id;
+    keyframe.id = KeyframeId(id), keyframe.frame = FrameId(id), keyframe.place = PlaceId(id),
+    keyframe.stamp_ns = 100 * id;
     map.keyframes.push_back(keyframe);
     Place place;
-    place.id = id, place.anchor_keyframe = id, place.T_map_place = poses[i];
-    place.members.push_back({id, SE3(), 1});
+    place.id = PlaceId(id), place.anchor_keyframe = KeyframeId(id), place.T_map_place = poses[i];
+    place.members.push_back({KeyframeId(id), SE3(), 1});
     map.place_graph.places.push_back(place);
   }
   return map;

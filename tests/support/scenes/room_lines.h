@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/lines/line_initializer.h>
+#include <placegraph/frontend/internal/lines/line_initializer.h>
 
 #include "tests/support/scenes/line_scene.h"
 
@@ -33,7 +33,7 @@ inline LineView view_of(const LineScene& scene, const SE3& T_ref_cam, double noi
   LineView view;
   for (std::size_t i = 0; i < scene.from.size(); ++i)
     if (const auto seen = scene.seen(i, T_ref_cam, noise_px, random))
-      view[static_cast<std::int64_t>(i)] = {{seen->first, seen->second}, *seen};
+      view[LineId(i)] = {{seen->first, seen->second}, *seen};
   return view;
 }
 

@@ -50,7 +50,7 @@ class StreetDataset : public Dataset {
       Picture right = render(street_camera(), T_world_right, planes, 2);
       if (i >= dark_begin && i < dark_end) left.grey.setTo(0), right.grey.setTo(0);
       Frame frame;
-      frame.id = i;
+      frame.id = FrameId(i);
       frame.stamp_ns = stamp_ns(static_cast<std::size_t>(i));
       frame.image = left.grey;
       frame.right = right.grey;

@@ -1,9 +1,9 @@
 #pragma once
 #include <placegraph/eval/loops/same_view.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/graph/route.h>
 #include <placegraph/io/datasets/dataset.h>
-#include <placegraph/pipeline/loops/loop_closer.h>
+#include <placegraph/pipeline/internal/loops/loop_closer.h>
 
 #include <algorithm>
 #include <set>
@@ -11,8 +11,8 @@
 namespace placegraph::test {
 
 /// The line of the sequence that every place's anchor was seen at.
-inline std::map<std::int64_t, std::int64_t> frames_of_places(const Map& map) {
-  std::map<std::int64_t, std::int64_t> frames;
+inline std::map<PlaceId, FrameId> frames_of_places(const Map& map) {
+  std::map<PlaceId, FrameId> frames;
   for (const Place& place : map.place_graph.places)
     frames[place.id] = map.find_keyframe(place.anchor_keyframe)->frame;
   return frames;
@@ -20,7 +20,7 @@ inline std::map<std::int64_t, std::int64_t> frames_of_places(const Map& map) {
 
 /// What a robot sees where it comes by a place once more.
 struct ViewOnTheWay {
-  std::int64_t frame = 0;
+  std::int64_t frame = 0;     ///< its position in the sequence
   bool another_pass = false;  ///< else a neighbour of the frame that the map keeps
 };
 
@@ -45,7 +45,7 @@ class WayBack {
         truth_(*dataset.ground_truth()),
         sensor_(sensor),
         other_from_(other_from) {
-    for (const Keyframe& keyframe : map.keyframes) kept_.insert(keyframe.frame);
+    for (const Keyframe& keyframe : map.keyframes) kept_.insert(keyframe.frame.value());
   }
 
   /// The frame of another pass that is nearest to where the place was seen; without one, the
@@ -74,11 +74,11 @@ class WayBack {
     const auto found = memory_.relocalize(frame, 0);
     if (!found) return recognition;
     const Keyframe& keyframe = *map_.find_keyframe(found->match);
-    const auto [way, angle] = apart(keyframe.frame, view.frame);
+    const auto [way, angle] = apart(keyframe.frame.value(), view.frame);
     const bool right = way <= kSame.radius_m && angle <= kSame.heading_deg;
     recognition.result = right ? Recognition::Result::kRight : Recognition::Result::kWrong;
-    const SE3 error =
-        (T_world(keyframe.frame).inverse() * T_world(view.frame)).inverse() * found->T_match_query;
+    const SE3 error = (T_world(keyframe.frame.value()).inverse() * T_world(view.frame)).inverse() *
+                      found->T_match_query;
     recognition.position_error_m = error.translation().norm();
     recognition.angle_error_deg = rad_to_deg(error.rotation().log().norm());
     return recognition;

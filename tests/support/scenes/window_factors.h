@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/backend/window/sliding_window.h>
-#include <placegraph/backend/window/window_state.h>
+#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/backend/internal/window/window_state.h>
 
 #include "tests/support/scenes/window_world.h"
 
@@ -35,7 +35,8 @@ class StepAcrossPlaneFactor final : public SizedFactor<1, SE3, SE3, Plane3> {
 
 /// Four keyframes on a curve, a plane and a rectangular world.
 struct FactorScene {
-  static constexpr std::int64_t kPlane = 10, kWorld = 20;
+  static constexpr PlaneId kPlane{10};
+  static constexpr ManhattanFrameId kWorld{20};
   std::vector<SE3> T_map_cam;
   Plane3 plane{{0.3, 1, 0.2}, 1.5};
   SO3 R_map_world = SO3::exp({0.2, -0.3, 0.1});
@@ -56,7 +57,7 @@ struct FactorScene {
     Random random(5);
     for (std::size_t k = 0; k < T_map_cam.size(); ++k) {
       const double share = k == 0 ? 0 : disturbance;
-      result.add_keyframe(static_cast<std::int64_t>(k),
+      result.add_keyframe(KeyframeId(k),
                           T_map_cam[k] * random_motion(random, 0.1 * share, 0.01 * share));
     }
     result.add_plane(kPlane, plane);
@@ -82,20 +83,25 @@ inline std::vector<std::pair<std::string, WindowFactor>> factors_of_every_kind(
   const double height_m = std::abs(scene.plane.distance_to(T.translation()));
   const double step_m =
       scene.plane.normal().dot(scene.T_map_cam[2].translation() - T.translation());
-  const std::vector<WindowVariable> between{keyframe_variable(1), keyframe_variable(2),
+  const std::vector<WindowVariable> between{keyframe_variable(KeyframeId(1)),
+                                            keyframe_variable(KeyframeId(2)),
                                             plane_variable(FactorScene::kPlane)};
   return {
       {"distance",
-       window_factor(DistanceObservation{1, 2, distance_m(T, scene.T_map_cam[2]) + 0.02, 0.02})},
-      {"height", window_factor(HeightObservation{1, FactorScene::kPlane, height_m - 0.03, 0.03})},
-      {"plane", window_factor(PlaneObservation{1, FactorScene::kPlane, plane_cam, information})},
-      {"pose prior", window_factor(PosePrior{1, T.plus(off), motion_information()})},
+       window_factor(DistanceObservation{KeyframeId(1), KeyframeId(2),
+                                         distance_m(T, scene.T_map_cam[2]) + 0.02, 0.02})},
+      {"height",
+       window_factor(HeightObservation{KeyframeId(1), FactorScene::kPlane, height_m - 0.03, 0.03})},
+      {"plane",
+       window_factor(PlaneObservation{KeyframeId(1), FactorScene::kPlane, plane_cam, information})},
+      {"pose prior", window_factor(PosePrior{KeyframeId(1), T.plus(off), motion_information()})},
       {"world", window_factor(WorldObservation{
-                    1, FactorScene::kWorld,
+                    KeyframeId(1), FactorScene::kWorld,
                     T.rotation().inverse() * scene.R_map_world * SO3::exp({0.01, 0.005, -0.01}),
                     information})},
       {"motion",
-       window_factor(MotionObservation{1, 2, scene.motion(1, 2).plus(off), motion_information()})},
+       window_factor(MotionObservation{KeyframeId(1), KeyframeId(2), scene.motion(1, 2).plus(off),
+                                       motion_information()})},
       {"step across a plane",
        {std::make_shared<StepAcrossPlaneFactor>(step_m + 0.02, 0.02), between, true,
         WindowFactor::Length::kMeasured}},

@@ -1,7 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
-#include <placegraph/backend/window/sliding_window.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include <Eigen/Cholesky>
 #include <map>
@@ -80,7 +80,7 @@ inline void add_lines(WindowWorld& world, const WindowWorldOptions& options, Ran
     world.lines.push_back(Line3::from_direction(middle, direction));
     for (int k = first; k <= last; ++k) {
       const SE3 T_cam_map = world.T_map_cam[static_cast<std::size_t>(k)].inverse();
-      LineObservation o{k, i, {}, {}, options.sigma_px, {}};
+      LineObservation o{KeyframeId(k), LineId(i), {}, {}, options.sigma_px, {}};
       for (Eigen::Vector2d* end : {&o.start_px, &o.end_px}) {
         const double along_m = (end == &o.start_px ? -1 : 1) * random.uniform(1, 2.5);
         *end = *world.camera.project(T_cam_map * (middle + along_m * direction));
@@ -100,7 +100,7 @@ inline void add_planes(WindowWorld& world, const WindowWorldOptions& options, Ra
     for (int k = 0; k < options.keyframes; ++k) {
       const Plane3 plane_cam = transform_to(world.T_map_cam[static_cast<std::size_t>(k)], plane);
       PlaneObservation o{
-          k, WindowWorld::kFirstPlane + i, plane_cam,
+          KeyframeId(k), PlaneId(WindowWorld::kFirstPlane + i), plane_cam,
           plane_information(plane_cam, options.sigma_plane_rad, options.sigma_plane_m)};
       const Eigen::LLT<Eigen::Matrix3d> llt(o.information);
       Eigen::Vector3d noise;
@@ -134,11 +134,11 @@ inline WindowWorld make_window_world(const WindowWorldOptions& options, Random& 
       p_map -= (world.ground.distance_to(p_map) +
                 (options.noise_px > 0 ? options.sigma_ground_m * random.normal() : 0)) *
                world.ground.normal();
-    const auto landmark = static_cast<std::int64_t>(world.points.size());
+    const LandmarkId landmark(world.points.size());
     for (int k = first; k <= last; ++k) {
       const Eigen::Vector3d p = world.T_map_cam[static_cast<std::size_t>(k)].inverse() * p_map;
       WindowObservation o;
-      o.keyframe = k;
+      o.keyframe = KeyframeId(k);
       o.landmark = landmark;
       o.px = *world.camera.project(p);
       o.px[0] += options.noise_px * random.normal();
@@ -160,7 +160,7 @@ inline WindowWorld make_window_world(const WindowWorldOptions& options, Random& 
     const double height_m = std::abs(
         world.ground.distance_to(world.T_map_cam[static_cast<std::size_t>(k)].translation()));
     const double noise = options.noise_px > 0 ? options.sigma_height_m * random.normal() : 0;
-    world.heights.push_back({k, 0, height_m + noise, options.sigma_height_m});
+    world.heights.push_back({KeyframeId(k), PlaneId(0), height_m + noise, options.sigma_height_m});
   }
   add_planes(world, options, random);
   return world;
@@ -170,12 +170,12 @@ inline WindowWorld make_window_world(const WindowWorldOptions& options, Random& 
 inline void fill_window(SlidingWindow& window, const WindowWorld& world, Random& random,
                         double sigma_m, double sigma_rad, double sigma_point_m) {
   for (std::size_t k = 0; k < world.T_map_cam.size(); ++k)
-    window.add_keyframe(static_cast<std::int64_t>(k),
+    window.add_keyframe(KeyframeId(k),
                         k == 0 ? world.T_map_cam[k]
                                : world.T_map_cam[k] * random_motion(random, sigma_m, sigma_rad));
   for (std::size_t i = 0; i < world.points.size(); ++i)
     window.add_landmark(
-        static_cast<std::int64_t>(i),
+        LandmarkId(i),
         world.points[i] +
             sigma_point_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
   for (const WindowObservation& o : world.observations) window.add_observation(o);
@@ -184,8 +184,8 @@ inline void fill_window(SlidingWindow& window, const WindowWorld& world, Random&
 /// How a window is driven through a world.
 struct WindowDrive {
   SlidingWindowOptions options;
-  double disturbance = 1;  ///< of the starts: 1 = 2 cm, 2 mrad a step, 10 cm a point
-  std::int64_t kept = -1;  ///< a keyframe that stays
+  double disturbance = 1;          ///< of the starts: 1 = 2 cm, 2 mrad a step, 10 cm a point
+  std::optional<KeyframeId> kept;  ///< a keyframe that stays
 
   /// For comparisons with batches: to the minimum, and normal noise as it is.
   static WindowDrive exact(int max_keyframes) {
@@ -199,17 +199,17 @@ struct WindowDrive {
 };
 
 /// Puts what keyframe `id` sees into the window; landmarks start disturbed when first seen.
-inline void add_view(SlidingWindow& window, const WindowWorld& world, std::int64_t id,
+inline void add_view(SlidingWindow& window, const WindowWorld& world, KeyframeId id,
                      double disturbance, Random& random) {
-  if (id == 0 && !world.heights.empty()) window.add_plane(0, world.ground);
+  if (id == KeyframeId(0) && !world.heights.empty()) window.add_plane(PlaneId(0), world.ground);
   for (const WindowObservation& o : world.observations) {
     if (o.keyframe != id) continue;
     if (!window.landmark(o.landmark)) {
-      Eigen::Vector3d p_map = world.points[static_cast<std::size_t>(o.landmark)];
+      Eigen::Vector3d p_map = world.points[static_cast<std::size_t>(o.landmark.value())];
       for (int i = 0; i < 3; ++i) p_map[i] += 0.1 * disturbance * random.normal();
       window.add_landmark(o.landmark, p_map);
-      if (o.landmark < world.ground_points && !world.heights.empty())
-        window.add_plane_point({0, o.landmark, world.sigma_ground_m});
+      if (o.landmark.value() < world.ground_points && !world.heights.empty())
+        window.add_plane_point({PlaneId(0), o.landmark, world.sigma_ground_m});
     }
     window.add_observation(o);
   }
@@ -218,7 +218,7 @@ inline void add_view(SlidingWindow& window, const WindowWorld& world, std::int64
     if (!window.line(o.line)) {
       Line3::Tangent step;
       for (int i = 0; i < 4; ++i) step[i] = (i < 3 ? 0.01 : 1e-3) * disturbance * random.normal();
-      window.add_line(o.line, world.lines[static_cast<std::size_t>(o.line)].plus(step));
+      window.add_line(o.line, world.lines[static_cast<std::size_t>(o.line.value())].plus(step));
     }
     window.add_line_observation(o);
   }
@@ -229,7 +229,7 @@ inline void add_view(SlidingWindow& window, const WindowWorld& world, std::int64
     if (!window.plane(o.plane)) {
       Eigen::Vector3d step;
       for (int i = 0; i < 3; ++i) step[i] = 0.01 * disturbance * random.normal();
-      const auto which = static_cast<std::size_t>(o.plane - WindowWorld::kFirstPlane);
+      const auto which = static_cast<std::size_t>(o.plane.value() - WindowWorld::kFirstPlane);
       window.add_plane(o.plane, world.planes[which].plus(step));
     }
     add_plane_observation(window, o);
@@ -243,10 +243,11 @@ inline SlidingWindow drive_window(const WindowWorld& world, const WindowDrive& d
   Random random(seed);
   SlidingWindow window(drive.options, world.camera);
   for (std::size_t k = 0; k < world.T_map_cam.size(); ++k) {
-    const auto id = static_cast<std::int64_t>(k);
+    const KeyframeId id(k);
     SE3 T_map_cam = world.T_map_cam[k];
     if (k > 0)
-      T_map_cam = window.pose(id - 1) * (world.T_map_cam[k - 1].inverse() * world.T_map_cam[k]) *
+      T_map_cam = window.pose(KeyframeId(k - 1)) *
+                  (world.T_map_cam[k - 1].inverse() * world.T_map_cam[k]) *
                   random_motion(random, 0.02 * drive.disturbance, 0.002 * drive.disturbance);
     window.add_keyframe(id, T_map_cam);
     if (id == drive.kept) window.keep(keyframe_variable(id));

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/map_revisits.h>
+#include <placegraph/graph/internal/map_revisits.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,17 +14,18 @@ Map walk(const std::vector<int>& places, const std::vector<double>& x) {
   Map map;
   for (int id = 0; id <= *std::max_element(places.begin(), places.end()); ++id) {
     Place place;
-    place.id = id;
+    place.id = PlaceId(id);
     map.place_graph.places.push_back(place);
   }
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
     Keyframe keyframe;
-    keyframe.id = keyframe.frame = id;
-    keyframe.place = places[i];
+    keyframe.id = KeyframeId(id);
+    keyframe.frame = FrameId(id);
+    keyframe.place = PlaceId(places[i]);
     keyframe.T_place_keyframe = SE3(SO3(), {x[i], 0, 0});
     map.keyframes.push_back(keyframe);
-    map.frames.push_back({id, 10 * id, id, SE3()});
+    map.frames.push_back({FrameId(id), 10 * id, KeyframeId(id), SE3()});
   }
   return map;
 }
@@ -35,13 +36,13 @@ TEST(MapRevisits, AreTheNearestOlderFramesOfThePlaceAndItsNeighbours) {
   ASSERT_EQ(found.size(), 4u);
   const auto of = [&](std::int64_t query) {
     return *std::find_if(found.begin(), found.end(),
-                         [&](const LoopPrediction& p) { return p.query == query; });
+                         [&](const LoopPrediction& p) { return p.query == FrameId(query); });
   };
-  EXPECT_EQ(of(5).candidate, 1);
+  EXPECT_EQ(of(5).candidate, FrameId(1));
   EXPECT_NEAR(of(5).score, 1 / 1.2, 1e-12);
-  EXPECT_EQ(of(6).candidate, 2);
+  EXPECT_EQ(of(6).candidate, FrameId(2));
   EXPECT_NEAR(of(6).score, 1 / 1.4, 1e-12);
-  EXPECT_EQ(of(4).candidate, 1);  // a step into another place, far away
+  EXPECT_EQ(of(4).candidate, FrameId(1));  // a step into another place, far away
   EXPECT_LT(of(4).score, 0.12);
 }
 

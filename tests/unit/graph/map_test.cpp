@@ -12,22 +12,34 @@ namespace {
 Map make_map(int component) {
   Map map;
   const SE3 T_place_101(SO3(), {0, 0, 1});
-  map.place_graph.places = {{0, 100, SE3(), 0, {{100, SE3()}, {101, T_place_101}}, {}, {}},
-                            {1, 200, SE3(SO3(), {50, 0, 0}), component, {{200, SE3()}}, {}, {}}};
-  map.keyframes = {{100, 0, 0, 0, SE3(), {}, 1, {}},
-                   {101, 1, 100, 0, T_place_101, {}, 1, {}},
-                   {200, 3, 300, 1, SE3(), {}, 1, {}}};
-  map.frames = {{0, 0, 100, SE3()},
-                {1, 100, 101, SE3(SO3(), {0.5, 0, 0})},
-                {2, 200, -1, std::nullopt},
-                {3, 300, 200, SE3()}};
+  map.place_graph.places = {{PlaceId(0),
+                             KeyframeId(100),
+                             SE3(),
+                             0,
+                             {{KeyframeId(100), SE3()}, {KeyframeId(101), T_place_101}},
+                             {},
+                             {}},
+                            {PlaceId(1),
+                             KeyframeId(200),
+                             SE3(SO3(), {50, 0, 0}),
+                             component,
+                             {{KeyframeId(200), SE3()}},
+                             {},
+                             {}}};
+  map.keyframes = {{KeyframeId(100), FrameId(0), 0, PlaceId(0), SE3(), {}, 1, {}},
+                   {KeyframeId(101), FrameId(1), 100, PlaceId(0), T_place_101, {}, 1, {}},
+                   {KeyframeId(200), FrameId(3), 300, PlaceId(1), SE3(), {}, 1, {}}};
+  map.frames = {{FrameId(0), 0, KeyframeId(100), SE3()},
+                {FrameId(1), 100, KeyframeId(101), SE3(SO3(), {0.5, 0, 0})},
+                {FrameId(2), 200, std::nullopt, std::nullopt},
+                {FrameId(3), 300, KeyframeId(200), SE3()}};
   return map;
 }
 
 void join(Map& map) {
   RelativePoseConstraint constraint;
-  constraint.from = 0;
-  constraint.to = 1;
+  constraint.from = NodeId(0);
+  constraint.to = NodeId(1);
   constraint.T_from_to = SE3();
   constraint.information = Matrix6d::Identity();
   map.place_graph.constraints.push_back(constraint);
@@ -35,8 +47,8 @@ void join(Map& map) {
 
 TEST(Map, FindsKeyframesById) {
   const Map map = make_map(0);
-  EXPECT_EQ(map.find_keyframe(200), &map.keyframes[2]);
-  EXPECT_EQ(map.find_keyframe(2), nullptr);
+  EXPECT_EQ(map.find_keyframe(KeyframeId(200)), &map.keyframes[2]);
+  EXPECT_EQ(map.find_keyframe(KeyframeId(2)), nullptr);
 }
 
 TEST(Map, FramesArePosedThroughKeyframeAndPlace) {
@@ -77,11 +89,13 @@ TEST(Map, FramesAndLandmarksGrowWithTheUnitsOfPlaceAndKeyframe) {
   const Trajectory trajectory = map.trajectory_optimized();
   EXPECT_EQ(trajectory.poses[1].T_world_body->translation(), Eigen::Vector3d(13, 0, 2));
   EXPECT_NEAR(trajectory.poses[1].T_world_body->linear().determinant(), 1, 1e-14);
-  EXPECT_EQ(map.position({7, 101, {0, 1, 0}, 2}), Eigen::Vector3d(10, 6, 2));
-  EXPECT_EQ(map.position({8, 100, {0, 1, 0}, 2}), Eigen::Vector3d(10, 2, 0));
-  EXPECT_THROW((void)map.position({9, 300, {0, 1, 0}, 2}), ArgumentError);
-  map.keyframes[1].place = 9;
-  EXPECT_THROW((void)map.S_map_keyframe(101), ArgumentError);
+  EXPECT_EQ(map.position({LandmarkId(7), KeyframeId(101), {0, 1, 0}, 2}),
+            Eigen::Vector3d(10, 6, 2));
+  EXPECT_EQ(map.position({LandmarkId(8), KeyframeId(100), {0, 1, 0}, 2}),
+            Eigen::Vector3d(10, 2, 0));
+  EXPECT_THROW((void)map.position({LandmarkId(9), KeyframeId(300), {0, 1, 0}, 2}), ArgumentError);
+  map.keyframes[1].place = PlaceId(9);
+  EXPECT_THROW((void)map.S_map_keyframe(KeyframeId(101)), ArgumentError);
 }
 
 TEST(Map, FramesOfAnotherComponentAreLostUntilAConstraintJoinsIt) {
@@ -94,10 +108,10 @@ TEST(Map, FramesOfAnotherComponentAreLostUntilAConstraintJoinsIt) {
 
 TEST(Map, RefusesFramesAndKeyframesThatHangOnNothing) {
   Map map = make_map(0);
-  map.frames[1].keyframe = 999;
+  map.frames[1].keyframe = KeyframeId(999);
   EXPECT_THROW(map.trajectory_optimized(), ArgumentError);
   map = make_map(0);
-  map.keyframes[1].place = 999;
+  map.keyframes[1].place = PlaceId(999);
   EXPECT_THROW(map.trajectory_optimized(), ArgumentError);
 }
 

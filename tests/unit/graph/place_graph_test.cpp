@@ -14,7 +14,7 @@ PlaceGraph make_places(const std::vector<int>& components) {
   PlaceGraph graph;
   for (std::size_t i = 0; i < components.size(); ++i) {
     Place place;
-    place.id = 10 * static_cast<std::int64_t>(i + 1);
+    place.id = PlaceId(10 * static_cast<std::int64_t>(i + 1));
     place.component = components[i];
     place.T_map_place = SE3(SO3(), Eigen::Vector3d(static_cast<double>(i), 0, 0));
     graph.places.push_back(place);
@@ -24,8 +24,8 @@ PlaceGraph make_places(const std::vector<int>& components) {
 
 void join(PlaceGraph& graph, std::int64_t from, std::int64_t to) {
   RelativePoseConstraint constraint;
-  constraint.from = from;
-  constraint.to = to;
+  constraint.from = NodeId(from);
+  constraint.to = NodeId(to);
   constraint.T_from_to = SE3();
   constraint.information = Matrix6d::Identity();
   graph.constraints.push_back(constraint);
@@ -39,11 +39,11 @@ std::vector<bool> fixed(const PlaceGraph& graph) {
 
 TEST(PlaceGraph, FindsPlacesByIdWhateverTheirOrder) {
   PlaceGraph graph = make_places({0, 0});
-  EXPECT_EQ(graph.find(20), &graph.places[1]);
-  EXPECT_EQ(graph.find(1), nullptr);
-  graph.places[0].id = 1;
-  graph.places[1].id = 0;
-  EXPECT_EQ(graph.find(0), &graph.places[1]);
+  EXPECT_EQ(graph.find(PlaceId(20)), &graph.places[1]);
+  EXPECT_EQ(graph.find(PlaceId(1)), nullptr);
+  graph.places[0].id = PlaceId(1);
+  graph.places[1].id = PlaceId(0);
+  EXPECT_EQ(graph.find(PlaceId(0)), &graph.places[1]);
 }
 
 TEST(PlaceGraph, JoinsPlacesOfOneComponentAndPlacesWithAConstraint) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/elements.h>
+#include <placegraph/pipeline/internal/tracking/cue_list.h>
 
 #include "tests/support/message_of.h"
 
@@ -44,15 +45,13 @@ TEST(Elements, NeedAModelOfSurfacesForContextAndSemantics) {
   calibration.camera.width = 64, calibration.camera.height = 48;
   calibration.camera.fx = calibration.camera.fy = 50;
   calibration.camera.cx = 31.5, calibration.camera.cy = 23.5;
-  Frame frame;
-  frame.image = Image(48, 64, CV_8UC1, cv::Scalar(100));
   for (const char* names : {"motion,context", "motion,semantics"}) {
     RunOptions options;
     set_elements(parse_elements(names), options);
-    Slam slam(options.slam, calibration);
-    EXPECT_NE(test::message_of<ArgumentError>([&] { slam.add_frame(frame); }).find("set_scene"),
+    EXPECT_NE(test::message_of<ArgumentError>([&] {
+                Slam(options.slam, calibration);
+              }).find("SlamInputs::surfaces"),
               std::string::npos);
-    EXPECT_THROW(slam.set_scene(nullptr), ArgumentError);
   }
 }
 

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/motion_check.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/motion_check.h>
 
 namespace placegraph {
 namespace {
@@ -59,14 +59,15 @@ Map map_with(double below, double left, double right) {
   map.place_graph.places.emplace_back();
   for (int k = 0; k < 10; ++k) {
     Keyframe keyframe;
-    keyframe.id = keyframe.frame = k;
+    keyframe.id = KeyframeId(k);
+    keyframe.frame = FrameId(k);
     keyframe.T_place_keyframe = SE3(SO3(), Eigen::Vector3d(0, 0, k));
     map.keyframes.push_back(keyframe);
     for (const Eigen::Vector3d& at : {Eigen::Vector3d(0, below, 6), Eigen::Vector3d(-left, 0, 6),
                                       Eigen::Vector3d(right, 0.1, 6)})
       for (int i = 0; i < 4; ++i) {
         PointLandmark landmark;
-        landmark.keyframe = k;
+        landmark.keyframe = KeyframeId(k);
         landmark.point_cam = at + Eigen::Vector3d(0, 0, i);
         landmark.observations = 5;
         map.landmarks.push_back(landmark);

@@ -24,7 +24,7 @@ using testing::HasSubstr;
 /// is 2 m, where chi2 is four times 100; at the given 1 m it is twice 400.
 PoseGraph torn_pair() {
   PoseGraph graph;
-  graph.nodes = {{0, SE2(), false}, {1, SE2(1, 0, 0), false}};
+  graph.nodes = {{NodeId(0), SE2(), false}, {NodeId(1), SE2(1, 0, 0), false}};
   for (const double apart_m : {1, 1, 3, 3})
     graph.constraints.emplace_back(test::constraint<SE2>(0, 1, SE2(apart_m, 0, 0)));
   return graph;
@@ -125,8 +125,8 @@ TEST_F(OptimizeCommand, LeavesFalseLoopsOutAndDropsThemFromTheFileIfAsked) {
 
 TEST_F(OptimizeCommand, OptimizesTheComponentsEachForItself) {
   PoseGraph graph = torn_pair();
-  graph.nodes.push_back({5, SE2(9, 9, 0), false});
-  graph.nodes.push_back({6, SE2(9, 9, 0), false});
+  graph.nodes.push_back({NodeId(5), SE2(9, 9, 0), false});
+  graph.nodes.push_back({NodeId(6), SE2(9, 9, 0), false});
   graph.constraints.emplace_back(test::constraint<SE2>(5, 6, SE2(0, 1, 0)));
   write_g2o(arguments.in, graph);
   arguments.task.split = true;
@@ -184,10 +184,10 @@ TEST_F(OptimizeCommand, KeepsAFileThatIsThereUnlessItIsForced) {
 /// A pose that a prior puts at the origin, and a point it sees 2 m ahead that stands 1 m too far.
 LandmarkGraph pose_with_a_point() {
   LandmarkGraph graph;
-  graph.poses.nodes = {{0, SE3(), false}};
-  graph.priors.push_back({0, SE3(), test::isotropic<SE3>(100)});
-  graph.points.push_back({7, {3, 0, 0}});
-  graph.sights.push_back({0, 7, {2, 0, 0}, 100 * Eigen::Matrix3d::Identity()});
+  graph.poses.nodes = {{NodeId(0), SE3(), false}};
+  graph.priors.push_back({NodeId(0), SE3(), test::isotropic<SE3>(100)});
+  graph.points.push_back({NodeId(7), {3, 0, 0}});
+  graph.sights.push_back({NodeId(0), NodeId(7), {2, 0, 0}, 100 * Eigen::Matrix3d::Identity()});
   return graph;
 }
 

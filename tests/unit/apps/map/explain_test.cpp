@@ -29,32 +29,36 @@ StoredMap two_places() {
   const auto at_z = [](double z) { return SE3(SO3(), Eigen::Vector3d(0, 0, z)); };
   for (int k = 0; k < 2; ++k) {
     Keyframe keyframe;
-    keyframe.id = keyframe.frame = keyframe.place = k;
+    keyframe.id = KeyframeId(k);
+    keyframe.place = PlaceId(k);
+    keyframe.frame = FrameId(k);
     keyframe.stamp_ns = 100 * k;
     keyframe.features.resize(5);
     map.keyframes.push_back(keyframe);
     Place place;
-    place.id = place.anchor_keyframe = k;
+    place.id = PlaceId(k);
+    place.anchor_keyframe = KeyframeId(k);
     place.T_map_place = at_z(k);
-    place.members = {{k, SE3(), 1}};
+    place.members = {{KeyframeId(k), SE3(), 1}};
     if (k == 1) place.labels = {"corridor", "environment:corridor"};
     map.place_graph.places.push_back(place);
   }
   RelativePoseConstraint edge;
-  edge.from = 0, edge.to = 1;
+  edge.from = NodeId(0), edge.to = NodeId(1);
   edge.T_from_to = at_z(1);
   edge.information = 100 * Matrix6d::Identity();
   map.place_graph.constraints.push_back(edge);
-  map.frames = {{0, 0, 0, SE3(), 20},
-                {1, 100, 1, SE3(), 30},
-                {2, 1'500'000'000, 1, at_z(0.5), 40},
-                {3, 2'000'000'000, -1, std::nullopt, 0}};
+  map.frames = {{FrameId(0), 0, KeyframeId(0), SE3(), 20},
+                {FrameId(1), 100, KeyframeId(1), SE3(), 30},
+                {FrameId(2), 1'500'000'000, KeyframeId(1), at_z(0.5), 40},
+                {FrameId(3), 2'000'000'000, std::nullopt, std::nullopt, 0}};
   for (const FrameRecord& frame : map.frames)
     map.trajectory_online.poses.push_back({frame.stamp_ns, std::nullopt});
   LoopRecord accepted, refused;
-  accepted.query_frame = 1, accepted.match_frame = 0, accepted.inliers = 33;
+  accepted.query_frame = FrameId(1), accepted.match_frame = FrameId(0), accepted.inliers = 33;
   accepted.stage = LoopStage::kAccepted;
-  refused.query_frame = 1, refused.match_frame = 0, refused.stage = LoopStage::kGeometry;
+  refused.query_frame = FrameId(1), refused.match_frame = FrameId(0),
+  refused.stage = LoopStage::kGeometry;
   map.loops = {accepted, refused};
   return stored;
 }
@@ -63,7 +67,7 @@ class ExplainTwoPlaces : public testing::Test {
  protected:
   json told(std::int64_t frame) {
     write_map(folder / "map.db", stored);
-    return explain({folder.path(), frame}).told;
+    return explain({folder.path(), FrameId(frame)}).told;
   }
   test::TemporaryFolder folder;
   StoredMap stored = two_places();
@@ -124,7 +128,7 @@ TEST(ExplainCommand, RefusesAFrameThatTheMapDoesNotHave) {
   write_map(folder / "map.db", stored);
   ExplainArguments arguments;
   arguments.map = folder / "map.db";
-  arguments.frame = 1'000'000;
+  arguments.frame = FrameId(1'000'000);
   EXPECT_THAT(message_of<NoAnswer>([&] { explain(arguments); }),
               HasSubstr("map.db: has no frame 1000000"));
 }

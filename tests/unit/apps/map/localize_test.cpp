@@ -34,8 +34,9 @@ class LocalizeCommand : public testing::Test {
   LocalizeCommand() {
     Random random(9);
     for (int i = 0; i < 6; ++i)
-      test::write_image(folder, "new/00000" + std::to_string(i) + ".png",
-                        test::wall_view(i / 2, 4 * frame_of(i) % 80 + 2, random));
+      test::write_image(
+          folder, "new/00000" + std::to_string(i) + ".png",
+          test::wall_view(i / 2, 4 * frame_of(KeyframeId(i).value()) % 80 + 2, random));
     arguments.map = *made / "walk.db";
     arguments.images = folder / "new";
     arguments.out = folder / "placed.txt";
@@ -58,7 +59,7 @@ TEST_F(LocalizeCommand, PlacesImagesWhereTheMapLooksLikeThem) {
   EXPECT_FALSE(result.no_answer);
   for (int i = 0; i < 6; ++i) {
     EXPECT_EQ(result.answers[static_cast<std::size_t>(i)].stage, "appearance");
-    EXPECT_NEAR(static_cast<double>(result.answers[static_cast<std::size_t>(i)].frame),
+    EXPECT_NEAR(static_cast<double>(result.answers[static_cast<std::size_t>(i)].frame->value()),
                 frame_of(i) + 0.5, 2)
         << i;
   }

@@ -50,8 +50,8 @@ class RouteCommand : public testing::Test {
     folder.write("run/places.json", document.dump());
     arguments.map = folder / "run";
     arguments.out = folder / "way.json";
-    arguments.from = 0;
-    arguments.to = 2;
+    arguments.from = PlaceId(0);
+    arguments.to = PlaceId(2);
   }
   test::TemporaryFolder folder;
   RouteArguments arguments;
@@ -60,7 +60,7 @@ class RouteCommand : public testing::Test {
 TEST_F(RouteCommand, LeadsOverThePlacesBetween) {
   const RouteResult result = route(arguments);
   ASSERT_EQ(result.route.steps.size(), 3u);
-  EXPECT_EQ(result.route.steps[1].place, 1);
+  EXPECT_EQ(result.route.steps[1].place, PlaceId(1));
   EXPECT_NEAR(result.route.length_m(), 3, 1e-9);
   EXPECT_EQ(to_text(result),
             "3 places, 3.00 m\n"
@@ -85,14 +85,14 @@ TEST_F(RouteCommand, WritesTheViewToExpectAtEveryPlace) {
 TEST_F(RouteCommand, LeadsBackIfAsked) {
   arguments.backtrack = true;
   const RouteResult result = route(arguments);
-  EXPECT_EQ(result.route.steps.front().place, 2);
-  EXPECT_EQ(result.route.steps.back().place, 0);
+  EXPECT_EQ(result.route.steps.front().place, PlaceId(2));
+  EXPECT_EQ(result.route.steps.back().place, PlaceId(0));
   const json way = json::parse(to_json(result));
   EXPECT_NEAR(way["steps"][0]["view_off_travel_deg"].get<double>(), 180, 1e-6);
 }
 
 TEST_F(RouteCommand, WritesNothingWhereThereIsNoWay) {
-  arguments.to = 3;
+  arguments.to = PlaceId(3);
   EXPECT_THROW(route(arguments), NoAnswer);
   EXPECT_FALSE(std::filesystem::exists(arguments.out));
 }

@@ -44,7 +44,7 @@ TEST_F(ClassifyPlacesCommand, TellsTheImagesThatAreAskedForByThoseThatWereLearne
     EXPECT_EQ(result.weights.size(), place_cues().size());
     ASSERT_EQ(result.told.size(), 6u);
     for (std::size_t i = 0; i < 6; ++i) {
-      EXPECT_EQ(result.told[i].image, static_cast<std::int64_t>(i) + 6);
+      EXPECT_EQ(result.told[i].image, FrameId(static_cast<std::int64_t>(i) + 6));
       EXPECT_EQ(result.told[i].label, static_cast<int>(i / 3));
       EXPECT_GT(result.told[i].probability, 0.5);
       EXPECT_LE(result.told[i].probability, 1);
@@ -70,7 +70,7 @@ TEST_F(ClassifyPlacesCommand, LearnsTheFirstImagesWhateverTheTruthSays) {
   const ClassifyPlacesResult result = classify_places(arguments);
   EXPECT_EQ(result.learned, 8u);
   ASSERT_EQ(result.told.size(), 4u);
-  EXPECT_EQ(result.told.front().image, 8);
+  EXPECT_EQ(result.told.front().image, FrameId(8));
   arguments.train = 12;
   arguments.force = true;
   EXPECT_THAT(message_of<ArgumentError>([&] { classify_places(arguments); }),

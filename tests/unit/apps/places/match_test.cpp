@@ -42,8 +42,8 @@ TEST_F(MatchCommand, FindsTheOlderViewOfEveryPlaceAndWritesIt) {
   const auto written = read_loop_predictions(arguments.out, LoopFileFormat::kScores);
   ASSERT_EQ(written.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_EQ(result.found[i].query, static_cast<std::int64_t>(i) + 6);
-    EXPECT_EQ(result.found[i].candidate, static_cast<std::int64_t>(i));
+    EXPECT_EQ(result.found[i].query, FrameId(static_cast<std::int64_t>(i) + 6));
+    EXPECT_EQ(result.found[i].candidate, FrameId(i));
     EXPECT_EQ(written[i].candidate, result.found[i].candidate);
     EXPECT_NEAR(written[i].score, result.found[i].score, 1e-4);
   }
@@ -54,8 +54,8 @@ TEST_F(MatchCommand, AsksEveryImageThatIsOldEnoughWhateverTheTruthSays) {
   const MatchResult result = match(arguments);
   EXPECT_EQ(result.queries, 4u);
   for (const LoopPrediction& found : result.found) {
-    EXPECT_GE(found.query, 8);
-    EXPECT_LE(found.candidate, found.query - 8);
+    EXPECT_GE(found.query, FrameId(8));
+    EXPECT_LE(found.candidate.value(), found.query.value() - 8);
   }
   arguments.min_age.reset();
   fs::remove(folder / "gt.txt");
@@ -84,12 +84,11 @@ TEST_F(MatchCommand, TheImagesBeforeTellAnImageThatCouldBeTwoPlaces) {
   Image blend;
   cv::addWeighted(test::place_picture(0), 0.52, test::place_picture(3), 0.48, 0, blend);
   test::write_image(folder, test::view_name(9), blend);
-  EXPECT_EQ(match(arguments).found[3].candidate, 0);
+  EXPECT_EQ(match(arguments).found[3].candidate, FrameId(0));
   arguments.sequence = arguments.force = true;
   const MatchResult result = match(arguments);
   ASSERT_EQ(result.found.size(), 6u);
-  for (std::size_t i = 0; i < 6; ++i)
-    EXPECT_EQ(result.found[i].candidate, static_cast<std::int64_t>(i));
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(result.found[i].candidate, FrameId(i));
 }
 
 TEST_F(MatchCommand, ComparesWordsOfAVocabulary) {
@@ -102,8 +101,7 @@ TEST_F(MatchCommand, ComparesWordsOfAVocabulary) {
   arguments.codes = "llc";
   const MatchResult result = match(arguments);
   ASSERT_EQ(result.found.size(), 6u);
-  for (std::size_t i = 0; i < 6; ++i)
-    EXPECT_EQ(result.found[i].candidate, static_cast<std::int64_t>(i));
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(result.found[i].candidate, FrameId(i));
 
   arguments.force = true;
   arguments.codes = "bow";

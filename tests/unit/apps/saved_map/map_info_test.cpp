@@ -44,12 +44,13 @@ TEST(MapInfoCommand, TheWayLeadsOverFramesThatHaveAPose) {
   map.place_graph.places[0].T_map_place = SE3();
   map.frames.clear();
   for (int i = 0; i < 4; ++i) {  // at x = 0, 3, nowhere, 5
-    FrameRecord record{i, 100 * i, 0, SE3(SO3(), Eigen::Vector3d(i == 3 ? 5 : 3 * i, 0, 0)), 9};
-    if (i == 2) record = {i, 100 * i, -1, std::nullopt, 0};
+    FrameRecord record{FrameId(i), 100 * i, KeyframeId(0),
+                       SE3(SO3(), Eigen::Vector3d(i == 3 ? 5 : 3 * i, 0, 0)), 9};
+    if (i == 2) record = {FrameId(i), 100 * i, std::nullopt, std::nullopt, 0};
     map.frames.push_back(record);
   }
   map.keyframes.resize(1);
-  map.keyframes[0].frame = 0;
+  map.keyframes[0].frame = FrameId(0);
   map.place_graph.places[0].members.resize(1);
   map.landmarks.clear();
   map.loops.clear();

@@ -44,7 +44,7 @@ TEST_F(MapLabelCommand, LabelsThePlacesByTheRoomsTheyLookLike) {
   const StoredMap stored = read_map(arguments.map);
   ASSERT_EQ(result.list.size(), stored.map.place_graph.places.size());
   for (const Keyframe& keyframe : stored.map.keyframes) {
-    const std::string room = keyframe.frame < 12 ? "kitchen" : "hall";
+    const std::string room = keyframe.frame < FrameId(12) ? "kitchen" : "hall";
     EXPECT_EQ(stored.map.place_graph.find(keyframe.place)->labels, std::vector<std::string>{room});
   }
   for (const json& place : result.list) EXPECT_GT(place["probability"], 0.5);

@@ -35,9 +35,9 @@ TEST_F(MapLearnCommand, EveryRoomHasPlacesOfItsOwn) {
   ASSERT_EQ(stored.map.keyframes.size(), 36u);
   EXPECT_FALSE(stored.origin.calibration);
   EXPECT_EQ(stored.origin.sequence, arguments.images);
-  std::map<std::int64_t, std::set<std::size_t>> rooms_of;
+  std::map<PlaceId, std::set<std::size_t>> rooms_of;
   for (std::size_t i = 0; i < 36; ++i) {
-    EXPECT_EQ(stored.map.keyframes[i].frame, static_cast<std::int64_t>(i));
+    EXPECT_EQ(stored.map.keyframes[i].frame, FrameId(i));
     const std::size_t view = i % 12;  // a place may end a view too late
     if (view >= 3) rooms_of[stored.map.keyframes[i].place].insert(i / 12);
   }
@@ -49,8 +49,8 @@ TEST_F(MapLearnCommand, KeepsTheNumbersOfTheImagesOfARange) {
   arguments.range = {12, 30};
   EXPECT_EQ(map_learn(arguments).images, 19u);
   const StoredMap stored = read_map(arguments.out);
-  EXPECT_EQ(stored.map.keyframes.front().frame, 12);
-  EXPECT_EQ(stored.map.keyframes.back().frame, 30);
+  EXPECT_EQ(stored.map.keyframes.front().frame, FrameId(12));
+  EXPECT_EQ(stored.map.keyframes.back().frame, FrameId(30));
   arguments.range = {12, 36};
   arguments.force = true;
   EXPECT_THAT(message_of<ArgumentError>([&] { map_learn(arguments); }),

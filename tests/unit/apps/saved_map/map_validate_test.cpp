@@ -46,13 +46,13 @@ TEST_F(MapValidateCommand, PassesAMapWhoseRunWasBrokenOff) {
 }
 
 TEST_F(MapValidateCommand, FindsAKeyframeOfAFrameThatIsNotThere) {
-  stored.map.keyframes[2].frame = 1'000'000;
+  stored.map.keyframes[2].frame = FrameId(1'000'000);
   EXPECT_EQ(complaint(),
             (folder / "map.db") + ": table keyframe, row 2: frame 1000000 is no frame of the map");
 }
 
 TEST_F(MapValidateCommand, FindsALoopOfAFrameThatIsNotThere) {
-  stored.map.loops[1].query_frame = 1'000'000;
+  stored.map.loops[1].query_frame = FrameId(1'000'000);
   EXPECT_EQ(complaint(), (folder / "map.db") +
                              ": table loop, row 1: frames 1000000 and 2 are not both of the map");
 }

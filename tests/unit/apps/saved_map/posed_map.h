@@ -1,6 +1,6 @@
 #pragma once
+#include <placegraph/io/internal/synthetic/writers/sequence_writer.h>
 #include <placegraph/io/map/map_database.h>
-#include <placegraph/io/synthetic/writers/sequence_writer.h>
 
 #include <string>
 
@@ -23,19 +23,21 @@ inline StoredMap posed_map(const SyntheticWorld& world, const std::string& seque
     const SE3 T_map_cam(*truth.poses[i].T_world_body);
     if (frame % step == 0) {
       Keyframe keyframe;
-      keyframe.id = keyframe.place = id;
-      keyframe.frame = frame;
+      keyframe.id = KeyframeId(id);
+      keyframe.place = PlaceId(id);
+      keyframe.frame = FrameId(frame);
       keyframe.stamp_ns = truth.poses[i].stamp_ns;
       map.keyframes.push_back(keyframe);
       Place place;
-      place.id = place.anchor_keyframe = id;
+      place.id = PlaceId(id);
+      place.anchor_keyframe = KeyframeId(id);
       place.T_map_place = T_map_cam;
-      place.members = {{id, SE3(), 1}};
+      place.members = {{KeyframeId(id), SE3(), 1}};
       map.place_graph.places.push_back(place);
     }
     const SE3 T_map_keyframe = map.place_graph.places.back().T_map_place;
-    map.frames.push_back(
-        {frame, truth.poses[i].stamp_ns, id, T_map_keyframe.inverse() * T_map_cam, 50});
+    map.frames.push_back({FrameId(frame), truth.poses[i].stamp_ns, KeyframeId(id),
+                          T_map_keyframe.inverse() * T_map_cam, 50});
   }
   map.trajectory_online = truth;
   return stored;

@@ -33,8 +33,8 @@ class SynthGraphCommand : public testing::Test {
     arguments.poses.reset();
     arguments.out = folder / "b.g2o";
   }
-  static std::vector<std::pair<std::int64_t, std::int64_t>> edges(const PoseGraph& graph) {
-    std::vector<std::pair<std::int64_t, std::int64_t>> edges;
+  static std::vector<std::pair<NodeId, NodeId>> edges(const PoseGraph& graph) {
+    std::vector<std::pair<NodeId, NodeId>> edges;
     for (std::size_t i = 0; i < graph.constraints.size(); ++i)
       edges.emplace_back(edge_of(graph, i).from, edge_of(graph, i).to);
     return edges;

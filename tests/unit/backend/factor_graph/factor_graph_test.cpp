@@ -4,16 +4,16 @@
 #include <placegraph/backend/factors/absolute_rotation.h>
 #include <placegraph/backend/factors/bearing.h>
 #include <placegraph/backend/factors/distance.h>
-#include <placegraph/backend/factors/height_above_plane.h>
 #include <placegraph/backend/factors/line_reprojection.h>
-#include <placegraph/backend/factors/marker_corners.h>
 #include <placegraph/backend/factors/plane_observation.h>
 #include <placegraph/backend/factors/plane_orthogonal.h>
 #include <placegraph/backend/factors/point_observation.h>
 #include <placegraph/backend/factors/point_on_plane.h>
 #include <placegraph/backend/factors/pose_prior.h>
 #include <placegraph/backend/factors/relative_pose.h>
-#include <placegraph/backend/linear/whitening.h>
+#include <placegraph/backend/internal/factors/height_above_plane.h>
+#include <placegraph/backend/internal/factors/marker_corners.h>
+#include <placegraph/backend/internal/linear/whitening.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
 #include <placegraph/graph/core/error.h>
 
@@ -242,14 +242,14 @@ PoseGraph chain(std::uint64_t seed) {
   std::vector<Group> truth;
   for (int i = 0; i < 12; ++i) {
     truth.push_back(i == 0 ? Group() : truth.back() * element(0.5));
-    graph.nodes.push_back({100 + i, Group(truth.back() * element(0.05)), i == 3});
+    graph.nodes.push_back({NodeId(100 + i), Group(truth.back() * element(0.05)), i == 3});
   }
   for (int i = 0; i < 12; ++i)
     for (const int j : {i + 1, i + 4}) {
       if (j >= 12) continue;
       RelativePoseConstraint c;
-      c.from = 100 + i;
-      c.to = 100 + j;
+      c.from = NodeId(100 + i);
+      c.to = NodeId(100 + j);
       c.T_from_to = Group(truth[static_cast<std::size_t>(i)].inverse() *
                           truth[static_cast<std::size_t>(j)] * element(i == 5 ? 0.5 : 0.02));
       c.information = Information(Information::Identity(Group::kDof, Group::kDof) * 400);
@@ -257,7 +257,7 @@ PoseGraph chain(std::uint64_t seed) {
       graph.constraints.emplace_back(c);
     }
   PositionConstraint position;
-  position.node = 111;
+  position.node = NodeId(111);
   position.position_world = Eigen::Vector3d(0.5, 1, 0);
   position.lever_arm = Eigen::Vector3d(0.1, 0, 0);
   graph.constraints.emplace_back(position);

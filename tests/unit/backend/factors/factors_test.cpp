@@ -1,15 +1,15 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/factors/ceres_factor.h>
 #include <placegraph/backend/factors/distance.h>
 #include <placegraph/backend/factors/inverse_depth.h>
-#include <placegraph/backend/factors/kernel_loss.h>
-#include <placegraph/backend/factors/marginal_prior.h>
-#include <placegraph/backend/factors/point_factor.h>
 #include <placegraph/backend/factors/point_in_node.h>
 #include <placegraph/backend/factors/position.h>
 #include <placegraph/backend/factors/relative_pose.h>
 #include <placegraph/backend/factors/reprojection.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/backend/internal/factors/ceres_factor.h>
+#include <placegraph/backend/internal/factors/kernel_loss.h>
+#include <placegraph/backend/internal/factors/marginal_prior.h>
+#include <placegraph/backend/internal/factors/point_factor.h>
+#include <placegraph/graph/internal/core/angle.h>
 
 #include "tests/support/jacobian_check.h"
 #include "tests/support/scenes/window_world.h"
@@ -120,7 +120,7 @@ TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesAlsoFarFromItsLinear
     MarginalPrior prior;
     std::vector<Block> blocks;
     for (int k = 0; k < 3; ++k) {
-      prior.keyframes.push_back(k);
+      prior.keyframes.push_back(KeyframeId(k));
       prior.T_map_cam_lin.push_back(random_element<SE3>(random, 2, 1));
       blocks.push_back(pose_block(
           prior.T_map_cam_lin.back() * random_element<SE3>(random, size, size), manifold));
@@ -135,11 +135,11 @@ TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesAlsoFarFromItsLinear
 TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesForPlanesAndWorldsToo) {
   Random random(4);
   MarginalPrior prior;
-  prior.keyframes = {0};
+  prior.keyframes = {KeyframeId(0)};
   prior.T_map_cam_lin = {random_element<SE3>(random, 2, 1)};
-  prior.planes = {0};
+  prior.planes = {PlaneId(0)};
   prior.plane_lin = {Plane3(Eigen::Vector3d(0.1, -0.9, 0.2), 1.6)};
-  prior.worlds = {3};
+  prior.worlds = {ManhattanFrameId(3)};
   prior.R_map_world_lin = {SO3::exp({0.3, -1, 0.2})};
   prior.J = Eigen::MatrixXd::Zero(7, 12);
   for (Eigen::Index i = 0; i < prior.J.size(); ++i) prior.J.data()[i] = random.normal();

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/georeference/antenna_position.h>
-#include <placegraph/backend/georeference/antenna_trajectory.h>
+#include <placegraph/backend/internal/georeference/antenna_position.h>
+#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 
 #include "tests/support/jacobian_check.h"
 #include "tests/support/seed.h"
@@ -12,8 +12,8 @@ constexpr std::int64_t kStep_ns = 100'000'000;
 
 TEST(AntennaTrack, SeesAFixBetweenTwoNodesFromTheNearerOne) {
   PoseGraph graph;
-  graph.nodes = {{0, SE3()}, {1, SE3(SO3::exp({0, 0, 0.4}), {10, 0, 0})}};
-  const AntennaTrack track(graph, {{0, 0}, {1'000'000'000, 1}}, {});
+  graph.nodes = {{NodeId(0), SE3()}, {NodeId(1), SE3(SO3::exp({0, 0, 0.4}), {10, 0, 0})}};
+  const AntennaTrack track(graph, {{0, NodeId(0)}, {1'000'000'000, NodeId(1)}}, {});
   const auto carried =
       track.carry({250'000'000, 750'000'000, 1'100'000'000}, Eigen::Vector3d::Zero(), 1.0);
   ASSERT_TRUE(carried[0] && carried[1]);
@@ -30,11 +30,11 @@ TEST(AntennaTrack, SeesAFixBetweenTwoNodesFromTheNearerOne) {
 
 TEST(AntennaTrack, LetsTheMotionFollowItsNodes) {
   PoseGraph graph;
-  graph.nodes = {{0, SE3()}, {1, SE3(SO3(), {10, 0, 0})}};
+  graph.nodes = {{NodeId(0), SE3()}, {NodeId(1), SE3(SO3(), {10, 0, 0})}};
   Trajectory motion;
   for (int i = 0; i <= 10; ++i)
     motion.poses.push_back({i * kStep_ns, SE3(SO3(), {1.0 * i, 0.5 * i * (10 - i), 0}).isometry()});
-  const AntennaTrack track(graph, {{0, 0}, {10 * kStep_ns, 1}}, motion);
+  const AntennaTrack track(graph, {{0, NodeId(0)}, {10 * kStep_ns, NodeId(1)}}, motion);
   PoseGraph moved = graph;
   moved.nodes[1].T_world_node = SE3(SO3(), {10, 2, 0});
   const Trajectory out = track.moved(moved);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/backend/georeference/georeference.h>
+#include <placegraph/backend/internal/georeference/antenna_trajectory.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/seed.h"
@@ -32,8 +33,7 @@ std::vector<SE3> eight(int count) {
   return T_enu_cam;
 }
 
-RelativePoseConstraint edge_between(std::int64_t from, std::int64_t to, const Pose& T_from_to,
-                                    int dof) {
+RelativePoseConstraint edge_between(NodeId from, NodeId to, const Pose& T_from_to, int dof) {
   RelativePoseConstraint edge;
   edge.from = from;
   edge.to = to;
@@ -57,12 +57,12 @@ GeoreferenceInput exact_drive(const std::vector<SE3>& T_enu_cam) {
   in.lever_arm = kArm;
   for (std::size_t i = 0; i < T_enu_cam.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
-    in.graph.nodes.push_back({id, T_enu_cam[0].inverse() * T_enu_cam[i], i == 0});
-    in.visits.push_back({id * kStep_ns, id});
+    in.graph.nodes.push_back({NodeId(id), T_enu_cam[0].inverse() * T_enu_cam[i], i == 0});
+    in.visits.push_back({id * kStep_ns, NodeId(id)});
     in.fixes.push_back(fix_at(id * kStep_ns, T_enu_cam[i] * kArm));
     if (i > 0)
       in.graph.constraints.emplace_back(
-          edge_between(id - 1, id, T_enu_cam[i - 1].inverse() * T_enu_cam[i], 6));
+          edge_between(NodeId(id - 1), NodeId(id), T_enu_cam[i - 1].inverse() * T_enu_cam[i], 6));
   }
   return in;
 }
@@ -72,7 +72,7 @@ double largest_error(const GeoreferenceResult& result, const std::vector<SE3>& T
   for (std::size_t i = 0; i < result.graph.nodes.size(); ++i)
     largest = std::max(largest,
                        (rigid_part(result.graph.nodes[i].T_world_node).translation() -
-                        T_enu_cam[static_cast<std::size_t>(result.graph.nodes[i].id)].translation())
+                        T_enu_cam[static_cast<std::size_t>(result.graph.nodes[i].id.value())].translation())
                            .norm());
   return largest;
 }
@@ -119,11 +119,11 @@ TEST(Georeference, TurnsAPlanarMapAboutTheVertical) {
   SE2 T_map_node;
   const SE2 step(1, 0, 0.1);
   for (std::int64_t id = 0; id < 40; ++id) {
-    in.graph.nodes.push_back({id, T_map_node});
-    in.visits.push_back({id * kStep_ns, id});
+    in.graph.nodes.push_back({NodeId(id), T_map_node});
+    in.visits.push_back({id * kStep_ns, NodeId(id)});
     const Eigen::Vector2d p = T_enu_map * T_map_node.translation();
     in.fixes.push_back(fix_at(id * kStep_ns, {p.x(), p.y(), 7.0 * static_cast<double>(id % 2)}));
-    if (id > 0) in.graph.constraints.emplace_back(edge_between(id - 1, id, step, 3));
+    if (id > 0) in.graph.constraints.emplace_back(edge_between(NodeId(id - 1), NodeId(id), step, 3));
     T_map_node = T_map_node * step;
   }
   const GeoreferenceResult result = georeference(in, {});
@@ -209,8 +209,8 @@ TEST(Georeference, UsesNoFixOutsideOfTheMapsTime) {
   in.fixes.push_back(fix_at(200 * kStep_ns, {0, 0, 0}));
   const GeoreferenceResult result = georeference(in, {});
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
-  EXPECT_EQ(result.fixes.front().node, -1);
-  EXPECT_EQ(result.fixes.back().node, -1);
+  EXPECT_FALSE(result.fixes.front().node);
+  EXPECT_FALSE(result.fixes.back().node);
   EXPECT_EQ(result.fixes_used, 80);
 }
 
@@ -274,13 +274,13 @@ TEST(Georeference, SaysThatAStraightDriveHidesTheLeverArm) {
 TEST(Georeference, LeavesOutAComponentThatNoFixPlaces) {
   const auto truth = eight(80);
   GeoreferenceInput in = exact_drive(truth);
-  in.graph.nodes.push_back({100, SE3()});
-  in.graph.nodes.push_back({101, SE3()});
-  in.graph.constraints.emplace_back(edge_between(100, 101, SE3(), 6));
-  in.visits.push_back({1000 * kStep_ns, 100});
+  in.graph.nodes.push_back({NodeId(100), SE3()});
+  in.graph.nodes.push_back({NodeId(101), SE3()});
+  in.graph.constraints.emplace_back(edge_between(NodeId(100), NodeId(101), SE3(), 6));
+  in.visits.push_back({1000 * kStep_ns, NodeId(100)});
   const GeoreferenceResult result = georeference(in, {});
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
-  EXPECT_THAT(result.unplaced_nodes, ElementsAre(100, 101));
+  EXPECT_THAT(result.unplaced_nodes, ElementsAre(NodeId(100), NodeId(101)));
   EXPECT_EQ(result.graph.nodes.size(), 80u);
   EXPECT_LT(largest_error(result, truth), 1e-3);
 }
@@ -343,10 +343,10 @@ TEST(Georeference, RefusesWhatTheDataDoNotTell) {
 TEST(Georeference, ThrowsForACallersMistakes) {
   const auto truth = eight(20);
   GeoreferenceInput in = exact_drive(truth);
-  in.visits.push_back({0, 5});
+  in.visits.push_back({0, NodeId(5)});
   EXPECT_THROW((void)georeference(in, {}), ArgumentError);  // two nodes at one time
   in = exact_drive(truth);
-  in.visits.push_back({-1, 77});
+  in.visits.push_back({-1, NodeId(77)});
   EXPECT_THROW((void)georeference(in, {}), ArgumentError);  // no such node
   in = exact_drive(truth);
   in.visits.clear();

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/georeference/map_latency.h>
+#include <placegraph/backend/internal/georeference/map_latency.h>
 
 namespace placegraph {
 namespace {
@@ -23,11 +23,11 @@ PoseGraph graph_of(const Trajectory& motion) {
   PoseGraph map;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const auto id = static_cast<std::int64_t>(i);
-    map.nodes.push_back({id, SE3(*motion.poses[i].T_world_body)});
+    map.nodes.push_back({NodeId(id), SE3(*motion.poses[i].T_world_body)});
     if (i == 0) continue;
     RelativePoseConstraint edge;
-    edge.from = id - 1;
-    edge.to = id;
+    edge.from = NodeId(id - 1);
+    edge.to = NodeId(id);
     edge.T_from_to = std::get<SE3>(map.nodes[i - 1].T_world_node).inverse() *
                      std::get<SE3>(map.nodes[i].T_world_node);
     edge.information = Information::Identity(6, 6);
@@ -38,7 +38,7 @@ PoseGraph graph_of(const Trajectory& motion) {
 
 std::vector<NodeVisit> visits_of(const PoseGraph& map) {
   std::vector<NodeVisit> visits;
-  for (const PoseNode& node : map.nodes) visits.push_back({node.id * kStep_ns, node.id});
+  for (const PoseNode& node : map.nodes) visits.push_back({node.id.value() * kStep_ns, node.id});
   return visits;
 }
 
@@ -54,8 +54,8 @@ TEST(MapDelay, TakesEveryNodeAndEdgeToWhereTheMotionIsLater) {
   }
   for (const Constraint& constraint : map.constraints) {
     const auto& edge = std::get<RelativePoseConstraint>(constraint);
-    const SE3 T_from_to = std::get<SE3>(map.nodes[edge.from].T_world_node).inverse() *
-                          std::get<SE3>(map.nodes[edge.to].T_world_node);
+    const SE3 T_from_to = std::get<SE3>(map.nodes[static_cast<std::size_t>(edge.from.value())].T_world_node).inverse() *
+                          std::get<SE3>(map.nodes[static_cast<std::size_t>(edge.to.value())].T_world_node);
     EXPECT_LT((std::get<SE3>(edge.T_from_to).inverse() * T_from_to).log().norm(), 1e-9);
   }
 }
@@ -74,7 +74,7 @@ TEST(MapDelay, RepeatsTheLastStepBeyondTheEndAndGoesBackAsWell) {
 TEST(MapDelay, LeavesNodesWithoutAVisitAndMotionWithoutNeighboursWhereTheyAre) {
   const Trajectory motion = curve(2);
   PoseGraph map = graph_of(motion);
-  const auto steps = steps_of_delay(map, {{0, 0}}, motion, 0.05, 1.0);
+  const auto steps = steps_of_delay(map, {{0, NodeId(0)}}, motion, 0.05, 1.0);
   EXPECT_NEAR(steps[0].translation().x(), 0.5, 0.01);
   EXPECT_EQ(steps[1].log().norm(), 0);
   const Trajectory still = without_delay(curve(1), 0.05, 1.0);
@@ -83,9 +83,9 @@ TEST(MapDelay, LeavesNodesWithoutAVisitAndMotionWithoutNeighboursWhereTheyAre) {
 
 TEST(MapDelay, MovesPlanarNodesInThePlane) {
   PoseGraph map;
-  map.nodes = {{0, SE2(0, 0, 0)}, {1, SE2(1, 0, 0.2)}};
+  map.nodes = {{NodeId(0), SE2(0, 0, 0)}, {NodeId(1), SE2(1, 0, 0.2)}};
   RelativePoseConstraint edge;
-  edge.to = 1;
+  edge.to = NodeId(1);
   edge.T_from_to = SE2(1, 0, 0.2);
   edge.information = Information::Identity(3, 3);
   map.constraints.emplace_back(edge);

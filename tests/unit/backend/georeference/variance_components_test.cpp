@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/georeference/variance_components.h>
+#include <placegraph/backend/internal/georeference/variance_components.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include "tests/support/seed.h"
 
@@ -19,8 +19,8 @@ PoseGraph walk(double claimed_t, double claimed_r, Random random) {
   for (std::int64_t id = 0; id < 200; ++id) {
     if (id > 0) {
       RelativePoseConstraint edge;
-      edge.from = id - 1;
-      edge.to = id;
+      edge.from = NodeId(id - 1);
+      edge.to = NodeId(id);
       const Eigen::Vector3d noise(random.normal(0, kSigma), random.normal(0, kSigma),
                                   random.normal(0, kSigma));
       edge.T_from_to = step.plus(noise);
@@ -30,9 +30,9 @@ PoseGraph walk(double claimed_t, double claimed_r, Random random) {
       graph.constraints.emplace_back(edge);
       T_world_node = T_world_node * step;
     }
-    graph.nodes.push_back({id, T_world_node});
+    graph.nodes.push_back({NodeId(id), T_world_node});
     PositionConstraint position;
-    position.node = id;
+    position.node = NodeId(id);
     position.position_world << T_world_node.translation().x() + random.normal(0, kSigma),
         T_world_node.translation().y() + random.normal(0, kSigma), 0;
     position.information = Eigen::Matrix3d::Identity() / (kSigma * kSigma);
@@ -79,9 +79,9 @@ TEST(OdometryScatter, ConvergesToTheScatterWhateverWasClaimed) {
 
 TEST(OdometryScatter, SaysNothingWhereNothingIsChecked) {
   PoseGraph graph;
-  graph.nodes = {{0, SE2(0, 0, 0)}, {1, SE2(3, 4, 1)}};
+  graph.nodes = {{NodeId(0), SE2(0, 0, 0)}, {NodeId(1), SE2(3, 4, 1)}};
   RelativePoseConstraint edge;
-  edge.to = 1;
+  edge.to = NodeId(1);
   edge.T_from_to = SE2(3, 4, 1);
   edge.information = Information::Identity(3, 3);
   graph.constraints.emplace_back(edge);

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/incremental/incremental_replay.h>
+#include <placegraph/backend/internal/incremental/incremental_replay.h>
+#include <placegraph/backend/internal/solver/pose_marginals.h>
 #include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
-#include <placegraph/backend/solver/pose_marginals.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include <algorithm>
 
@@ -99,8 +99,8 @@ TYPED_TEST(IncrementalOptimizerOf, PiecesAreJoinedLaterAndFallApartAgain) {
     optimizer.add({walk.graph.nodes[i]}, link);
   }
   const auto relative = [&](int i, int j) {
-    return std::get<TypeParam>(*optimizer.pose(10 + i)).inverse() *
-           std::get<TypeParam>(*optimizer.pose(10 + j));
+    return std::get<TypeParam>(*optimizer.pose(NodeId(10 + i))).inverse() *
+           std::get<TypeParam>(*optimizer.pose(NodeId(10 + j)));
   };
   const auto error = [&](int i, int j) {
     return (relative(i, j).inverse() * walk.truth[i].inverse() * walk.truth[j]).log().norm();
@@ -126,7 +126,7 @@ TYPED_TEST(IncrementalOptimizerOf, KernelsAndPositionsCount) {
   feed<TypeParam>(optimizer, walk.graph, false, [](const IncrementalStep&) {});
   for (const int i : {0, 5, 10, 25, 39}) {
     PositionConstraint position;
-    position.node = 10 + i;
+    position.node = NodeId(10 + i);
     position.position_world.head(walk.truth[i].translation().size()) = walk.truth[i].translation();
     optimizer.add({}, {position});
   }
@@ -143,12 +143,12 @@ TYPED_TEST(IncrementalOptimizerOf, AConstraintThatIsNearlyInfiniteFailsUntilItIs
   GrowingWalk<TypeParam> walk(10, 0.03, 10);
   IncrementalOptimizer optimizer;
   ASSERT_TRUE(optimizer.add(walk.graph.nodes, walk.graph.constraints).outcome);
-  const auto before = std::get<TypeParam>(*optimizer.pose(15)).matrix();
+  const auto before = std::get<TypeParam>(*optimizer.pose(NodeId(15))).matrix();
   RelativePoseConstraint huge = walk.measure(2, 8, 0);
   huge.information *= 1e306;
   const IncrementalStep step = optimizer.add({}, {huge});
   EXPECT_EQ(step.outcome.code, Outcome::Code::kNotConverged);
-  EXPECT_EQ(std::get<TypeParam>(*optimizer.pose(15)).matrix(), before);
+  EXPECT_EQ(std::get<TypeParam>(*optimizer.pose(NodeId(15))).matrix(), before);
   EXPECT_TRUE(optimizer.remove_constraint(step.first_constraint).outcome);
   EXPECT_TRUE(optimizer.finish().outcome);
   const double best = optimize_pose_graph(optimizer.graph(), tight()).chi2_final;
@@ -182,7 +182,7 @@ TYPED_TEST(IncrementalOptimizerOf, CovarianceOfAChainIsComputedByHand) {
   IncrementalOptimizer optimizer;
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
   // One edge of information 100 from the held node.
-  const Eigen::MatrixXd covariance = optimizer.covariance({10, 11});
+  const Eigen::MatrixXd covariance = optimizer.covariance({NodeId(10), NodeId(11)});
   constexpr int dof = TypeParam::kDof;
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(2 * dof, 2 * dof);
   expected.bottomRightCorner(dof, dof).diagonal().setConstant(0.01);
@@ -198,7 +198,7 @@ TYPED_TEST(IncrementalOptimizerOf, ARevisedConstraintIsAsIfItHadBeenMeasuredSo) 
     auto measured = std::get<RelativePoseConstraint>(optimizer.constraint(c));
     measured.T_from_to =
         other
-            .measure(static_cast<int>(measured.from) - 10, static_cast<int>(measured.to) - 10, 0.03)
+            .measure(static_cast<int>(measured.from.value()) - 10, static_cast<int>(measured.to.value()) - 10, 0.03)
             .T_from_to;
     measured.information *= 4;
     change.revised.push_back({c, measured});
@@ -231,27 +231,27 @@ TYPED_TEST(IncrementalOptimizerOf, RelativeCovarianceIsThatOfTheWholeGraph) {
   feed<TypeParam>(optimizer, walk.graph, false, [](const IncrementalStep&) {});
   optimizer.finish();
   const PoseMarginals marginals(optimizer.graph());
-  const Information expected = marginals.relative_covariance(15, 40);
-  EXPECT_LT((optimizer.relative_covariance(15, 40) - expected).norm(), 1e-3 * expected.norm());
+  const Information expected = marginals.relative_covariance(NodeId(15), NodeId(40));
+  EXPECT_LT((optimizer.relative_covariance(NodeId(15), NodeId(40)) - expected).norm(), 1e-3 * expected.norm());
 }
 
 TEST(IncrementalOptimizer, RefusesWhatDoesNotFitAndChangesNothing) {
   IncrementalOptimizer optimizer;
-  EXPECT_FALSE(optimizer.pose(0));
+  EXPECT_FALSE(optimizer.pose(NodeId(0)));
   GrowingWalk<SE2> walk(3, 0, 8);
   EXPECT_THROW(optimizer.add({}, walk.graph.constraints), ArgumentError);
   optimizer.add(walk.graph.nodes, walk.graph.constraints);
   EXPECT_THROW(optimizer.add({walk.graph.nodes[1]}, {}), ArgumentError);
-  EXPECT_THROW(optimizer.add({{99, SE3(), false}}, {}), ArgumentError);
+  EXPECT_THROW(optimizer.add({{NodeId(99), SE3(), false}}, {}), ArgumentError);
   EXPECT_THROW(optimizer.reweight({{7, 1.0}}), ArgumentError);
   EXPECT_THROW(optimizer.reweight({{0, -1.0}}), ArgumentError);
-  EXPECT_THROW((void)optimizer.covariance({99}), ArgumentError);
+  EXPECT_THROW((void)optimizer.covariance({NodeId(99)}), ArgumentError);
   RelativePoseConstraint elsewhere = walk.measure(0, 2, 0);
   EXPECT_THROW(optimizer.apply({{}, {}, {{0, elsewhere}}, {}}), ArgumentError);
   EXPECT_THROW(optimizer.apply({{}, {}, {{7, elsewhere}}, {}}), ArgumentError);
-  EXPECT_THROW((void)optimizer.relative_covariance(10, 99), ArgumentError);
-  optimizer.add({{50, SE2(), false}}, {});
-  EXPECT_THROW((void)optimizer.relative_covariance(10, 50), ArgumentError);
+  EXPECT_THROW((void)optimizer.relative_covariance(NodeId(10), NodeId(99)), ArgumentError);
+  optimizer.add({{NodeId(50), SE2(), false}}, {});
+  EXPECT_THROW((void)optimizer.relative_covariance(NodeId(10), NodeId(50)), ArgumentError);
   IncrementalOptions bad;
   bad.excess = 0;
   EXPECT_THROW(IncrementalOptimizer{bad}, ArgumentError);

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/initialization/certificate.h>
-#include <placegraph/backend/initialization/certificate_matrix.h>
-#include <placegraph/backend/initialization/certified_initialization.h>
-#include <placegraph/backend/initialization/initialization.h>
-#include <placegraph/backend/pose_graph/initialization_selection.h>
+#include <placegraph/backend/internal/initialization/certificate.h>
+#include <placegraph/backend/internal/initialization/certificate_matrix.h>
+#include <placegraph/backend/internal/initialization/certified_initialization.h>
+#include <placegraph/backend/internal/initialization/initialization.h>
+#include <placegraph/backend/internal/pose_graph/initialization_selection.h>
 
 #include <limits>
 
@@ -147,13 +147,13 @@ TYPED_TEST(CertificateOf, TheCertifiedStartKeepsHeldNodesAndComponentsWhereTheyA
     both.nodes[i].T_world_node = walk.truth[i];
   }
   for (PoseNode node : ring<TypeParam>(8, true).nodes) {
-    node.id += 100;
+    node.id = NodeId(node.id.value() + 100);
     both.nodes.push_back(node);
   }
   for (const Constraint& c : ring<TypeParam>(8, true).constraints) {
     auto moved = std::get<RelativePoseConstraint>(c);
-    moved.from += 100;
-    moved.to += 100;
+    moved.from = NodeId(moved.from.value() + 100);
+    moved.to = NodeId(moved.to.value() + 100);
     both.constraints.emplace_back(moved);
   }
   PackedGraph<TypeParam> graph = pack<TypeParam>(both);

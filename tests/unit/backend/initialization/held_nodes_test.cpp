@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/initialization/held_nodes.h>
+#include <placegraph/backend/internal/initialization/held_nodes.h>
 
 #include "tests/support/scenes/pose_walk.h"
 
@@ -58,13 +58,13 @@ TYPED_TEST(TiedProblemOf, TiesNothingAcrossComponentsNorWhereOneNodeIsHeld) {
   PoseGraph two = Walk<TypeParam>(6, 0.1).graph;
   const PoseGraph other = Walk<TypeParam>(6, 0.1, 2).graph;
   for (PoseNode node : other.nodes) {
-    node.id += 100;
+    node.id = NodeId(node.id.value() + 100);
     two.nodes.push_back(node);
   }
   for (const Constraint& c : other.constraints) {
     auto moved = std::get<RelativePoseConstraint>(c);
-    moved.from += 100;
-    moved.to += 100;
+    moved.from = NodeId(moved.from.value() + 100);
+    moved.to = NodeId(moved.to.value() + 100);
     two.constraints.emplace_back(moved);
   }
   two.nodes[1].fixed = two.nodes[8].fixed = true;

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/initialization/initialization.h>
-#include <placegraph/backend/initialization/isotropic_problem.h>
-#include <placegraph/backend/solver/local_solver.h>
+#include <placegraph/backend/internal/initialization/initialization.h>
+#include <placegraph/backend/internal/initialization/isotropic_problem.h>
+#include <placegraph/backend/internal/solver/local_solver.h>
 
 #include "tests/support/scenes/pose_walk.h"
 
@@ -78,7 +78,7 @@ TYPED_TEST(InitializationOf, MeasuredPositionsPlaceWhatNothingHolds) {
   constexpr int dim = kSpaceDim<TypeParam>;
   for (std::size_t i = 0; i < walk.truth.size(); i += 3) {
     PositionConstraint position;
-    position.node = 10 + static_cast<std::int64_t>(i);
+    position.node = NodeId(10 + static_cast<std::int64_t>(i));
     position.lever_arm = lever_arm;
     position.position_world.template head<dim>() =
         walk.truth[i] * typename TypeParam::Point(lever_arm.head<dim>());

@@ -1,7 +1,8 @@
 #include <gmock/gmock.h>
-#include <placegraph/backend/linear/block_cholesky.h>
-#include <placegraph/backend/linear/simplicial_factor.h>
-#include <placegraph/backend/linear/supernodal_factor.h>
+#include <placegraph/backend/internal/linear/block_cholesky.h>
+#include <placegraph/backend/internal/linear/scalar_factor.h>
+#include <placegraph/backend/internal/linear/simplicial_factor.h>
+#include <placegraph/backend/internal/linear/supernodal_factor.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -121,8 +122,31 @@ TEST_P(BlockCholeskyOfSize, HandsOutAFactorWhoseSquareIsTheMatrix) {
     }
 }
 
-/// The same matrix through both factorizations.
-TEST_P(BlockCholeskyOfSize, FactorizesByBlocksAsBySupernodes) {
+/// The factorization `Other` of a matrix says what that by blocks does.
+template <class Other>
+void expect_the_same(const BlockPanels& matrix, const Eigen::MatrixXd& rhs) {
+  SimplicialFactor simplicial(matrix);
+  Other other(matrix);
+  ASSERT_TRUE(simplicial.factorize(matrix));
+  ASSERT_TRUE(other.factorize());
+  EXPECT_LT((simplicial.pivots() - other.pivots()).norm(), 1e-12 * simplicial.pivots().norm());
+  const Eigen::MatrixXd L = dense_factor(simplicial.blocks(), matrix.block_size);
+  EXPECT_LT((dense_factor(other.blocks(), matrix.block_size) - L).norm(), 1e-12 * L.norm());
+  Eigen::MatrixXd x = rhs, y = rhs;
+  simplicial.solve(x);
+  other.solve(y);
+  EXPECT_LT((x - y).norm(), 1e-12 * x.norm());
+
+  BlockPanels indefinite = matrix;
+  SimplicialFactor by_blocks(indefinite);
+  Other by_other(indefinite);
+  indefinite.panel(7)[0] = -1;
+  EXPECT_FALSE(by_blocks.factorize(indefinite));
+  EXPECT_FALSE(by_other.factorize());
+}
+
+/// The same matrix through all factorizations.
+TEST_P(BlockCholeskyOfSize, FactorizesByBlocksAsByScalarsAndSupernodes) {
   Random random = test::seeded_random(13);
   const int size = GetParam(), blocks = 20;
   BlockPanels matrix;
@@ -137,21 +161,11 @@ TEST_P(BlockCholeskyOfSize, FactorizesByBlocksAsBySupernodes) {
   for (double& value : matrix.values) value = 0.3 * random.normal();
   for (int j = 0; j < blocks; ++j)
     for (int c = 0; c < size; ++c) matrix.panel(j)[c * (matrix.rows(j) + 1)] = 8 * size;
-  SimplicialFactor simplicial(matrix);
-  SupernodalFactor supernodal(matrix);
-  ASSERT_TRUE(simplicial.factorize(matrix));
-  ASSERT_TRUE(supernodal.factorize());
-  EXPECT_LT((simplicial.pivots() - supernodal.pivots()).norm(), 1e-12 * simplicial.pivots().norm());
-  const Eigen::MatrixXd L = dense_factor(simplicial.blocks(), size);
-  EXPECT_LT((dense_factor(supernodal.blocks(), size) - L).norm(), 1e-12 * L.norm());
-  Eigen::MatrixXd x = random_matrix(blocks * size, 2, random), y = x;
-  simplicial.solve(x);
-  supernodal.solve(y);
-  EXPECT_LT((x - y).norm(), 1e-12 * x.norm());
-
-  matrix.panel(7)[0] = -1;
-  EXPECT_FALSE(simplicial.factorize(matrix));
-  EXPECT_FALSE(supernodal.factorize());
+  const Eigen::MatrixXd rhs = random_matrix(blocks * size, 2, random);
+  expect_the_same<ScalarFactor>(matrix, rhs);
+#if PLACEGRAPH_GPL
+  expect_the_same<SupernodalFactor>(matrix, rhs);
+#endif
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, BlockCholeskyOfSize, testing::Values(1, 2, 3, 6, 7));

@@ -149,7 +149,7 @@ TYPED_TEST(PoseGraphOptimizerOf, ANodeThatIsOnlyPartlyDeterminedStaysFinite) {
   auto leaf = constraint<Group>(21, 90, walk.truth[1]);
   leaf.information(0, 0) = 0;
   Random random(4);
-  walk.graph.nodes.push_back({90, walk.truth[11] * random_element<Group>(random, 1, 0.3), false});
+  walk.graph.nodes.push_back({NodeId(90), walk.truth[11] * random_element<Group>(random, 1, 0.3), false});
   const double before = optimize_pose_graph(walk.graph, tight()).chi2_final;
   walk.graph.constraints.emplace_back(leaf);
   for (const RotationError convention : {RotationError::kLog, RotationError::kQuaternion}) {
@@ -176,15 +176,15 @@ TYPED_TEST(PoseGraphOptimizerOf, ComponentsAreOptimizedApartAndLoneNodesStay) {
   using Group = TypeParam;
   const Walk<Group> first(12, 0.02, 1), second(12, 0.02, 2);
   PoseGraph both = first.graph;
-  both.nodes.push_back({5, Group(), false});  // without constraints
+  both.nodes.push_back({NodeId(5), Group(), false});  // without constraints
   for (PoseNode node : second.graph.nodes) {
-    node.id += 100;
+    node.id = NodeId(node.id.value() + 100);
     both.nodes.push_back(node);
   }
   for (const Constraint& c : second.graph.constraints) {
     auto moved = std::get<RelativePoseConstraint>(c);
-    moved.from += 100;
-    moved.to += 100;
+    moved.from = NodeId(moved.from.value() + 100);
+    moved.to = NodeId(moved.to.value() + 100);
     both.constraints.emplace_back(moved);
   }
   const PoseGraphReport report = optimize_pose_graph(both, tight());
@@ -206,7 +206,7 @@ TYPED_TEST(PoseGraphOptimizerOf, PositionsPlaceTheGraphInTheWorld) {
     node.T_world_node = T_other_world * std::get<Group>(node.T_world_node);
   for (std::size_t i = 0; i < walk.truth.size(); i += 3) {
     PositionConstraint position;
-    position.node = 10 + static_cast<std::int64_t>(i);
+    position.node = NodeId(10 + static_cast<std::int64_t>(i));
     position.position_world = Eigen::Vector3d::Zero();
     position.position_world.head(walk.truth[i].translation().size()) = walk.truth[i].translation();
     walk.graph.constraints.emplace_back(position);
@@ -231,8 +231,8 @@ TEST(PoseGraphOptimizer, ReportsTheSharesOfTheConstraints) {
 
 TEST(PoseGraphOptimizer, Chi2OfOneEdgeIsComputedByHand) {
   PoseGraph graph;
-  graph.nodes = {{0, SE3(), false},
-                 {1, SE3(SO3::exp({0, 0, 0.4}), Eigen::Vector3d(1, 2, 0)), false}};
+  graph.nodes = {{NodeId(0), SE3(), false},
+                 {NodeId(1), SE3(SO3::exp({0, 0, 0.4}), Eigen::Vector3d(1, 2, 0)), false}};
   graph.constraints.emplace_back(constraint<SE3>(0, 1, SE3(SO3(), Eigen::Vector3d(1, 0, 0)), 10));
   // E has the translation (0, 2, 0) and turns by 0.4.
   EXPECT_NEAR(chi2(graph, RotationError::kQuaternion), 10 * (4 + std::pow(std::sin(0.2), 2)),
@@ -255,7 +255,7 @@ TEST(PoseGraphOptimizer, TellsWhenIterationsRanOut) {
 TEST(PoseGraphOptimizer, AGraphWithoutConstraintsIsAtItsOptimum) {
   PoseGraph graph;
   EXPECT_TRUE(optimize_pose_graph(graph, {}).outcome);
-  graph.nodes.push_back({3, SE2(1, 2, 3), false});
+  graph.nodes.push_back({NodeId(3), SE2(1, 2, 3), false});
   const PoseGraphReport report = optimize_pose_graph(graph, {});
   EXPECT_TRUE(report.outcome);
   EXPECT_EQ(report.chi2_final, 0);
@@ -264,7 +264,7 @@ TEST(PoseGraphOptimizer, AGraphWithoutConstraintsIsAtItsOptimum) {
 
 TEST(PoseGraphOptimizer, RefusesMixedKindsAndBadOptions) {
   PoseGraph mixed;
-  mixed.nodes = {{0, SE2(), false}, {1, SE3(), false}};
+  mixed.nodes = {{NodeId(0), SE2(), false}, {NodeId(1), SE3(), false}};
   EXPECT_THROW((void)optimize_pose_graph(mixed, {}), ArgumentError);
   EXPECT_THROW((void)chi2(mixed, RotationError::kLog), ArgumentError);
   PoseGraphOptions bad;

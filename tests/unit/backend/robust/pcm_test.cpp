@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/robust/loop_clusters.h>
-#include <placegraph/backend/robust/loop_leverage.h>
-#include <placegraph/backend/robust/pcm.h>
-#include <placegraph/graph/core/chi_squared.h>
+#include <placegraph/backend/internal/robust/loop_clusters.h>
+#include <placegraph/backend/internal/robust/loop_leverage.h>
+#include <placegraph/backend/internal/robust/pcm.h>
+#include <placegraph/graph/internal/core/chi_squared.h>
 
 #include "tests/support/scenes/looped_walk.h"
 
@@ -14,10 +14,10 @@ using test::LoopedWalk;
 /// A straight line of `n` poses one metre apart, information 100 of everything.
 PoseGraph line(int n) {
   PoseGraph graph;
-  for (int i = 0; i < n; ++i) graph.nodes.push_back({i, SE2(i, 0, 0), false});
+  for (int i = 0; i < n; ++i) graph.nodes.push_back({NodeId(i), SE2(i, 0, 0), false});
   for (int i = 1; i < n; ++i)
-    graph.constraints.emplace_back(RelativePoseConstraint{i - 1,
-                                                          i,
+    graph.constraints.emplace_back(RelativePoseConstraint{NodeId(i - 1),
+                                                          NodeId(i),
                                                           SE2(1, 0, 0),
                                                           Information::Identity(3, 3) * 100.0,
                                                           ConstraintSource::kOdometry,
@@ -27,7 +27,7 @@ PoseGraph line(int n) {
 
 void add_loop(PoseGraph& graph, int from, int to, const SE2& T_from_to) {
   graph.constraints.emplace_back(RelativePoseConstraint{
-      from, to, T_from_to, Information::Identity(3, 3) * 100.0, ConstraintSource::kLoop, {}});
+      NodeId(from), NodeId(to), T_from_to, Information::Identity(3, 3) * 100.0, ConstraintSource::kLoop, {}});
 }
 
 TEST(OdometryChain, AddsUpMotionAndVarianceAlongALine) {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/solver/normal_equations.h>
-#include <placegraph/backend/solver/pose_marginals.h>
+#include <placegraph/backend/internal/solver/normal_equations.h>
+#include <placegraph/backend/internal/solver/pose_marginals.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -24,7 +24,7 @@ PoseGraph walk(int count, Random& random) {
   PoseGraph graph;
   Group T;
   for (int i = 0; i < count; ++i) {
-    graph.nodes.push_back({10 + i, Pose(T)});
+    graph.nodes.push_back({NodeId(10 + i), Pose(T)});
     T = T * random_pose<Group>(random, 1, 0.3);
   }
   const auto add = [&](int i, int j) {
@@ -80,9 +80,9 @@ TYPED_TEST(PoseMarginalsOf, AreBlocksOfTheDenseInverse) {
   const double tolerance = 1e-9 * dense.norm();
   for (int i = 0; i < 14; ++i) {
     const auto expected = dense.block<dof, dof>(i * dof, i * dof);
-    EXPECT_LT((marginals.covariance(10 + i) - expected).norm(), tolerance) << i;
+    EXPECT_LT((marginals.covariance(NodeId(10 + i)) - expected).norm(), tolerance) << i;
   }
-  const Eigen::MatrixXd joint = marginals.joint_covariance({19, 10, 12});
+  const Eigen::MatrixXd joint = marginals.joint_covariance({NodeId(19), NodeId(10), NodeId(12)});
   EXPECT_LT((joint.block<dof, dof>(0, 2 * dof) - dense.block<dof, dof>(9 * dof, 2 * dof)).norm(),
             tolerance);
   EXPECT_EQ((joint.block<dof, dof>(dof, 0).norm()), 0);  // the held node
@@ -107,12 +107,12 @@ TYPED_TEST(PoseMarginalsOf, CarryRelativePosesThroughTheJacobianOfTheirError) {
     J.middleCols(j * dof, dof) = at.J_to;
     return Eigen::MatrixXd(J * dense * J.transpose());
   };
-  EXPECT_LT((marginals.relative_covariance(13, 20) - expected(3, 10)).norm(), 1e-9 * dense.norm());
-  EXPECT_LT((marginals.relative_covariance(10, 15) - expected(0, 5)).norm(), 1e-9 * dense.norm());
+  EXPECT_LT((marginals.relative_covariance(NodeId(13), NodeId(20)) - expected(3, 10)).norm(), 1e-9 * dense.norm());
+  EXPECT_LT((marginals.relative_covariance(NodeId(10), NodeId(15)) - expected(0, 5)).norm(), 1e-9 * dense.norm());
   for (std::size_t k = 0; k < graph.constraints.size(); ++k) {
     const auto& edge = std::get<RelativePoseConstraint>(graph.constraints[k]);
     const Eigen::MatrixXd covariance =
-        expected(static_cast<int>(edge.from) - 10, static_cast<int>(edge.to) - 10);
+        expected(static_cast<int>(edge.from.value()) - 10, static_cast<int>(edge.to.value()) - 10);
     EXPECT_LT((by_constraint[k] - covariance).norm(), 1e-9 * dense.norm()) << k;
   }
 }
@@ -128,14 +128,14 @@ TEST(PoseMarginals, OfAGraphWithOpenDirectionsSaySoAndGiveNothing) {
   graph.constraints.resize(5);
   const PoseMarginals marginals(graph);
   EXPECT_EQ(marginals.outcome().code, Outcome::Code::kDegenerate);
-  EXPECT_THROW((void)marginals.covariance(11), Error);
+  EXPECT_THROW((void)marginals.covariance(NodeId(11)), Error);
   EXPECT_THROW((void)marginals.constraint_covariances(), Error);
 }
 
 TEST(PoseMarginals, RefuseUnknownNodes) {
   Random random = test::seeded_random(6);
   const PoseMarginals marginals(walk<SE3>(5, random));
-  EXPECT_THROW((void)marginals.covariance(4), Error);
+  EXPECT_THROW((void)marginals.covariance(NodeId(4)), Error);
 }
 
 }  // namespace

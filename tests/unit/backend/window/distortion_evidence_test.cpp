@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/window/sliding_window.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/graph/internal/core/random.h>
 
 namespace placegraph {
 namespace {
@@ -31,7 +31,7 @@ SlidingWindow look_about(double k1, bool depth, int views) {
   for (int k = 0; k < 8; ++k) {
     T_map_cam.emplace_back(SO3::exp({0.02 * (k % 3), 0.06 * k - 0.2, 0.03 * (k % 2)}),
                            Eigen::Vector3d(0.1 * k, 0.05 * (k % 3), 0.04 * (k % 2)));
-    window.add_keyframe(k, T_map_cam.back());
+    window.add_keyframe(KeyframeId(k), T_map_cam.back());
   }
   Random random(3);
   for (std::int64_t id = 0; id < 150; ++id) {
@@ -42,11 +42,11 @@ SlidingWindow look_about(double k1, bool depth, int views) {
       const Eigen::Vector3d p_cam = T_map_cam[static_cast<std::size_t>(k)].inverse() * p_map;
       const auto px = lens.project(p_cam);
       if (!px || !lens.contains(*px)) continue;
-      if (!added) window.add_landmark(id, p_map);
+      if (!added) window.add_landmark(LandmarkId(id), p_map);
       added = true;
       WindowObservation o;
-      o.keyframe = k;
-      o.landmark = id;
+      o.keyframe = KeyframeId(k);
+      o.landmark = LandmarkId(id);
       o.px = *px;
       o.sigma_px = 0.5;
       if (depth) {

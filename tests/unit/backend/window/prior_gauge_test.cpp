@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/window/prior_gauge.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/backend/internal/window/prior_gauge.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include <Eigen/Dense>
+
+#include "tests/support/ids.h"
 
 namespace placegraph {
 namespace {
@@ -17,12 +19,12 @@ Eigen::MatrixXd random_matrix(Random& random, Eigen::Index rows, Eigen::Index co
 MarginalPrior full_prior() {
   Random random(71);
   MarginalPrior prior;
-  prior.keyframes = {3, 4};
+  prior.keyframes = test::ids<KeyframeId>({3, 4});
   prior.T_map_cam_lin = {SE3(SO3::exp({0.1, 0.2, 0.3}), Eigen::Vector3d(1, 2, 3)),
                          SE3(SO3::exp({0.2, 0.1, 0.1}), Eigen::Vector3d(1, 2, 5))};
-  prior.planes = {7};
+  prior.planes = {PlaneId(7)};
   prior.plane_lin = {Plane3({0, 1, 0.2}, 1.5)};
-  prior.worlds = {9};
+  prior.worlds = {ManhattanFrameId(9)};
   prior.R_map_world_lin = {SO3::exp({-0.2, 0.1, 0})};
   prior.J = random_matrix(random, 18, 18);
   prior.e = random_matrix(random, 18, 1);
@@ -105,7 +107,7 @@ TEST(PriorGauge, RelativeToItsFirstKeyframeNoLongerResistsCommonMotions) {
       prior.world_columns(0) * (prior.R_map_world_lin[0].inverse() * T_first.rotation()).matrix();
   const auto [H, b] = without(common, 0, 6);
   hold_first(prior);
-  EXPECT_EQ(prior.keyframes, std::vector<std::int64_t>{4});
+  EXPECT_EQ(prior.keyframes, test::ids<KeyframeId>({4}));
   EXPECT_EQ(prior.T_map_cam_lin.size(), 1u);
   EXPECT_LT((prior.J.transpose() * prior.J - H).norm(), 1e-9 * H.norm());
   EXPECT_LT((prior.J.transpose() * prior.e - b).norm(), 1e-9 * b.norm());

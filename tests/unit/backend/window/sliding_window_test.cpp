@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Dense>
@@ -25,8 +25,8 @@ SlidingWindowOptions exact_options() {
 
 void expect_poses(const SlidingWindow& window, const WindowWorld& world, double tolerance_m,
                   double tolerance_rad) {
-  for (const std::int64_t id : window.keyframes()) {
-    const SE3& truth = world.T_map_cam[static_cast<std::size_t>(id)];
+  for (const KeyframeId id : window.keyframes()) {
+    const SE3& truth = world.T_map_cam[static_cast<std::size_t>(id.value())];
     EXPECT_LT(distance_m(window.pose(id), truth), tolerance_m) << "keyframe " << id;
     EXPECT_LT(angle_rad(window.pose(id), truth), tolerance_rad) << "keyframe " << id;
   }
@@ -37,14 +37,15 @@ TEST(SlidingWindow, RecoversAnExactMonoWindowFromOneDistance) {
   const WindowWorld world = make_window_world({}, random);
   SlidingWindow window(exact_options(), world.camera);
   fill_window(window, world, random, 0.05, 0.01, 0.3);
-  add_distance(window, {0, 5, distance_m(world.T_map_cam[0], world.T_map_cam[5]), 0.01});
+  add_distance(window, {KeyframeId(0), KeyframeId(5),
+                        distance_m(world.T_map_cam[0], world.T_map_cam[5]), 0.01});
   const WindowSummary summary = window.optimize();
   ASSERT_TRUE(summary.outcome) << summary.outcome.reason;
   EXPECT_GT(summary.cost_initial, 100);
   EXPECT_LT(summary.cost_final, 1e-12);
   expect_poses(window, world, 1e-7, 1e-8);
   for (std::size_t i = 0; i < world.points.size(); ++i)
-    EXPECT_LT((*window.landmark(static_cast<std::int64_t>(i)) - world.points[i]).norm(), 1e-5);
+    EXPECT_LT((*window.landmark(LandmarkId(i)) - world.points[i]).norm(), 1e-5);
 }
 
 TEST(SlidingWindow, RecoversAnExactStereoWindow) {
@@ -63,14 +64,14 @@ TEST(SlidingWindow, HoldsTheScaleItStartsFromWhereNothingMeasuresIt) {
   const WindowWorld world = make_window_world({}, random);
   SlidingWindow window(exact_options(), world.camera);
   fill_window(window, world, random, 0.05, 0.01, 0.3);
-  const double length_m = distance_m(window.pose(0), window.pose(7));
+  const double length_m = distance_m(window.pose(KeyframeId(0)), window.pose(KeyframeId(7)));
   ASSERT_TRUE(window.optimize().outcome);
-  EXPECT_NEAR(distance_m(window.pose(0), window.pose(7)), length_m, 1e-9);
+  EXPECT_NEAR(distance_m(window.pose(KeyframeId(0)), window.pose(KeyframeId(7))), length_m, 1e-9);
   const double scale = length_m / distance_m(world.T_map_cam[0], world.T_map_cam[7]);
   for (int k = 0; k < 8; ++k) {
     const Eigen::Vector3d expected =
         scale * world.T_map_cam[static_cast<std::size_t>(k)].translation();
-    EXPECT_LT((window.pose(k).translation() - expected).norm(), 1e-7);
+    EXPECT_LT((window.pose(KeyframeId(k)).translation() - expected).norm(), 1e-7);
   }
 }
 
@@ -89,11 +90,11 @@ TEST(SlidingWindow, RelativeInformationIsThatOfAllMeasurementsWithTheRestMargina
     Eigen::VectorXd r(3 * static_cast<Eigen::Index>(world.observations.size()));
     for (std::size_t i = 0; i < world.observations.size(); ++i) {
       const WindowObservation& o = world.observations[i];
-      const SE3 T_map_cam = world.T_map_cam[static_cast<std::size_t>(o.keyframe)] *
-                            SE3::exp(x.segment<6>(6 * o.keyframe));
+      const SE3 T_map_cam = world.T_map_cam[static_cast<std::size_t>(o.keyframe.value())] *
+                            SE3::exp(x.segment<6>(6 * o.keyframe.value()));
       const Eigen::Vector3d p =
-          T_map_cam.inverse() *
-          (world.points[static_cast<std::size_t>(o.landmark)] + x.segment<3>(24 + 3 * o.landmark));
+          T_map_cam.inverse() * (world.points[static_cast<std::size_t>(o.landmark.value())] +
+                                 x.segment<3>(24 + 3 * o.landmark.value()));
       r.segment<2>(3 * static_cast<Eigen::Index>(i)) =
           (*world.camera.project(p) - o.px) / o.sigma_px;
       r[3 * static_cast<Eigen::Index>(i) + 2] =
@@ -116,7 +117,7 @@ TEST(SlidingWindow, RelativeInformationIsThatOfAllMeasurementsWithTheRestMargina
     const Eigen::MatrixXd J_free = J(Eigen::all, columns);
     const Eigen::MatrixXd covariance = (J_free.transpose() * J_free).inverse();
     const Matrix6d expected = covariance.topLeftCorner<6, 6>().inverse();
-    const Matrix6d information = relative_information(window, from, to);
+    const Matrix6d information = relative_information(window, KeyframeId(from), KeyframeId(to));
     EXPECT_LT((information - expected).norm(), 1e-5 * expected.norm()) << from << " " << to;
     EXPECT_LT((information * covariance.topLeftCorner<6, 6>() - Matrix6d::Identity()).norm(), 1e-3);
   }
@@ -131,14 +132,14 @@ TEST(SlidingWindow, RelativeInformationLacksTheScaleOfAMonoWindowUntilADistanceG
   // Right tangent of a change of scale: the translation grows, the rotation does not.
   Vector6d scaling = Vector6d::Zero();
   scaling.head<3>() = T_2_6.rotation().inverse() * T_2_6.translation();
-  const Matrix6d without = relative_information(window, 2, 6);
+  const Matrix6d without = relative_information(window, KeyframeId(2), KeyframeId(6));
   Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(without);
   EXPECT_GE(eigen.eigenvalues()[0], -1e-6 * eigen.eigenvalues()[5]);
   EXPECT_GT(eigen.eigenvalues()[1], 1.0);
   EXPECT_LT(scaling.dot(without * scaling), 1e-6 * scaling.squaredNorm() * eigen.eigenvalues()[1]);
   const double sigma_m = 0.02, length_m = T_2_6.translation().norm();
-  add_distance(window, {2, 6, length_m, sigma_m});
-  const Matrix6d with = relative_information(window, 2, 6);
+  add_distance(window, {KeyframeId(2), KeyframeId(6), length_m, sigma_m});
+  const Matrix6d with = relative_information(window, KeyframeId(2), KeyframeId(6));
   EXPECT_NEAR(scaling.dot(with * scaling), length_m * length_m / (sigma_m * sigma_m), 1e-2);
 }
 
@@ -160,9 +161,9 @@ TEST(SlidingWindow, ErrorsAgreeWithTheRelativeInformation) {
     fill_window(window, world, random, 0.02, 0.002, 0.1);
     ASSERT_TRUE(window.optimize().outcome);
     const SE3 truth = world.T_map_cam[1].inverse() * world.T_map_cam[5];
-    const SE3 estimate = window.pose(1).inverse() * window.pose(5);
+    const SE3 estimate = window.pose(KeyframeId(1)).inverse() * window.pose(KeyframeId(5));
     const Vector6d error = (estimate.inverse() * truth).log();
-    nees += error.dot(relative_information(window, 1, 5) * error) / runs;
+    nees += error.dot(relative_information(window, KeyframeId(1), KeyframeId(5)) * error) / runs;
   }
   // Mean of 30 chi2 of 6 degrees: standard deviation sqrt(12 / 30) = 0.63; 3.5 of them.
   EXPECT_NEAR(nees, 6, 2.2) << "seeds 100 to 129";
@@ -189,16 +190,23 @@ TEST(SlidingWindow, TellsHowWellItHoldsItsUnitWhateverTheGauge) {
       return std::log(distance_m(b, c) / distance_m(a, b));
     };
     const auto& truth = world.T_map_cam;
-    const double error = log_ratio(window.pose(0), window.pose(3), window.pose(6)) -
+    const double error = log_ratio(window.pose(KeyframeId(0)), window.pose(KeyframeId(3)),
+                                   window.pose(KeyframeId(6))) -
                          log_ratio(truth[0], truth[3], truth[6]);
-    const double sigma = sigma_log_length_ratio(window, 0, 3, 6);
+    const double sigma =
+        sigma_log_length_ratio(window, KeyframeId(0), KeyframeId(3), KeyframeId(6));
     nees += error * error / (sigma * sigma * runs);
     if (run > 0) continue;
     // A length that is known makes the unit the metre, not the unit's change smaller.
-    add_distance(window, {0, 6, distance_m(window.pose(0), window.pose(6)), 0.01});
-    EXPECT_NEAR(sigma_log_length_ratio(window, 0, 3, 6), sigma, 0.02 * sigma);
-    EXPECT_THROW((void)sigma_log_length_ratio(window, 0, 3, 3), ArgumentError);
-    EXPECT_THROW((void)sigma_log_length_ratio(window, 0, 3, 9), ArgumentError);
+    add_distance(window,
+                 {KeyframeId(0), KeyframeId(6),
+                  distance_m(window.pose(KeyframeId(0)), window.pose(KeyframeId(6))), 0.01});
+    EXPECT_NEAR(sigma_log_length_ratio(window, KeyframeId(0), KeyframeId(3), KeyframeId(6)), sigma,
+                0.02 * sigma);
+    EXPECT_THROW((void)sigma_log_length_ratio(window, KeyframeId(0), KeyframeId(3), KeyframeId(3)),
+                 ArgumentError);
+    EXPECT_THROW((void)sigma_log_length_ratio(window, KeyframeId(0), KeyframeId(3), KeyframeId(9)),
+                 ArgumentError);
   }
   // Mean of 30 chi2 of one degree: standard deviation sqrt(2 / 30) = 0.26; 3.5 of them.
   EXPECT_NEAR(nees, 1, 0.9) << "seeds 200 to 229";
@@ -220,8 +228,8 @@ TEST(SlidingWindow, HuberSuppressesOutliers) {
     EXPECT_TRUE(window.optimize().outcome);
     double worst = 0;
     for (int k = 0; k < options.keyframes; ++k)
-      worst =
-          std::max(worst, distance_m(window.pose(k), world.T_map_cam[static_cast<std::size_t>(k)]));
+      worst = std::max(worst, distance_m(window.pose(KeyframeId(k)),
+                                         world.T_map_cam[static_cast<std::size_t>(k)]));
     return worst;
   };
   // An outlier pulls like two sigmas, all of them to one side: 0.1 of the points by 1 px, about
@@ -238,17 +246,17 @@ TEST(SlidingWindow, RemovedObservationsAndLandmarksNoLongerCount) {
   world.observations[0].px += Eigen::Vector2d(30, 0);  // landmark 0, keyframe 0
   SlidingWindow window(exact_options(), world.camera);
   fill_window(window, world, random, 0.02, 0.002, 0.1);
-  window.add_landmark(1000, world.points[0]);
+  window.add_landmark(LandmarkId(1000), world.points[0]);
   for (int k = 0; k < 3; ++k) {
     WindowObservation wrong = world.observations[static_cast<std::size_t>(k)];
-    wrong.landmark = 1000;
+    wrong.landmark = LandmarkId(1000);
     wrong.px += Eigen::Vector2d(50 * k, 20);
     window.add_observation(wrong);
   }
-  window.remove_observation(0, 0);
-  window.remove_landmark(1000);
-  EXPECT_EQ(window.observations(0).front().keyframe, 1);
-  EXPECT_FALSE(window.landmark(1000));
+  window.remove_observation(KeyframeId(0), LandmarkId(0));
+  window.remove_landmark(LandmarkId(1000));
+  EXPECT_EQ(window.observations(LandmarkId(0)).front().keyframe, KeyframeId(1));
+  EXPECT_FALSE(window.landmark(LandmarkId(1000)));
   ASSERT_TRUE(window.optimize().outcome);
   expect_poses(window, world, 1e-7, 1e-8);
 }
@@ -262,15 +270,17 @@ TEST(SlidingWindow, ARevisedInverseDepthTakesTheMeasuredOnesPlace) {
   for (WindowObservation& o : biased.observations) *o.inverse_depth += 0.1 / (718 * 0.5);
   SlidingWindow window(exact_options(), world.camera);
   fill_window(window, biased, random, 0.02, 0.002, 0.1);
-  const Matrix6d before = relative_information(window, 0, 1);
+  const Matrix6d before = relative_information(window, KeyframeId(0), KeyframeId(1));
   for (const WindowObservation& o : world.observations)
     window.revise_inverse_depth(o.keyframe, o.landmark, *o.inverse_depth);
   ASSERT_TRUE(window.optimize().outcome);
   expect_poses(window, world, 1e-7, 1e-8);
-  EXPECT_NE(relative_information(window, 0, 1), before);  // of the new state, not the old one's
-  EXPECT_THROW(window.revise_inverse_depth(0, 0, std::nan("")), ArgumentError);
-  EXPECT_THROW(window.revise_inverse_depth(99, 0, 0.1), ArgumentError);
-  EXPECT_THROW(window.revise_inverse_depth(0, 9999, 0.1), ArgumentError);
+  EXPECT_NE(relative_information(window, KeyframeId(0), KeyframeId(1)),
+            before);  // of the new state, not the old one's
+  EXPECT_THROW(window.revise_inverse_depth(KeyframeId(0), LandmarkId(0), std::nan("")),
+               ArgumentError);
+  EXPECT_THROW(window.revise_inverse_depth(KeyframeId(99), LandmarkId(0), 0.1), ArgumentError);
+  EXPECT_THROW(window.revise_inverse_depth(KeyframeId(0), LandmarkId(9999), 0.1), ArgumentError);
 }
 
 TEST(SlidingWindow, APointSeenOnceMovesWithItsKeyframe) {
@@ -281,10 +291,10 @@ TEST(SlidingWindow, APointSeenOnceMovesWithItsKeyframe) {
   SlidingWindow window(exact_options(), world.camera);
   fill_window(window, world, random, 0.05, 0.01, 0.1);
   const Eigen::Vector3d p_cam(1, 0.5, 12);
-  window.add_landmark(500, window.pose(4) * p_cam);
-  window.add_observation({4, 500, *world.camera.project(p_cam), 1, {}, 1});
+  window.add_landmark(LandmarkId(500), window.pose(KeyframeId(4)) * p_cam);
+  window.add_observation({KeyframeId(4), LandmarkId(500), *world.camera.project(p_cam), 1, {}, 1});
   ASSERT_TRUE(window.optimize().outcome);
-  EXPECT_LT((*window.landmark(500) - window.pose(4) * p_cam).norm(), 1e-9);
+  EXPECT_LT((*window.landmark(LandmarkId(500)) - window.pose(KeyframeId(4)) * p_cam).norm(), 1e-9);
 }
 
 TEST(SlidingWindow, APointBehindItsCamerasDisturbsNothing) {
@@ -294,34 +304,35 @@ TEST(SlidingWindow, APointBehindItsCamerasDisturbsNothing) {
   const WindowWorld world = make_window_world(options, random);
   SlidingWindow window(exact_options(), world.camera);
   fill_window(window, world, random, 0.05, 0.01, 0.1);
-  window.add_landmark(500, {0, 0, -40});
-  window.add_landmark(501, world.T_map_cam[3].translation());  // in a camera's centre
+  window.add_landmark(LandmarkId(500), {0, 0, -40});
+  window.add_landmark(LandmarkId(501), world.T_map_cam[3].translation());  // in a camera's centre
   for (const std::int64_t landmark : {500, 501})
     for (const std::int64_t k : {2, 3, 4})
-      window.add_observation({k, landmark, Eigen::Vector2d(600, 180), 1, {}, 1});
+      window.add_observation(
+          {KeyframeId(k), LandmarkId(landmark), Eigen::Vector2d(600, 180), 1, {}, 1});
   ASSERT_TRUE(window.optimize().outcome);
   expect_poses(window, world, 0.05, 0.005);
-  EXPECT_FALSE(residual_px(window, window.observations(500).front()));
-  EXPECT_TRUE(window.landmark(500)->allFinite());
-  EXPECT_TRUE(window.landmark(501)->allFinite());
-  EXPECT_TRUE(relative_information(window, 2, 4).allFinite());
+  EXPECT_FALSE(residual_px(window, window.observations(LandmarkId(500)).front()));
+  EXPECT_TRUE(window.landmark(LandmarkId(500))->allFinite());
+  EXPECT_TRUE(window.landmark(LandmarkId(501))->allFinite());
+  EXPECT_TRUE(relative_information(window, KeyframeId(2), KeyframeId(4)).allFinite());
 }
 
 TEST(SlidingWindow, TellsWhenTheDataAreTooFew) {
   SlidingWindow window({}, test::window_camera());
   EXPECT_EQ(window.optimize().outcome.code, Outcome::Code::kTooFewData);
-  window.add_keyframe(0, SE3());
+  window.add_keyframe(KeyframeId(0), SE3());
   EXPECT_EQ(window.optimize().outcome.code, Outcome::Code::kTooFewData);
   const SE3 T_map_cam(SO3(), Eigen::Vector3d(0, 0, 1));
-  window.add_keyframe(1, T_map_cam);
-  window.add_landmark(7, {0, 0, 10});
-  window.add_observation({0, 7, {600, 180}, 1, {}, 1});
-  window.add_observation({1, 7, {600, 180}, 1, {}, 1});
+  window.add_keyframe(KeyframeId(1), T_map_cam);
+  window.add_landmark(LandmarkId(7), {0, 0, 10});
+  window.add_observation({KeyframeId(0), LandmarkId(7), {600, 180}, 1, {}, 1});
+  window.add_observation({KeyframeId(1), LandmarkId(7), {600, 180}, 1, {}, 1});
   const WindowSummary summary = window.optimize();
   EXPECT_EQ(summary.outcome.code, Outcome::Code::kTooFewData);
   EXPECT_NE(summary.outcome.reason.find("keyframe 1 sees 1"), std::string::npos);
-  EXPECT_EQ(distance_m(window.pose(1), T_map_cam), 0);
-  EXPECT_TRUE(relative_information(window, 0, 1).allFinite());
+  EXPECT_EQ(distance_m(window.pose(KeyframeId(1)), T_map_cam), 0);
+  EXPECT_TRUE(relative_information(window, KeyframeId(0), KeyframeId(1)).allFinite());
 }
 
 TEST(SlidingWindow, CoincidentKeyframesGiveFiniteResults) {
@@ -333,21 +344,20 @@ TEST(SlidingWindow, CoincidentKeyframesGiveFiniteResults) {
   SlidingWindow window({}, world.camera);
   fill_window(window, world, random, 0, 0.001, 0);
   EXPECT_NE(window.optimize().outcome.code, Outcome::Code::kNotAttempted);
-  for (const std::int64_t id : window.keyframes())
-    EXPECT_TRUE(window.pose(id).matrix().allFinite());
-  for (const std::int64_t id : window.landmarks()) EXPECT_TRUE(window.landmark(id)->allFinite());
-  EXPECT_TRUE(relative_information(window, 0, 7).allFinite());
+  for (const KeyframeId id : window.keyframes()) EXPECT_TRUE(window.pose(id).matrix().allFinite());
+  for (const LandmarkId id : window.landmarks()) EXPECT_TRUE(window.landmark(id)->allFinite());
+  EXPECT_TRUE(relative_information(window, KeyframeId(0), KeyframeId(7)).allFinite());
 }
 
 TEST(SlidingWindow, ResidualIsTheReprojectionErrorInPixels) {
   SlidingWindow window({}, test::window_camera());
-  window.add_keyframe(3, SE3());
-  window.add_landmark(9, {1, 0.5, 10});
-  WindowObservation o{3, 9, {0, 0}, 2, {}, 1};
+  window.add_keyframe(KeyframeId(3), SE3());
+  window.add_landmark(LandmarkId(9), {1, 0.5, 10});
+  WindowObservation o{KeyframeId(3), LandmarkId(9), {0, 0}, 2, {}, 1};
   o.px = *test::window_camera().project({1, 0.5, 10}) - Eigen::Vector2d(3, -4);
   window.add_observation(o);
   EXPECT_LT((*residual_px(window, o) - Eigen::Vector2d(3, -4)).norm(), 1e-10);
-  o.landmark = 10;
+  o.landmark = LandmarkId(10);
   EXPECT_FALSE(residual_px(window, o));
 }
 
@@ -360,31 +370,39 @@ TEST(SlidingWindow, RefusesWhatItsContractExcludes) {
   EXPECT_THROW(SlidingWindow({}, distorted), ArgumentError);
 
   SlidingWindow window({}, test::window_camera());
-  window.add_keyframe(5, SE3());
-  window.add_keyframe(6, SE3());
-  window.add_landmark(1, {0, 0, 5});
-  window.add_observation({5, 1, {600, 180}, 1, {}, 1});
+  window.add_keyframe(KeyframeId(5), SE3());
+  window.add_keyframe(KeyframeId(6), SE3());
+  window.add_landmark(LandmarkId(1), {0, 0, 5});
+  window.add_observation({KeyframeId(5), LandmarkId(1), {600, 180}, 1, {}, 1});
   const double nan = std::nan("");
-  EXPECT_THROW(window.add_keyframe(6, SE3()), ArgumentError);
-  EXPECT_THROW(window.add_keyframe(7, SE3(SO3(), Eigen::Vector3d(nan, 0, 0))), ArgumentError);
-  EXPECT_THROW(window.add_landmark(1, {0, 0, 5}), ArgumentError);
-  EXPECT_THROW(window.add_landmark(2, {0, nan, 5}), ArgumentError);
-  EXPECT_THROW(window.add_observation({5, 1, {600, 180}, 1, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({4, 1, {600, 180}, 1, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({6, 2, {600, 180}, 1, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({6, 1, {600, nan}, 1, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({6, 1, {600, 180}, 0, {}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({6, 1, {600, 180}, 1, nan, 1}), ArgumentError);
-  EXPECT_THROW(window.add_observation({6, 1, {600, 180}, 1, {}, 1, Eigen::Matrix2d::Ones()}),
+  EXPECT_THROW(window.add_keyframe(KeyframeId(6), SE3()), ArgumentError);
+  EXPECT_THROW(window.add_keyframe(KeyframeId(7), SE3(SO3(), Eigen::Vector3d(nan, 0, 0))),
                ArgumentError);
-  EXPECT_THROW(add_distance(window, {5, 5, 1, 1}), ArgumentError);
-  EXPECT_THROW(add_distance(window, {5, 6, -1, 1}), ArgumentError);
-  EXPECT_THROW(add_distance(window, {5, 7, 1, 1}), ArgumentError);
-  EXPECT_THROW(window.remove_landmark(2), ArgumentError);
-  EXPECT_THROW(window.remove_observation(6, 1), ArgumentError);
-  EXPECT_THROW(window.pose(4), ArgumentError);
-  EXPECT_THROW(window.observations(4), ArgumentError);
-  EXPECT_THROW((void)relative_information(window, 5, 5), ArgumentError);
+  EXPECT_THROW(window.add_landmark(LandmarkId(1), {0, 0, 5}), ArgumentError);
+  EXPECT_THROW(window.add_landmark(LandmarkId(2), {0, nan, 5}), ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(5), LandmarkId(1), {600, 180}, 1, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(4), LandmarkId(1), {600, 180}, 1, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(6), LandmarkId(2), {600, 180}, 1, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(6), LandmarkId(1), {600, nan}, 1, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(6), LandmarkId(1), {600, 180}, 0, {}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation({KeyframeId(6), LandmarkId(1), {600, 180}, 1, nan, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_observation(
+                   {KeyframeId(6), LandmarkId(1), {600, 180}, 1, {}, 1, Eigen::Matrix2d::Ones()}),
+               ArgumentError);
+  EXPECT_THROW(add_distance(window, {KeyframeId(5), KeyframeId(5), 1, 1}), ArgumentError);
+  EXPECT_THROW(add_distance(window, {KeyframeId(5), KeyframeId(6), -1, 1}), ArgumentError);
+  EXPECT_THROW(add_distance(window, {KeyframeId(5), KeyframeId(7), 1, 1}), ArgumentError);
+  EXPECT_THROW(window.remove_landmark(LandmarkId(2)), ArgumentError);
+  EXPECT_THROW(window.remove_observation(KeyframeId(6), LandmarkId(1)), ArgumentError);
+  EXPECT_THROW(window.pose(KeyframeId(4)), ArgumentError);
+  EXPECT_THROW(window.observations(LandmarkId(4)), ArgumentError);
+  EXPECT_THROW((void)relative_information(window, KeyframeId(5), KeyframeId(5)), ArgumentError);
 }
 
 }  // namespace

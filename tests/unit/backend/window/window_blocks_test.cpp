@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/window/window_blocks.h>
+#include <placegraph/backend/internal/window/window_blocks.h>
 
 #include <limits>
 
@@ -12,11 +12,11 @@ using test::FactorScene;
 
 SlidingWindow window_with_landmarks() {
   SlidingWindow window = FactorScene().window({});
-  window.add_world(3, SO3::exp({0.5, 0, 0}));
-  window.add_line(8, Line3::from_direction({1, 2, 3}, {0, 1, 0}));
-  window.add_line(5, Line3::from_direction({-1, 2, 4}, {1, 1, 0}));
-  window.add_landmark(30, {1, 2, 9});
-  window.add_landmark(4, {-1, 0, 7});
+  window.add_world(ManhattanFrameId(3), SO3::exp({0.5, 0, 0}));
+  window.add_line(LineId(8), Line3::from_direction({1, 2, 3}, {0, 1, 0}));
+  window.add_line(LineId(5), Line3::from_direction({-1, 2, 4}, {1, 1, 0}));
+  window.add_landmark(LandmarkId(30), {1, 2, 9});
+  window.add_landmark(LandmarkId(4), {-1, 0, 7});
   return window;
 }
 
@@ -33,12 +33,12 @@ TEST(WindowBlocks, HoldTheEstimatesInTheOrderOfKindsAndIds) {
     load_block(blocks.variable(k), value);
     EXPECT_LT(minus(value, value_of(state, variable)).norm(), 1e-12) << to_string(variable);
   }
-  EXPECT_EQ(blocks.position(2), 2u);
+  EXPECT_EQ(blocks.position(KeyframeId(2)), 2u);
   EXPECT_EQ((Eigen::Vector3d(Eigen::Map<Eigen::Vector3d>(blocks.point(0)))),
             Eigen::Vector3d(-1, 0, 7));
   EXPECT_EQ((Eigen::Vector3d(Eigen::Map<Eigen::Vector3d>(blocks.point(1)))),
             Eigen::Vector3d(1, 2, 9));
-  EXPECT_LT(VariableBlock<Line3>::load(blocks.line(1)).minus(state.lines.at(8).line_map).norm(),
+  EXPECT_LT(VariableBlock<Line3>::load(blocks.line(1)).minus(state.lines.at(LineId(8)).line_map).norm(),
             1e-12);
 }
 
@@ -46,9 +46,10 @@ TEST(WindowBlocks, LieInOneArrayWhoseAddressesDecideTheOrderOfElimination) {
   const SlidingWindow window = window_with_landmarks();
   WindowBlocks blocks(window.state());
   for (int k = 0; k < 3; ++k)
-    EXPECT_EQ(blocks.at(keyframe_variable(k)) + 7, blocks.at(keyframe_variable(k + 1)));
-  EXPECT_EQ(blocks.at(keyframe_variable(3)) + 7, blocks.at(world_variable(3)));
-  EXPECT_EQ(blocks.at(world_variable(3)) + 4, blocks.at(world_variable(FactorScene::kWorld)));
+    EXPECT_EQ(blocks.at(keyframe_variable(KeyframeId(k))) + 7,
+              blocks.at(keyframe_variable(KeyframeId(k + 1))));
+  EXPECT_EQ(blocks.at(keyframe_variable(KeyframeId(3))) + 7, blocks.at(world_variable(ManhattanFrameId(3))));
+  EXPECT_EQ(blocks.at(world_variable(ManhattanFrameId(3))) + 4, blocks.at(world_variable(FactorScene::kWorld)));
   EXPECT_EQ(blocks.at(world_variable(FactorScene::kWorld)) + 4, blocks.line(0));
   EXPECT_EQ(blocks.line(1) + 5, blocks.at(plane_variable(FactorScene::kPlane)));
 }
@@ -60,7 +61,7 @@ TEST(WindowBlocks, AreFiniteUnlessANumberIsNot) {
   *blocks.point(1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(blocks.finite());
   *blocks.point(1) = 0;
-  blocks.at(world_variable(3))[2] = std::numeric_limits<double>::infinity();
+  blocks.at(world_variable(ManhattanFrameId(3)))[2] = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(blocks.finite());
 }
 

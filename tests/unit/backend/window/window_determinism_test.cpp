@@ -42,11 +42,12 @@ TEST(WindowDeterminism, TheSameBitsComeFromAnyLayoutOfTheHeap) {
     const std::vector<std::vector<char>> held = scattered_heap(random);
     const SlidingWindow window = drive_window(world, drive, 3);
     ASSERT_EQ(first.keyframes(), window.keyframes());
-    for (const std::int64_t id : first.keyframes())
+    for (const KeyframeId id : first.keyframes())
       EXPECT_EQ(first.pose(id).matrix(), window.pose(id).matrix()) << "layout " << layout;
-    for (const std::int64_t id : first.landmarks())
+    for (const LandmarkId id : first.landmarks())
       EXPECT_EQ(*first.landmark(id), *window.landmark(id)) << "layout " << layout;
-    EXPECT_EQ(relative_information(first, 7, 9), relative_information(window, 7, 9));
+    EXPECT_EQ(relative_information(first, KeyframeId(7), KeyframeId(9)),
+              relative_information(window, KeyframeId(7), KeyframeId(9)));
   }
 }
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/window/window_equations.h>
+#include <placegraph/backend/internal/window/window_equations.h>
 
 #include <Eigen/Dense>
 
@@ -15,13 +15,14 @@ using test::motion_information;
 void move(WindowState& state, const WindowVariable& variable, const Eigen::VectorXd& xi) {
   switch (variable.kind) {
     case WindowVariable::Kind::kPlane:
-      state.planes.at(variable.id) = state.planes.at(variable.id).plus(xi);
+      state.planes.at(PlaneId(variable.id)) = state.planes.at(PlaneId(variable.id)).plus(xi);
       break;
     case WindowVariable::Kind::kWorld:
-      state.worlds.at(variable.id) = state.worlds.at(variable.id).plus(xi);
+      state.worlds.at(ManhattanFrameId(variable.id)) = state.worlds.at(ManhattanFrameId(variable.id)).plus(xi);
       break;
     default:
-      state.keyframes.at(variable.id) = state.keyframes.at(variable.id).plus(xi);
+      state.keyframes.at(KeyframeId(variable.id)) =
+          state.keyframes.at(KeyframeId(variable.id)).plus(xi);
   }
 }
 
@@ -49,8 +50,9 @@ TEST(WindowEquations, AreTheNormalEquationsOfAFactorOfEveryKind) {
   const SlidingWindow window = scene.window(options);
   const WindowState& state = window.state();
   const std::vector<WindowVariable> variables{
-      world_variable(FactorScene::kWorld), keyframe_variable(2),
-      plane_variable(FactorScene::kPlane), keyframe_variable(1), keyframe_variable(0)};
+      world_variable(FactorScene::kWorld), keyframe_variable(KeyframeId(2)),
+      plane_variable(FactorScene::kPlane), keyframe_variable(KeyframeId(1)),
+      keyframe_variable(KeyframeId(0))};
   for (const auto& [name, factor] : factors_of_every_kind(scene)) {
     WindowEquations equations(state, variables, false);
     equations.add(factor);
@@ -69,8 +71,10 @@ TEST(WindowEquations, HaveNoColumnsOfAVariableThatIsNotAskedFor) {
   const FactorScene scene;
   const SlidingWindow window = scene.window({});
   for (const auto& [name, factor] : factors_of_every_kind(scene)) {
-    WindowEquations all(window.state(), {keyframe_variable(0), keyframe_variable(1)}, false);
-    WindowEquations one(window.state(), {keyframe_variable(1)}, false);
+    WindowEquations all(window.state(),
+                        {keyframe_variable(KeyframeId(0)), keyframe_variable(KeyframeId(1))},
+                        false);
+    WindowEquations one(window.state(), {keyframe_variable(KeyframeId(1))}, false);
     all.add(factor);
     one.add(factor);
     EXPECT_TRUE(all.form.H.leftCols<6>().isZero(0)) << name << " is not of keyframe 0";
@@ -84,11 +88,12 @@ TEST(WindowEquations, TakeDerivativesAtTheFirstEstimateAndResidualsAtTheLast) {
   // residual of the estimate.
   const FactorScene scene;
   SlidingWindow window = scene.window({});
-  const WindowVariable keyframe = keyframe_variable(1), plane = plane_variable(FactorScene::kPlane);
+  const WindowVariable keyframe = keyframe_variable(KeyframeId(1)),
+                       plane = plane_variable(FactorScene::kPlane);
   const std::vector<WindowVariable> variables{keyframe, plane};
   for (const auto& [name, factor] : factors_of_every_kind(scene)) {
     WindowState state = window.state();
-    state.prior.keyframes = {1};
+    state.prior.keyframes = {KeyframeId(1)};
     state.prior.T_map_cam_lin = {scene.T_map_cam[1]};
     state.prior.planes = {FactorScene::kPlane};
     state.prior.plane_lin = {scene.plane};
@@ -115,18 +120,19 @@ TEST(WindowEquations, TakeDerivativesAtTheFirstEstimateAndResidualsAtTheLast) {
 TEST(WindowEquations, HoldThePriorAsItStandsWithFirstEstimates) {
   const FactorScene scene;
   WindowState state = scene.window({}).state();
-  state.prior.keyframes = {1};
+  state.prior.keyframes = {KeyframeId(1)};
   state.prior.T_map_cam_lin = {scene.T_map_cam[1]};
   state.prior.J = Eigen::MatrixXd::Random(4, 6);
   state.prior.e = Eigen::VectorXd::Random(4);
-  move(state, keyframe_variable(1), Vector6d::Constant(0.1));
-  WindowEquations linear(state, {keyframe_variable(1)}, true);
+  move(state, keyframe_variable(KeyframeId(1)), Vector6d::Constant(0.1));
+  WindowEquations linear(state, {keyframe_variable(KeyframeId(1))}, true);
   linear.add_prior();
   EXPECT_LT((linear.form.H - state.prior.J.transpose() * state.prior.J).norm(), 1e-12);
   EXPECT_LT((linear.form.b - state.prior.J.transpose() * state.prior.e).norm(), 1e-12);
-  EXPECT_TRUE(std::holds_alternative<SE3>(linear.linearization_point(keyframe_variable(1))));
+  EXPECT_TRUE(
+      std::holds_alternative<SE3>(linear.linearization_point(keyframe_variable(KeyframeId(1)))));
   // Without them it is linearized at the estimate, which has moved by 0.1.
-  WindowEquations anew(state, {keyframe_variable(1)}, false);
+  WindowEquations anew(state, {keyframe_variable(KeyframeId(1))}, false);
   anew.add_prior();
   const Eigen::VectorXd r = state.prior.e + state.prior.J * Vector6d::Constant(0.1);
   const Matrix6d J_delta = SE3::right_jacobian_inverse(Vector6d::Constant(0.1));

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <typeinfo>
 
+#include "tests/support/ids.h"
 #include "tests/support/scenes/window_factors.h"
 
 namespace placegraph {
@@ -31,7 +32,8 @@ SlidingWindowOptions exact_options(int max_keyframes = 20) {
 void add_chain(SlidingWindow& window, const FactorScene& scene) {
   for (std::size_t k = 1; k < scene.T_map_cam.size(); ++k) {
     const auto to = static_cast<std::int64_t>(k);
-    add_motion(window, {to - 1, to, scene.motion(k - 1, k), motion_information()});
+    add_motion(window,
+               {KeyframeId(to - 1), KeyframeId(to), scene.motion(k - 1, k), motion_information()});
   }
 }
 
@@ -41,9 +43,10 @@ void add_sightings(SlidingWindow& window, const FactorScene& scene) {
   for (const std::size_t k : {2, 3}) {
     const auto id = static_cast<std::int64_t>(k);
     const SE3& T = scene.T_map_cam[k];
-    add_plane_observation(window, {id, FactorScene::kPlane, transform_to(T, scene.plane), I});
-    add_world_observation(window,
-                          {id, FactorScene::kWorld, T.rotation().inverse() * scene.R_map_world, I});
+    add_plane_observation(window,
+                          {KeyframeId(id), FactorScene::kPlane, transform_to(T, scene.plane), I});
+    add_world_observation(window, {KeyframeId(id), FactorScene::kWorld,
+                                   T.rotation().inverse() * scene.R_map_world, I});
   }
 }
 
@@ -138,7 +141,7 @@ TEST(WindowFactor, OfEveryKindIsForgottenOnceItIsRemoved) {
   for (const auto& [name, factor] : factors_of_every_kind(scene)) {
     SlidingWindow window = scene.window(exact_options());
     add_chain(window, scene);
-    const Matrix6d without = relative_information(window, 1, 2);
+    const Matrix6d without = relative_information(window, KeyframeId(1), KeyframeId(2));
     window.add(factor);
     const WindowFactor twin = transformed(factor, Sim3());
     window.add(twin);
@@ -147,7 +150,7 @@ TEST(WindowFactor, OfEveryKindIsForgottenOnceItIsRemoved) {
     EXPECT_THROW(window.remove(twin), ArgumentError);
     window.remove(factor);
     EXPECT_EQ(window.factors().size(), 3u);
-    EXPECT_EQ(relative_information(window, 1, 2), without) << name;
+    EXPECT_EQ(relative_information(window, KeyframeId(1), KeyframeId(2)), without) << name;
   }
 }
 
@@ -164,17 +167,20 @@ TEST(WindowFactor, OfEveryKindGoesIntoThePriorWithTheFirstOfItsKeyframesThatLeav
       window->add(factor);
       ASSERT_TRUE(window->optimize().outcome);
     }
-    EXPECT_EQ(few.marginalize(), (std::vector<std::int64_t>{0, 1})) << name;
+    EXPECT_EQ(few.marginalize(), test::ids<KeyframeId>({0, 1})) << name;
     EXPECT_FALSE(contains(few, factor)) << name;
-    const Matrix6d expected = relative_information(all, 2, 3);
-    EXPECT_LT((relative_information(few, 2, 3) - expected).norm(), 1e-6 * expected.norm()) << name;
+    const Matrix6d expected = relative_information(all, KeyframeId(2), KeyframeId(3));
+    EXPECT_LT((relative_information(few, KeyframeId(2), KeyframeId(3)) - expected).norm(),
+              1e-6 * expected.norm())
+        << name;
     SE3 pulled = scene.motion(2, 3).plus((Vector6d() << 1e-3, 0, 1e-3, 0, 1e-3, 0).finished());
     for (SlidingWindow* const window : {&all, &few}) {
-      add_motion(*window, {2, 3, pulled, motion_information()});
+      add_motion(*window, {KeyframeId(2), KeyframeId(3), pulled, motion_information()});
       ASSERT_TRUE(window->optimize().outcome);
     }
     for (const std::int64_t k : {2, 3})
-      EXPECT_LT(distance_m(few.pose(k), all.pose(k)), 2e-5) << name << ", keyframe " << k;
+      EXPECT_LT(distance_m(few.pose(KeyframeId(k)), all.pose(KeyframeId(k))), 2e-5)
+          << name << ", keyframe " << k;
   }
 }
 
@@ -200,7 +206,7 @@ TEST(WindowFactor, OfAKindThatNobodyKnowsKeepsItsPlaneAndMovesTheKeyframe) {
   add_chain(window, scene);
   const WindowFactor step = factors_of_every_kind(scene).back().second;
   window.add(step);
-  EXPECT_EQ(window.marginalize(), std::vector<std::int64_t>{0});
+  EXPECT_EQ(window.marginalize(), test::ids<KeyframeId>({0}));
   EXPECT_TRUE(window.plane(FactorScene::kPlane)) << "its measurement is of keyframes 1 and 2";
   EXPECT_THROW(window.rescale(2), ArgumentError) << "it is a length";
 }
@@ -211,18 +217,18 @@ TEST(WindowFactor, BetweenPlanesAloneHoldsNoneOfThemAndLeavesWithThem) {
   add_chain(window, scene);
   const Eigen::Matrix3d I = 1e4 * Eigen::Matrix3d::Identity();
   const Plane3 wall({1, -0.3, 0}, 2);
-  window.add_plane(11, wall);
-  add_plane_observation(window,
-                        {0, FactorScene::kPlane, transform_to(scene.T_map_cam[0], scene.plane), I});
-  add_plane_observation(window, {2, 11, transform_to(scene.T_map_cam[2], wall), I});
+  window.add_plane(PlaneId(11), wall);
+  add_plane_observation(window, {KeyframeId(0), FactorScene::kPlane,
+                                 transform_to(scene.T_map_cam[0], scene.plane), I});
+  add_plane_observation(window, {KeyframeId(2), PlaneId(11), transform_to(scene.T_map_cam[2], wall), I});
   window.add({std::make_shared<PlaneOrthogonalFactor>(0.01),
-              {plane_variable(FactorScene::kPlane), plane_variable(11)}});
-  const Eigen::Matrix3d before = *plane_covariance(window, 11, 3);
+              {plane_variable(FactorScene::kPlane), plane_variable(PlaneId(11))}});
+  const Eigen::Matrix3d before = *plane_covariance(window, PlaneId(11), KeyframeId(3));
   window.marginalize();
-  EXPECT_EQ(window.planes(), std::vector<std::int64_t>{11});
+  EXPECT_EQ(window.planes(), std::vector{PlaneId(11)});
   for (const WindowFactor& factor : window.factors())
     EXPECT_FALSE(touches(factor, plane_variable(FactorScene::kPlane)));
-  EXPECT_LT((*plane_covariance(window, 11, 3) - before).norm(), 1e-6 * before.norm())
+  EXPECT_LT((*plane_covariance(window, PlaneId(11), KeyframeId(3)) - before).norm(), 1e-6 * before.norm())
       << "what it says of the plane that stays is in the prior";
 }
 
@@ -247,24 +253,29 @@ TEST(WindowFactor, MustFitItsVariablesAndSayWhatItBecomesInAnotherFrame) {
     return "";
   };
   EXPECT_NE(refusal({nullptr, {}}).find("no factor"), std::string::npos);
-  EXPECT_NE(refusal({distance, {keyframe_variable(0)}}).find("takes 2 variables, not 1"),
-            std::string::npos);
-  EXPECT_NE(refusal({distance, {keyframe_variable(0), plane_variable(FactorScene::kPlane)}})
-                .find("another kind than plane 10"),
-            std::string::npos);
   EXPECT_NE(
-      refusal({distance, {keyframe_variable(1), keyframe_variable(1)}}).find("keyframe 1 repeats"),
+      refusal({distance, {keyframe_variable(KeyframeId(0))}}).find("takes 2 variables, not 1"),
       std::string::npos);
-  EXPECT_NE(refusal({distance, {keyframe_variable(1), keyframe_variable(7)}})
-                .find("keyframe 7 is not in the window"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal({distance, {keyframe_variable(KeyframeId(0)), plane_variable(FactorScene::kPlane)}})
+          .find("another kind than plane 10"),
+      std::string::npos);
+  EXPECT_NE(
+      refusal({distance, {keyframe_variable(KeyframeId(1)), keyframe_variable(KeyframeId(1))}})
+          .find("keyframe 1 repeats"),
+      std::string::npos);
+  EXPECT_NE(
+      refusal({distance, {keyframe_variable(KeyframeId(1)), keyframe_variable(KeyframeId(7))}})
+          .find("keyframe 7 is not in the window"),
+      std::string::npos);
   class Still final : public SizedFactor<1, SE3> {
     bool compute(const SE3&, Residual& r, Jacobians*) const override {
       r.setZero();
       return true;
     }
   };
-  EXPECT_NE(refusal({std::make_shared<Still>(), {keyframe_variable(1)}}).find("another frame"),
+  EXPECT_NE(refusal({std::make_shared<Still>(), {keyframe_variable(KeyframeId(1))}})
+                .find("another frame"),
             std::string::npos);
   EXPECT_TRUE(window.factors().empty());
 }
@@ -273,11 +284,12 @@ TEST(WindowFactor, OfFullRankAloneDeterminesAKeyframeWithoutLandmarks) {
   const FactorScene scene;
   for (const bool full : {true, false}) {
     SlidingWindow window({}, test::window_camera());
-    window.add_keyframe(0, scene.T_map_cam[0]);
-    window.add_keyframe(1, scene.T_map_cam[1]);
+    window.add_keyframe(KeyframeId(0), scene.T_map_cam[0]);
+    window.add_keyframe(KeyframeId(1), scene.T_map_cam[1]);
     Matrix6d information = motion_information();
     if (!full) information.row(2).setZero(), information.col(2).setZero();
-    add_motion(window, {0, 1, scene.motion(0, 1).plus(Vector6d::Constant(0.01)), information});
+    add_motion(window, {KeyframeId(0), KeyframeId(1),
+                        scene.motion(0, 1).plus(Vector6d::Constant(0.01)), information});
     const WindowSummary summary = window.optimize();
     EXPECT_EQ(summary.outcome.code == Outcome::Code::kOk, full) << summary.outcome.reason;
     if (!full) {
@@ -289,13 +301,13 @@ TEST(WindowFactor, OfFullRankAloneDeterminesAKeyframeWithoutLandmarks) {
 TEST(WindowFactor, OfOneKeyframeAndFullRankTakesThePlaceOfHoldingIt) {
   const FactorScene scene;
   SlidingWindow window = scene.window({});
-  add_pose_prior(window, {1, scene.T_map_cam[1], motion_information()});
-  EXPECT_EQ(window.state().fixed, 0) << "of another keyframe";
+  add_pose_prior(window, {KeyframeId(1), scene.T_map_cam[1], motion_information()});
+  EXPECT_EQ(window.state().fixed, KeyframeId(0)) << "of another keyframe";
   Matrix6d rotation = Matrix6d::Zero();
   rotation.bottomRightCorner<3, 3>().setIdentity();
-  add_pose_prior(window, {0, scene.T_map_cam[0], rotation});
-  EXPECT_EQ(window.state().fixed, 0) << "of the rotation alone";
-  add_pose_prior(window, {0, scene.T_map_cam[0], motion_information()});
+  add_pose_prior(window, {KeyframeId(0), scene.T_map_cam[0], rotation});
+  EXPECT_EQ(window.state().fixed, KeyframeId(0)) << "of the rotation alone";
+  add_pose_prior(window, {KeyframeId(0), scene.T_map_cam[0], motion_information()});
   EXPECT_FALSE(window.state().fixed);
 }
 
@@ -309,17 +321,17 @@ TEST(WindowFactor, SaysWhetherItMeasuresTheUnitOfLength) {
   }
   // One position in a map that nothing else holds says where the window lies, two give a length.
   SlidingWindow floating = scene.window({});
-  add_pose_prior(floating, {0, scene.T_map_cam[0], motion_information()});
+  add_pose_prior(floating, {KeyframeId(0), scene.T_map_cam[0], motion_information()});
   EXPECT_FALSE(has_metric_observation(floating.state()));
-  add_pose_prior(floating, {1, scene.T_map_cam[1], motion_information()});
+  add_pose_prior(floating, {KeyframeId(1), scene.T_map_cam[1], motion_information()});
   EXPECT_TRUE(has_metric_observation(floating.state()));
   // Two heights say nothing until three points hold the plane where they are.
   SlidingWindow window = scene.window({});
   window.add(factors_of_every_kind(scene)[1].second);
   for (int i = 0; i < 3; ++i) {
     EXPECT_FALSE(has_metric_observation(window.state()));
-    window.add_landmark(i, Eigen::Vector3d(i, 0, 5));
-    window.add_plane_point({FactorScene::kPlane, i, 0.02});
+    window.add_landmark(LandmarkId(i), Eigen::Vector3d(i, 0, 5));
+    window.add_plane_point({FactorScene::kPlane, LandmarkId(i), 0.02});
   }
   EXPECT_TRUE(has_metric_observation(window.state()));
 }

@@ -41,20 +41,22 @@ SlidingWindow drive(const WindowWorld& world, WindowDrive options, const Sights&
     const auto id = static_cast<std::int64_t>(k);
     SE3 T_map_cam = world.T_map_cam[k];
     if (k > 0)
-      T_map_cam = window.pose(id - 1) * (world.T_map_cam[k - 1].inverse() * world.T_map_cam[k]) *
+      T_map_cam = window.pose(KeyframeId(id - 1)) *
+                  (world.T_map_cam[k - 1].inverse() * world.T_map_cam[k]) *
                   test::random_motion(random, 0.02, 0.002);
-    window.add_keyframe(id, T_map_cam);
-    add_view(window, world, id, 1, random);
+    window.add_keyframe(KeyframeId(id), T_map_cam);
+    add_view(window, world, KeyframeId(id), 1, random);
     if (k == 0) {
-      window.add_world(7, kR_map_world * SO3::exp({0.02, 0.01, -0.01}));
-      window.keep(world_variable(7), sights.kept);
+      window.add_world(ManhattanFrameId(7), kR_map_world * SO3::exp({0.02, 0.01, -0.01}));
+      window.keep(world_variable(ManhattanFrameId(7)), sights.kept);
     }
-    if (k == 1 && sights.held) window.hold_world(7);
+    if (k == 1 && sights.held) window.hold_world(ManhattanFrameId(7));
     Eigen::Vector3d error;
     for (int i = 0; i < 3; ++i) error[i] = noise * sights.sigma_rad * random.normal();
     if (id <= sights.last)
       add_world_observation(
-          window, {id, 7, world.T_map_cam[k].rotation().inverse() * kR_map_world * SO3::exp(error),
+          window, {KeyframeId(id), ManhattanFrameId(7),
+                   world.T_map_cam[k].rotation().inverse() * kR_map_world * SO3::exp(error),
                    Eigen::Matrix3d::Identity() / (sights.sigma_rad * sights.sigma_rad)});
     if (k > 0) {
       const WindowSummary summary = window.optimize();
@@ -71,8 +73,8 @@ TEST(WindowWorlds, AreFoundWhereTheirSightingsSay) {
   options.noise_px = 0;
   const WindowWorld world = make_window_world(options, random);
   const SlidingWindow window = drive(world, WindowDrive::exact(20), {}, 0);
-  EXPECT_LT((window.world(7)->inverse() * kR_map_world).log().norm(), 1e-6);
-  EXPECT_LT(distance_m(window.pose(11), world.T_map_cam[11]), 1e-5);
+  EXPECT_LT((window.world(ManhattanFrameId(7))->inverse() * kR_map_world).log().norm(), 1e-6);
+  EXPECT_LT(distance_m(window.pose(KeyframeId(11)), world.T_map_cam[11]), 1e-5);
 }
 
 TEST(WindowWorlds, LeaveTheSamePosesInThePriorAsInTheBatch) {
@@ -85,25 +87,27 @@ TEST(WindowWorlds, LeaveTheSamePosesInThePriorAsInTheBatch) {
   const SlidingWindow window = drive(world, WindowDrive::exact(5), sights, 0.1);
   const SlidingWindow batch = drive(world, WindowDrive::exact(100), sights, 0.1);
   ASSERT_EQ(window.keyframes().size(), 5u);
-  for (const std::int64_t id : window.keyframes()) {
+  for (const KeyframeId id : window.keyframes()) {
     EXPECT_LT(distance_m(window.pose(id), batch.pose(id)), 1e-5);
     EXPECT_LT(angle_rad(window.pose(id), batch.pose(id)), 1e-6);
   }
-  EXPECT_LT((window.world(7)->inverse() * *batch.world(7)).log().norm(), 1e-6);
-  const Matrix6d a = relative_information(window, 7, 9), b = relative_information(batch, 7, 9);
+  EXPECT_LT((window.world(ManhattanFrameId(7))->inverse() * *batch.world(ManhattanFrameId(7))).log().norm(), 1e-6);
+  const Matrix6d a = relative_information(window, KeyframeId(7), KeyframeId(9)),
+                 b = relative_information(batch, KeyframeId(7), KeyframeId(9));
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
-  const Eigen::Matrix3d p = *world_covariance(window, 7, 11), q = *world_covariance(batch, 7, 11);
+  const Eigen::Matrix3d p = *world_covariance(window, ManhattanFrameId(7), KeyframeId(11)),
+                        q = *world_covariance(batch, ManhattanFrameId(7), KeyframeId(11));
   EXPECT_LT((p - q).norm(), 0.05 * q.norm());
 }
 
 TEST(WindowWorlds, AreKnownFromAHeldKeyframeAsItsSightingIs) {
   SlidingWindow window({}, test::window_camera());
-  window.add_keyframe(0, SE3());
-  window.add_world(3, kR_map_world);
-  EXPECT_FALSE(world_covariance(window, 3, 0));
+  window.add_keyframe(KeyframeId(0), SE3());
+  window.add_world(ManhattanFrameId(3), kR_map_world);
+  EXPECT_FALSE(world_covariance(window, ManhattanFrameId(3), KeyframeId(0)));
   const Eigen::Vector3d information(1e4, 4e4, 9e4);
-  add_world_observation(window, {0, 3, kR_map_world, information.asDiagonal()});
-  const Eigen::Matrix3d covariance = *world_covariance(window, 3, 0);
+  add_world_observation(window, {KeyframeId(0), ManhattanFrameId(3), kR_map_world, information.asDiagonal()});
+  const Eigen::Matrix3d covariance = *world_covariance(window, ManhattanFrameId(3), KeyframeId(0));
   EXPECT_LT((covariance.diagonal() - information.cwiseInverse()).norm(), 1e-10);
   EXPECT_NEAR(covariance(0, 1), 0, 1e-12);
 }
@@ -116,11 +120,11 @@ TEST(WindowWorlds, LeaveWithTheLastKeyframeThatSawThemUnlessTheyAreKept) {
   EXPECT_TRUE(drive(world, WindowDrive::exact(5), sights, 1).worlds().empty());
   sights.kept = true;
   SlidingWindow window = drive(world, WindowDrive::exact(5), sights, 1);
-  EXPECT_EQ(window.worlds(), std::vector<std::int64_t>{7});
+  EXPECT_EQ(window.worlds(), std::vector{ManhattanFrameId(7)});
   // Unseen for a while it is known less well than a keyframe that sees it knows it.
-  const Eigen::Matrix3d unseen = *world_covariance(window, 7, 11);
+  const Eigen::Matrix3d unseen = *world_covariance(window, ManhattanFrameId(7), KeyframeId(11));
   const SlidingWindow seen = drive(world, WindowDrive::exact(5), {}, 1);
-  EXPECT_GT(unseen.trace(), world_covariance(seen, 7, 11)->trace());
+  EXPECT_GT(unseen.trace(), world_covariance(seen, ManhattanFrameId(7), KeyframeId(11))->trace());
   EXPECT_LT(std::sqrt(unseen.trace()), 0.03);
 }
 
@@ -135,13 +139,13 @@ TEST(WindowWorlds, HoldingOneMovesTheWindowAsAWholeOnly) {
     const SlidingWindow free = drive(world, options, sights, 1);
     sights.held = true;
     const SlidingWindow held = drive(world, options, sights, 1);
-    const SE3 T_held_free = held.pose(11) * free.pose(11).inverse();
+    const SE3 T_held_free = held.pose(KeyframeId(11)) * free.pose(KeyframeId(11)).inverse();
     EXPECT_GT(T_held_free.log().norm(), 1e-5);
-    for (const std::int64_t id : held.keyframes())
+    for (const KeyframeId id : held.keyframes())
       EXPECT_LT(distance_m(T_held_free * free.pose(id), held.pose(id)), 1e-4) << "keyframe " << id;
     // From the second keyframe on it was not moved.
     const SO3 R_map_world = kR_map_world * SO3::exp({0.02, 0.01, -0.01});
-    EXPECT_LT((held.world(7)->inverse() * R_map_world).log().norm(), 1e-9);
+    EXPECT_LT((held.world(ManhattanFrameId(7))->inverse() * R_map_world).log().norm(), 1e-9);
   }
 }
 
@@ -158,13 +162,13 @@ TEST(WindowWorlds, BoundTheDriftOfTheHeading) {
     short_window.options.hold_oldest = true;
     const Sights seen{3e-4, 100, true, true};
     const auto error = [&](const SlidingWindow& window, const SO3& R_world) {
-      const SO3 R = R_world.inverse() * window.pose(19).rotation();
+      const SO3 R = R_world.inverse() * window.pose(KeyframeId(19)).rotation();
       return (R.inverse() * kR_map_world.inverse() * world.T_map_cam[19].rotation())
           .log()
           .squaredNorm();
     };
     const SlidingWindow a = drive(world, short_window, seen, 1);
-    with += error(a, *a.world(7));
+    with += error(a, *a.world(ManhattanFrameId(7)));
     const SlidingWindow b = drive(world, short_window, {3e-4, -1, false, false}, 1);
     without += error(b, kR_map_world);
   }
@@ -173,18 +177,18 @@ TEST(WindowWorlds, BoundTheDriftOfTheHeading) {
 
 TEST(WindowWorlds, FaultyOnesAreRefused) {
   SlidingWindow window({}, test::window_camera());
-  window.add_keyframe(0, SE3());
-  window.add_world(1, SO3());
-  EXPECT_THROW(window.add_world(1, SO3()), ArgumentError);
+  window.add_keyframe(KeyframeId(0), SE3());
+  window.add_world(ManhattanFrameId(1), SO3());
+  EXPECT_THROW(window.add_world(ManhattanFrameId(1), SO3()), ArgumentError);
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  EXPECT_THROW(add_world_observation(window, {5, 1, SO3(), I}), ArgumentError);
-  EXPECT_THROW(add_world_observation(window, {0, 2, SO3(), I}), ArgumentError);
-  EXPECT_THROW(add_world_observation(window, {0, 1, SO3(), -I}), ArgumentError);
-  EXPECT_THROW(add_world_observation(window, {0, 1, SO3(), 0 * I}), ArgumentError);
-  EXPECT_THROW(window.keep(world_variable(2)), ArgumentError);
-  EXPECT_THROW(window.hold_world(2), ArgumentError);
-  EXPECT_FALSE(window.world(2));
-  EXPECT_EQ(window.worlds(), std::vector<std::int64_t>{1});
+  EXPECT_THROW(add_world_observation(window, {KeyframeId(5), ManhattanFrameId(1), SO3(), I}), ArgumentError);
+  EXPECT_THROW(add_world_observation(window, {KeyframeId(0), ManhattanFrameId(2), SO3(), I}), ArgumentError);
+  EXPECT_THROW(add_world_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), -I}), ArgumentError);
+  EXPECT_THROW(add_world_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), 0 * I}), ArgumentError);
+  EXPECT_THROW(window.keep(world_variable(ManhattanFrameId(2))), ArgumentError);
+  EXPECT_THROW(window.hold_world(ManhattanFrameId(2)), ArgumentError);
+  EXPECT_FALSE(window.world(ManhattanFrameId(2)));
+  EXPECT_EQ(window.worlds(), std::vector{ManhattanFrameId(1)});
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/graph/core/error.h>
 
 #include <Eigen/Eigenvalues>
 
+#include "tests/support/ids.h"
 #include "tests/support/scenes/window_world.h"
 
 namespace placegraph {
@@ -40,14 +41,16 @@ TEST(WindowMarginalization, GivesTheSameNewestPosesAsTheWholeBatch) {
   const WindowWorld world = make_window_world(stereo_world(0.01), random);
   const SlidingWindow window = drive(world, 5, 2);
   const SlidingWindow batch = drive(world, 100, 2);
-  ASSERT_EQ(window.keyframes(), (std::vector<std::int64_t>{7, 8, 9, 10, 11}));
+  ASSERT_EQ(window.keyframes(), test::ids<KeyframeId>({7, 8, 9, 10, 11}));
   ASSERT_EQ(batch.keyframes().size(), 12u);
-  EXPECT_GT(distance_m(batch.pose(11), world.T_map_cam[11]), 5e-5);  // the noise is felt
-  for (const std::int64_t id : window.keyframes()) {
+  EXPECT_GT(distance_m(batch.pose(KeyframeId(11)), world.T_map_cam[11]),
+            5e-5);  // the noise is felt
+  for (const KeyframeId id : window.keyframes()) {
     EXPECT_LT(distance_m(window.pose(id), batch.pose(id)), 2e-6);
     EXPECT_LT(angle_rad(window.pose(id), batch.pose(id)), 2e-7);
   }
-  const Matrix6d a = relative_information(window, 8, 11), b = relative_information(batch, 8, 11);
+  const Matrix6d a = relative_information(window, KeyframeId(8), KeyframeId(11)),
+                 b = relative_information(batch, KeyframeId(8), KeyframeId(11));
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
 }
 
@@ -56,8 +59,9 @@ TEST(WindowMarginalization, KeepsGaugeAndScaleOfAnExactDrive) {
   WindowWorldOptions options = stereo_world(0);
   const WindowWorld stereo = make_window_world(options, random);
   const SlidingWindow window = drive(stereo, 5, 4);
-  for (const std::int64_t id : window.keyframes())
-    EXPECT_LT(distance_m(window.pose(id), stereo.T_map_cam[static_cast<std::size_t>(id)]), 1e-6);
+  for (const KeyframeId id : window.keyframes())
+    EXPECT_LT(distance_m(window.pose(id), stereo.T_map_cam[static_cast<std::size_t>(id.value())]),
+              1e-6);
 }
 
 TEST(WindowMarginalization, HoldsTheScaleOfAMonoDriveThroughThePrior) {
@@ -68,7 +72,7 @@ TEST(WindowMarginalization, HoldsTheScaleOfAMonoDriveThroughThePrior) {
   const SlidingWindow window = drive(world, 5, 6, 0.2);
   // The scale is that of the disturbed start: read it off one pair, check the others.
   const auto length_m = [&](std::int64_t a, std::int64_t b) {
-    return distance_m(window.pose(a), window.pose(b)) /
+    return distance_m(window.pose(KeyframeId(a)), window.pose(KeyframeId(b))) /
            distance_m(world.T_map_cam[static_cast<std::size_t>(a)],
                       world.T_map_cam[static_cast<std::size_t>(b)]);
   };
@@ -76,7 +80,8 @@ TEST(WindowMarginalization, HoldsTheScaleOfAMonoDriveThroughThePrior) {
   EXPECT_NEAR(scale, 1, 0.02);
   for (std::int64_t id = 9; id < 12; ++id) EXPECT_NEAR(length_m(7, id), scale, 1e-6);
   // Position of the first keyframe, fixed and gone: the path still starts there.
-  EXPECT_LT((window.pose(11).translation() - scale * world.T_map_cam[11].translation()).norm(),
+  EXPECT_LT((window.pose(KeyframeId(11)).translation() - scale * world.T_map_cam[11].translation())
+                .norm(),
             1e-5);
 }
 
@@ -93,13 +98,13 @@ TEST(WindowMarginalization, TakesTheOldestAndWhatOnlyItAndOthersButTheNewestSaw)
   fill_window(window, world, random, 0, 0, 0);
   // Landmark 0 (keyframes 0 to 2) is seen by the newest too: it stays, without its oldest view.
   const Eigen::Vector3d p_cam = world.T_map_cam[4].inverse() * world.points[0];
-  window.add_observation({4, 0, *world.camera.project(p_cam), 1, {}, 1});
-  EXPECT_EQ(window.marginalize(), std::vector<std::int64_t>{0});
-  EXPECT_EQ(window.keyframes(), (std::vector<std::int64_t>{1, 2, 3, 4}));
-  EXPECT_EQ(window.observations(0).size(), 3u);
-  EXPECT_EQ(window.observations(0).front().keyframe, 1);
+  window.add_observation({KeyframeId(4), LandmarkId(0), *world.camera.project(p_cam), 1, {}, 1});
+  EXPECT_EQ(window.marginalize(), test::ids<KeyframeId>({0}));
+  EXPECT_EQ(window.keyframes(), test::ids<KeyframeId>({1, 2, 3, 4}));
+  EXPECT_EQ(window.observations(LandmarkId(0)).size(), 3u);
+  EXPECT_EQ(window.observations(LandmarkId(0)).front().keyframe, KeyframeId(1));
   for (std::int64_t id = 1; id < 60; ++id)
-    EXPECT_EQ(window.landmark(id).has_value(), id % 3 != 0) << id;
+    EXPECT_EQ(window.landmark(LandmarkId(id)).has_value(), id % 3 != 0) << id;
   EXPECT_TRUE(window.marginalize().empty());
 }
 
@@ -108,8 +113,8 @@ TEST(WindowMarginalization, TheInformationOfADriveIsNotMoreThanThatOfItsBatch) {
   WindowWorldOptions options = stereo_world(0.5);
   options.views_per_landmark = 6;  // longer than the window: observations are dropped
   const WindowWorld world = make_window_world(options, random);
-  const Matrix6d window = relative_information(drive(world, 4, 9), 9, 11);
-  const Matrix6d batch = relative_information(drive(world, 100, 9), 9, 11);
+  const Matrix6d window = relative_information(drive(world, 4, 9), KeyframeId(9), KeyframeId(11));
+  const Matrix6d batch = relative_information(drive(world, 100, 9), KeyframeId(9), KeyframeId(11));
   // Largest generalized eigenvalue <= 1, but for the difference of the linearization points.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> eigen(window, batch);
   EXPECT_LT(eigen.eigenvalues()[5], 1.05);
@@ -124,12 +129,12 @@ TEST(WindowMarginalization, HoldsTheOldestKeyframeWhereThePriorIsEmpty) {
     options.stereo = stereo;
     const WindowWorld world = make_window_world(options, random);
     const SlidingWindow window = drive(world, 4, 15, 0.2);
-    ASSERT_EQ(window.keyframes().front(), 2);
-    EXPECT_LT(distance_m(window.pose(5), world.T_map_cam[5]), stereo ? 1e-6 : 0.1);
+    ASSERT_EQ(window.keyframes().front(), KeyframeId(2));
+    EXPECT_LT(distance_m(window.pose(KeyframeId(5)), world.T_map_cam[5]), stereo ? 1e-6 : 0.1);
     // Optimizing again moves nothing: gauge and scale are held.
     SlidingWindow again = drive(world, 4, 15, 0.2);
     ASSERT_TRUE(again.optimize().outcome);
-    for (const std::int64_t id : window.keyframes())
+    for (const KeyframeId id : window.keyframes())
       EXPECT_LT(distance_m(window.pose(id), again.pose(id)), 1e-6);
   }
 }
@@ -138,11 +143,12 @@ TEST(WindowMarginalization, OfKeyframesWithoutObservationsLeavesNoNaN) {
   SlidingWindowOptions options;
   options.max_keyframes = 2;
   SlidingWindow window(options, test::window_camera());
-  for (int k = 0; k < 5; ++k) window.add_keyframe(k, SE3(SO3(), Eigen::Vector3d(0, 0, k)));
+  for (int k = 0; k < 5; ++k)
+    window.add_keyframe(KeyframeId(k), SE3(SO3(), Eigen::Vector3d(0, 0, k)));
   EXPECT_EQ(window.marginalize().size(), 3u);
   EXPECT_EQ(window.optimize().outcome.code, Outcome::Code::kTooFewData);
-  EXPECT_TRUE(window.pose(4).matrix().allFinite());
-  EXPECT_TRUE(relative_information(window, 3, 4).allFinite());
+  EXPECT_TRUE(window.pose(KeyframeId(4)).matrix().allFinite());
+  EXPECT_TRUE(relative_information(window, KeyframeId(3), KeyframeId(4)).allFinite());
 }
 
 TEST(WindowHoldOldest, GivesTheSameMotionsAsTheWholeBatch) {
@@ -153,13 +159,14 @@ TEST(WindowHoldOldest, GivesTheSameMotionsAsTheWholeBatch) {
   const SlidingWindow window = test::drive_window(world, how, 2);
   const SlidingWindow batch = drive(world, 100, 2);
   const auto motion = [](const SlidingWindow& w, std::int64_t a, std::int64_t b) {
-    return w.pose(a).inverse() * w.pose(b);
+    return w.pose(KeyframeId(a)).inverse() * w.pose(KeyframeId(b));
   };
   for (const std::int64_t id : {8, 9, 10, 11}) {
     EXPECT_LT(distance_m(motion(window, 7, id), motion(batch, 7, id)), 2e-6);
     EXPECT_LT(angle_rad(motion(window, 7, id), motion(batch, 7, id)), 2e-7);
   }
-  const Matrix6d a = relative_information(window, 8, 11), b = relative_information(batch, 8, 11);
+  const Matrix6d a = relative_information(window, KeyframeId(8), KeyframeId(11)),
+                 b = relative_information(batch, KeyframeId(8), KeyframeId(11));
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
 }
 
@@ -172,9 +179,10 @@ TEST(WindowHoldOldest, LeavesTheOldestKeyframeWhereItIs) {
   part.T_map_cam.pop_back();
   SlidingWindow window = test::drive_window(part, how, 2);
   const SE3 before = window.pose(window.keyframes().front());
-  const std::int64_t oldest = window.keyframes().front(), next = window.keyframes().back() + 1;
-  window.add_keyframe(
-      next, window.pose(next - 1) * (world.T_map_cam[10].inverse() * world.T_map_cam[11]));
+  const KeyframeId oldest = window.keyframes().front(), last = window.keyframes().back(),
+                   next = ++KeyframeId(last);
+  window.add_keyframe(next,
+                      window.pose(last) * (world.T_map_cam[10].inverse() * world.T_map_cam[11]));
   test::add_view(window, world, next, 1, random);
   ASSERT_TRUE(window.optimize().outcome);
   EXPECT_EQ(distance_m(window.pose(oldest), before), 0);
@@ -193,18 +201,20 @@ double newest_step(const WindowWorld& world, double scale_drift) {
   };
   const auto last = static_cast<std::int64_t>(world.T_map_cam.size()) - 1;
   for (std::int64_t id = 0; id <= last; ++id) {
-    window.add_keyframe(
-        id, id == 0 ? true_pose(0)
-                    : window.pose(id - 1) * (true_pose(id - 1).inverse() * true_pose(id)));
-    test::add_view(window, world, id, 0, random);
+    window.add_keyframe(KeyframeId(id), id == 0
+                                            ? true_pose(0)
+                                            : window.pose(KeyframeId(id - 1)) *
+                                                  (true_pose(id - 1).inverse() * true_pose(id)));
+    test::add_view(window, world, KeyframeId(id), 0, random);
     if (id > 0) {
       const double truth_m = distance_m(true_pose(id - 1), true_pose(id));
-      add_distance(window, {id - 1, id, (id < last / 2 ? 1 : 1.1) * truth_m, 0.05 * truth_m});
+      add_distance(window, {KeyframeId(id - 1), KeyframeId(id), (id < last / 2 ? 1 : 1.1) * truth_m,
+                            0.05 * truth_m});
       EXPECT_TRUE(window.optimize().outcome);
     }
     window.marginalize();
   }
-  return distance_m(window.pose(last - 1), window.pose(last)) /
+  return distance_m(window.pose(KeyframeId(last - 1)), window.pose(KeyframeId(last))) /
          distance_m(true_pose(last - 1), true_pose(last));
 }
 
@@ -229,8 +239,9 @@ TEST(WindowScaleDrift, DoesNotMoveAnExactDrive) {
   test::WindowDrive how = test::WindowDrive::exact(5);
   how.options.scale_drift = 0.05;
   const SlidingWindow window = test::drive_window(stereo, how, 4);
-  for (const std::int64_t id : window.keyframes())
-    EXPECT_LT(distance_m(window.pose(id), stereo.T_map_cam[static_cast<std::size_t>(id)]), 1e-6);
+  for (const KeyframeId id : window.keyframes())
+    EXPECT_LT(distance_m(window.pose(id), stereo.T_map_cam[static_cast<std::size_t>(id.value())]),
+              1e-6);
 }
 
 TEST(WindowRescale, MovesEverythingAboutTheOldestKeyframeAndKeepsTheCost) {
@@ -240,17 +251,18 @@ TEST(WindowRescale, MovesEverythingAboutTheOldestKeyframeAndKeepsTheCost) {
   const WindowWorld world = make_window_world(options, random);
   SlidingWindow window = drive(world, 5, 11, 0.2);
   const double cost = window.optimize().cost_final;
-  const SE3 oldest = window.pose(7);
-  const double length_m = distance_m(oldest, window.pose(11));
-  const std::int64_t landmark = window.landmarks().front();
+  const SE3 oldest = window.pose(KeyframeId(7));
+  const double length_m = distance_m(oldest, window.pose(KeyframeId(11)));
+  const LandmarkId landmark = window.landmarks().front();
   const Eigen::Vector3d offset_map = *window.landmark(landmark) - oldest.translation();
   window.rescale(2.5);
-  EXPECT_EQ(distance_m(oldest, window.pose(7)), 0);
-  EXPECT_NEAR(distance_m(oldest, window.pose(11)), 2.5 * length_m, 1e-9);
+  EXPECT_EQ(distance_m(oldest, window.pose(KeyframeId(7))), 0);
+  EXPECT_NEAR(distance_m(oldest, window.pose(KeyframeId(11))), 2.5 * length_m, 1e-9);
   EXPECT_LT((*window.landmark(landmark) - oldest.translation() - 2.5 * offset_map).norm(), 1e-9);
   const WindowSummary summary = window.optimize();
   EXPECT_NEAR(summary.cost_initial, cost, 1e-6 * cost);
-  EXPECT_NEAR(distance_m(window.pose(7), window.pose(11)), 2.5 * length_m, 1e-3 * length_m);
+  EXPECT_NEAR(distance_m(window.pose(KeyframeId(7)), window.pose(KeyframeId(11))), 2.5 * length_m,
+              1e-3 * length_m);
 }
 
 TEST(WindowRescale, IsRefusedOnceTheScaleIsMeasured) {
@@ -263,7 +275,7 @@ TEST(WindowRescale, IsRefusedOnceTheScaleIsMeasured) {
   const WindowWorld mono = make_window_world(options, random);
   SlidingWindow measured = drive(mono, 5, 13, 0);
   EXPECT_THROW(measured.rescale(0), ArgumentError);
-  add_distance(measured, {10, 11, 1, 0.1});
+  add_distance(measured, {KeyframeId(10), KeyframeId(11), 1, 0.1});
   EXPECT_THROW(measured.rescale(2), ArgumentError);
 }
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/window/sliding_window.h>
+#include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/window_world.h"
@@ -41,7 +41,7 @@ Drive make_drive(int keyframes, Random& random) {
       const SE3& T = drive.T_map_cam[static_cast<std::size_t>(k)];
       const auto [a, b] = ends_of(drive.camera, T, middle, direction);
       const auto [c, d] = ends_of(drive.camera, T * SE3(SO3(), kRightEye), middle, direction);
-      LineObservation o{k, i, a, b, 0.5, {}};
+      LineObservation o{KeyframeId(k), LineId(i), a, b, 0.5, {}};
       o.second = LineObservation::SecondEye{kRightEye, c, d, 0.5};
       drive.observations.push_back(o);
     }
@@ -54,10 +54,10 @@ SlidingWindow stretched(const Drive& drive, double scale,
                         const SlidingWindowOptions& options = {}) {
   SlidingWindow window(options, drive.camera);
   for (std::size_t k = 0; k < drive.T_map_cam.size(); ++k)
-    window.add_keyframe(static_cast<std::int64_t>(k), drive.T_map_cam[k].scaled(scale));
+    window.add_keyframe(KeyframeId(k), drive.T_map_cam[k].scaled(scale));
   for (std::size_t i = 0; i < drive.lines.size(); ++i)
     window.add_line(
-        static_cast<std::int64_t>(i),
+        LineId(static_cast<std::int64_t>(i)),
         Line3::from_direction(scale * drive.lines[i].nearest_point(), drive.lines[i].direction()));
   for (const LineObservation& o : drive.observations) window.add_line_observation(o);
   return window;
@@ -68,8 +68,9 @@ TEST(SlidingWindowLines, OfTwoEyesGiveTheScaleFromTwoKeyframes) {
   const Drive drive = make_drive(2, random);
   SlidingWindow window = stretched(drive, 1.15);
   ASSERT_TRUE(window.optimize().outcome);
-  EXPECT_LT((drive.T_map_cam[1].inverse() * window.pose(1)).log().norm(), 1e-3);
-  EXPECT_TRUE(relative_covariance(window, 0, 1)) << "all six directions are known";
+  EXPECT_LT((drive.T_map_cam[1].inverse() * window.pose(KeyframeId(1))).log().norm(), 1e-3);
+  EXPECT_TRUE(relative_covariance(window, KeyframeId(0), KeyframeId(1)))
+      << "all six directions are known";
   EXPECT_THROW(window.rescale(2), ArgumentError) << "measured already";
 }
 
@@ -86,23 +87,23 @@ TEST(SlidingWindowLines, OfTwoEyesStayMetricWhenTheyAreMarginalized) {
   Drive drive = make_drive(6, random);
   // The last keyframe no longer sees half of the lines: they leave with the oldest.
   std::erase_if(drive.observations,
-                [](const LineObservation& o) { return o.line % 2 && o.keyframe == 5; });
+                [](const LineObservation& o) { return o.line.value() % 2 && o.keyframe == KeyframeId(5); });
   SlidingWindow window = stretched(drive, 1.05, {.max_keyframes = 4});
   ASSERT_TRUE(window.optimize().outcome);
   EXPECT_EQ(window.marginalize().size(), 2u);
   ASSERT_TRUE(window.optimize().outcome);
-  const SE3 T_2_5 = window.pose(2).inverse() * window.pose(5);
+  const SE3 T_2_5 = window.pose(KeyframeId(2)).inverse() * window.pose(KeyframeId(5));
   const SE3 truth = drive.T_map_cam[2].inverse() * drive.T_map_cam[5];
   EXPECT_LT((truth.inverse() * T_2_5).log().norm(), 1e-3);
-  EXPECT_LT(residual_px(window, window.line_observations(0).back())->norm(), 0.05);
+  EXPECT_LT(residual_px(window, window.line_observations(LineId(0)).back())->norm(), 0.05);
 }
 
 TEST(SlidingWindowLines, ASecondEyeMustLieElsewhereAndBeFinite) {
   Random random = test::seeded_random(53);
   const Drive drive = make_drive(2, random);
   SlidingWindow window({}, drive.camera);
-  window.add_keyframe(0, SE3());
-  window.add_line(0, drive.lines[0]);
+  window.add_keyframe(KeyframeId(0), SE3());
+  window.add_line(LineId(0), drive.lines[0]);
   LineObservation o = drive.observations[0];
   o.second->eye_cam.setZero();
   EXPECT_THROW(window.add_line_observation(o), ArgumentError);

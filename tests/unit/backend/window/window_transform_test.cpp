@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/backend/window/window_problem.h>
-#include <placegraph/backend/window/window_transform.h>
+#include <placegraph/backend/internal/window/window_problem.h>
+#include <placegraph/backend/internal/window/window_transform.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/window_factors.h"
@@ -100,12 +100,13 @@ TEST(WindowTransform, TurnsAboutTheOldestKeyframeSoThatTheWorldLiesAsAsked) {
   const FactorScene scene;
   SlidingWindow window = scene.window({});
   WindowState state = window.state();
-  state.keyframes.erase(0);  // so that the oldest is not the origin
+  state.keyframes.erase(KeyframeId(0));  // so that the oldest is not the origin
   const SO3 R_map_world = SO3::exp({0.1, 0.2, 0.3});
   turn_window(state, FactorScene::kWorld, R_map_world);
   EXPECT_LT((state.worlds.at(FactorScene::kWorld).inverse() * R_map_world).log().norm(), 1e-12);
-  EXPECT_LT(test::distance_m(state.keyframes.at(1), scene.T_map_cam[1]), 1e-12);
-  const SE3 motion = state.keyframes.at(1).inverse() * state.keyframes.at(3);
+  EXPECT_LT(test::distance_m(state.keyframes.at(KeyframeId(1)), scene.T_map_cam[1]), 1e-12);
+  const SE3 motion =
+      state.keyframes.at(KeyframeId(1)).inverse() * state.keyframes.at(KeyframeId(3));
   EXPECT_LT((motion.inverse() * scene.motion(1, 3)).log().norm(), 1e-12);
 }
 

@@ -1,14 +1,15 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
 #include <placegraph/eval/loops/loop_truth_from_poses.h>
-#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
 #include <placegraph/io/measurements/loop_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <numbers>
 
 #include "tests/support/data.h"
+#include "tests/support/ids.h"
 #include "tests/support/trajectories.h"
 
 namespace placegraph {
@@ -17,13 +18,15 @@ namespace {
 using test::isometry;
 
 LoopPrediction said(std::int64_t query, std::int64_t candidate, double score) {
-  return {query, candidate, score, "", 0};
+  return {FrameId(query), FrameId(candidate), score, "", 0};
 }
 
 /// Queries 10, 11 and 12 among the candidates 0 to 5; 12 shows nothing known.
 LoopTruth three_queries() {
   LoopTruth truth;
-  truth.queries = {{10, {0, 5, {1, 2}}}, {11, {0, 5, {3}}}, {12, {0, 5, {}}}};
+  truth.queries = {{FrameId(10), {FrameId(0), FrameId(5), test::ids<FrameId>({1, 2})}},
+                   {FrameId(11), {FrameId(0), FrameId(5), test::ids<FrameId>({3})}},
+                   {FrameId(12), {FrameId(0), FrameId(5), {}}}};
   return truth;
 }
 
@@ -53,7 +56,7 @@ TEST(LoopBenchmark, LeavesOutWhatIsNoCandidateWhetherRightOrWrong) {
       judge_loops(truth, {said(10, 2, 0.9), said(10, 7, 0.8), said(10, 1, 0.3), said(11, 3, 1)});
   EXPECT_EQ(b.positives, 1);
   EXPECT_EQ(b.dropped, 3);
-  EXPECT_EQ(b.queries[0].best.candidate, 1);
+  EXPECT_EQ(b.queries[0].best.candidate, FrameId(1));
   EXPECT_EQ(b.queries[1].verdict, LoopVerdict::kTooYoung);
   EXPECT_EQ(b.queries[2].verdict, LoopVerdict::kSilent);
   EXPECT_DOUBLE_EQ(b.curve.average_precision.value(), 1);
@@ -87,7 +90,7 @@ TEST(LoopBenchmark, ForgivesAsManyImagesAsItIsTold) {
 
 TEST(LoopBenchmark, DefinesNoRecallWhereNothingIsToBeFound) {
   LoopTruth truth;
-  truth.queries = {{7, {0, 5, {}}}};
+  truth.queries = {{FrameId(7), {FrameId(0), FrameId(5), {}}}};
   const LoopBenchmark b = judge_loops(truth, {said(7, 1, 1)});
   EXPECT_EQ(b.positives, 0);
   EXPECT_FALSE(b.recall_at[0]);
@@ -104,10 +107,10 @@ TEST(LoopTruthFromPoses, AsksForDistanceHeadingAndAge) {
   const LoopTruth revisits = loop_truth_from_poses(truth, {{5, 30}, 2});
   EXPECT_EQ(revisits.min_age, 2);
   EXPECT_EQ(revisits.queries.size(), 5u);  // a lost image is not judged
-  EXPECT_TRUE(revisits.queries.at(1).matches.empty());
-  EXPECT_TRUE(revisits.queries.at(3).matches.empty());  // turned too far
-  EXPECT_EQ(revisits.queries.at(4).matches, (std::vector<std::int64_t>{0, 1}));
-  EXPECT_EQ(revisits.queries.at(4).last, 2);
+  EXPECT_TRUE(revisits.queries.at(FrameId(1)).matches.empty());
+  EXPECT_TRUE(revisits.queries.at(FrameId(3)).matches.empty());  // turned too far
+  EXPECT_EQ(revisits.queries.at(FrameId(4)).matches, test::ids<FrameId>({0, 1}));
+  EXPECT_EQ(revisits.queries.at(FrameId(4)).last, FrameId(2));
   EXPECT_THROW((void)loop_truth_from_poses(truth, {{5, 30}, 0}), ArgumentError);
 }
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/loops/loop_check.h>
-#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
 
 #include <numbers>
 
@@ -15,8 +15,8 @@ using test::isometry;
 LoopRecord loop(int query, int match, const Eigen::Isometry3d& T_match_query,
                 bool accepted = true) {
   LoopRecord record;
-  record.query_frame = query;
-  record.match_frame = match;
+  record.query_frame = FrameId(query);
+  record.match_frame = FrameId(match);
   record.stage = accepted ? LoopStage::kAccepted : LoopStage::kSupport;
   record.T_match_query = SE3(T_match_query);
   return record;

@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/eval/loops/place_check.h>
+#include <placegraph/eval/internal/loops/place_check.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
@@ -25,16 +25,17 @@ Rounds drive(int stations, int rounds, PlaceOf place_of) {
     T_world_cam.translation() = turn * Eigen::Vector3d(-radius, 0, 0);
     result.truth.poses.push_back({i, T_world_cam});
     Keyframe keyframe;
-    keyframe.id = keyframe.frame = i;
-    keyframe.place = place_of(i);
+    keyframe.id = KeyframeId(i);
+    keyframe.frame = FrameId(i);
+    keyframe.place = PlaceId(place_of(i));
     if (!result.map.place_graph.find(keyframe.place)) {
       Place place;
-      place.id = keyframe.place;
-      place.anchor_keyframe = i;
+      place.id = PlaceId(keyframe.place);
+      place.anchor_keyframe = KeyframeId(i);
       result.map.place_graph.places.push_back(place);
     }
     result.map.keyframes.push_back(keyframe);
-    result.map.frames.push_back({i, i, i, SE3()});
+    result.map.frames.push_back({FrameId(i), i, KeyframeId(i), SE3()});
   }
   return result;
 }

@@ -1,7 +1,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/eval/loops/route_check.h>
+#include <placegraph/eval/internal/loops/route_check.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
@@ -28,20 +28,19 @@ Trajectory rounds() {
 
 /// A place every five metres; `loop` joins the two passes where the second begins, and one more
 /// further on.
-PlaceGraph map_of(const Trajectory& truth, std::map<std::int64_t, std::int64_t>& frames,
-                  bool loops) {
+PlaceGraph map_of(const Trajectory& truth, std::map<PlaceId, FrameId>& frames, bool loops) {
   PlaceGraph graph;
   const auto edge = [&](std::int64_t from, std::int64_t to) {
     RelativePoseConstraint constraint;
-    constraint.from = from;
-    constraint.to = to;
+    constraint.from = NodeId(from);
+    constraint.to = NodeId(to);
     graph.constraints.push_back(constraint);
   };
   for (int i = 0; i < 40; ++i) {
     Place place;
-    place.id = i;
+    place.id = PlaceId(i);
     place.T_map_place = SE3(*truth.poses[5 * i].T_world_body);
-    frames[i] = 5 * i;
+    frames[PlaceId(i)] = FrameId(5 * i);
     graph.places.push_back(place);
     if (i > 0) edge(i - 1, i);
   }
@@ -56,7 +55,8 @@ TEST(DrivenRoads, JoinThePassesOfOneRoadThatLookTheSameWay) {
   for (const RelativePoseConstraint& edge : roads.constraints) {
     if (edge.source != ConstraintSource::kLoop) continue;
     ++loops;
-    EXPECT_LE(std::abs(edge.to - 160 - edge.from), 0) << edge.from << " " << edge.to;
+    EXPECT_LE(std::abs(edge.to.value() - 160 - edge.from.value()), 0)
+        << edge.from << " " << edge.to;
   }
   EXPECT_EQ(loops, 40);  // every frame of the second pass; corners are of one pass
   EXPECT_EQ(roads.constraints.size(), 199u + 40u);
@@ -64,7 +64,7 @@ TEST(DrivenRoads, JoinThePassesOfOneRoadThatLookTheSameWay) {
 
 TEST(RouteCheck, FindsNothingToCriticizeInATrueMap) {
   const Trajectory truth = rounds();
-  std::map<std::int64_t, std::int64_t> frames;
+  std::map<PlaceId, FrameId> frames;
   const PlaceGraph graph = map_of(truth, frames, true);
   RouteCheckOptions options;
   options.max_pairs = 2000;
@@ -81,7 +81,7 @@ TEST(RouteCheck, FindsNothingToCriticizeInATrueMap) {
 
 TEST(RouteCheck, FindsAMapWithoutLoopsToMissWhereRoadsMeet) {
   const Trajectory truth = rounds();
-  std::map<std::int64_t, std::int64_t> frames;
+  std::map<PlaceId, FrameId> frames;
   const RouteCheck check = check_routes(map_of(truth, frames, false), frames, truth);
   EXPECT_EQ(check.same_places, check.pairs);  // of the roads that it has
   EXPECT_GT(check.worst_detour_m, 150);       // from one pass to the other: all the way round
@@ -89,13 +89,13 @@ TEST(RouteCheck, FindsAMapWithoutLoopsToMissWhereRoadsMeet) {
 
 TEST(RouteCheck, FindsAFalseLoopToLeadAstray) {
   const Trajectory truth = rounds();
-  std::map<std::int64_t, std::int64_t> frames;
+  std::map<PlaceId, FrameId> frames;
   PlaceGraph graph = map_of(truth, frames, true);
   // The map believes that the place across the block is beside the first.
   graph.places[16].T_map_place = SE3(SO3(), Eigen::Vector3d(1, 0, 0));
   RelativePoseConstraint wrong;
-  wrong.from = 0;
-  wrong.to = 16;
+  wrong.from = NodeId(0);
+  wrong.to = NodeId(16);
   graph.constraints.push_back(wrong);
   const RouteCheck check = check_routes(graph, frames, truth);
   EXPECT_LT(check.same_places, check.pairs);
@@ -105,7 +105,7 @@ TEST(RouteCheck, FindsAFalseLoopToLeadAstray) {
 
 TEST(RouteCheck, CountsPairsThatNothingJoinsAndRefusesPlacesWithoutTruth) {
   Trajectory truth = rounds();
-  std::map<std::int64_t, std::int64_t> frames;
+  std::map<PlaceId, FrameId> frames;
   PlaceGraph graph = map_of(truth, frames, false);
   graph.constraints.erase(graph.constraints.begin() + 19);  // between places 19 and 20
   RouteCheckOptions options;

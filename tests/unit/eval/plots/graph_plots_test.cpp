@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/plots/growth_plot.h>
-#include <placegraph/eval/plots/pose_graph_plot.h>
+#include <placegraph/eval/internal/plots/growth_plot.h>
+#include <placegraph/eval/internal/plots/pose_graph_plot.h>
 #include <placegraph/graph/core/error.h>
 
 namespace placegraph {
@@ -14,11 +14,11 @@ using testing::StartsWith;
 /// Poses 0 .. 3 along x, odometry but between 1 and 2, loops 0 -> 2 and 0 -> 3.
 PoseGraph chain(double step_m) {
   PoseGraph graph;
-  for (int i = 0; i < 4; ++i) graph.nodes.push_back({i, SE2(step_m * i, 0, 0), false});
+  for (int i = 0; i < 4; ++i) graph.nodes.push_back({NodeId(i), SE2(step_m * i, 0, 0), false});
   for (const auto& [from, to] : {std::pair{0, 1}, {2, 3}, {0, 2}, {0, 3}}) {
     RelativePoseConstraint edge;
-    edge.from = from;
-    edge.to = to;
+    edge.from = NodeId(from);
+    edge.to = NodeId(to);
     edge.T_from_to = SE2();
     edge.information = Eigen::Matrix3d::Identity();
     edge.source = to == from + 1 ? ConstraintSource::kOdometry : ConstraintSource::kLoop;

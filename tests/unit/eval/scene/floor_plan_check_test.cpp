@@ -1,13 +1,14 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/eval/plots/floor_plan_plot.h>
-#include <placegraph/eval/scene/floor_plan_check.h>
-#include <placegraph/eval/scene/orientation_check.h>
+#include <placegraph/eval/internal/plots/floor_plan_plot.h>
+#include <placegraph/eval/internal/scene/floor_plan_check.h>
+#include <placegraph/eval/internal/scene/orientation_check.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/plane_truth.h>
-#include <placegraph/io/scene/indoor_map_file.h>
+#include <placegraph/io/internal/measurements/plane_truth.h>
+#include <placegraph/io/internal/scene/indoor_map_file.h>
 
+#include "tests/support/ids.h"
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
 
@@ -44,7 +45,7 @@ IndoorMap told_plan() {
   IndoorRoom room;
   room.label = "room 1";
   room.outline = {{0.2, 0.1}, {3.9, 0.1}, {3.9, 5.9}, {0.2, 5.9}};
-  room.area_m2 = 3.7 * 5.8, room.entered = true, room.places = {3};
+  room.area_m2 = 3.7 * 5.8, room.entered = true, room.places = test::ids<PlaceId>({3});
   plan.rooms.push_back(room);
   return plan;
 }
@@ -84,8 +85,8 @@ TEST(FloorPlanFile, ReadsWhatItWrites) {
   dir.write("plan.json", to_json(told_plan()));
   const IndoorMap plan = read_indoor_map(dir / "plan.json");
   ASSERT_EQ(plan.walls.size(), 4U);
-  EXPECT_EQ(plan.doors.at(0).rooms, (std::array<int, 2>{0, -1}));
-  EXPECT_EQ(plan.rooms.at(0).places, std::vector<std::int64_t>{3});
+  EXPECT_EQ(plan.doors.at(0).rooms, (std::array<std::optional<int>, 2>{0, std::nullopt}));
+  EXPECT_EQ(plan.rooms.at(0).places, test::ids<PlaceId>({3}));
   EXPECT_EQ(to_json(plan), to_json(told_plan()));
   dir.write("cut.json", to_json(told_plan()).substr(0, 100));
   EXPECT_THROW((void)read_indoor_map(dir / "cut.json"), FileError);

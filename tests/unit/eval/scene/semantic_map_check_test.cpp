@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/plots/semantic_map_plot.h>
-#include <placegraph/eval/scene/semantic_map_check.h>
-
-#include <opencv2/imgcodecs.hpp>
+#include <placegraph/eval/internal/plots/semantic_map_plot.h>
+#include <placegraph/eval/internal/scene/semantic_map_check.h>
+#include <placegraph/graph/internal/image/png_codec.h>
 
 namespace placegraph {
 namespace {
@@ -25,7 +24,7 @@ SemanticMap map_of(const std::vector<std::pair<Eigen::Vector3i, int>>& cells) {
   for (const auto& [at, label] : cells) {
     SemanticCell cell;
     cell.at = at;
-    cell.label = label;
+    if (label >= 0) cell.label = label;
     cell.weight = 5;
     cell.mean = 0.5F * (at.cast<float>() + Eigen::Vector3f::Constant(0.5F));
     cell.height_m = 1.6F - cell.mean[1];
@@ -80,8 +79,7 @@ TEST(SemanticMapPlot, DrawsCellsInTheirColours) {
   picture.path = {Eigen::Vector2d(1, 1), std::nullopt, Eigen::Vector2d(2, 2)};
   const std::string png =
       semantic_map_png(map_of({{{2, 3, 2}, 0}, {{3, 3, 2}, 0}, {{2, 3, 3}, 2}}), picture);
-  const cv::Mat drawn =
-      cv::imdecode(std::vector<unsigned char>(png.begin(), png.end()), cv::IMREAD_COLOR);
+  const cv::Mat drawn = decode_png(png, DecodedPixels::kEightBits);
   ASSERT_FALSE(drawn.empty());
   const auto colour = class_colour("Road", 0);
   int road = 0;

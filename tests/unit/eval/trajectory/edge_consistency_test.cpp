@@ -1,24 +1,24 @@
 #include <gtest/gtest.h>
-#include <placegraph/eval/trajectory/edge_consistency.h>
+#include <placegraph/eval/internal/trajectory/edge_consistency.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 
 namespace placegraph {
 namespace {
 
 const SE3 kStep(SO3::exp({0.1, -0.2, 0.3}), Eigen::Vector3d(1, 2, 3));
 
-std::map<std::int64_t, SE3> chain(int nodes) {
-  std::map<std::int64_t, SE3> truth;
+std::map<NodeId, SE3> chain(int nodes) {
+  std::map<NodeId, SE3> truth;
   SE3 T(SO3::exp({1, 0.5, -0.2}), Eigen::Vector3d(7, 0, -4));
-  for (int i = 0; i < nodes; ++i, T = T * kStep) truth[i] = T;
+  for (int i = 0; i < nodes; ++i, T = T * kStep) truth[NodeId(i)] = T;
   return truth;
 }
 
 RelativePoseConstraint edge(std::int64_t from, const Vector6d& error, double sigma) {
   RelativePoseConstraint constraint;
-  constraint.from = from;
-  constraint.to = from + 1;
+  constraint.from = NodeId(from);
+  constraint.to = NodeId(from + 1);
   constraint.T_from_to = kStep * SE3::exp(error).inverse();
   constraint.information = Information::Identity(6, 6) / (sigma * sigma);
   return constraint;
@@ -53,7 +53,7 @@ TEST(EdgeConsistency, IsOneWhereClaimsAreRight) {
 
 TEST(EdgeConsistency, LeavesOutEdgesOfUnknownTruthAndRefusesOthersThanRigidOnes) {
   auto truth = chain(3);
-  truth.erase(2);
+  truth.erase(NodeId(2));
   const auto result =
       edge_consistency({edge(0, Vector6d::Zero(), 1), edge(1, Vector6d::Zero(), 1)}, truth);
   EXPECT_EQ(result.edges, 1);

@@ -1,12 +1,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/eval/plots/plot.h>
+#include <placegraph/eval/internal/plots/plot.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/eval/trajectory/report.h>
+#include <placegraph/graph/internal/image/png_codec.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "tests/support/trajectories.h"
 
@@ -116,9 +117,7 @@ TEST(Plot, SvgNamesAxesAndCurvesAndBreaksTheLineAtLostFrames) {
 
 TEST(Plot, PngIsAPictureWithColouredLines) {
   const std::string bytes = to_png(plot_of({judged("a")}));
-  const cv::Mat encoded(1, static_cast<int>(bytes.size()), CV_8UC1,
-                        const_cast<char*>(bytes.data()));
-  const cv::Mat picture = cv::imdecode(encoded, cv::IMREAD_COLOR);
+  const cv::Mat picture = decode_png(bytes, DecodedPixels::kEightBits);
   ASSERT_EQ(picture.size(), cv::Size(1600, 800));
   cv::Mat blue;
   cv::inRange(picture, cv::Scalar(178, 114, 0), cv::Scalar(178, 114, 0), blue);

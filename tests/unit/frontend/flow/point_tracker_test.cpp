@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/frontend/flow/point_tracker.h>
+#include <placegraph/frontend/internal/flow/point_tracker.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -66,7 +66,7 @@ TEST(PointTracker, FindsNearAPredictionWhatAWideSearchFinds) {
   wide.track(next, predicted, PointTracker::Search::kWide);
   near.track(next, predicted, PointTracker::Search::kNear);
   ASSERT_GT(near.tracks().size(), 0.9 * static_cast<double>(wide.tracks().size()));
-  std::map<std::int64_t, Eigen::Vector2f> found;
+  std::map<LandmarkId, Eigen::Vector2f> found;
   for (const PointTrack& track : wide.tracks()) found[track.id] = track.px;
   std::size_t same = 0;
   for (const PointTrack& track : near.tracks())
@@ -89,7 +89,7 @@ TEST(PointTracker, DoesNotDriftOnWhatGrowsAsItComesNearerWhereItsFirstLookHoldsI
     PointTracker tracker{PointTrackerOptions()};
     tracker.track(zoomed(1));
     tracker.detect();
-    std::map<std::int64_t, Eigen::Vector2f> first;
+    std::map<LandmarkId, Eigen::Vector2f> first;
     for (const PointTrack& track : tracker.tracks()) first[track.id] = track.px;
     const Eigen::Vector2f middle(kWidth / 2, kHeight / 2);
     for (int k = 1; k <= 12; ++k) {
@@ -138,7 +138,7 @@ TEST(PointTracker, KnowsATrackTheWorseTheOftenerItsLookWasLost) {
 
 TEST(PointTracker, DropsTracksThatLeaveTheImage) {
   PointTracker tracker = started();
-  std::set<std::int64_t> leaving;
+  std::set<LandmarkId> leaving;
   for (const PointTrack& track : tracker.tracks())
     if (track.px.x() > kWidth - 37) leaving.insert(track.id);
   ASSERT_GT(leaving.size(), 2u);
@@ -180,7 +180,7 @@ TEST(PointTracker, CoversTheImageEvenlyEvenWhereHalfOfItIsFaint) {
 
 TEST(PointTracker, NeverUsesAnIdTwice) {
   PointTracker tracker = started();
-  std::set<std::int64_t> ids;
+  std::set<LandmarkId> ids;
   const auto collect = [&](std::size_t expected_new) {
     std::size_t fresh = 0;
     for (const PointTrack& track : tracker.tracks()) fresh += ids.insert(track.id).second;

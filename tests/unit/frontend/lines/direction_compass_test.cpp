@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/lines/direction_compass.h>
+#include <placegraph/frontend/internal/lines/direction_compass.h>
 
 #include "tests/support/scenes/room_lines.h"
 #include "tests/support/seed.h"
@@ -37,8 +37,8 @@ TEST(DirectionCompass, NamesTheDirectionsInViewAndTheirTracks) {
     EXPECT_GE(family.tracks.size(), 3u);
     EXPECT_GT(family.d_ref.cwiseAbs().maxCoeff(), std::cos(5 * family.sigma_rad));
     EXPECT_LT(family.sigma_rad, 0.02);
-    for (const std::int64_t id : family.tracks) {
-      const auto i = static_cast<std::size_t>(id);
+    for (const LineId id : family.tracks) {
+      const auto i = static_cast<std::size_t>(id.value());
       EXPECT_GT(std::abs((scene.to[i] - scene.from[i]).normalized().dot(family.d_ref)), 0.99) << id;
     }
   }

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/lines/floor_from_lines.h>
+#include <placegraph/frontend/internal/lines/floor_from_lines.h>
 
 #include "tests/support/scenes/room_lines.h"
 #include "tests/support/seed.h"
@@ -21,7 +21,7 @@ std::vector<PlacedLine> placed(const LineScene& scene, const SE3& T_ref_cam, dou
     if (!start || !end) continue;
     Eigen::Vector4d error;
     for (int k = 0; k < 4; ++k) error[k] = sigma * random.normal();
-    lines.push_back({static_cast<std::int64_t>(i),
+    lines.push_back({LineId(i),
                      scene.line(i).plus(error),
                      sigma * sigma * Eigen::Matrix4d::Identity(),
                      {*start, *end}});
@@ -40,8 +40,8 @@ TEST(FloorFromLines, IsTheLowestLevelThatEnoughLinesAgreeOn) {
   EXPECT_GT(floor.down_ref.y(), std::cos(0.01));
   EXPECT_GT(floor.sigma_height, 0.002);
   EXPECT_LT(floor.sigma_height, 0.03);
-  for (const std::int64_t id : floor.on_floor) {
-    const auto i = static_cast<std::size_t>(id);
+  for (const LineId id : floor.on_floor) {
+    const auto i = static_cast<std::size_t>(id.value());
     EXPECT_NEAR(std::max(scene.from[i].y(), scene.to[i].y()), 1.4, 1e-9) << id;
   }
 }
@@ -81,7 +81,7 @@ TEST(FloorFromLines, SharedDirectionsStraightenLinesThatLean) {
   });
   for (PlacedLine& line : lines)
     if (std::abs(line.line_ref.direction().y()) > 0.9) {
-      const auto i = static_cast<std::size_t>(line.id);
+      const auto i = static_cast<std::size_t>(line.id.value());
       const Eigen::Vector3d foot =
           scene.from[i].y() > scene.to[i].y() ? scene.from[i] : scene.to[i];
       line.line_ref = Line3::from_direction(foot, Eigen::Vector3d(0, 1, 0.05).normalized());

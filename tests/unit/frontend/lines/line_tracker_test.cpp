@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/frontend/internal/lines/line_tracker.h>
 #include <placegraph/graph/core/error.h>
 
 #include <opencv2/imgproc.hpp>
@@ -87,7 +87,7 @@ TEST(LineTracker, TracksDieWithTheirEdgeAndIdsAreNeverUsedTwice) {
   LineTracker tracker({});
   tracker.track(bar(60));
   tracker.detect();
-  std::int64_t last = -1;
+  LineId last = LineId::lowest();
   for (const LineTrack& track : tracker.tracks()) last = std::max(last, track.id);
   tracker.track(Image(120, 160, CV_8UC1, cv::Scalar(90)));
   EXPECT_TRUE(tracker.tracks().empty());
@@ -103,7 +103,7 @@ TEST(LineTracker, PiecesThatGrowTogetherBecomeTheOlderTrack) {
   LineTracker tracker(options);
   tracker.track(bar(60, 10, 110, 45, 75));
   tracker.detect();
-  std::vector<std::int64_t> pieces;
+  std::vector<LineId> pieces;
   for (const LineTrack& track : tracker.tracks())
     if (std::abs(track.edge.segment.middle().x() - 60) < 1) pieces.push_back(track.id);
   ASSERT_EQ(pieces.size(), 2u);

@@ -1,9 +1,9 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <placegraph/backend/inertial/error_state_filter.h>
-#include <placegraph/frontend/markers/marker_filter.h>
-#include <placegraph/frontend/markers/marker_pose.h>
+#include <placegraph/backend/internal/inertial/error_state_filter.h>
+#include <placegraph/frontend/internal/markers/marker_filter.h>
+#include <placegraph/frontend/internal/markers/marker_pose.h>
 #include <placegraph/graph/core/error.h>
 
 #include "tests/support/scenes/marker_scene.h"

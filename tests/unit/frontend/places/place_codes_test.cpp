@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/places/code_memory.h>
-#include <placegraph/frontend/places/dense_index.h>
-#include <placegraph/frontend/places/float_vocabulary.h>
-#include <placegraph/frontend/places/word_index.h>
+#include <placegraph/frontend/internal/places/code_memory.h>
+#include <placegraph/frontend/internal/places/dense_index.h>
+#include <placegraph/frontend/internal/places/float_vocabulary.h>
+#include <placegraph/frontend/internal/places/word_index.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/random.h>
+#include <placegraph/graph/internal/core/random.h>
 
 #include <Eigen/LU>
 #include <cmath>

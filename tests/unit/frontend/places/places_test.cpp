@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/frontend/places/place_database.h>
+#include <placegraph/frontend/internal/places/place_database.h>
 #include <placegraph/graph/core/error.h>
 
 #include <set>
@@ -35,7 +35,7 @@ class Views {
   std::vector<std::vector<BinaryDescriptor>> places_;
 };
 
-bool any(std::int64_t) { return true; }
+bool any(KeyframeId) { return true; }
 
 PlaceDatabaseOptions small_options() {
   PlaceDatabaseOptions options;
@@ -96,13 +96,13 @@ TEST(PlaceDatabase, KnowsNothingBeforeItsFirstTraining) {
   Random random = seeded_random(84);
   Views views(10, 40, random);
   PlaceDatabase database(small_options(), 1);
-  for (int i = 0; i < 9; ++i) database.add(i, views.see(i, 0));
+  for (int i = 0; i < 9; ++i) database.add(KeyframeId(i), views.see(i, 0));
   EXPECT_EQ(database.size(), 9u);
   EXPECT_TRUE(database.query(views.see(3, 0), 5, any).empty());
   EXPECT_TRUE(database.describe(views.see(3, 0)).words.empty());
-  EXPECT_EQ(database.similarity(views.see(3, 0), 3), 0);
-  database.add(9, views.see(9, 0));
-  EXPECT_EQ(database.query(views.see(3, 0), 5, any).front().id, 3);
+  EXPECT_EQ(database.similarity(views.see(3, 0), KeyframeId(3)), 0);
+  database.add(KeyframeId(9), views.see(9, 0));
+  EXPECT_EQ(database.query(views.see(3, 0), 5, any).front().id, KeyframeId(3));
 }
 
 TEST(PlaceDatabase, FindsTheSamePlaceAmongMany) {
@@ -110,34 +110,36 @@ TEST(PlaceDatabase, FindsTheSamePlaceAmongMany) {
   constexpr int kPlaces = 25;
   Views views(kPlaces, 60, random);
   PlaceDatabase database(small_options(), 1);
-  for (int i = 0; i < kPlaces; ++i) database.add(100 + i, views.see(i, 5));  // trains at 10 and 20
+  for (int i = 0; i < kPlaces; ++i)
+    database.add(KeyframeId(100 + i), views.see(i, 5));  // trains at 10 and 20
   for (int i = 0; i < kPlaces; ++i) {
     const auto again = views.see(i, 6);
     const auto candidates = database.query(again, 3, any);
     ASSERT_EQ(candidates.size(), 3u);
-    EXPECT_EQ(candidates[0].id, 100 + i);
+    EXPECT_EQ(candidates[0].id, KeyframeId(100 + i));
     EXPECT_GT(candidates[0].score, 1.2 * candidates[1].score);
     EXPECT_GE(candidates[1].score, candidates[2].score);
     EXPECT_LE(candidates[0].score, 1 + 1e-6);
-    EXPECT_NEAR(database.similarity(again, 100 + i), candidates[0].score, 1e-6);
+    EXPECT_NEAR(database.similarity(again, KeyframeId(100 + i)), candidates[0].score, 1e-6);
     // Who is not allowed is not proposed.
-    const auto others = database.query(again, 100, [&](std::int64_t id) { return id != 100 + i; });
-    for (const PlaceCandidate& c : others) EXPECT_NE(c.id, 100 + i);
+    const auto others =
+        database.query(again, 100, [&](KeyframeId id) { return id != KeyframeId(100 + i); });
+    for (const PlaceCandidate& c : others) EXPECT_NE(c.id, KeyframeId(100 + i));
   }
-  EXPECT_EQ(database.similarity(views.see(0, 0), 7), 0);  // unknown
+  EXPECT_EQ(database.similarity(views.see(0, 0), KeyframeId(7)), 0);  // unknown
 }
 
 TEST(PlaceDatabase, DescribesAllViewsAnewWhenTheirNumberHasDoubled) {
   Random random = seeded_random(86);
   Views views(20, 40, random);
   PlaceDatabase database(small_options(), 1);
-  for (int i = 0; i < 19; ++i) database.add(i, views.see(i, 0));
+  for (int i = 0; i < 19; ++i) database.add(KeyframeId(i), views.see(i, 0));
   const auto seen = views.see(2, 0);
   const Appearance before = database.describe(seen);
-  database.add(19, views.see(19, 0));
+  database.add(KeyframeId(19), views.see(19, 0));
   const Appearance after = database.describe(seen);
   EXPECT_NE(before.words, after.words);
-  EXPECT_NEAR(database.similarity(seen, 2), 1, 1e-5);
+  EXPECT_NEAR(database.similarity(seen, KeyframeId(2)), 1, 1e-5);
   double sum = 0;
   for (std::size_t i = 0; i < after.words.size(); ++i) {
     sum += after.words[i].second;
@@ -154,15 +156,15 @@ TEST(PlaceDatabase, IsTheSameForTheSameSeed) {
   PlaceDatabase a(small_options(), 9), b(small_options(), 9);
   for (int i = 0; i < 12; ++i) {
     const auto features = views.see(i, 3);
-    a.add(i, features);
-    b.add(i, features);
+    a.add(KeyframeId(i), features);
+    b.add(KeyframeId(i), features);
   }
   EXPECT_EQ(a.describe(views.see(1, 0)).words, b.describe(views.see(1, 0)).words);
 }
 
 TEST(PlaceDatabase, LivesWithViewsThatShowNothing) {
   PlaceDatabase database(small_options(), 1);
-  for (int i = 0; i < 25; ++i) database.add(i, {});
+  for (int i = 0; i < 25; ++i) database.add(KeyframeId(i), {});
   EXPECT_TRUE(database.query({}, 5, any).empty());
   Random random = seeded_random(88);
   Views views(1, 40, random);

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/places/recognition_odds.h>
+#include <placegraph/frontend/internal/places/recognition_odds.h>
 #include <placegraph/graph/core/error.h>
 
 #include <cmath>

@@ -11,8 +11,8 @@ using testing::IsEmpty;
 
 RelativePoseConstraint edge(std::int64_t from, std::int64_t to) {
   RelativePoseConstraint constraint;
-  constraint.from = from;
-  constraint.to = to;
+  constraint.from = NodeId(from);
+  constraint.to = NodeId(to);
   constraint.T_from_to = SE2();
   constraint.information = Eigen::Matrix3d::Identity();
   return constraint;
@@ -20,9 +20,9 @@ RelativePoseConstraint edge(std::int64_t from, std::int64_t to) {
 
 TEST(GraphParts, AreTheComponentsWithTheirConstraints) {
   PoseGraph graph;
-  for (const std::int64_t id : {5, 6, 7, 8, 9}) graph.nodes.push_back({id, SE2(), false});
+  for (const std::int64_t id : {5, 6, 7, 8, 9}) graph.nodes.push_back({NodeId(id), SE2(), false});
   PositionConstraint position;
-  position.node = 8;
+  position.node = NodeId(8);
   graph.constraints = {edge(6, 8), edge(9, 5), position};
   const std::vector<GraphPart> parts = split_components(graph);
   ASSERT_EQ(parts.size(), 3u);
@@ -37,14 +37,14 @@ TEST(GraphParts, AreTheComponentsWithTheirConstraints) {
     EXPECT_EQ(part.graph.nodes.size(), part.nodes.size());
     EXPECT_EQ(part.graph.constraints.size(), part.constraints.size());
   }
-  EXPECT_EQ(parts[1].graph.nodes[1].id, 8);
+  EXPECT_EQ(parts[1].graph.nodes[1].id, NodeId(8));
 }
 
 TEST(GraphParts, AreNoneOfAnEmptyGraph) { EXPECT_THAT(split_components({}), IsEmpty()); }
 
 TEST(GraphParts, AreNotMadeOfAGraphWithUnknownNodes) {
   PoseGraph graph;
-  graph.nodes = {{1, SE2(), false}};
+  graph.nodes = {{NodeId(1), SE2(), false}};
   graph.constraints = {edge(1, 2)};
   EXPECT_THROW(split_components(graph), ArgumentError);
 }

@@ -10,7 +10,12 @@ namespace {
 constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
 
-void expect_finds_all(const std::vector<std::int64_t>& ids) {
+std::vector<NodeId> nodes(const std::vector<std::int64_t>& numbers) {
+  return {numbers.begin(), numbers.end()};
+}
+
+void expect_finds_all(const std::vector<std::int64_t>& numbers) {
+  const std::vector<NodeId> ids = nodes(numbers);
   const NodeIndex index(ids);
   for (std::size_t i = 0; i < ids.size(); ++i)
     EXPECT_EQ(index.find(ids[i]), static_cast<int>(i)) << ids[i];
@@ -28,9 +33,9 @@ TEST(NodeIndex, FindsIdsThatLieTogetherAndIdsThatLieFarApart) {
 TEST(NodeIndex, FindsNothingThatIsNotThere) {
   for (const std::vector<std::int64_t>& ids :
        {std::vector<std::int64_t>{}, {3, 5}, {kMin, kMax}, {kMax}, {kMin}}) {
-    const NodeIndex index(ids);
-    for (const std::int64_t id : {std::int64_t{2}, std::int64_t{4}, std::int64_t{6}, kMin + 1}) {
-      EXPECT_EQ(index.find(id), NodeIndex::kNone);
+    const NodeIndex index(nodes(ids));
+    for (const NodeId id : {NodeId(2), NodeId(4), NodeId(6), NodeId(kMin + 1)}) {
+      EXPECT_FALSE(index.find(id));
       EXPECT_FALSE(index.contains(id));
       EXPECT_THROW(index.at(id), ArgumentError);
     }
@@ -38,8 +43,8 @@ TEST(NodeIndex, FindsNothingThatIsNotThere) {
 }
 
 TEST(NodeIndex, CountsTheFirstOfEqualIds) {
-  EXPECT_EQ(NodeIndex({4, 5, 4}).at(4), 0);
-  EXPECT_EQ(NodeIndex({kMin, 5, kMax, 5}).at(5), 1);
+  EXPECT_EQ(NodeIndex(nodes({4, 5, 4})).at(NodeId(4)), 0);
+  EXPECT_EQ(NodeIndex(nodes({kMin, 5, kMax, 5})).at(NodeId(5)), 1);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/pose_graph/node_index.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
 
 #include <cmath>
@@ -17,8 +18,8 @@ using testing::HasSubstr;
 RelativePoseConstraint relative(std::int64_t from, std::int64_t to,
                                 ConstraintSource source = ConstraintSource::kOdometry) {
   RelativePoseConstraint constraint;
-  constraint.from = from;
-  constraint.to = to;
+  constraint.from = NodeId(from);
+  constraint.to = NodeId(to);
   constraint.T_from_to = SE3();
   constraint.information = Matrix6d::Identity();
   constraint.source = source;
@@ -28,7 +29,7 @@ RelativePoseConstraint relative(std::int64_t from, std::int64_t to,
 PoseGraph make_graph(const std::vector<std::int64_t>& ids,
                      const std::vector<RelativePoseConstraint>& constraints) {
   PoseGraph graph;
-  for (const std::int64_t id : ids) graph.nodes.push_back({id, SE3(), false});
+  for (const std::int64_t id : ids) graph.nodes.push_back({NodeId(id), SE3(), false});
   graph.constraints.assign(constraints.begin(), constraints.end());
   return graph;
 }
@@ -37,7 +38,7 @@ PoseGraph make_graph(const std::vector<std::int64_t>& ids,
 std::string complaint(const std::function<void(PoseGraph&)>& spoil) {
   PoseGraph graph = make_graph({7, 8}, {relative(7, 8)});
   PositionConstraint position;
-  position.node = 8;
+  position.node = NodeId(8);
   graph.constraints.push_back(position);
   spoil(graph);
   try {
@@ -69,19 +70,21 @@ TEST(PoseGraphCheck, RefusesMixedKinds) {
 
 TEST(PoseGraphCheck, RefusesAnIdThatIsThereTwice) {
   EXPECT_THAT(complaint([](auto& g) {
-                g.nodes.push_back({7, SE3(), false});
+                g.nodes.push_back({NodeId(7), SE3(), false});
               }),
               HasSubstr("node 7: the id is there twice"));
 }
 
 TEST(PoseGraphCheck, RefusesConstraintsOnUnknownNodes) {
-  EXPECT_THAT(complaint([](auto& g) { edge(g).to = 9; }), HasSubstr("unknown node 9"));
-  EXPECT_THAT(complaint([](auto& g) { edge(g).from = -1; }), HasSubstr("unknown node -1"));
-  EXPECT_THAT(complaint([](auto& g) { position(g).node = 3; }), HasSubstr("unknown node 3"));
+  EXPECT_THAT(complaint([](auto& g) { edge(g).to = NodeId(9); }), HasSubstr("unknown node 9"));
+  EXPECT_THAT(complaint([](auto& g) { edge(g).from = NodeId(-1); }), HasSubstr("unknown node -1"));
+  EXPECT_THAT(complaint([](auto& g) { position(g).node = NodeId(3); }),
+              HasSubstr("unknown node 3"));
 }
 
 TEST(PoseGraphCheck, RefusesAConstraintOfANodeWithItself) {
-  EXPECT_THAT(complaint([](auto& g) { edge(g).to = 7; }), HasSubstr("joins a node to itself"));
+  EXPECT_THAT(complaint([](auto& g) { edge(g).to = NodeId(7); }),
+              HasSubstr("joins a node to itself"));
 }
 
 TEST(PoseGraphCheck, RefusesWhatIsNotFinite) {
@@ -139,7 +142,7 @@ TEST(PoseGraphCheck, RefusesAKernelWithoutWidth) {
 TEST(PoseGraph, KindIsThatOfItsNodes) {
   EXPECT_EQ(PoseGraph().kind(), PoseKind::kSE3);
   PoseGraph graph;
-  graph.nodes.push_back({0, SE2(), false});
+  graph.nodes.push_back({NodeId(0), SE2(), false});
   EXPECT_EQ(graph.kind(), PoseKind::kSE2);
   EXPECT_EQ(degrees_of_freedom(PoseKind::kSE2), 3);
   EXPECT_EQ(degrees_of_freedom(PoseKind::kSE3), 6);
@@ -148,9 +151,9 @@ TEST(PoseGraph, KindIsThatOfItsNodes) {
 
 TEST(PoseGraph, IndexFindsPositionsOfAnyIds) {
   const auto index = make_graph({-5, 1'000'000'000'000, 3}, {}).index_by_id();
-  EXPECT_EQ(index.at(-5), 0);
-  EXPECT_EQ(index.at(1'000'000'000'000), 1);
-  EXPECT_EQ(index.at(3), 2);
+  EXPECT_EQ(index.at(NodeId(-5)), 0);
+  EXPECT_EQ(index.at(NodeId(1'000'000'000'000)), 1);
+  EXPECT_EQ(index.at(NodeId(3)), 2);
 }
 
 TEST(PoseGraph, ComponentsCountFromTheFirstNode) {
@@ -161,7 +164,7 @@ TEST(PoseGraph, ComponentsCountFromTheFirstNode) {
 
 TEST(PoseGraph, PositionsJoinNothing) {
   PoseGraph graph = make_graph({1, 2}, {});
-  for (const std::int64_t node : {1, 2}) {
+  for (const NodeId node : {NodeId(1), NodeId(2)}) {
     PositionConstraint gps;
     gps.node = node;
     graph.constraints.push_back(gps);
@@ -223,7 +226,7 @@ TEST(PoseGraph, OdometryIsIntegratedOnFromAFixedPoseWhichStays) {
   PoseGraph graph = make_graph({0, 1, 2}, {relative(0, 1), relative(1, 2)});
   for (Constraint& constraint : graph.constraints)
     std::get<RelativePoseConstraint>(constraint).T_from_to = SE3(SO3(), {1, 0, 0});
-  graph.nodes[1] = {1, SE3(SO3(), {5, 0, 0}), true};
+  graph.nodes[1] = {NodeId(1), SE3(SO3(), {5, 0, 0}), true};
   integrate_odometry(graph);
   EXPECT_EQ(position_of(graph, 1), Eigen::Vector3d(5, 0, 0));
   EXPECT_EQ(position_of(graph, 2), Eigen::Vector3d(6, 0, 0));

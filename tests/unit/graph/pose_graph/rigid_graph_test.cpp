@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/pose_graph/rigid_graph.h>
+#include <placegraph/graph/internal/pose_graph/rigid_graph.h>
 
 namespace placegraph {
 namespace {
@@ -11,11 +11,11 @@ PoseGraph scaled_walk() {
                                    {SO3::exp({0, 0.3, 0}), Eigen::Vector3d(1, 0, 0.2), 1.5},
                                    {SO3::exp({0.1, 0.9, 0}), Eigen::Vector3d(1.5, 0.1, 1.4), 0.7}};
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    graph.nodes.push_back({static_cast<std::int64_t>(i), nodes[i], false});
+    graph.nodes.push_back({NodeId(i), nodes[i], false});
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     RelativePoseConstraint edge;
-    edge.from = static_cast<std::int64_t>(i);
-    edge.to = edge.from + 1;
+    edge.from = NodeId(i);
+    edge.to = NodeId(i + 1);
     edge.T_from_to = nodes[i].inverse() * nodes[i + 1];
     edge.information = Information::Identity(7, 7) * 9;
     edge.information(0, 6) = edge.information(6, 0) = 3;
@@ -30,8 +30,8 @@ TEST(RigidGraph, StandsWhereTheSimilaritiesDid) {
   ASSERT_EQ(rigid.kind(), PoseKind::kSE3);
   for (const Constraint& constraint : rigid.constraints) {
     const auto& edge = std::get<RelativePoseConstraint>(constraint);
-    const auto pose = [&](std::int64_t id) {
-      return std::get<SE3>(rigid.nodes[static_cast<std::size_t>(id)].T_world_node);
+    const auto pose = [&](NodeId id) {
+      return std::get<SE3>(rigid.nodes[static_cast<std::size_t>(id.value())].T_world_node);
     };
     const SE3 error =
         std::get<SE3>(edge.T_from_to).inverse() * pose(edge.from).inverse() * pose(edge.to);
@@ -46,9 +46,9 @@ TEST(RigidGraph, StandsWhereTheSimilaritiesDid) {
 
 TEST(RigidGraph, LeavesPosesAsTheyAre) {
   PoseGraph graph;
-  graph.nodes.push_back({3, SE2(1, 2, 3), true});
+  graph.nodes.push_back({NodeId(3), SE2(1, 2, 3), true});
   EXPECT_EQ(rigid_graph(graph).kind(), PoseKind::kSE2);
-  EXPECT_EQ(rigid_graph(graph).nodes[0].id, 3);
+  EXPECT_EQ(rigid_graph(graph).nodes[0].id, NodeId(3));
 }
 
 }  // namespace

@@ -68,14 +68,14 @@ TEST(SemanticGrid, CallsACellUnknownThatWasSeenTooLittle) {
   options.min_sights = 2;
   SemanticGrid grid(options, kClasses, SO3());
   grid.add(sight_of({0.1F, 0, 5}, {1, 0, 0}), SE3());
-  EXPECT_EQ(grid.map().cells[0].label, -1);
+  EXPECT_FALSE(grid.map().cells[0].label);
   grid.add(sight_of({0.1F, 0, 5}, {1, 0, 0}), SE3());
   EXPECT_EQ(grid.map().cells[0].label, 0);
   options.min_sights = 1;
   options.min_confidence = 0.6;
   SemanticGrid doubting(options, kClasses, SO3());
   doubting.add(sight_of({0.1F, 0, 5}, {0.5F, 0.5F, 0}), SE3());
-  EXPECT_EQ(doubting.map().cells[0].label, -1);
+  EXPECT_FALSE(doubting.map().cells[0].label);
 }
 
 TEST(SemanticGrid, PlacesPointsByThePoseAndTheTurnOfThePlan) {

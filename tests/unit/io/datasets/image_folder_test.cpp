@@ -1,8 +1,7 @@
-#include <placegraph/io/calibration/calibration_file.h>
+#include <placegraph/graph/internal/image/picture_plugin.h>
 #include <placegraph/io/datasets/open_dataset.h>
-#include <placegraph/io/files/image_list.h>
-
-#include <opencv2/videoio.hpp>
+#include <placegraph/io/internal/calibration/calibration_file.h>
+#include <placegraph/io/internal/files/image_list.h>
 
 #include "tests/support/message_of.h"
 #include "tiny_images.h"
@@ -158,10 +157,9 @@ TEST(ImageFolder, RefusesListsOfDifferentLengths) {
 
 /// Five frames of one brightness each, 20 a second; false if this OpenCV writes no MJPG.
 bool write_video(const std::string& path) {
-  cv::VideoWriter writer(path, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 20, cv::Size(64, 48));
-  if (!writer.isOpened()) return false;
-  for (int i = 0; i < 5; ++i) writer.write(Image(48, 64, CV_8UC3, cv::Scalar::all(40 * i + 20)));
-  return true;
+  std::vector<Image> frames;
+  for (int i = 0; i < 5; ++i) frames.emplace_back(48, 64, CV_8UC3, cv::Scalar::all(40 * i + 20));
+  return picture_plugin(path).write_video(path, frames, 20);
 }
 
 TEST(ImageFolder, PairsImagesByTheirNumbersOrRefusesThem) {
@@ -258,7 +256,7 @@ TEST(VideoFile, HandsOutItsFramesInAnyOrder) {
     EXPECT_EQ(dataset->stamp_ns(1), 50000000);
     for (const std::size_t i : {std::size_t{3}, std::size_t{0}, std::size_t{4}, std::size_t{4}}) {
       const Frame frame = dataset->frame(i, Sensor::kMono);
-      EXPECT_EQ(frame.id, static_cast<std::int64_t>(i));
+      EXPECT_EQ(frame.id, FrameId(i));
       EXPECT_EQ(frame.colour.type(), CV_8UC3);
       EXPECT_NEAR(cv::mean(frame.image)[0], 40.0 * static_cast<double>(i) + 20, 3);  // JPEG
     }

@@ -1,3 +1,4 @@
+#include <placegraph/graph/internal/image/picture.h>
 #include <placegraph/io/datasets/open_dataset.h>
 
 #include <opencv2/imgproc.hpp>
@@ -53,7 +54,7 @@ TEST(KittiOdometry, OpensTheSmallestSequenceAtTenHertz) {
   EXPECT_EQ(calibration.camera.cy, 3);
   EXPECT_FALSE(calibration.camera_height_m);
   const Frame frame = dataset->frame(1, Sensor::kMono);
-  EXPECT_EQ(frame.id, 1);
+  EXPECT_EQ(frame.id, FrameId(1));
   EXPECT_EQ(frame.stamp_ns, 100000000);
   EXPECT_TRUE(test::same_pixels(frame.image, tiny_grey(8, 6, 1)));
   EXPECT_TRUE(frame.colour.empty() && frame.right.empty() && frame.depth.empty());
@@ -234,9 +235,7 @@ TEST(KittiOdometry, RefusesImagesThatAreCutEmptyForeignOrOfAnotherSize) {
   EXPECT_THAT(message(whole.substr(0, whole.size() / 2)), HasSubstr("000001.png: image is trunc"));
   EXPECT_THAT(message(""), HasSubstr("000001.png: image file is empty"));
   EXPECT_THAT(message("no picture"), HasSubstr("000001.png: is no readable image"));
-  std::vector<std::uint8_t> jpeg;
-  cv::imencode(".jpg", tiny_grey(64, 64, 0), jpeg);
-  const std::string jpeg_text(jpeg.begin(), jpeg.end());
+  const std::string jpeg_text = encode_picture("a.jpg", tiny_grey(64, 64, 0));
   EXPECT_THAT(message(jpeg_text.substr(0, jpeg_text.size() - 20)), HasSubstr("is truncated"));
   // The end of a thumbnail in the head is not the image's.
   const std::string thumbnail("\xff\xd8\xff\xe1\x00\x06\xff\xd9\x00\x00", 10);

@@ -1,10 +1,10 @@
 #pragma once
-#include <placegraph/graph/core/image.h>
+#include <placegraph/graph/image/image.h>
 
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "tests/support/pictures.h"
 #include "tests/support/temporary_folder.h"
 
 namespace placegraph::test {
@@ -24,7 +24,7 @@ inline std::string write_image(const TemporaryFolder& folder, const std::string&
                                const Image& image) {
   const std::string path = folder / relative;
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
-  if (!cv::imwrite(path, image)) throw std::runtime_error("cannot write " + path);
+  if (!test::write_picture(path, image)) throw std::runtime_error("cannot write " + path);
   return path;
 }
 

@@ -29,7 +29,7 @@ TEST(G2o, ReadsAPlanarGraph) {
   const PoseGraph graph = read_g2o(folder.write("a.g2o", kPlanar));
   ASSERT_EQ(graph.nodes.size(), 2u);
   EXPECT_EQ(graph.kind(), PoseKind::kSE2);
-  EXPECT_EQ(graph.nodes[0].id, 5);
+  EXPECT_EQ(graph.nodes[0].id, NodeId(5));
   EXPECT_TRUE(graph.nodes[0].fixed);
   EXPECT_FALSE(graph.nodes[1].fixed);
   // T_world_node: a point one metre ahead of node 6, which looks along world y.
@@ -37,8 +37,8 @@ TEST(G2o, ReadsAPlanarGraph) {
       std::get<SE2>(graph.nodes[1].T_world_node) * Eigen::Vector2d(1, 0);
   EXPECT_LT((p_world - Eigen::Vector2d(1, 3)).norm(), 1e-15);
   const auto& edge = std::get<RelativePoseConstraint>(graph.constraints.at(0));
-  EXPECT_EQ(edge.from, 5);
-  EXPECT_EQ(edge.to, 6);
+  EXPECT_EQ(edge.from, NodeId(5));
+  EXPECT_EQ(edge.to, NodeId(6));
   EXPECT_EQ(edge.source, ConstraintSource::kOdometry);
   EXPECT_DOUBLE_EQ(std::get<SE2>(edge.T_from_to).rotation().angle(), 1.5);
   Eigen::Matrix3d information;
@@ -168,7 +168,7 @@ TEST(G2o, RefusesWhatIsMissingOrHasNoVertices) {
 TEST(G2o, IsNotWrittenForWhatItHasNoFormFor) {
   const TemporaryFolder folder;
   PoseGraph graph;
-  graph.nodes = {{0, SE3(), false}};
+  graph.nodes = {{NodeId(0), SE3(), false}};
   graph.constraints.emplace_back(PositionConstraint{});
   EXPECT_THROW(write_g2o(folder / "a", graph), ArgumentError);
   EXPECT_FALSE(std::filesystem::exists(folder / "a"));

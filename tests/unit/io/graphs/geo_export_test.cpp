@@ -29,10 +29,10 @@ GeoDocument document(const GeodeticPosition& origin = {49, 8.4, 100}) {
   out.origin = origin;
   out.trajectory.poses = {
       at(0, 0, 0), at(100, 0, 1), {0, std::nullopt}, at(200, 0, 2), at(200, 50, 3)};
-  out.graph.nodes = {{7, SE3(), false}, {9, SE3(SO3(), {0, 100, 5}), false}};
+  out.graph.nodes = {{NodeId(7), SE3(), false}, {NodeId(9), SE3(SO3(), {0, 100, 5}), false}};
   RelativePoseConstraint edge;
-  edge.from = 7;
-  edge.to = 9;
+  edge.from = NodeId(7);
+  edge.to = NodeId(9);
   edge.T_from_to = SE3(SO3(), {0, 100, 5});
   edge.information = Matrix6d::Identity();
   edge.source = ConstraintSource::kLoop;

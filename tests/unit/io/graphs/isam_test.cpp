@@ -1,4 +1,4 @@
-#include <placegraph/io/graphs/isam.h>
+#include <placegraph/io/internal/graphs/isam.h>
 
 #include "tests/support/edge_of.h"
 #include "tests/support/message_of.h"
@@ -24,7 +24,7 @@ TEST(Isam, ReadsEdgesAndChainsThePosesAlongOdometry) {
   ASSERT_EQ(graph.nodes.size(), 4u);
   const Eigen::Vector2d corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(graph.nodes[i].id, i);
+    EXPECT_EQ(graph.nodes[i].id, NodeId(i));
     EXPECT_LT((std::get<SE2>(graph.nodes[i].T_world_node).translation() - corners[i]).norm(),
               1e-15);
   }

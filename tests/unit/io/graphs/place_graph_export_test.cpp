@@ -12,21 +12,22 @@ PlaceGraph three_places() {
   PlaceGraph graph;
   for (int i = 0; i < 3; ++i) {
     Place place;
-    place.id = i;
+    place.id = PlaceId(i);
     place.T_map_place = SE3(SO3(), {1.0 * i, 0, 2.0 * i});
     place.members.resize(static_cast<std::size_t>(i) + 1);
     graph.places.push_back(place);
   }
   graph.places[1].labels = {"a \"hall\" <wide>", "west & east"};
   RelativePoseConstraint loop;
-  loop.from = 2;
-  loop.to = 0;
+  loop.from = NodeId(2);
+  loop.to = NodeId(0);
   loop.source = ConstraintSource::kLoop;
   graph.constraints = {loop, loop};
   return graph;
 }
 
-const std::vector<PlaceTransition> kTransitions{{0, 1, 3}, {1, 0, 1}, {1, 2, 1}};
+const std::vector<PlaceTransition> kTransitions{
+    {PlaceId(0), PlaceId(1), 3}, {PlaceId(1), PlaceId(0), 1}, {PlaceId(1), PlaceId(2), 1}};
 
 TEST(PlaceGraphExport, WritesGraphmlWithEveryPlaceTransitionAndLoopOnce) {
   const std::string text = to_graphml(three_places(), kTransitions);

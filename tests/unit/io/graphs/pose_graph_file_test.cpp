@@ -1,6 +1,7 @@
-#include <placegraph/graph/pose_graph/position_of.h>
+#include <placegraph/graph/internal/pose_graph/position_of.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
+#include <placegraph/io/internal/graphs/parse_graph.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
@@ -51,7 +52,7 @@ TEST(PoseGraphFile, GivesTheSameGraphInEveryForm) {
     ASSERT_EQ(graph.nodes.size(), 2u);
     ASSERT_EQ(graph.constraints.size(), 1u);
     for (int i = 0; i < 2; ++i) {
-      EXPECT_EQ(graph.nodes[i].id, i);
+      EXPECT_EQ(graph.nodes[i].id, NodeId(i));
       EXPECT_EQ(std::get<SE2>(graph.nodes[i].T_world_node).matrix(),
                 std::get<SE2>(graphs[0].nodes[i].T_world_node).matrix());
     }

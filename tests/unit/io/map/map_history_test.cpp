@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/io/map/sqlite.h>
+#include <placegraph/io/internal/map/sqlite.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/random_map.h"
@@ -29,17 +29,17 @@ StoredMap map_with_history() {
   PlaceHistory& history = stored.history;
   for (PlaceHistory::Keyframe& keyframe : history.keyframes) {
     if (!keyframe.link) continue;
-    keyframe.link->source = static_cast<ConstraintSource>(keyframe.id % 3);
+    keyframe.link->source = static_cast<ConstraintSource>(keyframe.id.value() % 3);
     keyframe.link->sigma_log_scale = random.uniform(0.1, 1);
     keyframe.link->scale = random.uniform(0.5, 2);
   }
   for (PlaceHistory::Part& part : history.parts)
     part.S_place_part =
         Sim3(part.S_place_part.rotation(), part.S_place_part.translation(), random.uniform(0.5, 2));
-  const std::int64_t last = stored.map.keyframes.back().id;
+  const KeyframeId last = stored.map.keyframes.back().id;
   history.loops.front().scale_match_query = 1.25;
   history.loops.push_back(
-      {last, 1, test::random_pose(random), test::random_information<7>(random), 0.75});
+      {last, KeyframeId(1), test::random_pose(random), test::random_information<7>(random), 0.75});
   history.motions.push_back({history.parts[2].anchor, history.parts[4].anchor,
                              test::random_pose(random), test::random_information<6>(random)});
   history.merged.push_back({history.parts[3].anchor,

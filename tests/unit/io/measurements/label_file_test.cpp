@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/label_file.h>
+#include <placegraph/io/internal/measurements/label_file.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
@@ -15,8 +15,8 @@ TEST(LabelFile, ReadsImageAndLabel) {
   const test::TemporaryFolder folder;
   const auto labels = read_labels(folder.write("labels.txt", "# house\n0 3\n7 0\n"));
   EXPECT_EQ(labels.size(), 2u);
-  EXPECT_EQ(labels.at(0), 3);
-  EXPECT_EQ(labels.at(7), 0);
+  EXPECT_EQ(labels.at(FrameId(0)), 3);
+  EXPECT_EQ(labels.at(FrameId(7)), 0);
 }
 
 TEST(LabelFile, NamesTheBrokenLine) {

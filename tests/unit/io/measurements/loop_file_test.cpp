@@ -33,8 +33,8 @@ TEST_F(LoopFile, ReadsScoresWithAndWithoutAStage) {
       read_loop_predictions(folder.write("found.txt", "# ours\n7 3 0.25\n\n9 4 -1e2 geometry\n"),
                             LoopFileFormat::kScores);
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0].query, 7);
-  EXPECT_EQ(found[0].candidate, 3);
+  EXPECT_EQ(found[0].query, FrameId(7));
+  EXPECT_EQ(found[0].candidate, FrameId(3));
   EXPECT_DOUBLE_EQ(found[0].score, 0.25);
   EXPECT_DOUBLE_EQ(found[1].score, -100);
   EXPECT_EQ(found[1].stage, "geometry");
@@ -42,11 +42,12 @@ TEST_F(LoopFile, ReadsScoresWithAndWithoutAStage) {
 }
 
 TEST_F(LoopFile, WritesWhatItReads) {
-  write_loop_predictions(folder / "out.txt", {{7, 3, 0.1, "", 0}, {8, 2, -5, "", 0}});
+  write_loop_predictions(folder / "out.txt", {{FrameId(7), FrameId(3), 0.1, "", 0},
+                                              {FrameId(8), FrameId(2), -5, "", 0}});
   const auto found = read_loop_predictions(folder / "out.txt", LoopFileFormat::kScores);
   ASSERT_EQ(found.size(), 2u);
   EXPECT_NEAR(found[0].score, 0.1, 1e-9);
-  EXPECT_EQ(found[1].candidate, 2);
+  EXPECT_EQ(found[1].candidate, FrameId(2));
 }
 
 TEST_F(LoopFile, NamesTheLineOfBrokenScores) {
@@ -66,8 +67,8 @@ TEST_F(LoopFile, ReadsTheHypothesesOfIbowThatHaveInliers) {
                                          "88\t98\t93\t1\t683\t12\t0.2\t\n"),
                             LoopFileFormat::kIbow);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].query, 2);
-  EXPECT_EQ(found[0].candidate, 93);
+  EXPECT_EQ(found[0].query, FrameId(2));
+  EXPECT_EQ(found[0].candidate, FrameId(93));
   EXPECT_DOUBLE_EQ(found[0].score, 683);
 }
 
@@ -78,7 +79,7 @@ TEST_F(LoopFile, ReadsTheCandidatesOfARunByTheirColumns) {
                    header + "90,3,41,1,accepted,3d2d,0.98\n90,7,0,0,geometry,none,0.2\n"),
       LoopFileFormat::kRun);
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0].candidate, 3);
+  EXPECT_EQ(found[0].candidate, FrameId(3));
   EXPECT_EQ(found[0].stage, "accepted");
   EXPECT_DOUBLE_EQ(found[1].score, 0.2);
   EXPECT_THAT(refusal("query,match,stage\n", LoopFileFormat::kRun),
@@ -99,19 +100,20 @@ TEST_F(LoopFile, TellsTheThreeFormsOfGroundTruthApart) {
   const LoopTruthFile ranges = truth("111 0 110 0 1 2\n112 0 110 -\n");
   EXPECT_EQ(ranges.format, LoopTruthFormat::kRanges);
   EXPECT_FALSE(ranges.truth.unlisted_have_none);
-  EXPECT_EQ(ranges.truth.queries.at(111).last, 110);
-  EXPECT_THAT(ranges.truth.queries.at(111).matches, ElementsAre(0, 1, 2));
-  EXPECT_TRUE(ranges.truth.queries.at(112).matches.empty());
+  EXPECT_EQ(ranges.truth.queries.at(FrameId(111)).last, FrameId(110));
+  EXPECT_THAT(ranges.truth.queries.at(FrameId(111)).matches,
+              ElementsAre(FrameId(0), FrameId(1), FrameId(2)));
+  EXPECT_TRUE(ranges.truth.queries.at(FrameId(112)).matches.empty());
 
   const LoopTruthFile lists = truth("1384 588 589 590 591\n1385 586\n");
   EXPECT_EQ(lists.format, LoopTruthFormat::kLists);
   EXPECT_TRUE(lists.truth.unlisted_have_none);
-  EXPECT_THAT(lists.truth.queries.at(1385).matches, ElementsAre(586));
+  EXPECT_THAT(lists.truth.queries.at(FrameId(1385)).matches, ElementsAre(FrameId(586)));
 
   const LoopTruthFile matrix = truth("0,0,0\n1,1,0\n0,1,1\n");
   EXPECT_EQ(matrix.format, LoopTruthFormat::kMatrix);
-  EXPECT_THAT(matrix.truth.queries.at(1).matches, ElementsAre(0));
-  EXPECT_THAT(matrix.truth.queries.at(2).matches, ElementsAre(1));
+  EXPECT_THAT(matrix.truth.queries.at(FrameId(1)).matches, ElementsAre(FrameId(0)));
+  EXPECT_THAT(matrix.truth.queries.at(FrameId(2)).matches, ElementsAre(FrameId(1)));
 }
 
 TEST_F(LoopFile, NamesTheLineOfBrokenGroundTruth) {

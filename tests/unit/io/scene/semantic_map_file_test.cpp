@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/scene/labelled_mesh_file.h>
-#include <placegraph/io/scene/semantic_map_file.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/io/internal/scene/labelled_mesh_file.h>
+#include <placegraph/io/internal/scene/semantic_map_file.h>
 
 #include <nlohmann/json.hpp>
 
@@ -20,7 +20,7 @@ SemanticCell cell_at(int x, int y, int z, int label, float height_m = 0) {
   SemanticCell cell;
   cell.at = {x, y, z};
   cell.mean = 0.5F * (cell.at.cast<float>() + Eigen::Vector3f::Constant(0.4F));
-  cell.label = label;
+  if (label >= 0) cell.label = label;
   cell.confidence = 0.75F;
   cell.height_m = height_m;
   cell.weight = 6;
@@ -80,7 +80,8 @@ TEST_F(SemanticMapFile, RefusesWhatIsCutOffOrAnother) {
 }
 
 TEST_F(SemanticMapFile, CountsClassesAndWhatPlacesSee) {
-  const json document = json::parse(to_json(road_with_a_tree(), {{3, {0.25F, 0.75F}}, {4, {}}}));
+  const json document =
+      json::parse(to_json(road_with_a_tree(), {{PlaceId(3), {0.25F, 0.75F}}, {PlaceId(4), {}}}));
   EXPECT_EQ(document["classes"][0]["cells"], 11);
   EXPECT_EQ(document["classes"][1]["area_m2"], 0.25);
   EXPECT_EQ(document["unknown_cells"], 1);

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/cues/depth_sensor.h>
+#include <placegraph/pipeline/internal/cues/depth_sensor.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -16,8 +16,8 @@ DepthSensor sensor_of(Sensor sensor) {
   return DepthSensor(street_of(sensor == Sensor::kRgbd).calibration(sensor), {});
 }
 
-/// Pixels on the house fronts and the end wall. The road is too slanted for patches of one disparity:
-/// they err by several deviations there.
+/// Pixels on the house fronts and the end wall. The road is too slanted for patches of one
+/// disparity: they err by several deviations there.
 std::vector<Eigen::Vector2f> pixels() {
   std::vector<Eigen::Vector2f> px;
   for (int v = 60; v < 180; v += 20)

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/cues/manhattan_cue.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/cues/manhattan_cue.h>
 
 #include "tests/support/scenes/boards.h"
 #include "tests/support/scenes/corridor_view.h"
@@ -15,10 +15,10 @@ struct Keyframe0 {
   SlidingWindow window{SlidingWindowOptions{}, corridor.camera};
   ManhattanCue cue{{}, corridor.camera, 1, {}};
 
-  Keyframe0() { window.add_keyframe(0, SE3()); }
+  Keyframe0() { window.add_keyframe(KeyframeId(0), SE3()); }
   void see(const std::vector<LineSegment>& segments) {
     const Image grey(corridor.camera.height, corridor.camera.width, CV_8UC1, cv::Scalar(128));
-    cue.observe(0, grey, segments, window);
+    cue.observe(KeyframeId(0), grey, segments, window);
   }
   /// Of the ground that is `half_width` wide to both sides, from 3.5 to 8 m ahead.
   std::vector<Eigen::Vector2d> lane(double half_width) const {
@@ -89,11 +89,11 @@ struct Walk {
     for (int k = 0; k < keyframes; ++k) see(k);
   }
   void see(int k) {
-    window.add_keyframe(k, boards_way(k));
-    cue.observe(k, boards_view(k), std::nullopt, window);
+    window.add_keyframe(KeyframeId(k), boards_way(k));
+    cue.observe(KeyframeId(k), boards_view(k), std::nullopt, window);
     if (k > 0) {
       const SE3 T = boards_way(k - 1).inverse() * boards_way(k);
-      add_motion(window, {k - 1, k, T, 1e6 * Matrix6d::Identity()});
+      add_motion(window, {KeyframeId(k - 1), KeyframeId(k), T, 1e6 * Matrix6d::Identity()});
       EXPECT_TRUE(window.optimize().outcome);
     }
     cue.settle(window);
@@ -113,7 +113,7 @@ TEST(ManhattanCue, EdgesOfSeveralKeyframesBeginAManhattanFrame) {
   EXPECT_LT((R.matrix() - R.matrix().array().round().matrix()).norm(), 0.02);
   int along[3] = {0, 0, 0};
   for (const FrameView::DirectedLine& line : walk.cue.view())
-    if (line.axis >= 0) ++along[line.axis];
+    if (line.axis) ++along[*line.axis];
   EXPECT_GE(std::min({along[0] + along[1], along[1] + along[2], along[0] + along[2]}), 10);
 }
 
@@ -147,8 +147,8 @@ TEST(ManhattanCue, WideImagesAreHalvedAndTheirEdgesAreNot) {
   options.max_width_px = 300;
   ManhattanCue halved(options, test::boards_camera(), 1, {});
   SlidingWindow window({}, test::boards_camera());
-  window.add_keyframe(0, boards_way(0));
-  halved.observe(0, boards_view(0), std::nullopt, window);
+  window.add_keyframe(KeyframeId(0), boards_way(0));
+  halved.observe(KeyframeId(0), boards_view(0), std::nullopt, window);
   const Walk whole(1);
   // Most edges of the halved image lie on one of the whole image.
   int found = 0;
@@ -178,10 +178,10 @@ struct Turned {
   ManhattanCue::Heading heading;
 
   explicit Turned(const Eigen::Vector3d& off, double information) {
-    window.add_keyframe(0, SE3());
+    window.add_keyframe(KeyframeId(0), SE3());
     const SO3 R_odom_world = SO3::exp({0, 0.3, 0});
-    window.add_world(7, R_odom_world);
-    heading.world = 7;
+    window.add_world(ManhattanFrameId(7), R_odom_world);
+    heading.world = ManhattanFrameId(7);
     heading.R_cam_world = (T_odom_cam.rotation() * SO3::exp(off)).inverse() * R_odom_world;
     heading.information = information * Eigen::Matrix3d::Identity();
   }
@@ -232,7 +232,7 @@ TEST(WithHeading, WithoutAHeadingOrItsManhattanFrameAPoseStays) {
   };
   EXPECT_GT(moved(turned.heading), 0.05);
   EXPECT_EQ(moved(std::nullopt), 0);
-  turned.heading.world = 8;
+  turned.heading.world = ManhattanFrameId(8);
   EXPECT_EQ(moved(turned.heading), 0);
 }
 

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/vanishing/manhattan_frame.h>
-#include <placegraph/graph/core/angle.h>
+#include <placegraph/frontend/internal/vanishing/manhattan_frame.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/cues/manhattan_frames.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/cues/manhattan_frames.h>
 
 #include "tests/support/scenes/window_world.h"
 
@@ -50,17 +50,18 @@ struct Drive {
       : world(make()), window(window_options(), world.camera), worlds(options) {}
 
   /// The next keyframe, which sees directions turned from the first world by `turn`.
-  std::optional<std::int64_t> see(const std::optional<SO3>& turn) {
+  std::optional<ManhattanFrameId> see(const std::optional<SO3>& turn) {
     const std::int64_t id = next++;
     const SE3& T_map_cam = world.T_map_cam[static_cast<std::size_t>(id)];
-    window.add_keyframe(id, T_map_cam);
-    add_view(window, world, id, 0, random);
-    std::optional<std::int64_t> seen;
+    window.add_keyframe(KeyframeId(id), T_map_cam);
+    add_view(window, world, KeyframeId(id), 0, random);
+    std::optional<ManhattanFrameId> seen;
     if (turn)
       seen = worlds.add(
-          id, T_map_cam.rotation().inverse() * kR_map_world * *turn * axes(static_cast<int>(id)),
+          KeyframeId(id),
+          T_map_cam.rotation().inverse() * kR_map_world * *turn * axes(static_cast<int>(id)),
           Eigen::Matrix3d::Identity() * std::pow(0.1 * kRadPerDeg, 2), window);
-    if (window.world(1)) R_map_first = *window.world(1);
+    if (window.world(ManhattanFrameId(1))) R_map_first = *window.world(ManhattanFrameId(1));
     if (id > 0) {
       EXPECT_TRUE(window.optimize().outcome);
     }
@@ -74,19 +75,19 @@ TEST(ManhattanWorlds, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
   Drive drive({});
   EXPECT_FALSE(drive.see(SO3()));
   EXPECT_FALSE(drive.see(SO3()));
-  EXPECT_EQ(drive.see(SO3()), 1);
+  EXPECT_EQ(drive.see(SO3()), ManhattanFrameId(1));
   // It begins where the views have it: within what the poses of the window are off by.
   ASSERT_TRUE(drive.R_map_first);
   EXPECT_LT((kR_map_world.inverse() * nearest_axes(*drive.R_map_first, kR_map_world)).log().norm(),
             0.1 * kRadPerDeg);
-  for (int k = 3; k < 8; ++k) EXPECT_EQ(drive.see(SO3()), 1);
-  EXPECT_EQ(drive.window.worlds(), (std::vector<std::int64_t>{ManhattanWorlds::kMapAxes, 1}));
+  for (int k = 3; k < 8; ++k) EXPECT_EQ(drive.see(SO3()), ManhattanFrameId(1));
+  EXPECT_EQ(drive.window.worlds(), (std::vector{ManhattanWorlds::kMapAxes, ManhattanFrameId(1)}));
   // Along the axes of the world, named as the first of the views named them.
-  const SO3 turn = kR_map_world.inverse() * *drive.window.world(1);
+  const SO3 turn = kR_map_world.inverse() * *drive.window.world(ManhattanFrameId(1));
   EXPECT_LT((turn.matrix() - turn.matrix().array().round().matrix()).norm(), 1e-6);
   // The map stays under them.
   EXPECT_LT(drive.window.world(ManhattanWorlds::kMapAxes)->log().norm(), 1e-12);
-  const auto expected = drive.worlds.expected(drive.window, 7);
+  const auto expected = drive.worlds.expected(drive.window, KeyframeId(7));
   ASSERT_EQ(expected.size(), 1u);
   EXPECT_LT(std::sqrt(expected[0].covariance.trace()), 2 * kRadPerDeg);
 }
@@ -97,9 +98,9 @@ TEST(ManhattanWorlds, OfOtherDirectionsAreKeptApartAndFoundAgain) {
   const SO3 turn = SO3::exp({0, 10 * kRadPerDeg, 0});
   EXPECT_FALSE(drive.see(turn));
   EXPECT_FALSE(drive.see(turn));
-  EXPECT_EQ(drive.see(turn), 2);
-  EXPECT_EQ(drive.see(turn), 2);
-  EXPECT_EQ(drive.see(SO3()), 1);
+  EXPECT_EQ(drive.see(turn), ManhattanFrameId(2));
+  EXPECT_EQ(drive.see(turn), ManhattanFrameId(2));
+  EXPECT_EQ(drive.see(SO3()), ManhattanFrameId(1));
   EXPECT_EQ(drive.window.worlds().size(), 3u);
 }
 
@@ -108,7 +109,7 @@ TEST(ManhattanWorlds, AStrayViewBeginsNone) {
   for (int k = 0; k < 4; ++k) (void)drive.see(SO3());
   EXPECT_FALSE(drive.see(SO3::exp({0.3, 0.1, 0})));
   EXPECT_FALSE(drive.see(SO3::exp({0, -0.2, 0.1})));
-  EXPECT_EQ(drive.see(SO3()), 1);
+  EXPECT_EQ(drive.see(SO3()), ManhattanFrameId(1));
   EXPECT_EQ(drive.window.worlds().size(), 2u);
 }
 
@@ -124,14 +125,15 @@ TEST(ManhattanWorlds, UnseenOnesAreRememberedUntilThereAreTooMany) {
   Drive drive({});
   for (int k = 0; k < 4; ++k) (void)drive.see(SO3());
   for (int k = 0; k < 8; ++k) (void)drive.see(std::nullopt);
-  EXPECT_EQ(drive.see(SO3()), 1);
+  EXPECT_EQ(drive.see(SO3()), ManhattanFrameId(1));
   ManhattanWorldOptions options;
   options.max_worlds = 1;
   options.persistence = 2;
   Drive forgetful(options);
   for (int k = 0; k < 3; ++k) (void)forgetful.see(SO3());
   for (int k = 0; k < 8; ++k) (void)forgetful.see(SO3::exp({0, 20 * kRadPerDeg, 0}));
-  EXPECT_EQ(forgetful.window.worlds(), (std::vector<std::int64_t>{ManhattanWorlds::kMapAxes, 2}));
+  EXPECT_EQ(forgetful.window.worlds(),
+            (std::vector{ManhattanWorlds::kMapAxes, ManhattanFrameId(2)}));
 }
 
 TEST(ManhattanWorlds, FaultyOptionsAreRefused) {

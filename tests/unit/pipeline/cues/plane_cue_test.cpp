@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/cues/plane_cue.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/cues/plane_cue.h>
 
 #include <Eigen/Dense>
 
@@ -14,7 +14,7 @@ using test::make_window_world;
 using test::WindowWorld;
 using test::WindowWorldOptions;
 
-using Seen = std::vector<std::optional<std::int64_t>>;
+using Seen = std::vector<std::optional<PlaneId>>;
 
 /// A rectangle of a plane of the map: its middle, two directions of unit length and half extents.
 struct Patch {
@@ -64,11 +64,11 @@ struct Drive {
   Seen see(const std::vector<Patch>& patches) {
     const std::int64_t id = next++;
     const SE3& T_map_cam = world.T_map_cam[static_cast<std::size_t>(id)];
-    window.add_keyframe(id, T_map_cam);
-    add_view(window, world, id, 0, random);
+    window.add_keyframe(KeyframeId(id), T_map_cam);
+    add_view(window, world, KeyframeId(id), 0, random);
     std::vector<DepthPlane> seen;
     for (const Patch& patch : patches) seen.push_back(seen_from(T_map_cam, patch));
-    const Seen result = planes.add(id, seen, window);
+    const Seen result = planes.add(KeyframeId(id), seen, window);
     if (id > 0) {
       EXPECT_TRUE(window.optimize().outcome);
     }
@@ -89,10 +89,10 @@ TEST(PlaneLandmarks, BeginWithTheSecondSighting) {
   EXPECT_EQ(drive.see({kAhead, kLeft}), (Seen{std::nullopt, std::nullopt}));
   EXPECT_TRUE(drive.planes.landmarks().empty());
   const Seen second = drive.see({kLeft, kAhead});
-  EXPECT_EQ(second, (Seen{1, 2}));
-  EXPECT_EQ(drive.window.planes(), (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(second, (Seen{PlaneId(1), PlaneId(2)}));
+  EXPECT_EQ(drive.window.planes(), (std::vector{PlaneId(1), PlaneId(2)}));
   EXPECT_EQ(plane_observations(drive.window).size(), 4u);
-  for (int k = 0; k < 8; ++k) EXPECT_EQ(drive.see({kAhead, kLeft}), (Seen{2, 1}));
+  for (int k = 0; k < 8; ++k) EXPECT_EQ(drive.see({kAhead, kLeft}), (Seen{PlaneId(2), PlaneId(1)}));
 }
 
 TEST(PlaneLandmarks, OneSeenOnceIsNone) {
@@ -107,9 +107,9 @@ TEST(PlaneLandmarks, OneSeenOnceIsNone) {
 TEST(PlaneLandmarks, ACoplanarSurfaceElsewhereIsAnotherOne) {
   Drive drive;
   drive.see({kAhead});
-  EXPECT_EQ(drive.see({kAhead}), Seen{1});
+  EXPECT_EQ(drive.see({kAhead}), Seen{PlaneId(1)});
   EXPECT_EQ(drive.see({kFarRight}), Seen{std::nullopt});
-  EXPECT_EQ(drive.see({kFarRight, kAhead}), (Seen{2, 1}));
+  EXPECT_EQ(drive.see({kFarRight, kAhead}), (Seen{PlaneId(2), PlaneId(1)}));
 }
 
 TEST(PlaneLandmarks, TheOtherSideOfAThinWallIsAnotherOne) {
@@ -126,14 +126,16 @@ TEST(PlaneLandmarks, TheOtherSideOfAThinWallIsAnotherOne) {
   std::vector<Seen> results;
   for (std::size_t k = 0; k < 4; ++k) {
     const auto id = static_cast<std::int64_t>(k);
-    window.add_keyframe(id, T_map_cam[k]);
-    if (k > 0) add_motion(window, {id - 1, id, T_map_cam[k - 1].inverse() * T_map_cam[k], sure});
-    results.push_back(
-        planes.add(id, {Drive::seen_from(T_map_cam[k], k < 2 ? kAhead : back)}, window));
+    window.add_keyframe(KeyframeId(id), T_map_cam[k]);
+    if (k > 0)
+      add_motion(window, {KeyframeId(id - 1), KeyframeId(id),
+                          T_map_cam[k - 1].inverse() * T_map_cam[k], sure});
+    results.push_back(planes.add(KeyframeId(id),
+                                 {Drive::seen_from(T_map_cam[k], k < 2 ? kAhead : back)}, window));
   }
-  EXPECT_EQ(results[1], Seen{1});
+  EXPECT_EQ(results[1], Seen{PlaneId(1)});
   EXPECT_EQ(results[2], Seen{std::nullopt});
-  EXPECT_EQ(results[3], Seen{2});
+  EXPECT_EQ(results[3], Seen{PlaneId(2)});
 }
 
 TEST(PlaneLandmarks, ALeafBeforeItsWallIsToldFromItWhereBothAreSeenAndElseLeftAlone) {
@@ -142,13 +144,13 @@ TEST(PlaneLandmarks, ALeafBeforeItsWallIsToldFromItWhereBothAreSeenAndElseLeftAl
   leaf.half_u = 0.5;
   Drive drive;
   drive.see({kAhead, leaf});
-  EXPECT_EQ(drive.see({kAhead, leaf}), (Seen{1, 2}));
-  EXPECT_EQ(drive.see({leaf, kAhead}), (Seen{2, 1}));
+  EXPECT_EQ(drive.see({kAhead, leaf}), (Seen{PlaneId(1), PlaneId(2)}));
+  EXPECT_EQ(drive.see({leaf, kAhead}), (Seen{PlaneId(2), PlaneId(1)}));
   // Half way between the two, alone: it may be either.
   Patch either = leaf;
   either.middle.z() += 0.014;
   EXPECT_EQ(drive.see({either}), Seen{std::nullopt});
-  EXPECT_EQ(drive.planes.landmarks(), (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(drive.planes.landmarks(), (std::vector{PlaneId(1), PlaneId(2)}));
 }
 
 TEST(PlaneLandmarks, AreRememberedForAWhile) {
@@ -156,9 +158,9 @@ TEST(PlaneLandmarks, AreRememberedForAWhile) {
   options.patience = 8;
   Drive patient(options);
   patient.see({kAhead});
-  EXPECT_EQ(patient.see({kAhead}), Seen{1});
+  EXPECT_EQ(patient.see({kAhead}), Seen{PlaneId(1)});
   for (int k = 0; k < 7; ++k) patient.see({});
-  EXPECT_EQ(patient.see({kAhead}), Seen{1});
+  EXPECT_EQ(patient.see({kAhead}), Seen{PlaneId(1)});
 
   options.patience = 3;
   Drive hasty(options);
@@ -176,8 +178,8 @@ TEST(PlaneLandmarks, TheOneUnseenForLongestMakesRoom) {
   drive.see({kAhead});
   drive.see({kAhead});
   drive.see({kLeft});
-  EXPECT_EQ(drive.see({kLeft}), Seen{2});
-  EXPECT_EQ(drive.planes.landmarks(), std::vector<std::int64_t>{2});
+  EXPECT_EQ(drive.see({kLeft}), Seen{PlaneId(2)});
+  EXPECT_EQ(drive.planes.landmarks(), std::vector{PlaneId(2)});
 }
 
 TEST(PlaneLandmarks, BeginAnewAfterAReset) {

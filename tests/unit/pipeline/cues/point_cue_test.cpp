@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/cues/point_cue.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/cues/point_cue.h>
 
+#include "tests/support/ids.h"
 #include "tests/support/scenes/street.h"
 
 namespace placegraph {
@@ -27,8 +28,8 @@ struct Street {
     const Frame first = frames().frame(0, Sensor::kStereo);
     points.track(first.image);
     points.detect({}, false, {});
-    window.add_keyframe(0, T_world_cam(0));
-    points.observe(0, first, {}, window);
+    window.add_keyframe(KeyframeId(0), T_world_cam(0));
+    points.observe(KeyframeId(0), first, {}, window);
   }
 };
 
@@ -36,7 +37,7 @@ TEST(PointCue, PointsOfAStereoKeyframeBecomeLandmarksAtTheirDepth) {
   Street street;
   ASSERT_GT(street.points.tracked_landmarks(street.window), 100);
   std::vector<double> heights;
-  for (const std::int64_t id : street.window.landmarks()) {
+  for (const LandmarkId id : street.window.landmarks()) {
     const Eigen::Vector3d p = *street.window.landmark(id);
     // On the road, a house front or the end wall.
     heights.push_back(
@@ -60,7 +61,7 @@ TEST(PointCue, TracksThatContradictThePoseAreMarked) {
   Street street;
   Random random(1);
   // A landmark that is not where its track sees it.
-  const std::int64_t moved = street.window.landmarks().front();
+  const LandmarkId moved = street.window.landmarks().front();
   const auto px = street.points.landmark_pixels(street.window);
   street.window.remove_landmark(moved);
   street.window.add_landmark(moved, T_world_cam(0) * Eigen::Vector3d(0.5, 0.1, 3));
@@ -95,15 +96,15 @@ TEST(PointCue, WithoutDepthAPointIsPlacedByItsParallax) {
   SlidingWindow window({}, mono.camera);
   points.track(frames().frame(0, Sensor::kMono).image);
   points.detect({}, false, {});
-  window.add_keyframe(0, T_world_cam(0));
-  points.observe(0, frames().frame(0, Sensor::kMono), {}, window);
+  window.add_keyframe(KeyframeId(0), T_world_cam(0));
+  points.observe(KeyframeId(0), frames().frame(0, Sensor::kMono), {}, window);
   EXPECT_TRUE(window.landmarks().empty());
   for (int i = 1; i < 4; ++i) points.track(frames().frame(i, Sensor::kMono).image);
-  window.add_keyframe(1, T_world_cam(3));
-  points.observe(1, frames().frame(3, Sensor::kMono), {}, window);
+  window.add_keyframe(KeyframeId(1), T_world_cam(3));
+  points.observe(KeyframeId(1), frames().frame(3, Sensor::kMono), {}, window);
   ASSERT_GT(window.landmarks().size(), 30u);
   std::vector<double> off_px;
-  for (const std::int64_t id : window.landmarks()) {
+  for (const LandmarkId id : window.landmarks()) {
     EXPECT_EQ(window.observations(id).size(), 2u);
     off_px.push_back(residual_px(window, window.observations(id).front())->norm());
   }
@@ -114,10 +115,10 @@ TEST(PointCue, ObservationsOfOneTrackCountForLessTheMoreThereAre) {
   Street street;
   const Frame second = frames().frame(1, Sensor::kStereo);
   street.points.track(second.image);
-  street.window.add_keyframe(1, T_world_cam(1));
-  street.points.observe(1, second, {}, street.window);
+  street.window.add_keyframe(KeyframeId(1), T_world_cam(1));
+  street.points.observe(KeyframeId(1), second, {}, street.window);
   int seen_twice = 0;
-  for (const std::int64_t id : street.window.landmarks()) {
+  for (const LandmarkId id : street.window.landmarks()) {
     const auto& observations = street.window.observations(id);
     if (observations.size() != 2) continue;
     for (const PointTrack& track : street.points.tracks()) {
@@ -132,8 +133,8 @@ TEST(PointCue, ObservationsOfOneTrackCountForLessTheMoreThereAre) {
 
 TEST(PointCue, LandmarksThatMissTheirPixelAreDropped) {
   Street street;
-  const std::int64_t good = street.window.landmarks().back();
-  const std::int64_t wrong = street.window.landmarks().front();
+  const LandmarkId good = street.window.landmarks().back();
+  const LandmarkId wrong = street.window.landmarks().front();
   const WindowObservation seen = street.window.observations(wrong).front();
   const Eigen::Vector3d true_cam = T_world_cam(0).inverse() * *street.window.landmark(wrong);
   street.window.remove_landmark(wrong);
@@ -141,7 +142,7 @@ TEST(PointCue, LandmarksThatMissTheirPixelAreDropped) {
       wrong, T_world_cam(0) * (true_cam + Eigen::Vector3d(5 * true_cam.z() / 330, 0, 0)));
   street.window.add_observation(seen);
   const std::size_t before = street.window.landmarks().size();
-  const std::vector<double> depths = street.points.prune(street.window, 0);
+  const std::vector<double> depths = street.points.prune(street.window, KeyframeId(0));
   EXPECT_FALSE(street.window.landmark(wrong));
   EXPECT_TRUE(street.window.landmark(good));
   EXPECT_EQ(street.window.landmarks().size(), before - 1);
@@ -154,20 +155,20 @@ TEST(PointCue, TwoViewsStartAMapAndNewTracksWaitForDepth) {
   const Calibration mono = frames().calibration(Sensor::kMono);
   PointCue points({}, mono, {}, times);
   SlidingWindow window({}, mono.camera);
-  window.add_keyframe(0, SE3());
-  window.add_keyframe(1, SE3(SO3(), Eigen::Vector3d(1, 0, 0)));
+  window.add_keyframe(KeyframeId(0), SE3());
+  window.add_keyframe(KeyframeId(1), SE3(SO3(), Eigen::Vector3d(1, 0, 0)));
   const Eigen::Vector3d point(0.5, 0.2, 6);
   const Eigen::Vector2d ref = *mono.camera.project(point);
   const Eigen::Vector2d cur = *mono.camera.project(point - Eigen::Vector3d(1, 0, 0));
-  points.observe_two_views(0, 1,
-                           {{4, ref, cur, Eigen::Matrix2d::Identity(), point},
-                            {5, ref, cur, Eigen::Matrix2d::Identity(), std::nullopt}},
+  points.observe_two_views(KeyframeId(0), KeyframeId(1),
+                           {{LandmarkId(4), ref, cur, Eigen::Matrix2d::Identity(), point},
+                            {LandmarkId(5), ref, cur, Eigen::Matrix2d::Identity(), std::nullopt}},
                            window);
-  ASSERT_EQ(window.landmarks(), std::vector<std::int64_t>{4});
-  ASSERT_EQ(window.observations(4).size(), 2u);
-  EXPECT_EQ(window.observations(4)[0].px, ref);
-  EXPECT_EQ(window.observations(4)[1].px, cur);
-  EXPECT_EQ(window.observations(4)[1].keyframe, 1);
+  ASSERT_EQ(window.landmarks(), test::ids<LandmarkId>({4}));
+  ASSERT_EQ(window.observations(LandmarkId(4)).size(), 2u);
+  EXPECT_EQ(window.observations(LandmarkId(4))[0].px, ref);
+  EXPECT_EQ(window.observations(LandmarkId(4))[1].px, cur);
+  EXPECT_EQ(window.observations(LandmarkId(4))[1].keyframe, KeyframeId(1));
 }
 
 TEST(PointCue, MasksFromLabelsAreIgnoredWhereTheyLeaveTooFewPoints) {
@@ -193,7 +194,7 @@ TEST(PointCue, MasksFromLabelsAreIgnoredWhereTheyLeaveTooFewPoints) {
 
 TEST(PointCue, DepthsOfLandmarksAreOfTheKeyframeAskedFor) {
   Street street;
-  for (const KnownPixel& known : street.points.landmark_depths(street.window, 0)) {
+  for (const KnownPixel& known : street.points.landmark_depths(street.window, KeyframeId(0))) {
     EXPECT_NEAR(known.depth.sigma, 0.03 * known.depth.value, 1e-12);
     EXPECT_GT(1 / known.depth.value, 1);
     EXPECT_LT(1 / known.depth.value, 40);

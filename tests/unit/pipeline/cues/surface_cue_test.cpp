@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/planes/dominant_surface.h>
-#include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/cues/surface_cue.h>
+#include <placegraph/frontend/internal/planes/dominant_surface.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/cues/surface_cue.h>
 
 #include <opencv2/core.hpp>
 

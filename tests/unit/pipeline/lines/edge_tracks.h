@@ -1,8 +1,8 @@
 #pragma once
-#include <placegraph/backend/window/sliding_window.h>
-#include <placegraph/frontend/lines/line_tracker.h>
+#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/frontend/internal/lines/line_tracker.h>
+#include <placegraph/graph/core/ids.h>
 
-#include <cstdint>
 #include <vector>
 
 namespace placegraph::test {
@@ -25,7 +25,7 @@ inline Line3 line_through(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 /// The track of the straight edge between two points of the odometry frame.
-inline LineTrack track_of(std::int64_t id, const SE3& T_odom_cam, const Eigen::Vector3d& start_odom,
+inline LineTrack track_of(LineId id, const SE3& T_odom_cam, const Eigen::Vector3d& start_odom,
                           const Eigen::Vector3d& end_odom) {
   LineTrack track;
   track.id = id;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/lines/line_cue.h>
+#include <placegraph/frontend/internal/lines/floor_from_lines.h>
+#include <placegraph/pipeline/internal/lines/line_cue.h>
 
 #include <algorithm>
 #include <array>
@@ -40,12 +41,12 @@ struct Walk {
   }
   /// `T_map_cam`: where the window takes the keyframe to be.
   void keyframe(int i, const SE3& T_map_cam) {
-    window.add_keyframe(i, T_map_cam);
+    window.add_keyframe(KeyframeId(i), T_map_cam);
     if (i > 0) {
       cue.track(frame(i).image, window, T_map_cam, kDepth_m);
       cue.accept(window, T_map_cam);
     }
-    cue.observe(i, frame(i), {}, kDepth_m, window);
+    cue.observe(KeyframeId(i), frame(i), {}, kDepth_m, window);
   }
 };
 
@@ -68,7 +69,7 @@ TEST(LineCompass, WithoutOneDirectionsAreNotLearned) {
   Walk walk;
   for (int i = 0; i < 2; ++i) walk.keyframe(i, way(i));
   EXPECT_TRUE(walk.cue.shared_directions().empty());
-  walk.cue.hold_course(1, kDepth_m, walk.window);
+  walk.cue.hold_course(KeyframeId(1), kDepth_m, walk.window);
   EXPECT_TRUE(walk.window.factors().empty());
 }
 
@@ -102,7 +103,7 @@ TEST(LineCompass, SteersAKeyframeThatTheWindowHasTurned) {
   walk.keyframe(1, turned);
   ASSERT_EQ(walk.window.factors().size(), 1u);
   const WindowFactor& prior = walk.window.factors().front();
-  EXPECT_EQ(prior.variables, std::vector{keyframe_variable(1)});
+  EXPECT_EQ(prior.variables, std::vector{keyframe_variable(KeyframeId(1))});
   // A deviation of what is known is well below a degree, so the truth is much more probable.
   EXPECT_GT(chi2(prior, {turned}), 10 * chi2(prior, {way(1)}));
   // Where the keyframe stands is not told.
@@ -119,12 +120,12 @@ TEST(LineCompass, EarlierKeyframesAreSteeredInOrder) {
     seen.push_back(walk.cue.seen());
   }
   for (int i = 0; i < 3; ++i) {
-    walk.window.add_keyframe(i, way(i));
-    walk.cue.observe_earlier(i, seen[static_cast<std::size_t>(i)], walk.window);
+    walk.window.add_keyframe(KeyframeId(i), way(i));
+    walk.cue.observe_earlier(KeyframeId(i), seen[static_cast<std::size_t>(i)], walk.window);
   }
   ASSERT_EQ(walk.window.factors().size(), 2u);
-  EXPECT_EQ(walk.window.factors()[0].variables, std::vector{keyframe_variable(1)});
-  EXPECT_EQ(walk.window.factors()[1].variables, std::vector{keyframe_variable(2)});
+  EXPECT_EQ(walk.window.factors()[0].variables, std::vector{keyframe_variable(KeyframeId(1))});
+  EXPECT_EQ(walk.window.factors()[1].variables, std::vector{keyframe_variable(KeyframeId(2))});
 }
 
 TEST(LineCompass, LinesAlongTheWayHoldTheCourse) {
@@ -135,13 +136,13 @@ TEST(LineCompass, LinesAlongTheWayHoldTheCourse) {
   walk.keyframe(1, way(1));
   walk.keyframe(2, aside);
   const std::size_t before = walk.window.factors().size();
-  walk.cue.hold_course(2, kDepth_m, walk.window);
+  walk.cue.hold_course(KeyframeId(2), kDepth_m, walk.window);
   ASSERT_GT(walk.window.factors().size(), before);
   int from_first = 0;
   for (const WindowFactor& motion : walk.window.factors()) {
     if (motion.variables.size() != 2) continue;
-    EXPECT_EQ(motion.variables[1], keyframe_variable(2));
-    if (motion.variables[0] != keyframe_variable(0)) continue;
+    EXPECT_EQ(motion.variables[1], keyframe_variable(KeyframeId(2)));
+    if (motion.variables[0] != keyframe_variable(KeyframeId(0))) continue;
     ++from_first;
     EXPECT_GT(chi2(motion, {way(0), aside}), 10 * chi2(motion, {way(0), way(2)}));
     // How far it went is open.
@@ -170,7 +171,7 @@ TEST(LineCompass, FewLinesPoseAFrameWhoseRotationIsSeen) {
     walk->keyframe(0, way(0));
     // Of every direction one or two are left.
     std::array<int, 3> kept{};
-    for (const std::int64_t id : walk->window.lines()) {
+    for (const LineId id : walk->window.lines()) {
       Eigen::Index axis = 0;
       walk->window.line(id)->direction().cwiseAbs().maxCoeff(&axis);
       if (++kept[static_cast<std::size_t>(axis)] > 2) walk->window.remove_line(id);

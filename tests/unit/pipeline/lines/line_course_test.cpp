@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/angle.h>
-#include <placegraph/pipeline/lines/line_course.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/lines/line_course.h>
 
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
@@ -16,25 +16,27 @@ using Eigen::Vector3d;
 struct Corridor {
   SlidingWindow window{{}, line_camera()};
   LineSightings sightings;
-  std::vector<DirectionCompass::Family> families{{Vector3d::UnitZ(), 1e-3, {1, 2, 3, 4}}};
+  std::vector<DirectionCompass::Family> families{
+      {Vector3d::UnitZ(), 1e-3, {LineId(1), LineId(2), LineId(3), LineId(4)}}};
 
   explicit Corridor(const Vector3d& way, const Vector3d& error = Vector3d::Zero(),
                     double roll_rad = 0) {
     const SO3 rolled = SO3::exp({0, 0, roll_rad});
     const SE3 first, second(rolled, way);
-    window.add_keyframe(0, first);
-    window.add_keyframe(1, SE3(rolled, way + error));
+    window.add_keyframe(KeyframeId(0), first);
+    window.add_keyframe(KeyframeId(1), SE3(rolled, way + error));
     for (int i = 1; i <= 4; ++i) {
       const double x = i % 2 ? -1.5 : 1.5, y = i <= 2 ? -1 : 1;
       for (int k = 0; k < 2; ++k) {
         const LineTrack track =
-            track_of(i, k ? second : first, Vector3d(x, y, 6), Vector3d(x, y, 20));
-        sightings[i].push_back({k, track.edge.line.carriers(0.1), std::nullopt});
+            track_of(LineId(i), k ? second : first, Vector3d(x, y, 6), Vector3d(x, y, 20));
+        sightings[LineId(i)].push_back(
+            {KeyframeId(k), track.edge.line.carriers(0.1), std::nullopt});
       }
     }
   }
   std::vector<MotionObservation> course(double depth = 3) const {
-    return course_along_lines(window, line_camera(), families, sightings, 1, depth,
+    return course_along_lines(window, line_camera(), families, sightings, KeyframeId(1), depth,
                               deg_to_rad(2.0));
   }
 };
@@ -44,8 +46,8 @@ TEST(LineCourse, EdgesAlongTheWaySayThatTheCameraStayedOnTheirDirection) {
   const Corridor corridor({0, 0, 1}, {0.04, 0, 0});
   const auto motions = corridor.course();
   ASSERT_EQ(motions.size(), 1u);
-  EXPECT_EQ(motions[0].from, 0);
-  EXPECT_EQ(motions[0].to, 1);
+  EXPECT_EQ(motions[0].from, KeyframeId(0));
+  EXPECT_EQ(motions[0].to, KeyframeId(1));
   EXPECT_NEAR((motions[0].T_from_to.translation() - Vector3d(0, 0, 1)).norm(), 0, 1e-9);
   // Across the way it is known, along the way and in rotation it is not.
   const auto& information = motions[0].information;
@@ -84,7 +86,7 @@ TEST(LineCourse, AWayAcrossTheEdgesHoldsNothing) {
 
 TEST(LineCourse, LinesOfTheWindowAndLinesThatTurnedDoNotCount) {
   Corridor placed({0, 0, 1});
-  for (int i = 1; i <= 4; ++i) placed.window.add_line(i, Line3());
+  for (int i = 1; i <= 4; ++i) placed.window.add_line(LineId(i), Line3());
   EXPECT_TRUE(placed.course().empty());
   // The camera left the edges' direction by 30 cm: their planes turned by more than two degrees.
   EXPECT_TRUE(Corridor({0.3, 0, 2}, {-0.3, 0, 0}).course().empty());

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/lines/line_cue.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/lines/line_cue.h>
 
 #include <map>
 
@@ -21,13 +21,14 @@ struct Pair {
   explicit Pair(const RectificationError& error) : window({}, line_camera()) {
     calibration.camera = line_camera();
     calibration.baseline_m = 0.5;
-    for (int k = 0; k < 4; ++k) window.add_keyframe(k, SE3(SO3(), Eigen::Vector3d(0.4 * k, 0, 0)));
+    for (int k = 0; k < 4; ++k)
+      window.add_keyframe(KeyframeId(k), SE3(SO3(), Eigen::Vector3d(0.4 * k, 0, 0)));
     for (int i = 0; i < 6; ++i) {
       const double x = -1 + 0.5 * i, z = 4 + i;
-      window.add_line(i, Line3::from_direction({x, 0, z}, {0, 1, 0}));
+      window.add_line(LineId(i), Line3::from_direction({x, 0, z}, {0, 1, 0}));
       for (int k = 0; k < 4; ++k) {
         const double u = 320 + 500 * (x - 0.4 * k) / z, d = 500 * 0.5 / z;
-        LineObservation o{k, i, {u, 140}, {u, 340}, 0.2, {}};
+        LineObservation o{KeyframeId(k), LineId(i), {u, 140}, {u, 340}, 0.2, {}};
         const auto right = [&](double v) {
           return Eigen::Vector2d(u - d - error.at({(u - 320) / 500, (v - 240) / 500}), v);
         };
@@ -55,7 +56,7 @@ TEST(LineCue, RevisedRightEyesLieWhereARectifiedOneWouldSeeTheLines) {
   Pair off(error);
   const Pair good({});
   off.cue().revise_eyes(off.window, {}, error);
-  for (const std::int64_t id : good.window.lines())
+  for (const LineId id : good.window.lines())
     for (std::size_t k = 0; k < 4; ++k) {
       const auto& revised = *off.window.line_observations(id)[k].second;
       const auto& wanted = *good.window.line_observations(id)[k].second;
@@ -67,10 +68,11 @@ TEST(LineCue, RevisedRightEyesLieWhereARectifiedOneWouldSeeTheLines) {
 TEST(LineCue, OnlyASecondEyeThatIsThereCanBeRevised) {
   Pair pair({});
   const LineObservation::SecondEye eye{{0.5, 0, 0}, {1, 2}, {1, 9}, 0.2};
-  EXPECT_THROW(pair.window.revise_second_eye(9, 0, eye), ArgumentError);
-  EXPECT_THROW(pair.window.revise_second_eye(0, 99, eye), ArgumentError);
-  EXPECT_THROW(pair.window.revise_second_eye(0, 0, {{0, 0, 0}, {1, 2}, {1, 9}, 0.2}),
-               ArgumentError);
+  EXPECT_THROW(pair.window.revise_second_eye(KeyframeId(9), LineId(0), eye), ArgumentError);
+  EXPECT_THROW(pair.window.revise_second_eye(KeyframeId(0), LineId(99), eye), ArgumentError);
+  EXPECT_THROW(
+      pair.window.revise_second_eye(KeyframeId(0), LineId(0), {{0, 0, 0}, {1, 2}, {1, 9}, 0.2}),
+      ArgumentError);
 }
 
 constexpr double kBoardsBaseline_m = 0.5;
@@ -99,17 +101,17 @@ struct Corridor {
   }
   static const Frame& frame(int i) { return boards_drive()[static_cast<std::size_t>(i)]; }
   void keyframe(int i) {
-    window.add_keyframe(i, boards_way(i));
+    window.add_keyframe(KeyframeId(i), boards_way(i));
     if (i > 0) {
       cue.track(frame(i).image, window, boards_way(i), 5);
       cue.accept(window, boards_way(i));
     }
-    cue.observe(i, frame(i), {}, 5, window);
+    cue.observe(KeyframeId(i), frame(i), {}, 5, window);
   }
   /// By what angle the lines of the window miss the nearest axis of the corridor; their median.
   double off_the_axes_rad() const {
     std::vector<double> off;
-    for (const std::int64_t id : window.lines())
+    for (const LineId id : window.lines())
       off.push_back(std::acos(std::min(1.0, window.line(id)->direction().cwiseAbs().maxCoeff())));
     return median_of(off);
   }
@@ -136,8 +138,7 @@ TEST(LineCue, MotionPlacesTheLinesOfASingleCamera) {
   ASSERT_GT(c.window.lines().size(), 8u);
   EXPECT_LT(c.off_the_axes_rad(), 0.05);
   // What was seen before a line was placed counts, too.
-  for (const std::int64_t id : c.window.lines())
-    EXPECT_GE(c.window.line_observations(id).size(), 2u);
+  for (const LineId id : c.window.lines()) EXPECT_GE(c.window.line_observations(id).size(), 2u);
 }
 
 TEST(LineCue, PosesAFrameByTheLinesThatItFollows) {
@@ -168,12 +169,12 @@ TEST(LineCue, LinesThatTheNewestKeyframeContradictsAreDropped) {
   const std::size_t all = c.window.lines().size();
   c.cue.prune(c.window);
   EXPECT_EQ(c.window.lines().size(), all);
-  const std::int64_t moved = c.window.lines().front();
+  const LineId moved = c.window.lines().front();
   const Line3 line = *c.window.line(moved);
   c.window.remove_line(moved);
   c.window.add_line(moved, Line3::from_direction(line.nearest_point() + Eigen::Vector3d(1, 1, 1),
                                                  line.direction()));
-  c.window.add_line_observation({0, moved, {100, 100}, {100, 200}, 0.2, {}});
+  c.window.add_line_observation({KeyframeId(0), moved, {100, 100}, {100, 200}, 0.2, {}});
   c.cue.prune(c.window);
   EXPECT_FALSE(c.window.line(moved));
   EXPECT_EQ(c.window.lines().size(), all - 1);
@@ -184,7 +185,7 @@ TEST(LineCue, TellsHowFarLinesHaveMovedSinceTheKeyframe) {
   c.keyframe(0);
   ASSERT_GT(c.cue.flow_px().size(), 15u);
   for (const double px : c.cue.flow_px()) EXPECT_LT(px, 1e-9);
-  std::map<std::int64_t, Eigen::Vector2d> middle_px;
+  std::map<LineId, Eigen::Vector2d> middle_px;
   for (const FrameView::Line& line : c.cue.view(c.window, boards_way(0)))
     middle_px[line.id] = line.segment.middle();
   c.cue.track(Corridor::frame(2).image, c.window, boards_way(2), 5);

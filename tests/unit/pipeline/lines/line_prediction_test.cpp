@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/lines/line_prediction.h>
+#include <placegraph/pipeline/internal/lines/line_prediction.h>
 
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
@@ -16,7 +16,7 @@ const Vector3d kTop(0.5, -1, 4), kBottom(0.5, 1, 4);
 const SE3 kMoved(SO3::exp({0.02, -0.05, 0.01}), Vector3d(0.3, 0.1, 0.4));
 
 TEST(LinePrediction, ASegmentMovesAsItsEndsDo) {
-  const LineTrack track = track_of(7, SE3(), kTop, kBottom + Vector3d(0, 0, 2));
+  const LineTrack track = track_of(LineId(7), SE3(), kTop, kBottom + Vector3d(0, 0, 2));
   const LineSegment moved =
       moved_segment(line_camera(), track.edge.segment, {4, 6}, kMoved.inverse(), 4);
   EXPECT_NEAR((moved.start - project(kMoved, kTop)).norm(), 0, 1e-9);
@@ -26,7 +26,7 @@ TEST(LinePrediction, ASegmentMovesAsItsEndsDo) {
 TEST(LinePrediction, WhatComesTooNearIsCutOffOnItsLine) {
   // The camera goes 3.9 m ahead: of a segment from 4 m to 8 m, 0.1 m to 4.1 m are before it.
   const Vector3d near(1, 0.5, 4), far(1, 0.5, 8);
-  const LineTrack track = track_of(7, SE3(), near, far);
+  const LineTrack track = track_of(LineId(7), SE3(), near, far);
   const SE3 T_odom_cam(SO3(), Vector3d(0, 0, 3.9));
   const LineSegment moved =
       moved_segment(line_camera(), track.edge.segment, {4, 8}, T_odom_cam.inverse(), 6);
@@ -36,7 +36,7 @@ TEST(LinePrediction, WhatComesTooNearIsCutOffOnItsLine) {
 }
 
 TEST(LinePrediction, ASegmentBehindTheCameraHasNoLength) {
-  const LineTrack track = track_of(7, SE3(), kTop, kBottom);
+  const LineTrack track = track_of(LineId(7), SE3(), kTop, kBottom);
   const SE3 T_odom_cam(SO3(), Vector3d(0, 0, 5));
   EXPECT_EQ(
       moved_segment(line_camera(), track.edge.segment, {4, 4}, T_odom_cam.inverse(), 4).length(),
@@ -45,10 +45,11 @@ TEST(LinePrediction, ASegmentBehindTheCameraHasNoLength) {
 
 TEST(LinePrediction, LinesOfTheWindowTellThreeDepthsEach) {
   SlidingWindow window({}, line_camera());
-  window.add_keyframe(0, SE3());
-  window.add_line(7, line_through(kTop, kBottom + Vector3d(0, 0, 2)));
-  const std::vector<LineTrack> tracks = {track_of(7, SE3(), kTop, kBottom + Vector3d(0, 0, 2)),
-                                         track_of(8, SE3(), kTop, kBottom)};
+  window.add_keyframe(KeyframeId(0), SE3());
+  window.add_line(LineId(7), line_through(kTop, kBottom + Vector3d(0, 0, 2)));
+  const std::vector<LineTrack> tracks = {
+      track_of(LineId(7), SE3(), kTop, kBottom + Vector3d(0, 0, 2)),
+      track_of(LineId(8), SE3(), kTop, kBottom)};
   const auto known = known_depths(line_camera(), tracks, window, SE3());
   ASSERT_EQ(known.size(), 3u);
   EXPECT_NEAR(known[0].depth, 4, 1e-9);
@@ -56,20 +57,21 @@ TEST(LinePrediction, LinesOfTheWindowTellThreeDepthsEach) {
   EXPECT_NEAR(known[0].px.x(), tracks[0].edge.segment.start.x(), 1e-3);
   // Seen from half a metre behind, the line is half a metre deeper.
   const SE3 behind(SO3(), Vector3d(0, 0, -0.5));
-  const auto deeper = known_depths(
-      line_camera(), {track_of(7, behind, kTop, kBottom + Vector3d(0, 0, 2))}, window, behind);
+  const auto deeper =
+      known_depths(line_camera(), {track_of(LineId(7), behind, kTop, kBottom + Vector3d(0, 0, 2))},
+                   window, behind);
   ASSERT_EQ(deeper.size(), 3u);
   EXPECT_NEAR(deeper[0].depth, 4.5, 1e-9);
 }
 
 TEST(LinePrediction, ALineOfTheWindowIsExpectedWhereItIsSeenNext) {
   SlidingWindow window({}, line_camera());
-  window.add_keyframe(0, SE3());
+  window.add_keyframe(KeyframeId(0), SE3());
   const Vector3d end = kBottom + Vector3d(0, 0, 2);
-  window.add_line(7, line_through(kTop, end));
-  const std::map<std::int64_t, double> drift_px = {{7, 3}};  // does not count: its place is known
-  const auto expected = predict_segments(line_camera(), {track_of(7, SE3(), kTop, end)}, window,
-                                         {SE3(), kMoved, 20}, drift_px);
+  window.add_line(LineId(7), line_through(kTop, end));
+  const std::map<LineId, double> drift_px = {{LineId(7), 3}};  // does not count: its place is known
+  const auto expected = predict_segments(line_camera(), {track_of(LineId(7), SE3(), kTop, end)},
+                                         window, {SE3(), kMoved, 20}, drift_px);
   ASSERT_EQ(expected.size(), 1u);
   EXPECT_NEAR((expected[0].start - project(kMoved, kTop)).norm(), 0, 1e-9);
   EXPECT_NEAR((expected[0].end - project(kMoved, end)).norm(), 0, 1e-9);
@@ -77,23 +79,24 @@ TEST(LinePrediction, ALineOfTheWindowIsExpectedWhereItIsSeenNext) {
 
 TEST(LinePrediction, OtherTracksLieAsDeepAsTheLinesBesideThem) {
   SlidingWindow window({}, line_camera());
-  window.add_keyframe(0, SE3());
-  window.add_line(7, line_through(kTop, kBottom));
+  window.add_keyframe(KeyframeId(0), SE3());
+  window.add_line(LineId(7), line_through(kTop, kBottom));
   const Vector3d beside(0.1, 0, 0);
-  const std::map<std::int64_t, double> drift_px;
-  const auto expected = predict_segments(
-      line_camera(),
-      {track_of(7, SE3(), kTop, kBottom), track_of(8, SE3(), kTop + beside, kBottom + beside)},
-      window, {SE3(), kMoved, 20}, drift_px);
+  const std::map<LineId, double> drift_px;
+  const auto expected =
+      predict_segments(line_camera(),
+                       {track_of(LineId(7), SE3(), kTop, kBottom),
+                        track_of(LineId(8), SE3(), kTop + beside, kBottom + beside)},
+                       window, {SE3(), kMoved, 20}, drift_px);
   ASSERT_EQ(expected.size(), 2u);
   EXPECT_NEAR((expected[1].start - project(kMoved, kTop + beside)).norm(), 0, 1e-6);
 }
 
 TEST(LinePrediction, WithoutLinesBesideThemTracksLieAtTheDepthGivenAndDriftOn) {
   SlidingWindow window({}, line_camera());
-  window.add_keyframe(0, SE3());
-  const LineTrack track = track_of(8, SE3(), kTop, kBottom);
-  const std::map<std::int64_t, double> still, drifting = {{8, 2.5}};
+  window.add_keyframe(KeyframeId(0), SE3());
+  const LineTrack track = track_of(LineId(8), SE3(), kTop, kBottom);
+  const std::map<LineId, double> still, drifting = {{LineId(8), 2.5}};
   const auto at_4 = predict_segments(line_camera(), {track}, window, {SE3(), kMoved, 4}, still);
   EXPECT_NEAR((at_4[0].start - project(kMoved, kTop)).norm(), 0, 1e-9);
   const auto drifted =

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/lines/line_second_eye.h>
+#include <placegraph/pipeline/internal/lines/line_second_eye.h>
 
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
@@ -67,11 +67,11 @@ TEST(LineSecondEye, WithoutASecondImageThereIsNoSecondEye) {
 /// An upright line 5 m ahead, seen by keyframes along x that are `step_m` apart.
 SlidingWindow window_with_line(int keyframes, bool right, double step_m = 0.4) {
   SlidingWindow window({}, line_camera());
-  window.add_line(7, Line3::from_direction(Vector3d(0.2, 0, 5), Vector3d::UnitY()));
+  window.add_line(LineId(7), Line3::from_direction(Vector3d(0.2, 0, 5), Vector3d::UnitY()));
   for (int k = 0; k < keyframes; ++k) {
-    window.add_keyframe(k, SE3(SO3(), Vector3d(step_m * k, 0, 0)));
+    window.add_keyframe(KeyframeId(k), SE3(SO3(), Vector3d(step_m * k, 0, 0)));
     const double u = 320 + 500 * (0.2 - step_m * k) / 5;
-    LineObservation o{k, 7, {u, 140}, {u, 340}, 0.2, {}};
+    LineObservation o{KeyframeId(k), LineId(7), {u, 140}, {u, 340}, 0.2, {}};
     const double disparity = 500 * 0.5 / 5 + 0.7;  // measured 0.7 px too large
     if (right)
       o.second = LineObservation::SecondEye{
@@ -86,7 +86,7 @@ TEST(LineSecondEye, DisparityStandsBesideWhatMotionSays) {
   calibration.camera = line_camera();
   calibration.baseline_m = 0.5;
   const auto sample =
-      disparity_of_line(window_with_line(5, true), 7, calibration, {0.25, 0, 0}, {});
+      disparity_of_line(window_with_line(5, true), LineId(7), calibration, {0.25, 0, 0}, {});
   ASSERT_TRUE(sample);
   EXPECT_NEAR(sample->from_motion_px, 50, 1e-6);
   EXPECT_NEAR(sample->measured_px, 50.7 + 0.25, 1e-6);  // before it was corrected
@@ -98,13 +98,15 @@ TEST(LineSecondEye, ThereIsNoSampleWithoutASecondEyeOrWithTooLittleMotion) {
   Calibration calibration;
   calibration.camera = line_camera();
   calibration.baseline_m = 0.5;
-  EXPECT_FALSE(disparity_of_line(window_with_line(5, false), 7, calibration, {}, {}));
-  EXPECT_FALSE(disparity_of_line(window_with_line(1, true), 7, calibration, {}, {}));
+  EXPECT_FALSE(disparity_of_line(window_with_line(5, false), LineId(7), calibration, {}, {}));
+  EXPECT_FALSE(disparity_of_line(window_with_line(1, true), LineId(7), calibration, {}, {}));
   LineTriangulationOptions options;
   options.min_turn_deg = 0.5;
-  EXPECT_TRUE(disparity_of_line(window_with_line(3, true, 0.5), 7, calibration, {}, options));
+  EXPECT_TRUE(
+      disparity_of_line(window_with_line(3, true, 0.5), LineId(7), calibration, {}, options));
   // A tenth of the baseline of the cameras: motion knows the disparity ten times worse.
-  EXPECT_FALSE(disparity_of_line(window_with_line(3, true, 0.025), 7, calibration, {}, options));
+  EXPECT_FALSE(
+      disparity_of_line(window_with_line(3, true, 0.025), LineId(7), calibration, {}, options));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/lines/line_tracks.h>
+#include <placegraph/pipeline/internal/lines/line_tracks.h>
 
 #include "tests/unit/pipeline/lines/edge_tracks.h"
 
@@ -19,10 +19,11 @@ struct Tracks {
   static Vector3d top(int i) { return {0.4 * i - 0.8, -1, 3.0 + i}; }
   static Vector3d bottom(int i) { return {0.4 * i - 0.8, 1, 3.0 + i}; }
   Tracks() {
-    window.add_keyframe(0, T_odom_cam);
-    for (int i = 1; i <= 3; ++i) tracks.push_back(track_of(i, T_odom_cam, top(i), bottom(i)));
-    window.add_line(1, line_through(top(1), bottom(1)));
-    window.add_line(2,
+    window.add_keyframe(KeyframeId(0), T_odom_cam);
+    for (int i = 1; i <= 3; ++i)
+      tracks.push_back(track_of(LineId(i), T_odom_cam, top(i), bottom(i)));
+    window.add_line(LineId(1), line_through(top(1), bottom(1)));
+    window.add_line(LineId(2),
                     line_through(top(2) + Vector3d(0.01, 0, 0), bottom(2) + Vector3d(0.01, 0, 0)));
   }
 };
@@ -31,9 +32,9 @@ TEST(LineTracks, TheViewHoldsAllTracksAndNoCarrierIsKnownBetterThanTheFloor) {
   const Tracks t;
   const LineView view = line_view(t.tracks, 0.5);
   ASSERT_EQ(view.size(), 3u);
-  EXPECT_EQ(view.at(3).segment.start, t.tracks[2].edge.segment.start);
-  EXPECT_GE(view.at(3).seen.sigma_px, 0.5);
-  EXPECT_LT(line_view(t.tracks, 0).at(3).seen.sigma_px, 0.5);
+  EXPECT_EQ(view.at(LineId(3)).segment.start, t.tracks[2].edge.segment.start);
+  EXPECT_GE(view.at(LineId(3)).seen.sigma_px, 0.5);
+  EXPECT_LT(line_view(t.tracks, 0).at(LineId(3)).seen.sigma_px, 0.5);
 }
 
 TEST(LineTracks, TracksThatAreLinesOfTheWindowAreCounted) {

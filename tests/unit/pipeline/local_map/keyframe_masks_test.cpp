@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/local_map/keyframe_masks.h>
+#include <placegraph/pipeline/internal/local_map/keyframe_masks.h>
 
 #include <opencv2/core.hpp>
 
@@ -37,7 +37,7 @@ std::shared_ptr<const SceneEye> labeller() {
 
 Frame frame_of(std::int64_t id) {
   Frame frame;
-  frame.id = id;
+  frame.id = FrameId(id);
   frame.image = Image(kHeight, kWidth, CV_8UC1);
   for (int v = 0; v < kHeight; ++v)
     for (int u = 0; u < kWidth; ++u)
@@ -55,7 +55,7 @@ constexpr int kMargin = 12;  // about the horizon, which superpixels cross
 TEST(KeyframeMasks, WithoutAModelAFrameStaysAsItIs) {
   StageTimes times;
   KeyframeMasks masks(times);
-  Frame frame = frame_of(1);
+  Frame frame = frame_of(KeyframeId(1).value());
   frame.mask = Image(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
   const KeyframeImages images = masks.apply(frame);
   EXPECT_EQ(images.frame.mask.data, frame.mask.data);
@@ -69,7 +69,7 @@ TEST(KeyframeMasks, TheSkyIsMaskedAndTheGroundIsToldApart) {
   StageTimes times;
   KeyframeMasks masks(times);
   masks.set_model(labeller(), true);
-  const KeyframeImages images = masks.apply(frame_of(1));
+  const KeyframeImages images = masks.apply(frame_of(KeyframeId(1).value()));
   ASSERT_TRUE(images.labels);
   EXPECT_TRUE(images.masked_by_labels());
   EXPECT_TRUE(images.given_mask.empty());
@@ -84,7 +84,7 @@ TEST(KeyframeMasks, BothMasksCountAndThatOfTheCallerDoesNotChange) {
   StageTimes times;
   KeyframeMasks masks(times);
   masks.set_model(labeller(), true);
-  Frame frame = frame_of(1);
+  Frame frame = frame_of(KeyframeId(1).value());
   frame.mask = Image(kHeight, kWidth, CV_8UC1, cv::Scalar(255));
   frame.mask.rowRange(kHeight - 20, kHeight).setTo(0);  // the bonnet
   const Image before = frame.mask.clone();
@@ -102,7 +102,7 @@ TEST(KeyframeMasks, LabelsMaskNothingWhereTheyAreNotTrusted) {
     KeyframeMasks masks(times);
     masks.set_model(labeller(), wanted);
     masks.trust(!wanted);  // one of the two is missing
-    const KeyframeImages images = masks.apply(frame_of(1));
+    const KeyframeImages images = masks.apply(frame_of(KeyframeId(1).value()));
     ASSERT_TRUE(images.labels);  // they still say what surroundings these are
     EXPECT_GT(images.labels->shares.below[static_cast<std::size_t>(Surface::kGround)], 0.8);
     EXPECT_GT(images.labels->shares.above[static_cast<std::size_t>(Surface::kSky)], 0.8);
@@ -116,11 +116,11 @@ TEST(KeyframeMasks, AFrameIsLabelledOnce) {
   StageTimes times;
   KeyframeMasks masks(times);
   masks.set_model(labeller(), true);
-  const auto first = masks.apply(frame_of(1)).labels;
-  EXPECT_EQ(masks.apply(frame_of(1)).labels, first);
-  const auto second = masks.apply(frame_of(2)).labels;
+  const auto first = masks.apply(frame_of(KeyframeId(1).value())).labels;
+  EXPECT_EQ(masks.apply(frame_of(KeyframeId(1).value())).labels, first);
+  const auto second = masks.apply(frame_of(KeyframeId(2).value())).labels;
   EXPECT_NE(second, first);
-  EXPECT_EQ(second->frame, 2);
+  EXPECT_EQ(second->frame, FrameId(2));
 }
 
 TEST(KeyframeMasks, AModelOfSurfacesIsNeeded) {

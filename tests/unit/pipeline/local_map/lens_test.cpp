@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/lens_correction.h>
-#include <placegraph/pipeline/local_map/lens_estimator.h>
+#include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/internal/local_map/lens_estimator.h>
 
 #include <cmath>
 
@@ -50,9 +50,9 @@ TEST(LensEstimator, ADistortionThatHardlyMovesTheTracksIsNoneHoweverSure) {
   for (int i = 0; i < 6; ++i) lens.add({-0.02 * 1e6, 1e6, 1'000'000'000});
   EXPECT_LT(lens.effect(), options.min_effect);
   EXPECT_GT(lens.k1(), options.min_sigmas * lens.sigma_k1());
-  EXPECT_FALSE(lens.distorted(options));
+  EXPECT_FALSE(is_distorted(lens.estimate(), options));
   options.min_effect = 0;
-  EXPECT_TRUE(lens.distorted(options));
+  EXPECT_TRUE(is_distorted(lens.estimate(), options));
 }
 
 TEST(LensEstimator, HearsWindowsThatShareNoKeyframe) {
@@ -64,8 +64,8 @@ TEST(LensEstimator, HearsWindowsThatShareNoKeyframe) {
   const auto observe = [&](LensEstimator& lens, std::int64_t first, std::int64_t last) {
     SlidingWindow window({}, world.camera);
     for (std::int64_t id = first; id <= last; ++id) {
-      window.add_keyframe(id, world.T_map_cam[static_cast<std::size_t>(id)]);
-      test::add_view(window, world, id, 0, random);
+      window.add_keyframe(KeyframeId(id), world.T_map_cam[static_cast<std::size_t>(id)]);
+      test::add_view(window, world, KeyframeId(id), 0, random);
     }
     lens.observe(window);
   };
@@ -102,11 +102,11 @@ TEST(LensEstimator, CallsALensDistortedByProofAndEffect) {
     unsure.add(window_of(i % 2 ? 0.1 : -0.06, 0.003));
   }
   EXPECT_NEAR(clear.effect(), 0.0205 / 0.003 / std::sqrt(1000), 1e-9);
-  EXPECT_TRUE(clear.distorted(options));
-  EXPECT_FALSE(small.distorted(options));
-  EXPECT_FALSE(unsure.distorted(options));
+  EXPECT_TRUE(is_distorted(clear.estimate(), options));
+  EXPECT_FALSE(is_distorted(small.estimate(), options));
+  EXPECT_FALSE(is_distorted(unsure.estimate(), options));
   options.enabled = false;
-  EXPECT_FALSE(clear.distorted(options));
+  EXPECT_FALSE(is_distorted(clear.estimate(), options));
   options.min_sigmas = -1;
   EXPECT_THROW(options.check(), ArgumentError);
 }

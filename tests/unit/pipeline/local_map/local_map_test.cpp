@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/local_map/local_map.h>
+#include <placegraph/pipeline/internal/local_map/local_map.h>
 
 #include "tests/support/scenes/window_world.h"
 
@@ -27,14 +27,14 @@ struct Drive {
     return o;
   }
   void add(std::size_t k, double scale = 1) {
-    const std::int64_t id = map.add_keyframe(world.T_map_cam[k].scaled(scale));
+    const KeyframeId id = map.add_keyframe(world.T_map_cam[k].scaled(scale));
     for (const WindowObservation& o : world.observations) {
-      if (o.keyframe != static_cast<std::int64_t>(k)) continue;
+      if (o.keyframe != KeyframeId(k)) continue;
       WindowObservation of_map = o;
       of_map.keyframe = id;
       if (!map.window().landmark(o.landmark))
-        map.window().add_landmark(o.landmark,
-                                  scale * world.points[static_cast<std::size_t>(o.landmark)]);
+        map.window().add_landmark(
+            o.landmark, scale * world.points[static_cast<std::size_t>(o.landmark.value())]);
       map.window().add_observation(of_map);
     }
     map.update_poses({4.0}, false);
@@ -50,25 +50,25 @@ TEST(LocalMap, NumbersKeyframesOverAllSegments) {
   drive.add(0);
   EXPECT_EQ(drive.map.before_newest(), std::nullopt);
   drive.add(1);
-  EXPECT_EQ(drive.map.first(), 0);
-  EXPECT_EQ(drive.map.newest(), 1);
-  EXPECT_EQ(drive.map.before_newest(), 0);
-  EXPECT_EQ(drive.map.window_begin(), 0);
+  EXPECT_EQ(drive.map.first(), KeyframeId(0));
+  EXPECT_EQ(drive.map.newest(), KeyframeId(1));
+  EXPECT_EQ(drive.map.before_newest(), KeyframeId(0));
+  EXPECT_EQ(drive.map.window_begin(), KeyframeId(0));
   drive.map.restart(Scale::kMetric, std::nullopt);
   EXPECT_TRUE(drive.map.empty());
   EXPECT_EQ(drive.map.window_begin(), std::nullopt);
   drive.add(2);
-  EXPECT_EQ(drive.map.first(), 2);
-  EXPECT_EQ(drive.map.newest(), 2);
+  EXPECT_EQ(drive.map.first(), KeyframeId(2));
+  EXPECT_EQ(drive.map.newest(), KeyframeId(2));
 }
 
 TEST(LocalMap, GoesOnFromAnotherRun) {
   Drive drive(Scale::kMetric);
-  drive.map.go_on_from(17, 3.5);
+  drive.map.go_on_from(KeyframeId(17), 3.5);
   EXPECT_EQ(drive.map.median_depth(), 3.5);
   drive.map.restart(Scale::kMetric, std::nullopt);
   EXPECT_EQ(drive.map.median_depth(), 3.5);
-  EXPECT_EQ(drive.map.add_keyframe(SE3()), 17);
+  EXPECT_EQ(drive.map.add_keyframe(SE3()), KeyframeId(17));
 }
 
 TEST(LocalMap, WhatIsDiscardedWasNeverThere) {
@@ -82,25 +82,25 @@ TEST(LocalMap, WhatIsDiscardedWasNeverThere) {
   EXPECT_EQ(drive.map.median_depth(), 7);
   EXPECT_TRUE(drive.map.landmarks().empty());
   EXPECT_TRUE(drive.map.window().keyframes().empty());
-  EXPECT_EQ(drive.map.add_keyframe(SE3()), 0);
+  EXPECT_EQ(drive.map.add_keyframe(SE3()), KeyframeId(0));
 }
 
 TEST(LocalMap, RescalingMovesTheSegmentAboutTheOldestKeyframe) {
   Drive drive(Scale::kArbitrary);
   drive.add_all(0.5);  // the true lengths are twice as long
-  const SE3 first = drive.map.pose(0), last = drive.map.pose(drive.map.newest());
+  const SE3 first = drive.map.pose(KeyframeId(0)), last = drive.map.pose(drive.map.newest());
   const Rescale rescale = drive.map.rescale(2);
   EXPECT_TRUE(drive.map.metric());
   EXPECT_EQ(drive.map.median_depth(), 8);
   EXPECT_LT((rescale.centre_odom - first.translation()).norm(), 1e-12);
-  EXPECT_LT(distance_m(drive.map.pose(0), first), 1e-12);
+  EXPECT_LT(distance_m(drive.map.pose(KeyframeId(0)), first), 1e-12);
   const SE3 moved = drive.map.pose(drive.map.newest());
   EXPECT_LT(
       (moved.translation() - first.translation() - 2 * (last.translation() - first.translation()))
           .norm(),
       1e-12);
   EXPECT_LT(angle_rad(moved, last), 1e-12);
-  for (const std::int64_t id : drive.map.window().keyframes())
+  for (const KeyframeId id : drive.map.window().keyframes())
     EXPECT_LT(distance_m(drive.map.pose(id), drive.map.window().pose(id)), 1e-12);
 }
 
@@ -110,8 +110,8 @@ TEST(LocalMap, TheOldestKeyframeStaysInItsPlaceWhereverThatIs) {
   map.add_keyframe(SE3(SO3(), Eigen::Vector3d(5, 1, 0)));
   map.update_poses({}, false);
   (void)map.rescale(3);
-  EXPECT_LT((map.pose(0).translation() - Eigen::Vector3d(5, 1, -2)).norm(), 1e-12);
-  EXPECT_LT((map.pose(1).translation() - Eigen::Vector3d(5, 1, 4)).norm(), 1e-12);
+  EXPECT_LT((map.pose(KeyframeId(0)).translation() - Eigen::Vector3d(5, 1, -2)).norm(), 1e-12);
+  EXPECT_LT((map.pose(KeyframeId(1)).translation() - Eigen::Vector3d(5, 1, 4)).norm(), 1e-12);
 }
 
 TEST(LocalMap, LandmarksThatHaveLeftTheWindowAreRescaledWithTheirSegmentAlone) {
@@ -141,8 +141,10 @@ TEST(LocalMap, LandmarksStandWhereTheKeyframeThatFirstSawThemHasThem) {
   ASSERT_FALSE(all.empty());
   for (const PointLandmark& landmark : all) {
     const Eigen::Vector3d there =
-        drive.world.T_map_cam[static_cast<std::size_t>(landmark.keyframe)] * landmark.point_cam;
-    EXPECT_LT((there - drive.world.points[static_cast<std::size_t>(landmark.id)]).norm(), 1e-9);
+        drive.world.T_map_cam[static_cast<std::size_t>(landmark.keyframe.value())] *
+        landmark.point_cam;
+    EXPECT_LT((there - drive.world.points[static_cast<std::size_t>(landmark.id.value())]).norm(),
+              1e-9);
     EXPECT_EQ(landmark.observations, 5);
   }
 }
@@ -150,48 +152,49 @@ TEST(LocalMap, LandmarksStandWhereTheKeyframeThatFirstSawThemHasThem) {
 TEST(LocalMap, KeepsWhatIsKnownOfAMotionWhenItsKeyframeLeaves) {
   Drive drive(Scale::kMetric, 8, 4);
   drive.add_all();
-  const Matrix6d known = drive.map.motion_information(0, 1);
+  const Matrix6d known = drive.map.motion_information(KeyframeId(0), KeyframeId(1));
   drive.map.marginalize();
   EXPECT_EQ(drive.map.window().keyframes().size(), 4u);
-  EXPECT_LT((drive.map.link(0).information - known).norm(), 1e-6 * known.norm());
-  EXPECT_EQ(drive.map.link(0).sigma_log_scale, 0);
-  EXPECT_NO_THROW(drive.map.pose(0));
+  EXPECT_LT((drive.map.link(KeyframeId(0)).information - known).norm(), 1e-6 * known.norm());
+  EXPECT_EQ(drive.map.link(KeyframeId(0)).sigma_log_scale, 0);
+  EXPECT_NO_THROW(drive.map.pose(KeyframeId(0)));
 }
 
 TEST(LocalMap, WhereTheScaleIsArbitraryALengthIsKnownInTheUnitOfItsKeyframe) {
   Drive drive(Scale::kArbitrary);
   drive.add_all();
-  const LocalMap::Link link = drive.map.link(2);
+  const LocalMap::Link link = drive.map.link(KeyframeId(2));
   EXPECT_GT(link.sigma_log_scale, 0);
   EXPECT_LE(link.sigma_log_scale, 0.1);
-  const SE3 motion = drive.map.pose(2).inverse() * drive.map.pose(3);
+  const SE3 motion = drive.map.pose(KeyframeId(2)).inverse() * drive.map.pose(KeyframeId(3));
   const Eigen::Vector3d t = motion.translation();
   const Eigen::Vector3d along = motion.rotation().inverse() * t.normalized();
   const double sigma = std::max(1e-3, link.sigma_log_scale) * t.norm();
   EXPECT_GE(along.dot(link.information.topLeftCorner<3, 3>() * along), 0.999 / (sigma * sigma));
   drive.map.set_scale(Scale::kMetric);
-  EXPECT_EQ(drive.map.link(2).sigma_log_scale, 0);
+  EXPECT_EQ(drive.map.link(KeyframeId(2)).sigma_log_scale, 0);
 }
 
 TEST(LocalMap, ARotationThatIsCorrectedWidensTheLinkToTheKeyframeThatLeftBefore) {
   Drive drive(Scale::kMetric, 8, 4);
   drive.add_all();
   drive.map.marginalize();  // keyframes 4 to 7 are left
-  const Matrix6d before = drive.map.link(3).information;
+  const Matrix6d before = drive.map.link(KeyframeId(3)).information;
   drive.map.update_poses({}, true);  // nothing was rotated
-  EXPECT_LT((drive.map.link(3).information - before).norm(), 1e-9 * before.norm());
+  EXPECT_LT((drive.map.link(KeyframeId(3)).information - before).norm(), 1e-9 * before.norm());
   // A prior rotates the whole window by 0.02 rad about y.
   const Eigen::Vector3d turn(0, 0.02, 0);
-  for (const std::int64_t id : drive.map.window().keyframes()) {
+  for (const KeyframeId id : drive.map.window().keyframes()) {
     const SE3 T = drive.map.window().pose(id);
     const SE3 target(T.rotation() * SO3::exp(turn), T.translation());
     add_pose_prior(drive.map.window(), {id, target, 1e9 * Matrix6d::Identity()});
   }
   ASSERT_TRUE(drive.map.optimize());
-  const double rotated = angle_rad(drive.map.window().pose(4), drive.map.pose(4));
+  const double rotated =
+      angle_rad(drive.map.window().pose(KeyframeId(4)), drive.map.pose(KeyframeId(4)));
   ASSERT_GT(rotated, 1e-4);
   drive.map.update_poses({}, true);
-  const Matrix6d after = drive.map.link(3).information;
+  const Matrix6d after = drive.map.link(KeyframeId(3)).information;
   EXPECT_LT(after(4, 4), 1.01 / (rotated * rotated));  // its variance is the rotation's square
   EXPECT_LT(after(4, 4), before(4, 4));
 }
@@ -200,7 +203,8 @@ TEST(LocalMap, LawTheUnitOfLengthChangesNoRotationAndNoRelativeInformation) {
   Drive one(Scale::kArbitrary), three(Scale::kArbitrary);
   one.add_all(1);
   three.add_all(3);
-  const Matrix6d a = one.map.link(3).information, b = three.map.link(3).information;
+  const Matrix6d a = one.map.link(KeyframeId(3)).information,
+                 b = three.map.link(KeyframeId(3)).information;
   const Eigen::Matrix3d a_t = a.topLeftCorner<3, 3>(), b_t = b.topLeftCorner<3, 3>();
   const Eigen::Matrix3d a_r = a.bottomRightCorner<3, 3>(), b_r = b.bottomRightCorner<3, 3>();
   // Translations are three times as long, and known three times worse.

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/local_map/metric_scale.h>
+#include <placegraph/pipeline/internal/local_map/metric_scale.h>
 
 #include "tests/support/scenes/window_world.h"
 
@@ -32,7 +32,7 @@ struct Walk {
     map.add_keyframe(SE3(SO3(), Eigen::Vector3d(0, 0, unit * k)));
     map.update_poses({}, false);
     Frame frame;
-    frame.id = k;
+    frame.id = FrameId(k);
     frame.stamp_ns = k * kSecond;
     return scale.measure({frame, {}, nullptr}, {}, map);
   }
@@ -57,8 +57,8 @@ TEST(MetricScale, FiveMeasuredMotionsGiveTheScale) {
   ASSERT_TRUE(rescale);
   EXPECT_NEAR(rescale->factor, 2, 1e-9);
   EXPECT_TRUE(walk.map.metric());
-  EXPECT_NEAR(walk.map.window().pose(5).translation().z(), 10, 1e-9);
-  EXPECT_NEAR(walk.map.pose(5).translation().z(), 10, 1e-9);
+  EXPECT_NEAR(walk.map.window().pose(KeyframeId(5)).translation().z(), 10, 1e-9);
+  EXPECT_NEAR(walk.map.pose(KeyframeId(5)).translation().z(), 10, 1e-9);
 }
 
 TEST(MetricScale, OnceItIsKnownEveryMotionIsADistanceInTheWindow) {
@@ -69,7 +69,8 @@ TEST(MetricScale, OnceItIsKnownEveryMotionIsADistanceInTheWindow) {
   EXPECT_FALSE(walk.add(6));
   EXPECT_EQ(walk.map.window().factors().size(), at_once + 1);
   const WindowFactor& newest = walk.map.window().factors().back();
-  EXPECT_EQ(newest.variables, (std::vector{keyframe_variable(5), keyframe_variable(6)}));
+  EXPECT_EQ(newest.variables,
+            (std::vector{keyframe_variable(KeyframeId(5)), keyframe_variable(KeyframeId(6))}));
 }
 
 TEST(MetricScale, AMotionThatSlipsIsOutvoted) {
@@ -113,7 +114,7 @@ TEST(MetricScale, LawTheUnitOfTheMapChangesTheFactorAlone) {
       walk.map.add_keyframe(SE3(SO3(), Eigen::Vector3d(0, 0, unit * k)));
       walk.map.update_poses({}, false);
       Frame frame;
-      frame.id = k;
+      frame.id = FrameId(k);
       frame.stamp_ns = k * kSecond;
       rescale = walk.scale.measure({frame, {}, nullptr}, {}, walk.map);
     }

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/local_map/stereo_rectifier.h>
+#include <placegraph/pipeline/internal/local_map/stereo_rectifier.h>
 
 #include "tests/support/scenes/window_world.h"
 
@@ -15,18 +15,19 @@ SlidingWindow window_of(const RectificationError& error, int first_landmark = 0)
   const Camera camera = window_camera();
   SlidingWindow window({}, camera);
   for (int k = 0; k < 5; ++k)
-    window.add_keyframe(k, SE3(SO3::exp({0, 0.01 * k, 0}), Eigen::Vector3d(0.8 * k, 0, 0.3 * k)));
+    window.add_keyframe(KeyframeId(k),
+                        SE3(SO3::exp({0, 0.01 * k, 0}), Eigen::Vector3d(0.8 * k, 0, 0.3 * k)));
   Random random(5);
   for (int i = 0; i < 150; ++i) {
     const std::int64_t id = first_landmark + i;
     const Eigen::Vector3d point(random.uniform(-3, 6), random.uniform(-1.5, 1.5),
                                 random.uniform(4, 25));
-    window.add_landmark(id, point);
+    window.add_landmark(LandmarkId(id), point);
     for (int k = 0; k < 5; ++k) {
-      const Eigen::Vector3d p_cam = window.pose(k).inverse() * point;
+      const Eigen::Vector3d p_cam = window.pose(KeyframeId(k)).inverse() * point;
       WindowObservation o;
-      o.keyframe = k;
-      o.landmark = id;
+      o.keyframe = KeyframeId(k);
+      o.landmark = LandmarkId(id);
       o.px = *camera.project(p_cam);
       o.inverse_depth =
           1 / p_cam.z() + error.at(p_cam.head<2>() / p_cam.z()) / (camera.fx * kBaseline_m);
@@ -62,7 +63,7 @@ TEST(StereoRectifier, CorrectsTheDisparitiesOfTheWindowByIt) {
   StereoRectifier r = rectifier();
   r.calibrate(window, nullptr);
   const double per_px = 1 / (window_camera().fx * kBaseline_m);
-  for (const std::int64_t id : window.landmarks())
+  for (const LandmarkId id : window.landmarks())
     for (const WindowObservation& o : window.observations(id)) {
       const double true_depth = (window.pose(o.keyframe).inverse() * *window.landmark(id)).z();
       EXPECT_LT(std::abs(*o.inverse_depth - 1 / true_depth), 0.2 * per_px);
@@ -81,8 +82,8 @@ TEST(StereoRectifier, HearsEachLandmarkOnce) {
 
 TEST(StereoRectifier, LandmarksOfTooFewViewsTellNothing) {
   SlidingWindow window = window_of({-0.4, 0, 0});
-  for (const std::int64_t id : window.landmarks())
-    for (int k = 0; k < 2; ++k) window.remove_observation(k, id);
+  for (const LandmarkId id : window.landmarks())
+    for (int k = 0; k < 2; ++k) window.remove_observation(KeyframeId(k), id);
   StereoRectifier r = rectifier();
   r.calibrate(window, nullptr);
   EXPECT_EQ(r.error().offset_px, 0);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/loops/keyframe_describer.h>
+#include <placegraph/frontend/internal/lines/line_feature.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/loops/keyframe_describer.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -29,10 +30,10 @@ double off_the_street(const DescribedKeyframe& keyframe, const SE3& T_world_cam)
 }
 
 TEST(KeyframeDescriber, ADepthImagePlacesTheFeaturesThatItCovers) {
-  const auto keyframe =
-      describer_of(Sensor::kRgbd).describe(7, street_of(true).frame(0, Sensor::kRgbd), {});
-  EXPECT_EQ(keyframe.keyframe, 7);
-  EXPECT_EQ(keyframe.frame, 0);
+  const auto keyframe = describer_of(Sensor::kRgbd)
+                            .describe(KeyframeId(7), street_of(true).frame(0, Sensor::kRgbd), {});
+  EXPECT_EQ(keyframe.keyframe, KeyframeId(7));
+  EXPECT_EQ(keyframe.frame, FrameId(0));
   EXPECT_LT(off_the_street(keyframe, street_T_world_cam(0)), 0.02);
   EXPECT_GT(farthest_depth(keyframe), 10);
   EXPECT_LT(farthest_depth(keyframe), 40);
@@ -40,8 +41,8 @@ TEST(KeyframeDescriber, ADepthImagePlacesTheFeaturesThatItCovers) {
 
 TEST(KeyframeDescriber, ParallaxPlacesTheFeaturesThatTwoKeyframesShare) {
   const KeyframeDescriber describer = describer_of(Sensor::kMono);
-  auto before = describer.describe(0, street_of(false).frame(0, Sensor::kMono), {});
-  auto now = describer.describe(1, street_of(false).frame(3, Sensor::kMono), {});
+  auto before = describer.describe(KeyframeId(0), street_of(false).frame(0, Sensor::kMono), {});
+  auto now = describer.describe(KeyframeId(1), street_of(false).frame(3, Sensor::kMono), {});
   EXPECT_EQ(farthest_depth(now), 0);
   describer.triangulate(before, now, street_T_world_cam(0).inverse() * street_T_world_cam(3));
   EXPECT_LT(off_the_street(before, street_T_world_cam(0)), 0.3);
@@ -52,14 +53,15 @@ TEST(KeyframeDescriber, LinesGetTheirDescriptors) {
   LineFeature line;
   line.segment = {{100, 60}, {100, 200}};
   const auto keyframe =
-      describer_of(Sensor::kMono).describe(0, street_of(false).frame(0, Sensor::kMono), {line});
+      describer_of(Sensor::kMono)
+          .describe(KeyframeId(0), street_of(false).frame(0, Sensor::kMono), {line});
   ASSERT_EQ(keyframe.lines.size(), 1u);
   EXPECT_NE(keyframe.lines[0].descriptor, line.descriptor);
 }
 
 TEST(KeyframeDescriber, RescalingMultipliesAllLengths) {
-  auto keyframe =
-      describer_of(Sensor::kRgbd).describe(0, street_of(true).frame(0, Sensor::kRgbd), {});
+  auto keyframe = describer_of(Sensor::kRgbd)
+                      .describe(KeyframeId(0), street_of(true).frame(0, Sensor::kRgbd), {});
   LineFeature line;
   line.line_cam = Line3::from_direction({1, 0, 4}, {0, 1, 0});
   keyframe.lines.push_back(line);

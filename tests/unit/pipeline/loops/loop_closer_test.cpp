@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/loops/loop_closer.h>
+#include <placegraph/pipeline/internal/loops/loop_closer.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -30,7 +30,7 @@ class LoopCloserOnAStreet : public testing::Test {
   }
   static Frame frame(int keyframe) {
     Frame frame;
-    frame.id = keyframe < kFirst ? keyframe : 100 + keyframe;
+    frame.id = FrameId(keyframe < kFirst ? keyframe : 100 + keyframe);
     frame.image = image(keyframe);
     return frame;
   }
@@ -49,8 +49,8 @@ class LoopCloserOnAStreet : public testing::Test {
   static std::string stages(const LoopCloser& closer) {
     std::string text;
     for (const LoopRecord& r : closer.records())
-      text += std::to_string(r.query_frame) + "-" + std::to_string(r.match_frame) + " " +
-              to_string(r.stage) + " " + std::to_string(r.inliers) + "; ";
+      text += to_string(r.query_frame) + "-" + to_string(r.match_frame) + " " + to_string(r.stage) +
+              " " + std::to_string(r.inliers) + "; ";
     return text;
   }
   static SE3 T_previous_this(int k, double unit_m) {
@@ -61,7 +61,8 @@ class LoopCloserOnAStreet : public testing::Test {
   /// they are two runs of tracking, which no odometry joins.
   std::vector<Loop> drive(LoopCloser& closer, double unit_m, const std::optional<SE3>& drift,
                           bool scale_differs) {
-    const auto odometry = [&](std::int64_t a, std::int64_t b) -> std::optional<TrackedMotion> {
+    const auto odometry = [&](KeyframeId from, KeyframeId to) -> std::optional<TrackedMotion> {
+      const std::int64_t a = from.value(), b = to.value();
       const bool across = (a < kFirst) != (b < kFirst);
       if (across && !drift) return std::nullopt;
       SE3 T = T_world(static_cast<int>(a)).inverse() * T_world(static_cast<int>(b));
@@ -73,8 +74,9 @@ class LoopCloserOnAStreet : public testing::Test {
     for (int k = 0; k < kAll; ++k) {
       const bool begins = k == 0 || k == kFirst;
       const double unit = k < kFirst ? 1 : unit_m;
-      closer.add_view(k, frame(k), begins ? std::nullopt : std::optional(T_previous_this(k, unit)));
-      const auto differ = [&](std::int64_t, std::int64_t) { return scale_differs; };
+      closer.add_view(KeyframeId(k), frame(k),
+                      begins ? std::nullopt : std::optional(T_previous_this(k, unit)));
+      const auto differ = [&](KeyframeId, KeyframeId) { return scale_differs; };
       const auto found = closer.find_loops({odometry, {}, differ}, kDepth_m / unit);
       loops.insert(loops.end(), found.begin(), found.end());
     }
@@ -87,10 +89,10 @@ TEST_F(LoopCloserOnAStreet, AcceptsARevisitWhenASecondOneAgrees) {
   const auto loops = drive(closer, 1, SE3(), false);
   ASSERT_GE(loops.size(), 2u) << stages(closer);
   for (const Loop& loop : loops) {
-    EXPECT_GE(loop.query, kFirst);
-    EXPECT_LT(loop.match, kFirst);
-    const SE3 truth =
-        T_world(static_cast<int>(loop.match)).inverse() * T_world(static_cast<int>(loop.query));
+    EXPECT_GE(loop.query, KeyframeId(kFirst));
+    EXPECT_LT(loop.match, KeyframeId(kFirst));
+    const SE3 truth = T_world(static_cast<int>(loop.match.value())).inverse() *
+                      T_world(static_cast<int>(loop.query.value()));
     EXPECT_LT(distance_m(loop.T_match_query, truth), 0.1);
     EXPECT_EQ(loop.scale_match_query, 1);
     EXPECT_EQ(loop.information(6, 6), 0);
@@ -129,12 +131,13 @@ TEST_F(LoopCloserOnAStreet, WaitsForASecondLoopThatAgrees) {
   LoopCloser closer(small_options(), one_eye(), 1);
   std::size_t loops = 0;
   for (int k = 0; k < kAll; ++k) {
-    const auto odometry = [](std::int64_t a, std::int64_t b) -> std::optional<TrackedMotion> {
+    const auto odometry = [](KeyframeId from, KeyframeId to) -> std::optional<TrackedMotion> {
+      const std::int64_t a = from.value(), b = to.value();
       if ((a < kFirst) != (b < kFirst)) return std::nullopt;
       const SE3 T = T_world(static_cast<int>(a)).inverse() * T_world(static_cast<int>(b));
       return TrackedMotion{a < kFirst ? T : T.scaled(2), T.translation().norm()};
     };
-    closer.add_view(k, frame(k),
+    closer.add_view(KeyframeId(k), frame(k),
                     k == 0 || k == kFirst ? std::nullopt : std::optional(T_previous_this(k, 1)));
     loops += closer.find_loops({odometry, {}, {}}, kDepth_m).size();
   }
@@ -149,11 +152,11 @@ TEST_F(LoopCloserOnAStreet, WaitsForASecondLoopThatAgrees) {
 KnownMotions certain_map(const SE3& off, double sigma, double way,
                          const std::function<SE3(std::int64_t)>& T_world) {
   KnownMotions known;
-  known.odometry = [=](std::int64_t a, std::int64_t b) {
-    return TrackedMotion{T_world(a).inverse() * T_world(b), 1000};
+  known.odometry = [=](KeyframeId a, KeyframeId b) {
+    return TrackedMotion{T_world(a.value()).inverse() * T_world(b.value()), 1000};
   };
-  known.map = [=](std::int64_t a, std::int64_t b) {
-    PredictedMotion motion{Sim3(T_world(a).inverse() * T_world(b) * off)};
+  known.map = [=](KeyframeId a, KeyframeId b) {
+    PredictedMotion motion{Sim3(T_world(a.value()).inverse() * T_world(b.value()) * off)};
     motion.covariance.diagonal().head<6>().setConstant(sigma * sigma);
     motion.path_length = way;
     return motion;
@@ -168,7 +171,7 @@ TEST_F(LoopCloserOnAStreet, RefusesALoopThatACertainMapContradicts) {
     LoopCloser closer(small_options(), one_eye(), 1);
     std::size_t loops = 0;
     for (int k = 0; k < kAll; ++k) {
-      closer.add_view(k, frame(k),
+      closer.add_view(KeyframeId(k), frame(k),
                       k == 0 || k == kFirst ? std::nullopt : std::optional(T_previous_this(k, 1)));
       loops += closer.find_loops(known, kDepth_m).size();
     }
@@ -190,8 +193,8 @@ TEST_F(LoopCloserOnAStreet, TellsTheRatioOfUnitsWhereTheyDiffer) {
   const auto loops = drive(closer, 2.5, std::nullopt, true);
   ASSERT_GE(loops.size(), 2u) << stages(closer);
   for (const Loop& loop : loops) {
-    const SE3 truth =
-        T_world(static_cast<int>(loop.match)).inverse() * T_world(static_cast<int>(loop.query));
+    const SE3 truth = T_world(static_cast<int>(loop.match.value())).inverse() *
+                      T_world(static_cast<int>(loop.query.value()));
     EXPECT_LT(distance_m(loop.T_match_query, truth), 0.15);
     EXPECT_NEAR(std::log(loop.scale_match_query), std::log(2.5), 0.08);
     EXPECT_GT(loop.information(6, 6), 0);
@@ -207,18 +210,19 @@ TEST_F(LoopCloserOnAStreet, RelocalizesAFrameAtAKnownKeyframe) {
   LoopCloser closer(small_options(), one_eye(), 1);
   EXPECT_FALSE(closer.relocalize(frame(kFirst)));
   for (int k = 0; k < kFirst; ++k)
-    closer.add_view(k, frame(k), k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
+    closer.add_view(KeyframeId(k), frame(k),
+                    k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
   const auto found = closer.relocalize(frame(kFirst + 1));
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->query, -1);
-  const SE3 truth = T_world(static_cast<int>(found->match)).inverse() * T_world(kFirst + 1);
+  const SE3 truth = T_world(static_cast<int>(found->match.value())).inverse() * T_world(kFirst + 1);
   EXPECT_LT(distance_m(found->T_match_query, truth), 0.1);
 }
 
 TEST_F(LoopCloserOnAStreet, KnowsTheKeyframesOfAMapThatItIsGiven) {
   LoopCloser driven(small_options(), one_eye(), 1);
   for (int k = 0; k < kFirst; ++k)
-    driven.add_view(k, frame(k), k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
+    driven.add_view(KeyframeId(k), frame(k),
+                    k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
   Map map;
   for (const LoopCloser::View& view : driven.views()) {
     Keyframe keyframe;
@@ -240,10 +244,11 @@ TEST_F(LoopCloserOnAStreet, KnowsTheKeyframesOfAMapThatItIsGiven) {
 TEST_F(LoopCloserOnAStreet, GrowsDepthsWithTheUnit) {
   LoopCloser closer(small_options(), one_eye(), 1);
   for (int k = 0; k < 2; ++k)
-    closer.add_view(k, frame(k), k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
+    closer.add_view(KeyframeId(k), frame(k),
+                    k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
   std::vector<std::optional<Eigen::Vector3f>> before;
   for (const Feature& feature : closer.views()[1].features) before.push_back(feature.point_cam);
-  closer.rescale(2, 1);
+  closer.rescale(2, KeyframeId(1));
   int seen = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (!before[i]) continue;

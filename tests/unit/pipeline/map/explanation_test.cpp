@@ -13,42 +13,46 @@ Map two_places() {
   Map map;
   for (int k = 0; k < 2; ++k) {
     Keyframe keyframe;
-    keyframe.id = keyframe.frame = keyframe.place = k;
+    keyframe.id = KeyframeId(k);
+    keyframe.place = PlaceId(k);
+    keyframe.frame = FrameId(k);
     keyframe.features.resize(5);
     keyframe.features[0].point_cam = Eigen::Vector3f(0, 0, 4);
     map.keyframes.push_back(keyframe);
     Place place;
-    place.id = place.anchor_keyframe = k;
+    place.id = PlaceId(k);
+    place.anchor_keyframe = KeyframeId(k);
     place.T_map_place = pose({0, 0.1 * k, 0}, {0, 0, 1.0 * k});
-    place.members = {{k, SE3(), 1}};
+    place.members = {{KeyframeId(k), SE3(), 1}};
     if (k == 1) place.labels = {"corridor"};
     map.place_graph.places.push_back(place);
   }
   RelativePoseConstraint edge;
-  edge.from = 0, edge.to = 1;
+  edge.from = NodeId(0), edge.to = NodeId(1);
   edge.T_from_to = map.place_graph.places[1].T_map_place;
   edge.information = 100 * Matrix6d::Identity();
   edge.source = ConstraintSource::kOdometry;
   map.place_graph.constraints.push_back(edge);
-  map.frames = {{0, 0, 0, SE3(), 20},
-                {1, 10, 1, SE3(), 30},
-                {2, 20, 1, pose({0, 0, 0}, {0, 0, 0.5}), 40},
-                {3, 30, -1, std::nullopt, 0}};
+  map.frames = {{FrameId(0), 0, KeyframeId(0), SE3(), 20},
+                {FrameId(1), 10, KeyframeId(1), SE3(), 30},
+                {FrameId(2), 20, KeyframeId(1), pose({0, 0, 0}, {0, 0, 0.5}), 40},
+                {FrameId(3), 30, std::nullopt, std::nullopt, 0}};
   map.metric = true;
   LoopRecord accepted, refused;
-  accepted.query_frame = 1, accepted.match_frame = 0;
+  accepted.query_frame = FrameId(1), accepted.match_frame = FrameId(0);
   accepted.stage = LoopStage::kAccepted;
-  refused.query_frame = 1, refused.match_frame = 0, refused.stage = LoopStage::kGeometry;
+  refused.query_frame = FrameId(1), refused.match_frame = FrameId(0),
+  refused.stage = LoopStage::kGeometry;
   map.loops = {accepted, refused};
   return map;
 }
 
 TEST(Explanation, TellsWhereAFrameIsAndHowThatIsKnown) {
   const Map map = two_places();
-  const auto told = explain_frame(map, 2);
+  const auto told = explain_frame(map, FrameId(2));
   ASSERT_TRUE(told);
   EXPECT_TRUE(told->posed);
-  EXPECT_EQ(told->place, 1);
+  EXPECT_EQ(told->place, PlaceId(1));
   EXPECT_EQ(told->labels, std::vector<std::string>{"corridor"});
   EXPECT_LT(
       distance_m(told->T_map_cam, pose({0, 0.1, 0}, {0, 0, 1}) * pose({0, 0, 0}, {0, 0, 0.5})),
@@ -65,8 +69,8 @@ TEST(Explanation, TellsWhereAFrameIsAndHowThatIsKnown) {
 
 TEST(Explanation, CarriesTheCovarianceOfThePlaceToTheFrame) {
   const Map map = two_places();
-  const auto first = explain_frame(map, 0), anchor = explain_frame(map, 1),
-             beyond = explain_frame(map, 2);
+  const auto first = explain_frame(map, FrameId(0)), anchor = explain_frame(map, FrameId(1)),
+             beyond = explain_frame(map, FrameId(2));
   ASSERT_TRUE(first->covariance && anchor->covariance && beyond->covariance);
   EXPECT_LT(first->covariance->norm(), 1e-12);  // held
   EXPECT_LT((*anchor->covariance - 0.01 * Matrix6d::Identity()).norm(), 1e-9);
@@ -79,12 +83,11 @@ TEST(Explanation, CarriesTheCovarianceOfThePlaceToTheFrame) {
 
 TEST(Explanation, ALostFrameHasNoPoseAndAnUnknownOneNoAnswer) {
   const Map map = two_places();
-  const auto lost = explain_frame(map, 3);
+  const auto lost = explain_frame(map, FrameId(3));
   ASSERT_TRUE(lost);
   EXPECT_FALSE(lost->posed);
   EXPECT_FALSE(lost->covariance);
-  EXPECT_FALSE(explain_frame(map, 4));
-  EXPECT_FALSE(explain_frame(map, -1));
+  EXPECT_FALSE(explain_frame(map, FrameId(4)));
 }
 
 }  // namespace

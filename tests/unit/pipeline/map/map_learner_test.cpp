@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/map/map_learner.h>
+#include <placegraph/pipeline/internal/map/map_learner.h>
 
 #include "tests/support/scenes/texture.h"
 
@@ -26,14 +26,16 @@ TEST(MapLearner, APlaceIsAStretchOfImagesThatLookAlike) {
   const auto& places = stored.map.place_graph.places;
   ASSERT_EQ(places.size(), 3u);
   for (std::size_t p = 0; p < 3; ++p) {
-    EXPECT_EQ(places[p].id, static_cast<std::int64_t>(p));
+    EXPECT_EQ(places[p].id, PlaceId(p));
     // The first image of a room is like neither the room before nor any other: it may still count
     // among those before.
-    const std::int64_t late = places[p].anchor_keyframe - static_cast<std::int64_t>(p) * kRoom;
+    const std::int64_t late =
+        places[p].anchor_keyframe.value() - static_cast<std::int64_t>(p) * kRoom;
     EXPECT_GE(late, 0);
     EXPECT_LE(late, p == 0 ? 0 : 1);
-    const std::int64_t end = p < 2 ? places[p + 1].anchor_keyframe : 3 * kRoom;
-    EXPECT_EQ(places[p].members.size(), static_cast<std::size_t>(end - places[p].anchor_keyframe));
+    const std::int64_t end = p < 2 ? places[p + 1].anchor_keyframe.value() : 3 * kRoom;
+    EXPECT_EQ(places[p].members.size(),
+              static_cast<std::size_t>(end - places[p].anchor_keyframe.value()));
     EXPECT_EQ(places[p].members.front().keyframe, places[p].anchor_keyframe);
   }
 }
@@ -46,16 +48,16 @@ TEST(MapLearner, EveryImageIsAKeyframeWithItsViewAndNoPose) {
   for (std::size_t i = 0; i < 12; ++i) {
     const auto id = static_cast<std::int64_t>(i);
     const Keyframe& keyframe = stored.map.keyframes[i];
-    EXPECT_EQ(keyframe.id, id);
-    EXPECT_EQ(keyframe.frame, 100 + id);
+    EXPECT_EQ(keyframe.id, KeyframeId(id));
+    EXPECT_EQ(keyframe.frame, FrameId(100 + id));
     EXPECT_FALSE(keyframe.view.empty());
-    EXPECT_EQ(stored.map.frames[i].frame, 100 + id);
-    EXPECT_EQ(stored.map.frames[i].keyframe, id);
+    EXPECT_EQ(stored.map.frames[i].frame, FrameId(100 + id));
+    EXPECT_EQ(stored.map.frames[i].keyframe, KeyframeId(id));
     EXPECT_FALSE(stored.map.frames[i].T_keyframe_frame);
     EXPECT_FALSE(stored.map.trajectory_online.poses[i].T_world_body);
     const Place& place = *stored.map.place_graph.find(keyframe.place);
     EXPECT_TRUE(std::any_of(place.members.begin(), place.members.end(),
-                            [&](const PlaceMember& m) { return m.keyframe == id; }));
+                            [&](const PlaceMember& m) { return m.keyframe == KeyframeId(id); }));
   }
   EXPECT_FALSE(stored.origin.calibration);
   EXPECT_FALSE(stored.map.metric);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/map/map_learner.h>
+#include <placegraph/pipeline/internal/loops/keyframe_describer.h>
+#include <placegraph/pipeline/internal/map/map_learner.h>
 #include <placegraph/pipeline/map/map_localizer.h>
 
 #include <opencv2/imgproc.hpp>
@@ -46,9 +47,9 @@ TEST(MapLocalizer, PlacesViewsInTheirRoom) {
   ASSERT_EQ(found.size(), static_cast<std::size_t>(kRooms));
   for (std::size_t i = 0; i < kRooms; ++i) {
     ASSERT_TRUE(found[i].placed) << i << " " << found[i].stage << " " << found[i].probability;
-    EXPECT_EQ(found[i].keyframe / kRoom, static_cast<std::int64_t>(i));
-    EXPECT_EQ(found[i].frame, 1000 + found[i].keyframe);
-    EXPECT_EQ(found[i].place, stored.map.find_keyframe(found[i].keyframe)->place);
+    EXPECT_EQ(found[i].keyframe->value() / kRoom, static_cast<std::int64_t>(i));
+    EXPECT_EQ(found[i].frame, FrameId(1000 + found[i].keyframe->value()));
+    EXPECT_EQ(found[i].place, stored.map.find_keyframe(*found[i].keyframe)->place);
     EXPECT_EQ(found[i].stage, "appearance");
     EXPECT_FALSE(found[i].T_map_cam);
     EXPECT_NE(found[i].without_pose.find("the map has no camera"), std::string::npos);
@@ -80,7 +81,7 @@ TEST(MapLocalizer, ImagesOfOneDriveSupportEachOther) {
   ASSERT_EQ(found.size(), static_cast<std::size_t>(2 * kRoom));
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_TRUE(found[i].placed) << i;
-    EXPECT_EQ(found[i].keyframe / kRoom, static_cast<std::int64_t>(2 + i / kRoom)) << i;
+    EXPECT_EQ(found[i].keyframe->value() / kRoom, static_cast<std::int64_t>(2 + i / kRoom)) << i;
   }
 }
 
@@ -133,14 +134,17 @@ struct StreetMap {
     for (int i = 0; i < kFrames; ++i) {
       const Frame frame = dataset.frame(static_cast<std::size_t>(i), Sensor::kRgbd);
       Keyframe keyframe;
-      keyframe.id = keyframe.frame = keyframe.place = i;
-      keyframe.features = describer.describe(i, frame, {}).features;
+      keyframe.id = KeyframeId(i);
+      keyframe.place = PlaceId(i);
+      keyframe.frame = FrameId(i);
+      keyframe.features = describer.describe(KeyframeId(i), frame, {}).features;
       keyframe.view = describe_place(frame.image, {}, false);
       stored.map.keyframes.push_back(keyframe);
       Place place;
-      place.id = place.anchor_keyframe = i;
+      place.id = PlaceId(i);
+      place.anchor_keyframe = KeyframeId(i);
       place.T_map_place = street_T_world_cam(i);
-      place.members = {{i, SE3(), 1}};
+      place.members = {{KeyframeId(i), SE3(), 1}};
       stored.map.place_graph.places.push_back(place);
     }
   }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/map/place_labeller.h>
+#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/pipeline/internal/map/place_labeller.h>
 
 #include <opencv2/imgproc.hpp>
 
@@ -38,13 +38,13 @@ Map three_places() {
   Map map;
   for (int i = 0; i < 3; ++i) {
     Place place;
-    place.id = 10 * i;
+    place.id = PlaceId(10 * i);
     map.place_graph.places.push_back(place);
   }
   for (int i = 0; i < 8; ++i) {
     Keyframe keyframe;
-    keyframe.id = i;
-    keyframe.place = i < 5 ? 0 : 10;
+    keyframe.id = KeyframeId(i);
+    keyframe.place = PlaceId(i < 5 ? 0 : 10);
     map.keyframes.push_back(keyframe);
   }
   return map;
@@ -54,16 +54,16 @@ TEST(PlaceLabeller, GivesEachPlaceWhatItsViewsSay) {
   Random random(3);
   const PlaceClassifier classifier = two_rooms(random);
   const auto labels = label_places(three_places(), classifier, [&](const Keyframe& keyframe) {
-    return view_of(keyframe.place == 0 ? 0 : 1, random);
+    return view_of(keyframe.place == PlaceId(0) ? 0 : 1, random);
   });
   ASSERT_EQ(labels.size(), 3u);
-  EXPECT_EQ(labels[0].place, 0);
+  EXPECT_EQ(labels[0].place, PlaceId(0));
   EXPECT_EQ(labels[0].label, 0);
   EXPECT_EQ(labels[0].views, 5);
   EXPECT_GT(labels[0].probability, 0.8);
-  EXPECT_EQ(labels[1].place, 10);
+  EXPECT_EQ(labels[1].place, PlaceId(10));
   EXPECT_EQ(labels[1].label, 1);
-  EXPECT_EQ(labels[2].label, -1);  // without views
+  EXPECT_EQ(labels[2].label, std::nullopt);  // without views
   EXPECT_EQ(labels[2].views, 0);
 }
 
@@ -76,7 +76,7 @@ TEST(PlaceLabeller, LeavesAPlaceOfTwoMindsWithoutLabel) {
   const auto labels = label_places(
       three_places(), classifier, [&](const Keyframe&) { return view_of(view++ % 2, random); },
       options);
-  EXPECT_EQ(labels[0].label, -1);  // three views against two
+  EXPECT_EQ(labels[0].label, std::nullopt);  // three views against two
   EXPECT_LT(labels[0].probability, 0.7);
 }
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/odometry/first_frame_initializer.h>
+#include <placegraph/pipeline/internal/odometry/first_frame_initializer.h>
 
 #include "tests/support/scenes/window_world.h"
 #include "tests/support/scripted_tracker.h"
@@ -22,7 +22,7 @@ struct Beginning {
   Beginning() {
     initializer.restart(T_odom_start);
     tracker.observation = [](const RectificationError&, LocalMap& of) {
-      of.window().add_landmark(of.newest(), {0, 0, 8});
+      of.window().add_landmark(LandmarkId(of.newest().value()), {0, 0, 8});
     };
   }
   static Calibration with_baseline() {
@@ -33,7 +33,7 @@ struct Beginning {
   }
   Initialization add(std::int64_t id, const std::optional<SE3>& T_odom_cam_known = {}) {
     Frame frame;
-    frame.id = id;
+    frame.id = FrameId(id);
     return initializer.add(frame, T_odom_cam_known, map, mapping);
   }
 };
@@ -43,11 +43,11 @@ TEST(FirstFrameInitializer, BeginsWithItsFirstFrameWhereItWasToldTo) {
   const Initialization begun = b.add(5);
   EXPECT_EQ(begun.state, TrackingState::kTracking);
   ASSERT_EQ(begun.keyframes.size(), 1u);
-  EXPECT_EQ(begun.keyframes[0].id, 0);
-  EXPECT_EQ(begun.keyframes[0].frame.id, 5);
+  EXPECT_EQ(begun.keyframes[0].id, KeyframeId(0));
+  EXPECT_EQ(begun.keyframes[0].frame.id, FrameId(5));
   EXPECT_TRUE(begun.posed.empty());
   EXPECT_FALSE(begun.T_last_cur);  // a single frame shows no velocity
-  EXPECT_LT((b.map.pose(0).inverse() * b.T_odom_start).log().norm(), 1e-12);
+  EXPECT_LT((b.map.pose(KeyframeId(0)).inverse() * b.T_odom_start).log().norm(), 1e-12);
   EXPECT_EQ(b.tracker.asked.front(), "see_first");
 }
 
@@ -64,7 +64,7 @@ TEST(FirstFrameInitializer, AFrameWithoutSurfacesLeavesTheMapEmpty) {
   b.tracker.shows_a_keyframe = false;
   const Initialization waits = b.add(0);
   EXPECT_EQ(waits.state, TrackingState::kWaiting);
-  EXPECT_EQ(waits.reason, "no surface to begin with");
+  EXPECT_EQ(waits.outcome.reason, "no surface to begin with");
   EXPECT_FALSE(waits.is_reference);
   EXPECT_TRUE(b.map.empty());
   EXPECT_EQ(b.tracker.asked, (Calls{"see_first", "prepare", "reset"}));
@@ -76,7 +76,7 @@ TEST(FirstFrameInitializer, AKeyframeThatTheTrackerRefusesIsTakenBack) {
   b.tracker.begins = Outcome::failure(Outcome::Code::kTooFewData, "3 of 90 points");
   const Initialization waits = b.add(0);
   EXPECT_EQ(waits.state, TrackingState::kWaiting);
-  EXPECT_EQ(waits.reason, "3 of 90 points");
+  EXPECT_EQ(waits.outcome.reason, "3 of 90 points");
   EXPECT_TRUE(waits.keyframes.empty());
   EXPECT_TRUE(b.map.empty());
   EXPECT_TRUE(b.map.window().landmarks().empty());
@@ -85,25 +85,26 @@ TEST(FirstFrameInitializer, AKeyframeThatTheTrackerRefusesIsTakenBack) {
   b.tracker.begins = Outcome::ok();
   const Initialization begun = b.add(1);
   ASSERT_EQ(begun.state, TrackingState::kTracking);
-  EXPECT_EQ(begun.keyframes[0].id, 0);  // the refused one has left no gap
+  EXPECT_EQ(begun.keyframes[0].id, KeyframeId(0));  // the refused one has left no gap
 }
 
 TEST(FirstFrameInitializer, AFrameThatIsRecognizedStillBeginsWhereItWasToldTo) {
   Beginning b;
   const SE3 T_known(SO3(), Eigen::Vector3d(50, 0, 0));
   ASSERT_EQ(b.add(0, T_known).state, TrackingState::kTracking);
-  EXPECT_LT(distance_m(b.map.pose(0), b.T_odom_start), 1e-12);
+  EXPECT_LT(distance_m(b.map.pose(KeyframeId(0)), b.T_odom_start), 1e-12);
 }
 
 TEST(Initialization, IsAnUpdateOfTheOdometry) {
-  Initialization waits = Initialization::waiting("too dark");
+  Initialization waits =
+      Initialization::waiting(Outcome::failure(Outcome::Code::kTooFewData, "too dark"));
   waits.is_reference = true;
   waits.T_odom_reference = SE3(SO3(), Eigen::Vector3d(1, 2, 3));
   waits.rotation = PureRotation{SO3::exp({0, 0.1, 0}), Eigen::Matrix3d::Identity()};
-  waits.posed = {{3, SE3()}};
+  waits.posed = {{FrameId(3), SE3()}};
   const OdometryUpdate update = waits.update();
   EXPECT_EQ(update.state, TrackingState::kWaiting);
-  EXPECT_EQ(update.reason, "too dark");
+  EXPECT_EQ(update.outcome.reason, "too dark");
   EXPECT_TRUE(update.reference);
   EXPECT_EQ(update.T_odom_cam.translation(), Eigen::Vector3d(1, 2, 3));
   ASSERT_TRUE(update.rotation);

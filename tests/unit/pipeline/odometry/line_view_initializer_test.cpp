@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/odometry/line_view_initializer.h>
+#include <placegraph/pipeline/internal/odometry/line_view_initializer.h>
 
 #include "tests/support/scenes/beginning.h"
 #include "tests/support/scenes/boards.h"
@@ -61,7 +61,7 @@ TEST(LineViewInitializer, AnEmptyFrameIsNothingToBeginWith) {
   const Initialization dark = b.add_dark(0);
   EXPECT_EQ(dark.state, TrackingState::kWaiting);
   EXPECT_FALSE(dark.is_reference);
-  EXPECT_NE(dark.reason.find("lines to follow"), std::string::npos);
+  EXPECT_NE(dark.outcome.reason.find("lines to follow"), std::string::npos);
   EXPECT_FALSE(b.initializer.started());
   EXPECT_TRUE(b.add(1).is_reference);
 }
@@ -70,26 +70,30 @@ TEST(LineViewInitializer, SeveralViewsOfLinesBeginAMap) {
   BoardsBeginning b;
   int last = 0;
   const Initialization begun = b.begin(0, &last);
-  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.outcome.reason;
   EXPECT_GE(last, 7);  // eight views are the fewest
   ASSERT_GE(begun.keyframes.size(), 3u);
-  EXPECT_EQ(begun.keyframes.front().frame.id, 0);
-  EXPECT_EQ(begun.keyframes.back().frame.id, last);
-  EXPECT_LT(distance_m(b.map.pose(0), b.T_odom_start), 1e-6);
+  EXPECT_EQ(begun.keyframes.front().frame.id, FrameId(0));
+  EXPECT_EQ(begun.keyframes.back().frame.id, FrameId(last));
+  EXPECT_LT(distance_m(b.map.pose(KeyframeId(0)), b.T_odom_start), 1e-6);
   EXPECT_GE(begun.inliers, 9);
   // A map begins only where the ratio of the lengths of its two halves is known.
   const std::int64_t middle = static_cast<std::int64_t>(begun.keyframes.size() / 2);
-  EXPECT_LT(sigma_log_length_ratio(b.map.window(), 0, middle, b.map.newest()), 0.021);
+  EXPECT_LT(
+      sigma_log_length_ratio(b.map.window(), KeyframeId(0), KeyframeId(middle), b.map.newest()),
+      0.021);
   EXPECT_FALSE(b.initializer.started());
   // Every frame is posed: as a keyframe, or between keyframes; up to the scale as it was driven.
-  std::map<std::int64_t, SE3> posed(begun.posed.begin(), begun.posed.end());
+  std::map<FrameId, SE3> posed(begun.posed.begin(), begun.posed.end());
   for (const NewKeyframe& keyframe : begun.keyframes)
     posed[keyframe.frame.id] = b.map.window().pose(keyframe.id);
   ASSERT_EQ(posed.size(), static_cast<std::size_t>(last + 1));
   const double scale =
-      (posed[last].translation() - posed[0].translation()).norm() / distance_m(way(last), way(0));
+      (posed[FrameId(last)].translation() - posed[FrameId(0)].translation()).norm() /
+      distance_m(way(last), way(0));
   for (int i = 1; i <= last; ++i) {
-    const SE3 found = posed[0].inverse() * posed[i], truth = way(0).inverse() * way(i);
+    const SE3 found = posed[FrameId(0)].inverse() * posed[FrameId(i)],
+              truth = way(0).inverse() * way(i);
     EXPECT_LT(angle_rad(found, truth), 0.01) << i;
     // A tenth of the way: lines along it tell little of how far it goes.
     EXPECT_LT((found.translation() / scale - truth.translation()).norm(),
@@ -105,7 +109,7 @@ TEST(LineViewInitializer, TheVelocityIsTheMotionOverOneFrame) {
   ASSERT_TRUE(begun.T_last_cur);
   const auto last = begun.keyframes.back(), before = begun.keyframes[begun.keyframes.size() - 2];
   SE3 T_before_last;
-  for (std::int64_t i = before.frame.id; i < last.frame.id; ++i)
+  for (FrameId i = before.frame.id; i < last.frame.id; ++i)
     T_before_last = T_before_last * *begun.T_last_cur;
   const SE3 truth = b.map.window().pose(before.id).inverse() * b.map.window().pose(last.id);
   EXPECT_LT((T_before_last.inverse() * truth).log().norm(), 1e-6);
@@ -122,7 +126,7 @@ TEST(LineViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   BoardsBeginning b(Scale::kFromMap);
   Initialization waits;
   int i = 0;
-  for (; i < kFrames && waits.reason != "nothing gives the map's unit"; ++i) {
+  for (; i < kFrames && waits.outcome.reason != "nothing gives the map's unit"; ++i) {
     waits = b.add(i);
     ASSERT_NE(waits.state, TrackingState::kTracking) << i;
   }
@@ -131,7 +135,7 @@ TEST(LineViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   Initialization begun;
   for (; i < kFrames && begun.state != TrackingState::kTracking; ++i)
     begun = b.add(i, b.T_odom_start * (way(0).inverse() * way(i)).scaled(kUnit));
-  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.outcome.reason;
   const double length = distance_m(b.map.pose(b.map.newest()), b.T_odom_start);
   EXPECT_NEAR(length / distance_m(way(i - 1), way(0)), kUnit, 0.05 * kUnit);
 }
@@ -155,7 +159,7 @@ TEST(LineViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
   (void)b.add(1);
   const Initialization lost = b.add_dark(2);
   EXPECT_EQ(lost.state, TrackingState::kLost);
-  EXPECT_FALSE(lost.reason.empty());
+  EXPECT_FALSE(lost.outcome.reason.empty());
   EXPECT_TRUE(b.map.empty());
 }
 
@@ -164,11 +168,11 @@ TEST(LineViewInitializer, ACameraThatStandsWaitsAndLeavesTheMapEmpty) {
   Frame still = drive()[0];
   Initialization waits;
   for (int i = 0; i < 12; ++i) {
-    still.id = i;
+    still.id = FrameId(i);
     waits = b.initializer.add(still, {}, b.map, b.mapping);
     ASSERT_EQ(waits.state, TrackingState::kWaiting);
   }
-  EXPECT_FALSE(waits.reason.empty());
+  EXPECT_FALSE(waits.outcome.reason.empty());
   EXPECT_TRUE(b.map.empty());
   EXPECT_TRUE(b.map.window().lines().empty());
   EXPECT_EQ(b.map.median_depth(), LocalMap::kUnknownDepth);

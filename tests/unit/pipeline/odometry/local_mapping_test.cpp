@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/odometry/local_mapping.h>
+#include <placegraph/pipeline/internal/odometry/local_mapping.h>
 
 #include "tests/support/scenes/window_world.h"
 #include "tests/support/scripted_tracker.h"
@@ -47,7 +47,7 @@ struct Mapping {
   }
   std::optional<LocalMapping::Added> add(int k, const SE3& T_odom_cam) {
     Frame frame;
-    frame.id = k;
+    frame.id = FrameId(k);
     frame.stamp_ns = k * kSecond;
     return mapping->add(frame, T_odom_cam, tracker, *map);
   }
@@ -58,12 +58,12 @@ struct Mapping {
              std::int64_t lifetime = 100) {
     tracker.observation = [=](const RectificationError& rectification, LocalMap& of) {
       static const std::vector<Eigen::Vector3d> points = box_of_points();
-      const std::int64_t first_id = 1000 * (of.newest() / lifetime);
-      const SE3 T_cam_odom = pose_of(static_cast<int>(of.newest())).inverse();
+      const std::int64_t first_id = 1000 * (of.newest().value() / lifetime);
+      const SE3 T_cam_odom = pose_of(static_cast<int>(of.newest().value())).inverse();
       for (std::size_t i = 0; i < points.size(); ++i) {
         WindowObservation o = seen(T_cam_odom * points[i], rectification);
         o.keyframe = of.newest();
-        o.landmark = first_id + static_cast<std::int64_t>(i);
+        o.landmark = LandmarkId(first_id + static_cast<std::int64_t>(i));
         if (!of.window().landmark(o.landmark)) of.window().add_landmark(o.landmark, points[i]);
         of.window().add_observation(o);
       }
@@ -75,14 +75,14 @@ TEST(LocalMapping, AKeyframePassesThroughAllItsSteps) {
   Mapping m;
   const auto added = m.add(4, pose_of(0));
   ASSERT_TRUE(added);
-  EXPECT_EQ(added->keyframe.id, 0);
-  EXPECT_EQ(added->keyframe.frame.id, 4);
+  EXPECT_EQ(added->keyframe.id, KeyframeId(0));
+  EXPECT_EQ(added->keyframe.frame.id, FrameId(4));
   EXPECT_EQ(added->posed_again.size(), 1u);
   EXPECT_FALSE(added->rescale);
   EXPECT_EQ(m.tracker.asked, (Calls{"prepare", "observe", "prune", "settle", "finish"}));
   EXPECT_EQ(m.tracker.scales, std::vector<double>{1});
   EXPECT_EQ(m.map->median_depth(), 5);
-  EXPECT_LT(distance_m(m.map->pose(0), pose_of(0)), 1e-12);
+  EXPECT_LT(distance_m(m.map->pose(KeyframeId(0)), pose_of(0)), 1e-12);
 }
 
 TEST(LocalMapping, AFrameThatShowsNothingIsNoKeyframe) {
@@ -102,8 +102,9 @@ TEST(LocalMapping, TheWindowKeepsItsSize) {
   });
   for (int k = 0; k < 14; ++k) ASSERT_TRUE(m.add(k, pose_of(k)));
   EXPECT_EQ(m.map->window().keyframes().size(), 10u);
-  EXPECT_EQ(m.map->window_begin(), 4);
-  EXPECT_LT(distance_m(m.map->pose(0), pose_of(0)), 1e-6);  // it has left the window, and is kept
+  EXPECT_EQ(m.map->window_begin(), KeyframeId(4));
+  EXPECT_LT(distance_m(m.map->pose(KeyframeId(0)), pose_of(0)),
+            1e-6);  // it has left the window, and is kept
 }
 
 TEST(LocalMapping, TheWindowIsOptimized) {
@@ -116,7 +117,7 @@ TEST(LocalMapping, TheWindowIsOptimized) {
   for (int k = 0; k < 5; ++k)
     (void)m.add(k, pose_of(k) * SE3(SO3::exp({0, 0.004 * k, 0}), Eigen::Vector3d(0, 0.02 * k, 0)));
   // Exact pixels: what is left is the freedom of the map as a whole.
-  const SE3 found = m.map->pose(0).inverse() * m.map->pose(4),
+  const SE3 found = m.map->pose(KeyframeId(0)).inverse() * m.map->pose(KeyframeId(4)),
             truth = pose_of(0).inverse() * pose_of(4);
   EXPECT_LT(angle_rad(found, truth), 1e-3);
 }

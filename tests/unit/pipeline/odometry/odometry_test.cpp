@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/odometry/odometry.h>
+#include <placegraph/pipeline/internal/odometry/odometry.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -47,7 +47,7 @@ TEST(Odometry, AStereoCameraBeginsWithTheFirstFrameAndFollowsTheStreet) {
   Street run(Sensor::kStereo, "points");
   for (int i = 0; i < 8; ++i) {
     const OdometryUpdate update = run.add(i);
-    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.reason;
+    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.outcome.reason;
     EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(i)), 0.03) << i;
     if (i == 0) EXPECT_EQ(update.new_keyframes.size(), 1u);
   }
@@ -60,7 +60,7 @@ TEST(Odometry, AnRgbdCameraBeginsWithTheFirstFrame) {
   Street run(Sensor::kRgbd, "points");
   for (int i = 0; i < 5; ++i) {
     const OdometryUpdate update = run.add(i);
-    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.reason;
+    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.outcome.reason;
     EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(i)), 0.03) << i;
   }
 }
@@ -75,12 +75,12 @@ TEST(Odometry, AMonocularCameraWaitsForParallaxAndThenPosesTheFramesThatWaited) 
   for (; i < 12 && update.state != TrackingState::kTracking; ++i) update = run.add(i);
   ASSERT_EQ(update.state, TrackingState::kTracking);
   ASSERT_EQ(update.new_keyframes.size(), 2u);
-  EXPECT_EQ(update.new_keyframes[0].frame.id, 0);
-  EXPECT_EQ(update.new_keyframes[1].frame.id, i - 1);
+  EXPECT_EQ(update.new_keyframes[0].frame.id, FrameId(0));
+  EXPECT_EQ(update.new_keyframes[1].frame.id, FrameId(i - 1));
   EXPECT_EQ(update.posed_again.size(), static_cast<std::size_t>(i - 2));
   EXPECT_FALSE(run.odometry.map().metric());
   // The direction of the motion is that of the street.
-  const SE3 found = run.odometry.map().pose(0).inverse() * update.T_odom_cam;
+  const SE3 found = run.odometry.map().pose(KeyframeId(0)).inverse() * update.T_odom_cam;
   const SE3 truth = street_T_world_cam(0).inverse() * street_T_world_cam(i - 1);
   EXPECT_GT(found.translation().normalized().dot(truth.translation().normalized()), 0.998);
 }
@@ -97,12 +97,13 @@ TEST(Odometry, FramesBetweenTheTwoViewsArePosedByTheirPoints) {
   for (; i < 16 && update.state != TrackingState::kTracking; ++i)
     update = odometry.add_frame(slow.frame(i, Sensor::kMono));
   ASSERT_EQ(update.state, TrackingState::kTracking);
-  std::map<std::int64_t, SE3> posed;  // later ones are better than by the rotation alone
+  std::map<FrameId, SE3> posed;  // later ones are better than by the rotation alone
   for (const PosedFrame& frame : update.posed_again) posed[frame.first] = frame.second;
   ASSERT_GE(i, 4);
   for (int k = 1; k + 1 < i; ++k) {
-    ASSERT_TRUE(posed.contains(k)) << k;
-    const double share = posed[k].translation().norm() / update.T_odom_cam.translation().norm();
+    ASSERT_TRUE(posed.contains(FrameId(k))) << k;
+    const double share =
+        posed[FrameId(k)].translation().norm() / update.T_odom_cam.translation().norm();
     EXPECT_NEAR(share, static_cast<double>(k) / (i - 1), 0.15) << k;
   }
 }
@@ -113,7 +114,7 @@ TEST(Odometry, TheHeightOfAMonocularCameraGivesItsScale) {
   int i = 0;
   for (; i < 12 && !run.odometry.map().metric(); ++i) update = run.add(i);
   ASSERT_TRUE(run.odometry.map().metric());
-  const SE3 found = run.odometry.map().pose(0).inverse() * update.T_odom_cam;
+  const SE3 found = run.odometry.map().pose(KeyframeId(0)).inverse() * update.T_odom_cam;
   const SE3 truth = street_T_world_cam(0).inverse() * street_T_world_cam(i - 1);
   EXPECT_NEAR(found.translation().norm() / truth.translation().norm(), 1, 0.05);
 }
@@ -122,7 +123,7 @@ TEST(Odometry, SurfacesAloneFollowTheGround) {
   Street run(Sensor::kStereo, "plane", kStreetHeight_m);
   for (int i = 0; i < 5; ++i) {
     const OdometryUpdate update = run.add(i);
-    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.reason;
+    ASSERT_EQ(update.state, TrackingState::kTracking) << i << update.outcome.reason;
     EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(i)), 0.1) << i;
   }
   EXPECT_FALSE(run.odometry.view().surfaces.empty());
@@ -135,10 +136,10 @@ TEST(Odometry, AFrameThatCannotBePosedLeavesTheTracksAsTheyWere) {
   dark.image = black();
   const OdometryUpdate lost = run.odometry.add_frame(dark);
   EXPECT_EQ(lost.state, TrackingState::kLost);
-  EXPECT_FALSE(lost.reason.empty());
+  EXPECT_FALSE(lost.outcome.reason.empty());
   EXPECT_TRUE(run.odometry.view().tracks.empty());
   const OdometryUpdate found = run.add(4);
-  ASSERT_EQ(found.state, TrackingState::kTracking) << found.reason;
+  ASSERT_EQ(found.state, TrackingState::kTracking) << found.outcome.reason;
   EXPECT_LT(error(found.T_odom_cam, street_T_world_cam(4)), 0.05);
 }
 
@@ -149,7 +150,7 @@ TEST(Odometry, AnEmptyFirstFrameIsNothingToBeginWith) {
     dark.image = black();
     const OdometryUpdate nothing = run.odometry.add_frame(dark);
     EXPECT_EQ(nothing.state, TrackingState::kWaiting);
-    EXPECT_FALSE(nothing.reason.empty());
+    EXPECT_FALSE(nothing.outcome.reason.empty());
     EXPECT_FALSE(nothing.reference);
     EXPECT_FALSE(run.odometry.started());
     EXPECT_TRUE(run.odometry.map().empty());
@@ -162,14 +163,14 @@ TEST(Odometry, AnEmptyFirstFrameIsNothingToBeginWith) {
 TEST(Odometry, ARestartCountsKeyframesOnAndKeepsLandmarks) {
   Street run(Sensor::kStereo, "points");
   for (int i = 0; i < 4; ++i) (void)run.add(i);
-  const std::int64_t newest = run.odometry.map().newest();
+  const KeyframeId newest = run.odometry.map().newest();
   const std::size_t landmarks = run.odometry.map().landmarks().size();
   run.odometry.restart(street_T_world_cam(5), true);
   EXPECT_FALSE(run.odometry.started());
   EXPECT_EQ(run.odometry.map().settled_landmarks(), landmarks);
   const OdometryUpdate update = run.add(5);
   ASSERT_EQ(update.state, TrackingState::kTracking);
-  EXPECT_EQ(update.keyframe, newest + 1);
+  EXPECT_EQ(update.keyframe, ++KeyframeId(newest));
   EXPECT_LT(error(update.T_odom_cam, street_T_world_cam(5)), 1e-9);
 }
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/odometry/two_view_initializer.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/odometry/two_view_initializer.h>
 
 #include "tests/support/scenes/beginning.h"
 #include "tests/support/scenes/street.h"
@@ -56,11 +56,11 @@ TEST(TwoViewInitializer, TwoViewsWithParallaxBeginAMap) {
   StreetBeginning b(drive());
   (void)b.add(0);
   const Initialization begun = b.add(1);
-  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.outcome.reason;
   ASSERT_EQ(begun.keyframes.size(), 2u);
-  EXPECT_EQ(begun.keyframes[0].frame.id, 0);
-  EXPECT_EQ(begun.keyframes[1].frame.id, 1);
-  EXPECT_LT(distance_m(b.map.pose(0), b.T_odom_start), 1e-9);
+  EXPECT_EQ(begun.keyframes[0].frame.id, FrameId(0));
+  EXPECT_EQ(begun.keyframes[1].frame.id, FrameId(1));
+  EXPECT_LT(distance_m(b.map.pose(KeyframeId(0)), b.T_odom_start), 1e-9);
   const SE3 truth = forward(0).inverse() * forward(1);
   // Tracks of 0.25 px at 330 px, hundreds of them.
   EXPECT_LT(angle_rad(b.motion(), truth), 0.003);
@@ -105,7 +105,7 @@ TEST(TwoViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   (void)b.add(0);
   const Initialization waits = b.add(1);
   EXPECT_EQ(waits.state, TrackingState::kWaiting);
-  EXPECT_EQ(waits.reason, "nothing gives the map's unit");
+  EXPECT_EQ(waits.outcome.reason, "nothing gives the map's unit");
   EXPECT_TRUE(b.map.empty());
   const SE3 T_known = b.T_odom_start * pose({0, 0, 0}, {0, 0, 4});
   ASSERT_EQ(b.add(2, T_known).state, TrackingState::kTracking);
@@ -127,12 +127,12 @@ TEST(TwoViewInitializer, ARotationIsNoBeginningButItsFramesArePosed) {
   int i = kStands + 1;
   for (; i < kStands + 7 && begun.state != TrackingState::kTracking; ++i) begun = b.add(i);
   ASSERT_EQ(begun.state, TrackingState::kTracking);
-  std::map<std::int64_t, SE3> posed;  // later ones are better
+  std::map<FrameId, SE3> posed;  // later ones are better
   for (const PosedFrame& frame : begun.posed) posed[frame.first] = frame.second;
   for (int k = 1; k <= kStands; ++k) {
-    ASSERT_TRUE(posed.contains(k)) << k;
+    ASSERT_TRUE(posed.contains(FrameId(k))) << k;
     const SO3 truth = rotates_first(0).rotation().inverse() * rotates_first(k).rotation();
-    const SE3 found = b.T_odom_start.inverse() * posed[k];
+    const SE3 found = b.T_odom_start.inverse() * posed[FrameId(k)];
     EXPECT_LT((found.rotation().inverse() * truth).log().norm(), 0.005) << k;
     EXPECT_LT(found.translation().norm(), 0.05 * b.motion().translation().norm()) << k;
   }
@@ -156,14 +156,14 @@ TEST(TwoViewInitializer, FramesFromBeforeAReferenceThatRotatedOutOfViewArePosed)
       EXPECT_TRUE(begun.rotation) << i;
     }
   }
-  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.reason;
+  ASSERT_EQ(begun.state, TrackingState::kTracking) << begun.outcome.reason;
   ASSERT_GT(reference, 1);
-  std::map<std::int64_t, SE3> posed;  // later ones are better
+  std::map<FrameId, SE3> posed;  // later ones are better
   for (const PosedFrame& frame : begun.posed) posed[frame.first] = frame.second;
   for (std::int64_t k = 1; k < reference; ++k) {
-    ASSERT_TRUE(posed.contains(k)) << k << " of " << reference;
+    ASSERT_TRUE(posed.contains(FrameId(k))) << k << " of " << reference;
     const SO3 truth = way(0).rotation().inverse() * way(static_cast<int>(k)).rotation();
-    const SE3 found = b.T_odom_start.inverse() * posed[k];
+    const SE3 found = b.T_odom_start.inverse() * posed[FrameId(k)];
     EXPECT_LT((found.rotation().inverse() * truth).log().norm(), 0.01) << k;
   }
 }
@@ -179,7 +179,7 @@ TEST(TwoViewInitializer, AnotherFrameTakesThePlaceOfAReferenceThatIsOutOfView) {
   EXPECT_TRUE(anew.is_reference);
   EXPECT_LT(distance_m(anew.T_odom_reference, b.T_odom_start), 1e-12);
   ASSERT_EQ(b.add(3).state, TrackingState::kTracking);
-  EXPECT_TRUE(b.map.pose(0).translation().isApprox(b.T_odom_start.translation(), 1e-9));
+  EXPECT_TRUE(b.map.pose(KeyframeId(0)).translation().isApprox(b.T_odom_start.translation(), 1e-9));
 }
 
 TEST(TwoViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
@@ -187,7 +187,7 @@ TEST(TwoViewInitializer, WhatWouldTellTheUnitOfAKnownMapIsLostWithItsView) {
   (void)b.add(0);
   const Initialization lost = b.add_dark(1);
   EXPECT_EQ(lost.state, TrackingState::kLost);
-  EXPECT_NE(lost.reason.find("points of the first view are left"), std::string::npos);
+  EXPECT_NE(lost.outcome.reason.find("points of the first view are left"), std::string::npos);
   EXPECT_TRUE(b.map.empty());
 }
 

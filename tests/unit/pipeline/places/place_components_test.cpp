@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/places/place_components.h>
+#include <placegraph/pipeline/internal/places/place_components.h>
 
 #include "tests/unit/pipeline/places/row_of_places.h"
 
@@ -14,17 +14,19 @@ struct TwoComponents {
   PlacePartition partition;
 
   TwoComponents(bool first_known, bool second_known) {
-    chain.add(0, std::nullopt, first_known);
-    partition.found(0, Sim3(), 0, 3);
-    chain.add(1, link(0, kLong));
-    partition.found(1, Sim3(kLong), 0, 3);
+    chain.add(KeyframeId(0), std::nullopt, first_known);
+    partition.found(KeyframeId(0), Sim3(), 0, 3);
+    chain.add(KeyframeId(1), link(0, kLong));
+    partition.found(KeyframeId(1), Sim3(kLong), 0, 3);
     const SE3 T_map_2 = pose({0, 1, 0}, {50, 0, 0});
-    chain.add(2, std::nullopt, second_known);
-    partition.found(2, Sim3(T_map_2), 1, 3);
-    chain.add(3, link(2, kLong));
-    partition.found(3, Sim3(T_map_2 * kLong), 1, 3);
+    chain.add(KeyframeId(2), std::nullopt, second_known);
+    partition.found(KeyframeId(2), Sim3(T_map_2), 1, 3);
+    chain.add(KeyframeId(3), link(2, kLong));
+    partition.found(KeyframeId(3), Sim3(T_map_2 * kLong), 1, 3);
   }
-  Sim3 S_map(std::int64_t keyframe) const { return partition.S_map_keyframe(chain, keyframe); }
+  Sim3 S_map(std::int64_t keyframe) const {
+    return partition.S_map_keyframe(chain, KeyframeId(keyframe));
+  }
 };
 
 TEST(PlaceComponents, ALoopMovesTheYoungerComponentAsAWholeToWhereItSays) {
@@ -36,8 +38,8 @@ TEST(PlaceComponents, ALoopMovesTheYoungerComponentAsAWholeToWhereItSays) {
                                  : scaled_loop(1, 3, rigid_part(S_3_1), 1 / 2.5);
     const Sim3 S_2_3 = map.S_map(2).inverse() * map.S_map(3);
     join_components(map.chain, {loop}, map.partition);
-    EXPECT_EQ(map.partition.state_of(3).component, 0);
-    EXPECT_EQ(map.partition.state_of(2).component, 0);
+    EXPECT_EQ(map.partition.state_of(KeyframeId(3)).component, 0);
+    EXPECT_EQ(map.partition.state_of(KeyframeId(2)).component, 0);
     EXPECT_LT(difference(map.S_map(1), Sim3(kLong)), kRounding);
     EXPECT_LT(difference(map.S_map(3), Sim3(kLong) * S_1_3), kRounding);
     EXPECT_LT(difference(map.S_map(2).inverse() * map.S_map(3), S_2_3), kRounding);
@@ -61,9 +63,9 @@ TEST(PlaceComponents, AComponentTakesTheScaleThatOneOfItsPlacesKnows) {
 
 TEST(PlaceComponents, TheFirstPlaceTellsTheScaleAloneIfItKnowsIt) {
   TwoComponents map(true, true);
-  map.chain.add(4, std::nullopt, false);  // the graph is over similarities
-  map.partition.found(4, Sim3(), 2, 3);
-  map.partition.set_pose(1, Sim3(SO3(), Eigen::Vector3d(1, 0, 0), 1.2));
+  map.chain.add(KeyframeId(4), std::nullopt, false);  // the graph is over similarities
+  map.partition.found(KeyframeId(4), Sim3(), 2, 3);
+  map.partition.set_pose(PlaceId(1), Sim3(SO3(), Eigen::Vector3d(1, 0, 0), 1.2));
   normalize_scales(map.chain, map.partition);
   EXPECT_NEAR(map.S_map(0).scale(), 1, kRounding);
   EXPECT_NEAR(map.S_map(1).scale(), 1.2, kRounding);
@@ -72,7 +74,7 @@ TEST(PlaceComponents, TheFirstPlaceTellsTheScaleAloneIfItKnowsIt) {
 TEST(PlaceComponents, NoPlaceHasAScaleWhereAllAreKnown) {
   TwoComponents map(true, true);
   const Eigen::Vector3d before = map.S_map(1).translation();
-  map.partition.set_pose(1, Sim3(SO3(), before, 1.2));
+  map.partition.set_pose(PlaceId(1), Sim3(SO3(), before, 1.2));
   normalize_scales(map.chain, map.partition);
   EXPECT_EQ(map.S_map(1).scale(), 1);
   EXPECT_LT((map.S_map(1).translation() - before).norm(), kRounding);

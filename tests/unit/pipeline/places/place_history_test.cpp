@@ -12,7 +12,7 @@ using namespace test;
 PlaceMapper looped_square() {
   PlaceMapper mapper = square(true);
   mapper.add_loop(loop(5, 0, kShort, 0.001, 0.0001));
-  (void)mapper.optimize(100);
+  (void)mapper.optimize(KeyframeId(100));
   return mapper;
 }
 
@@ -35,11 +35,12 @@ TEST(PlaceHistory, AMapperGoesOnWhereAnotherStood) {
   PlaceMapper second(options, {}, first.places(), first.history());
   expect_same(first.place_graph(), second.place_graph(), 1e-12);
   for (PlaceMapper* mapper : {&first, &second}) {
-    mapper->add_keyframe(6, link(5, kLong), {}, kDepth_m);
-    mapper->add_keyframe(7, link(6, kLong), {}, kDepth_m);
+    mapper->add_keyframe(KeyframeId(6), link(5, kLong), {}, kDepth_m);
+    mapper->add_keyframe(KeyframeId(7), link(6, kLong), {}, kDepth_m);
     mapper->add_loop(loop(7, 1, SE3(), 0.3, 0.05));
   }
-  EXPECT_NEAR(first.odometry(1, 7)->path_length, second.odometry(1, 7)->path_length, 1e-9);
+  EXPECT_NEAR(first.odometry(KeyframeId(1), KeyframeId(7))->path_length,
+              second.odometry(KeyframeId(1), KeyframeId(7))->path_length, 1e-9);
   // Both iterate to the end of the same graph: to the optimizer's tolerance.
   expect_same(optimized(first), optimized(second), 1e-4);
 }
@@ -63,7 +64,7 @@ TEST(PlaceHistory, ConstraintsArePublishedOnceAndWhenTheyChange) {
   };
   take_over();
   merging.add_loop(loop(5, 0, kShort, 0.001, 0.0001));
-  (void)merging.optimize(100);
+  (void)merging.optimize(KeyframeId(100));
   take_over();
   const PlaceGraph graph = merging.place_graph();
   ASSERT_EQ(known.size(), graph.constraints.size());
@@ -85,13 +86,13 @@ TEST(PlaceHistory, WhatContradictsItselfIsRefused) {
   history.places.pop_back();
   refused(history);
   history = mapper.history();
-  history.parts.front().place = 99;
+  history.parts.front().place = PlaceId(99);
   refused(history);
   history = mapper.history();
-  history.keyframes.back().part = 99;
+  history.keyframes.back().part = KeyframeId(99);
   refused(history);
   history = mapper.history();
-  history.loops.front().query = 99;
+  history.loops.front().query = KeyframeId(99);
   refused(history);
 }
 

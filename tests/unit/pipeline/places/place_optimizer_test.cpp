@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/places/place_optimizer.h>
+#include <placegraph/pipeline/internal/places/place_optimizer.h>
 
 #include "tests/support/place_links.h"
 
@@ -10,15 +10,15 @@ namespace {
 using namespace test;
 using Kind = PlaceConstraint::Kind;
 
-PoseNode node(std::int64_t place, const SE3& T_map_place = SE3()) {
-  return {place, Pose(T_map_place), false};
+PoseNode node(int place, const SE3& T_map_place = SE3()) {
+  return {NodeId(place), Pose(T_map_place), false};
 }
 
 PlaceConstraint constraint(Kind kind, std::int64_t number, std::int64_t from, std::int64_t to,
                            const SE3& T_from_to, double sigma_m = 0.1) {
   RelativePoseConstraint measured;
-  measured.from = from;
-  measured.to = to;
+  measured.from = NodeId(from);
+  measured.to = NodeId(to);
   measured.T_from_to = Pose(T_from_to);
   measured.information = information_of(sigma_m, 0.1 * sigma_m);
   return {{kind, number}, measured};
@@ -38,7 +38,8 @@ class PlaceOptimizerTest : public ::testing::Test {
   void expect_at(std::int64_t place, const SE3& T_map_place, double tolerance_m = 1e-4) {
     const IncrementalStep step = optimizer.finish();
     EXPECT_TRUE(step.outcome) << step.outcome.reason;
-    EXPECT_LT(distance_m(rigid_part(optimizer.S_map_place(place)), T_map_place), tolerance_m)
+    EXPECT_LT(distance_m(rigid_part(optimizer.S_map_place(PlaceId(place))), T_map_place),
+              tolerance_m)
         << place;
   }
 
@@ -48,12 +49,12 @@ class PlaceOptimizerTest : public ::testing::Test {
 
 TEST_F(PlaceOptimizerTest, BeginsWherePlacesStand) {
   EXPECT_EQ(optimizer.kind(), PoseKind::kSE3);
-  EXPECT_TRUE(optimizer.knows(2));
-  EXPECT_FALSE(optimizer.knows(3));
+  EXPECT_TRUE(optimizer.knows(PlaceId(2)));
+  EXPECT_FALSE(optimizer.knows(PlaceId(3)));
   expect_at(0, SE3());
   expect_at(2, kStep * kStep);
-  EXPECT_THROW((void)optimizer.S_map_place(3), ArgumentError);
-  EXPECT_THROW((void)optimizer.relative_covariance(0, 3), ArgumentError);
+  EXPECT_THROW((void)optimizer.S_map_place(PlaceId(3)), ArgumentError);
+  EXPECT_THROW((void)optimizer.relative_covariance(PlaceId(0), PlaceId(3)), ArgumentError);
 }
 
 TEST_F(PlaceOptimizerTest, ALinkThatIsMeasuredBetterTakesTheOldOnesPlace) {
@@ -97,8 +98,8 @@ TEST_F(PlaceOptimizerTest, AConstraintWithinOnePlaceCountsNoMore) {
 }
 
 TEST_F(PlaceOptimizerTest, CovarianceOfThePlacesGrowsAlongTheLinks) {
-  const Matrix7d one = optimizer.relative_covariance(0, 1),
-                 two = optimizer.relative_covariance(0, 2);
+  const Matrix7d one = optimizer.relative_covariance(PlaceId(0), PlaceId(1)),
+                 two = optimizer.relative_covariance(PlaceId(0), PlaceId(2));
   EXPECT_NEAR(one(2, 2), 0.01, 1e-6);
   EXPECT_NEAR(two(2, 2), 0.02, 1e-6);
   EXPECT_NEAR(two(0, 0), 0.02 + 1e-4, 1e-6);  // the first link's turn swings the second by 1 m
@@ -108,7 +109,7 @@ TEST_F(PlaceOptimizerTest, CovarianceOfThePlacesGrowsAlongTheLinks) {
 
 TEST_F(PlaceOptimizerTest, BeginningAnewForgetsWhatWasKnown) {
   (void)optimizer.begin({node(5), node(6, kStep)}, {constraint(Kind::kLink, 6, 5, 6, kStep)});
-  EXPECT_FALSE(optimizer.knows(0));
+  EXPECT_FALSE(optimizer.knows(PlaceId(0)));
   // The link of this key joined places that are gone: it is a new one.
   (void)optimizer.follow({}, {constraint(Kind::kLink, 1, 5, 6, kLonger)});
   expect_at(6, pose({0, 0, 0}, {0, 0, 1.5}));
@@ -117,7 +118,7 @@ TEST_F(PlaceOptimizerTest, BeginningAnewForgetsWhatWasKnown) {
 TEST_F(PlaceOptimizerTest, ResettingForgetsPlacesAndConstraints) {
   optimizer.reset();
   EXPECT_FALSE(optimizer.kind());
-  EXPECT_FALSE(optimizer.knows(0));
+  EXPECT_FALSE(optimizer.knows(PlaceId(0)));
   // The same keys are new ones, whatever their ends.
   (void)optimizer.follow({node(0), node(1)}, {constraint(Kind::kLink, 1, 0, 1, kLonger)});
   expect_at(1, kLonger);
@@ -126,16 +127,16 @@ TEST_F(PlaceOptimizerTest, ResettingForgetsPlacesAndConstraints) {
 TEST_F(PlaceOptimizerTest, PlacesOfUnknownScaleAreSimilarities) {
   const Sim3 S_0_1(SO3(), Eigen::Vector3d(0, 0, 1), 2);
   RelativePoseConstraint link;
-  link.from = 0;
-  link.to = 1;
+  link.from = NodeId(0);
+  link.to = NodeId(1);
   link.T_from_to = Pose(S_0_1);
   link.information = Matrix7d::Identity() * 100;
-  (void)optimizer.begin({{0, Pose(Sim3()), false}, {1, Pose(Sim3()), false}},
+  (void)optimizer.begin({{NodeId(0), Pose(Sim3()), false}, {NodeId(1), Pose(Sim3()), false}},
                         {{{Kind::kLink, 1}, link}});
   EXPECT_EQ(optimizer.kind(), PoseKind::kSim3);
   (void)optimizer.finish();
-  EXPECT_NEAR(optimizer.S_map_place(1).scale(), 2, 1e-4);
-  EXPECT_NEAR(optimizer.relative_covariance(0, 1)(6, 6), 0.01, 1e-4);
+  EXPECT_NEAR(optimizer.S_map_place(PlaceId(1)).scale(), 2, 1e-4);
+  EXPECT_NEAR(optimizer.relative_covariance(PlaceId(0), PlaceId(1))(6, 6), 0.01, 1e-4);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/places/place_partition.h>
+#include <placegraph/pipeline/internal/places/place_partition.h>
 
 #include "tests/support/place_links.h"
 #include "tests/support/scenes/poses.h"
@@ -15,18 +15,20 @@ struct Row {
 
   explicit Row(bool scale_known = true) {
     const SE3 T_map_0 = pose({0, 0.3, 0}, {1, 2, 3});
-    chain.add(0, std::nullopt, scale_known);
-    partition.found(0, Sim3(T_map_0), 0, 3);
-    chain.add(1, link(0, kShort));
-    partition.join(1, 0);
-    chain.add(2, link(1, kLong));
-    partition.found(2, Sim3(T_map_0 * kShort * kLong), 0, 3);
-    chain.add(3, link(2, kShort));
-    partition.join(3, 2);
-    chain.add(4, link(3, kLong));
-    partition.found(4, Sim3(T_map_0 * kShort * kLong * kShort * kLong), 0, 3);
+    chain.add(KeyframeId(0), std::nullopt, scale_known);
+    partition.found(KeyframeId(0), Sim3(T_map_0), 0, 3);
+    chain.add(KeyframeId(1), link(0, kShort));
+    partition.join(KeyframeId(1), KeyframeId(0));
+    chain.add(KeyframeId(2), link(1, kLong));
+    partition.found(KeyframeId(2), Sim3(T_map_0 * kShort * kLong), 0, 3);
+    chain.add(KeyframeId(3), link(2, kShort));
+    partition.join(KeyframeId(3), KeyframeId(2));
+    chain.add(KeyframeId(4), link(3, kLong));
+    partition.found(KeyframeId(4), Sim3(T_map_0 * kShort * kLong * kShort * kLong), 0, 3);
   }
-  Sim3 S_map(std::int64_t keyframe) const { return partition.S_map_keyframe(chain, keyframe); }
+  Sim3 S_map(std::int64_t keyframe) const {
+    return partition.S_map_keyframe(chain, KeyframeId(keyframe));
+  }
 };
 
 }  // namespace placegraph::test

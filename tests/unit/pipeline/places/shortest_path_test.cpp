@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/places/shortest_path.h>
+#include <placegraph/pipeline/internal/places/shortest_path.h>
 
 #include <cmath>
 
@@ -16,20 +16,20 @@ TEST(ShortestPath, LeadsAlongLinksAndLoops) {
   PlacePartition partition;
   const Eigen::Vector3d corners[] = {{0, 0, 0}, {5, 0, 0}, {5, 0, 5}, {0, 0, 5}};
   for (int i = 0; i < 4; ++i) {
-    chain.add(i, i == 0 ? std::nullopt : std::optional(link(i - 1, kLong)));
-    partition.found(i, Sim3(SO3(), corners[i], 1), 0, 3);
+    chain.add(KeyframeId(i), i == 0 ? std::nullopt : std::optional(link(i - 1, kLong)));
+    partition.found(KeyframeId(i), Sim3(SO3(), corners[i], 1), 0, 3);
   }
-  chain.add(4, link(3, kShort));
-  partition.join(4, 3);
-  chain.add(5, std::nullopt);
-  partition.found(5, Sim3(), 1, 3);
-  EXPECT_NEAR(shortest_path(chain, partition, {}, 0, 3), 15, 1e-12);
-  EXPECT_NEAR(shortest_path(chain, partition, {}, 3, 1), 10, 1e-12);
-  EXPECT_EQ(shortest_path(chain, partition, {}, 2, 2), 0);
-  EXPECT_TRUE(std::isinf(shortest_path(chain, partition, {}, 0, 4)));
+  chain.add(KeyframeId(4), link(3, kShort));
+  partition.join(KeyframeId(4), KeyframeId(3));
+  chain.add(KeyframeId(5), std::nullopt);
+  partition.found(KeyframeId(5), Sim3(), 1, 3);
+  EXPECT_NEAR(shortest_path(chain, partition, {}, PlaceId(0), PlaceId(3)), 15, 1e-12);
+  EXPECT_NEAR(shortest_path(chain, partition, {}, PlaceId(3), PlaceId(1)), 10, 1e-12);
+  EXPECT_EQ(shortest_path(chain, partition, {}, PlaceId(2), PlaceId(2)), 0);
+  EXPECT_TRUE(std::isinf(shortest_path(chain, partition, {}, PlaceId(0), PlaceId(4))));
   const std::vector<Loop> loops{loop(4, 0, SE3(), 0.1, 0.01)};  // a member of place 3
-  EXPECT_NEAR(shortest_path(chain, partition, loops, 0, 3), 5, 1e-12);
-  EXPECT_NEAR(shortest_path(chain, partition, loops, 0, 2), 10, 1e-12);
+  EXPECT_NEAR(shortest_path(chain, partition, loops, PlaceId(0), PlaceId(3)), 5, 1e-12);
+  EXPECT_NEAR(shortest_path(chain, partition, loops, PlaceId(0), PlaceId(2)), 10, 1e-12);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/scale/floor_line_scale.h>
+#include <placegraph/pipeline/internal/scale/floor_line_scale.h>
 
 #include "tests/support/scenes/room_lines.h"
 
@@ -22,7 +22,7 @@ std::vector<PlacedLine> corridor(double factor = 1, std::int64_t first_id = 0) {
     const auto end = scene.camera.project(scene.to[i]);
     if (!start || !end) continue;
     const Eigen::Vector3d from = scene.from[i] / factor, to = scene.to[i] / factor;
-    lines.push_back({first_id + static_cast<std::int64_t>(i),
+    lines.push_back({LineId(first_id + static_cast<std::int64_t>(i)),
                      Line3::from_direction(from, to - from),
                      kSigma * kSigma * Eigen::Matrix4d::Identity(),
                      {*start, *end}});
@@ -80,7 +80,7 @@ TEST(FloorScale, FewNewLinesCountForLess) {
   for (PlacedLine& line : lines)
     if (renamed < 2 && std::abs(line.line_ref.direction().x()) > 0.9 &&
         line.line_ref.nearest_point().y() > 1)
-      line.id += 1000, ++renamed;
+      line.id = LineId(line.id.value() + 1000), ++renamed;
   ASSERT_EQ(renamed, 2);
   const auto many = all.measure(SE3(), corridor(), {}, true),
              two = few.measure(SE3(), lines, {}, true);

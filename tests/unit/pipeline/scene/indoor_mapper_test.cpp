@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/scene/indoor_mapper.h>
+#include <placegraph/pipeline/internal/scene/indoor_mapper.h>
 
+#include "tests/support/ids.h"
 #include "tests/support/scenes/boards.h"
 #include "tests/support/scenes/posed_map.h"
 
@@ -14,7 +15,7 @@ using namespace test;
 /// with the camera at `t` and turned by `turn` about the vertical.
 SurfaceSight sight_of_room(std::int64_t keyframe, const SE3& T_room_cam) {
   SurfaceSight sight;
-  sight.keyframe = keyframe;
+  sight.keyframe = KeyframeId(keyframe);
   const SE3 T_cam_room = T_room_cam.inverse();
   const auto add = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
     SurfacePoint point;
@@ -97,13 +98,14 @@ TEST(IndoorMapper, SaysWhyThereIsNoPlan) {
 
 /// Keyframes whose frames are of the grey of their number, and which ones were read.
 struct GreyFrames {
-  std::vector<std::int64_t> read;
+  std::vector<KeyframeId> read;
   NearbyViews views_of(const Map& map) {
     return {map,
             [this](const Keyframe& keyframe) {
               read.push_back(keyframe.id);
               Frame frame;
-              frame.image = Image(2, 2, CV_8UC1, cv::Scalar(static_cast<double>(keyframe.id)));
+              frame.image =
+                  Image(2, 2, CV_8UC1, cv::Scalar(static_cast<double>(keyframe.id.value())));
               return frame;
             },
             {0.25, 0.5, 20}};
@@ -137,7 +139,7 @@ TEST(NearbyViews, AreANearerAndAFartherOneOnEachSide) {
   frames.read.clear();
   (void)of(27);
   EXPECT_EQ(nearby.frame(map.keyframes[27]).image.at<std::uint8_t>(0, 0), 27);
-  EXPECT_EQ(frames.read, std::vector<std::int64_t>{27}) << "frames are kept";
+  EXPECT_EQ(frames.read, test::ids<KeyframeId>({27})) << "frames are kept";
 }
 
 TEST(NearbyViews, AreOnlyThoseThatHaveMovedALittle) {
@@ -164,7 +166,7 @@ TEST(NearbyViews, AreOfTheMapThatHangsTogether) {
   const Keyframe copy = map.keyframes[2];
   EXPECT_EQ(nearby.of(copy).size(), 2U);
   Keyframe other = copy;
-  other.id = 17;
+  other.id = KeyframeId(17);
   EXPECT_THROW((void)nearby.of(other), ArgumentError);
 }
 
@@ -186,9 +188,9 @@ TEST(IndoorMapper, SweepsDepthForAnEyeThatHasMoved) {
   };
   const SE3 T_view_cam(SO3(), Eigen::Vector3d(-0.3, 0, 0));
   IndoorMapper mapper({}, Calibration{.camera = camera, .depth = {}, .camera_height_m = {}});
-  mapper.add(0, view(0));
+  mapper.add(KeyframeId(0), view(0));
   EXPECT_TRUE(mapper.sights()[0].points.empty());
-  mapper.add(0, view(0), {{view(0.3).image, T_view_cam}});
+  mapper.add(KeyframeId(0), view(0), {{view(0.3).image, T_view_cam}});
   ASSERT_EQ(mapper.sights().size(), 1U);
   ASSERT_GT(mapper.sights()[0].points.size(), 100U);
   const double count = static_cast<double>(mapper.sights()[0].points.size());
@@ -222,9 +224,9 @@ TEST(IndoorMapper, TakesTheDepthsOfADepthCamera) {
                                       .baseline_m = 0,
                                       .depth = DepthCamera{camera, T_cam_depth, 0.005},
                                       .camera_height_m = {}});
-  mapper.add(3, wall_in_depth(camera, 2.5));
+  mapper.add(KeyframeId(3), wall_in_depth(camera, 2.5));
   ASSERT_EQ(mapper.sights().size(), 1U);
-  EXPECT_EQ(mapper.sights()[0].keyframe, 3);
+  EXPECT_EQ(mapper.sights()[0].keyframe, KeyframeId(3));
   ASSERT_GT(mapper.sights()[0].points.size(), 30U);
   float leftmost = 10;
   for (const SurfacePoint& p : mapper.sights()[0].points) {
@@ -236,7 +238,7 @@ TEST(IndoorMapper, TakesTheDepthsOfADepthCamera) {
   }
   // In the frame of the camera, not of its depth sensor.
   EXPECT_NEAR(leftmost, 0.2, 0.1);
-  mapper.add(3, wall_in_depth(camera, 1.5));
+  mapper.add(KeyframeId(3), wall_in_depth(camera, 1.5));
   ASSERT_EQ(mapper.sights().size(), 1U) << "what was told before is replaced";
   EXPECT_NEAR(mapper.sights()[0].points[0].point[2], 1.5, 1e-3);
 }
@@ -248,11 +250,11 @@ TEST(IndoorMapper, OneEyeOfKnownHeightSeesTheFloor) {
   Frame frame;
   frame.image = boards_image(SE3());
   IndoorMapper blind(options, calibration);
-  blind.add(0, frame);
+  blind.add(KeyframeId(0), frame);
   EXPECT_TRUE(blind.sights()[0].points.empty()) << "nothing gives lengths";
   calibration.camera_height_m = kBoardsHeight_m;
   IndoorMapper mapper(options, calibration);
-  mapper.add(0, frame);
+  mapper.add(KeyframeId(0), frame);
   ASSERT_GT(mapper.sights()[0].points.size(), 20U);
   int floor = 0, on_floor = 0;
   for (const SurfacePoint& p : mapper.sights()[0].points)
@@ -272,12 +274,12 @@ TEST(IndoorMapper, AMapIsReadByItsKeyframesThatAreApart) {
                                 .camera_height_m = {}};
   std::vector<SE3> poses;
   for (int i = 0; i < 6; ++i) poses.push_back(SE3(SO3(), Eigen::Vector3d(0.1 * i, 0, 0)));
-  std::vector<std::int64_t> read;
+  std::vector<KeyframeId> read;
   const IndoorMap plan = map_indoors(posed_map(poses), calibration, [&](const Keyframe& keyframe) {
     read.push_back(keyframe.id);
     return wall_in_depth(camera, 2);
   });
-  EXPECT_EQ(read, (std::vector<std::int64_t>{0, 2, 4})) << "0.15 m apart";
+  EXPECT_EQ(read, test::ids<KeyframeId>({0, 2, 4})) << "0.15 m apart";
   EXPECT_EQ(plan.outcome.code, Outcome::Code::kDegenerate) << "a wall alone is no building";
 }
 
@@ -292,10 +294,10 @@ TEST(IndoorMapper, RefusesOptionsThatCannotBe) {
 TEST(IndoorMapper, LabelsPlacesOncePerRoom) {
   IndoorMap plan;
   plan.rooms.resize(2);
-  plan.rooms[0].label = "room 1", plan.rooms[0].places = {4};
-  plan.rooms[1].label = "corridor 1", plan.rooms[1].places = {4, 5};
+  plan.rooms[0].label = "room 1", plan.rooms[0].places = test::ids<PlaceId>({4});
+  plan.rooms[1].label = "corridor 1", plan.rooms[1].places = test::ids<PlaceId>({4, 5});
   PlaceGraph graph;
-  for (const std::int64_t id : {4, 5, 6}) graph.places.emplace_back().id = id;
+  for (const PlaceId id : test::ids<PlaceId>({4, 5, 6})) graph.places.emplace_back().id = id;
   graph.places[1].labels = {"kitchen"};
   label_places(plan, graph);
   label_places(plan, graph);

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/scene/indoor_plan.h>
+#include <placegraph/pipeline/internal/scene/indoor_plan.h>
 
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
+
+#include "tests/support/ids.h"
 
 namespace placegraph {
 namespace {
@@ -34,7 +36,7 @@ struct TwoRooms {
     rooms.rooms[1].holes = {{{1, 4.5}, {2, 4.5}, {2, 5}}};
     rooms.rooms[1].area_m2 = 14, rooms.rooms[1].width_m = 1.4;
     Place place;
-    place.id = 5;
+    place.id = PlaceId(5);
     place.T_map_place = SE3(SO3(), level_frame().T_walls_map().inverse() * Vector3d(8, 5, 1.5));
     map.place_graph.places = {place};
     sights.path = {Vector3d(2, 2, 1.5)};
@@ -50,7 +52,7 @@ TEST(IndoorPlan, RoomsAreNamedAndHoldTheirPlaces) {
   EXPECT_TRUE(rooms[0].entered);
   EXPECT_FALSE(rooms[1].entered);
   EXPECT_TRUE(rooms[0].places.empty());
-  EXPECT_EQ(rooms[1].places, std::vector<std::int64_t>{5});
+  EXPECT_EQ(rooms[1].places, test::ids<PlaceId>({5}));
   ASSERT_EQ(rooms[1].outline.size(), 4u);
   EXPECT_NEAR((rooms[1].outline[1] - level_frame().plan_of({10, 4.2})).norm(), 0, 1e-12);
   ASSERT_EQ(rooms[1].holes.size(), 1u);
@@ -72,10 +74,10 @@ TEST(IndoorPlan, TheCeilingIsTheMedianOfWhatHangsAboveARoom) {
 TEST(IndoorPlan, WallsLookToTheSideTheyAreSeenFrom) {
   const TwoRooms two;
   PlacedSights sights = two.sights;
-  sights.keyframes = {7, 9};
+  sights.keyframes = test::ids<KeyframeId>({7, 9});
   Map map = two.map;
   Keyframe keyframe;
-  keyframe.id = 9, keyframe.place = 5;
+  keyframe.id = KeyframeId(9), keyframe.place = PlaceId(5);
   map.keyframes = {keyframe};
   WallPiece piece;
   piece.axis = 0, piece.sign = 1, piece.offset_m = 2, piece.from_m = 1, piece.to_m = 4;
@@ -89,7 +91,7 @@ TEST(IndoorPlan, WallsLookToTheSideTheyAreSeenFrom) {
   const Vector2d to_larger_x = level_frame().plan_of({1, 0}) - level_frame().plan_of({0, 0});
   EXPECT_NEAR(walls[0].normal.dot(to_larger_x), 1, 1e-12);
   EXPECT_NEAR(walls[1].normal.dot(to_larger_x), -1, 1e-12);
-  EXPECT_EQ(walls[0].place, 5);
+  EXPECT_EQ(walls[0].place, PlaceId(5));
   EXPECT_EQ(walls[0].sights, 321);
 }
 

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/scene/map_keyframes.h>
+#include <placegraph/pipeline/internal/scene/map_keyframes.h>
 
+#include "tests/support/ids.h"
 #include "tests/support/scenes/scene.h"
 
 namespace placegraph {
@@ -14,18 +15,19 @@ Map two_places(bool scaled = false) {
   Map map;
   for (std::int64_t p = 0; p < 2; ++p) {
     Place place;
-    place.id = 10 * p;
-    place.anchor_keyframe = 2 * p;
+    place.id = PlaceId(10 * p);
+    place.anchor_keyframe = KeyframeId(2 * p);
     place.component = static_cast<int>(p);
     place.T_map_place = pose({0, 0.2, 0}, {5.0 * static_cast<double>(p), 0, 1});
     if (p == 1 && scaled) place.scale = 2;
     for (std::int64_t k = 2 * p; k < 2 * p + 2; ++k) {
       Keyframe keyframe;
-      keyframe.id = keyframe.frame = k;
+      keyframe.id = KeyframeId(k);
+      keyframe.frame = FrameId(k);
       keyframe.stamp_ns = 100 * k;
       keyframe.place = place.id;
       keyframe.T_place_keyframe = pose({0, 0, 0}, {0, 0, k % 2 == 0 ? 0.0 : 0.5});
-      place.members.push_back({k, keyframe.T_place_keyframe, 1});
+      place.members.push_back({KeyframeId(k), keyframe.T_place_keyframe, 1});
       map.keyframes.push_back(keyframe);
     }
     map.place_graph.places.push_back(place);
@@ -34,7 +36,7 @@ Map two_places(bool scaled = false) {
 }
 void join(Map& map) {
   RelativePoseConstraint edge;
-  edge.from = 0, edge.to = 10;
+  edge.from = NodeId(0), edge.to = NodeId(10);
   edge.T_from_to = SE3();
   edge.information = Matrix6d::Identity();
   map.place_graph.constraints.push_back(edge);
@@ -43,27 +45,29 @@ void join(Map& map) {
 TEST(MapKeyframes, StandWherePlaceAndMemberPutThem) {
   const Map map = two_places();
   const SE3 expected = map.place_graph.places[1].T_map_place * pose({0, 0, 0}, {0, 0, 0.5});
-  EXPECT_LT((camera_pose(map, 3).inverse() * expected).log().norm(), 1e-12);
+  EXPECT_LT((camera_pose(map, KeyframeId(3)).inverse() * expected).log().norm(), 1e-12);
 }
 
 TEST(MapKeyframes, AreAsFarFromTheirPlaceAsItsUnitSays) {
   const Map map = two_places(true);
   const SE3 expected = map.place_graph.places[1].T_map_place * pose({0, 0, 0}, {0, 0, 1.0});
-  EXPECT_LT((camera_pose(map, 3).inverse() * expected).log().norm(), 1e-12);
+  EXPECT_LT((camera_pose(map, KeyframeId(3)).inverse() * expected).log().norm(), 1e-12);
 }
 
 TEST(MapKeyframes, OfAnUnknownNumberAreAMistake) {
-  EXPECT_THROW((void)camera_pose(two_places(), 17), ArgumentError);
+  EXPECT_THROW((void)camera_pose(two_places(), KeyframeId(17)), ArgumentError);
 }
 
 TEST(MapKeyframes, AreConnectedWhereAConstraintJoinsTheirPlaces) {
   Map map = two_places();
-  EXPECT_EQ(connected_keyframes(map), (std::set<std::int64_t>{0, 1}));
-  EXPECT_FALSE(poses_of(map)(2));
+  EXPECT_EQ(connected_keyframes(map), (std::set{KeyframeId(0), KeyframeId(1)}));
+  EXPECT_FALSE(poses_of(map)(KeyframeId(2)));
   join(map);
-  EXPECT_EQ(connected_keyframes(map), (std::set<std::int64_t>{0, 1, 2, 3}));
-  ASSERT_TRUE(poses_of(map)(2));
-  EXPECT_LT(distance_m(*poses_of(map)(2), map.place_graph.places[1].T_map_place), 1e-12);
+  EXPECT_EQ(connected_keyframes(map),
+            (std::set{KeyframeId(0), KeyframeId(1), KeyframeId(2), KeyframeId(3)}));
+  ASSERT_TRUE(poses_of(map)(KeyframeId(2)));
+  EXPECT_LT(distance_m(*poses_of(map)(KeyframeId(2)), map.place_graph.places[1].T_map_place),
+            1e-12);
 }
 
 TEST(MapKeyframes, HadOnlinePosesWhereTheirFramesHad) {
@@ -72,10 +76,10 @@ TEST(MapKeyframes, HadOnlinePosesWhereTheirFramesHad) {
   map.trajectory_online.poses = {
       {0, std::nullopt}, {100, T_online.isometry()}, {150, SE3().isometry()}};
   const KeyframePoses online = online_poses_of(map);
-  EXPECT_FALSE(online(0));  // its frame was lost
-  ASSERT_TRUE(online(1));
-  EXPECT_LT((online(1)->inverse() * T_online).log().norm(), 1e-12);
-  EXPECT_FALSE(online(2));  // no such frame
+  EXPECT_FALSE(online(KeyframeId(0)));  // its frame was lost
+  ASSERT_TRUE(online(KeyframeId(1)));
+  EXPECT_LT((online(KeyframeId(1))->inverse() * T_online).log().norm(), 1e-12);
+  EXPECT_FALSE(online(KeyframeId(2)));  // no such frame
 }
 
 TEST(MapKeyframes, ApartAreThoseThatMovedOrTurnedEnoughSinceTheOneBefore) {
@@ -84,17 +88,19 @@ TEST(MapKeyframes, ApartAreThoseThatMovedOrTurnedEnoughSinceTheOneBefore) {
   const double yaw[] = {0, 0, 0, 0.2, 0.25, 0.25};
   for (std::int64_t k = 0; k < 6; ++k) {
     Keyframe keyframe;
-    keyframe.id = keyframe.place = k;
+    keyframe.id = KeyframeId(k);
+    keyframe.place = PlaceId(k);
     Place place;
-    place.id = place.anchor_keyframe = k;
+    place.id = PlaceId(k);
+    place.anchor_keyframe = KeyframeId(k);
     place.T_map_place = pose({0, yaw[k], 0}, {0, 0, z[k]});
-    place.members = {{k, SE3(), 1}};
+    place.members = {{KeyframeId(k), SE3(), 1}};
     map.keyframes.push_back(keyframe);
     map.place_graph.places.push_back(place);
   }
-  std::vector<std::int64_t> ids;
+  std::vector<KeyframeId> ids;
   for (const Keyframe* keyframe : keyframes_apart(map, 1, 0.1)) ids.push_back(keyframe->id);
-  EXPECT_EQ(ids, (std::vector<std::int64_t>{0, 2, 3, 5}));  // 3 has turned, 5 has moved
+  EXPECT_EQ(ids, test::ids<KeyframeId>({0, 2, 3, 5}));  // 3 has turned, 5 has moved
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/scene/urban_mapper.h>
+#include <placegraph/pipeline/internal/scene/urban_mapper.h>
 
 #include <numbers>
 #include <set>
 
+#include "tests/support/ids.h"
 #include "tests/support/scenes/posed_map.h"
 
 namespace placegraph {
@@ -37,7 +38,7 @@ UrbanMapper mapper_of(double baseline_m = 0.5) {
 /// A wall at z = 10 of the world, as a camera there sees it.
 SemanticSight sight_of_wall(std::int64_t keyframe, const SE3& T_world_cam) {
   SemanticSight sight;
-  sight.keyframe = keyframe;
+  sight.keyframe = KeyframeId(keyframe);
   sight.shares = {0.1F, 0.9F};
   for (double x = -2; x < 2; x += 0.1)
     for (double y = -2; y < 1; y += 0.1) {
@@ -83,20 +84,20 @@ TEST(UrbanMapper, TakesPosesBeforeCorrectionsByTheirStamps) {
   Map map = posed_map({SE3(), SE3()});
   map.trajectory_online.poses.push_back({100, SE3(SO3(), Eigen::Vector3d(1, 2, 3)).isometry()});
   const KeyframePoses online = online_poses_of(map);
-  EXPECT_FALSE(online(0));
-  ASSERT_TRUE(online(1));
-  EXPECT_EQ(online(1)->translation(), Eigen::Vector3d(1, 2, 3));
-  EXPECT_TRUE(poses_of(map)(0));
-  EXPECT_FALSE(poses_of(map)(2));
+  EXPECT_FALSE(online(KeyframeId(0)));
+  ASSERT_TRUE(online(KeyframeId(1)));
+  EXPECT_EQ(online(KeyframeId(1))->translation(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_TRUE(poses_of(map)(KeyframeId(0)));
+  EXPECT_FALSE(poses_of(map)(KeyframeId(2)));
 }
 
 TEST(UrbanMapper, UsesKeyframesThatAreAStepApart) {
   std::vector<SE3> poses;
   for (int i = 0; i < 10; ++i) poses.emplace_back(SO3(), Eigen::Vector3d(0, 0, 0.4 * i));
   const Map map = posed_map(poses);
-  std::vector<std::int64_t> ids;
+  std::vector<KeyframeId> ids;
   for (const Keyframe* keyframe : keyframes_apart(map, 1, 0.1)) ids.push_back(keyframe->id);
-  EXPECT_EQ(ids, (std::vector<std::int64_t>{0, 3, 6, 9}));
+  EXPECT_EQ(ids, test::ids<KeyframeId>({0, 3, 6, 9}));
 }
 
 TEST(UrbanMapper, TellsWhatIsSeenFromEachPlace) {
@@ -137,7 +138,7 @@ TEST(UrbanMapper, LaysItsCellsOutByTheVerticalThatItIsTold) {
   mapper.add(sight_of_wall(0, SE3()));
   // A map that stands on its head: down is -y of it.
   const SE3 T_map_cam(SO3::exp({0, 0, std::numbers::pi}), Eigen::Vector3d::Zero());
-  const KeyframePoses poses = [&](std::int64_t) -> std::optional<SE3> { return T_map_cam; };
+  const KeyframePoses poses = [&](KeyframeId) -> std::optional<SE3> { return T_map_cam; };
   const SemanticMap as_seen = mapper.fuse(poses);
   const SemanticMap told = mapper.fuse(poses, -Eigen::Vector3d::UnitY());
   ASSERT_TRUE(as_seen.outcome && told.outcome);
@@ -149,11 +150,11 @@ TEST(UrbanMapper, LeavesOutKeyframesWithoutAPose) {
   UrbanMapper mapper = mapper_of();
   mapper.add(sight_of_wall(0, SE3()));
   mapper.add(sight_of_wall(1, SE3(SO3(), Eigen::Vector3d(0, 0, 3))));
-  const auto only_first = [](std::int64_t keyframe) {
-    return keyframe == 0 ? std::optional(SE3()) : std::nullopt;
+  const auto only_first = [](KeyframeId keyframe) {
+    return keyframe == KeyframeId(0) ? std::optional(SE3()) : std::nullopt;
   };
   EXPECT_EQ(depths_of(mapper.fuse(only_first)), std::set<int>{33});
-  const auto none = [](std::int64_t) { return std::optional<SE3>(); };
+  const auto none = [](KeyframeId) { return std::optional<SE3>(); };
   EXPECT_EQ(mapper.fuse(none).outcome.reason, "no keyframe of it has a pose");
 }
 
@@ -161,7 +162,7 @@ TEST(UrbanMapper, OneEyeTellsNothing) {
   UrbanMapper mapper = mapper_of();
   Frame frame;
   frame.image = Image(480, 640, CV_8UC1, cv::Scalar(90));
-  mapper.add(0, frame, SE3());  // without a right image
+  mapper.add(KeyframeId(0), frame, SE3());  // without a right image
   EXPECT_TRUE(mapper.sights().empty());
 }
 
@@ -169,7 +170,7 @@ TEST(UrbanMapper, ReadsTheKeyframesOfAMapThatAreApartAndSaysHowFarItIs) {
   std::vector<SE3> poses;
   for (int i = 0; i < 6; ++i) poses.emplace_back(SO3(), Eigen::Vector3d(0, 0, 0.6 * i));
   UrbanMapper mapper = mapper_of();
-  std::vector<std::int64_t> read;
+  std::vector<KeyframeId> read;
   std::vector<std::size_t> done;
   add_keyframes(
       mapper, posed_map(poses), {},
@@ -181,7 +182,7 @@ TEST(UrbanMapper, ReadsTheKeyframesOfAMapThatAreApartAndSaysHowFarItIs) {
         done.push_back(i);
         EXPECT_EQ(all, 3u);
       });
-  EXPECT_EQ(read, (std::vector<std::int64_t>{0, 2, 4}));  // a metre apart
+  EXPECT_EQ(read, test::ids<KeyframeId>({0, 2, 4}));  // a metre apart
   EXPECT_EQ(done, (std::vector<std::size_t>{1, 2, 3}));
 }
 
@@ -193,8 +194,8 @@ TEST(UrbanMapper, SharesOfClassesAreOfAllPointsOfAPlace) {
   mapper.add(wall);
   mapper.add(road);
   Map map = posed_map({SE3(), SE3()});
-  map.keyframes[1].place = 0;  // both are of one place
-  map.place_graph.places[0].members.push_back({1, SE3(), 1});
+  map.keyframes[1].place = PlaceId(0);  // both are of one place
+  map.place_graph.places[0].members.push_back({KeyframeId(1), SE3(), 1});
   map.place_graph.places[1].members.clear();
   const auto shares = class_shares(mapper, map);
   ASSERT_EQ(shares.size(), 2U);

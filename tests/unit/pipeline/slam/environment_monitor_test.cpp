@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/slam/environment_monitor.h>
+#include <placegraph/pipeline/internal/slam/environment_monitor.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -17,7 +17,7 @@ const Frame& street_frame() {
 EnvironmentMonitor monitor(int count, int* changes = nullptr) {
   EnvironmentMonitor monitor({}, street_camera());
   for (int k = 0; k < count; ++k) {
-    const bool changed = monitor.classify(k, street_frame(), nullptr, {}, false);
+    const bool changed = monitor.classify(KeyframeId(k), street_frame(), nullptr, {}, false);
     if (changes) *changes += changed;
   }
   return monitor;
@@ -26,7 +26,7 @@ std::vector<Place> place_of(const std::vector<std::int64_t>& keyframes) {
   Place place;
   for (const std::int64_t keyframe : keyframes) {
     PlaceMember member;
-    member.keyframe = keyframe;
+    member.keyframe = KeyframeId(keyframe);
     place.members.push_back(member);
   }
   return {place};

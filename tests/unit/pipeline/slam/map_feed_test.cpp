@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/slam/map_feed.h>
+#include <placegraph/pipeline/internal/slam/map_feed.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -41,13 +41,15 @@ struct System {
     const OdometryUpdate update = odometry.add_frame(frame);
     ASSERT_EQ(update.state, TrackingState::kTracking);
     ASSERT_EQ(update.new_keyframes.size(), 1u);
-    const std::int64_t id = update.new_keyframes[0].id;
+    const KeyframeId id = update.new_keyframes[0].id;
     recorder.add_keyframe(update.new_keyframes[0]);
     std::optional<SE3> T_previous_this;
     std::optional<PlaceMapper::Link> link;
-    if (id > 0) {
-      T_previous_this = odometry.map().pose(id - 1).inverse() * odometry.map().pose(id);
-      link = PlaceMapper::Link{id - 1, *T_previous_this, 100 * Matrix6d::Identity()};
+    if (id > KeyframeId(0)) {
+      T_previous_this =
+          odometry.map().pose(KeyframeId(id.value() - 1)).inverse() * odometry.map().pose(id);
+      link = PlaceMapper::Link{KeyframeId(id.value() - 1), *T_previous_this,
+                               100 * Matrix6d::Identity()};
     }
     closer.add_view(id, frame, T_previous_this);
     mapper.add_keyframe(id, link, SE3(), odometry.map().median_depth());
@@ -63,17 +65,17 @@ TEST(MapFeed, ASnapshotHoldsEveryPart) {
   const Map map = run.feed.snapshot(run.sources());
   ASSERT_EQ(map.keyframes.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(map.keyframes[k].id, static_cast<std::int64_t>(k));
-    EXPECT_EQ(map.keyframes[k].frame, static_cast<std::int64_t>(k));
+    EXPECT_EQ(map.keyframes[k].id, KeyframeId(k));
+    EXPECT_EQ(map.keyframes[k].frame, FrameId(k));
     EXPECT_EQ(map.keyframes[k].stamp_ns, drive().stamp_ns(k));
     EXPECT_FALSE(map.keyframes[k].features.empty());
     EXPECT_FALSE(map.keyframes[k].view.empty());
     // Its pose by place and member is that of the odometry, whose frame is the map's here.
-    const Sim3 S = map.S_map_keyframe(static_cast<std::int64_t>(k));
-    EXPECT_LT(
-        (S.translation() - run.odometry.map().pose(static_cast<std::int64_t>(k)).translation())
-            .norm(),
-        0.05);
+    const Sim3 S = map.S_map_keyframe(KeyframeId(k));
+    EXPECT_LT((S.translation() -
+               run.odometry.map().pose(KeyframeId(static_cast<std::int64_t>(k))).translation())
+                  .norm(),
+              0.05);
   }
   EXPECT_EQ(map.frames.size(), 3u);
   EXPECT_EQ(map.trajectory_online.poses.size(), 3u);
@@ -102,8 +104,8 @@ TEST(MapFeed, ChangesAreTheNewFramesAndKeyframes) {
   const MapChanges more = run.feed.take_changes(run.sources());
   // The last keyframe is told again: its successor gives depth to its features.
   ASSERT_EQ(more.keyframes.size(), 2u);
-  EXPECT_EQ(more.keyframes[0].id, 2);
-  EXPECT_EQ(more.keyframes[1].id, 3);
+  EXPECT_EQ(more.keyframes[0].id, KeyframeId(2));
+  EXPECT_EQ(more.keyframes[1].id, KeyframeId(3));
   EXPECT_TRUE(more.keyframes[0].view.empty());  // how it looks is known
   EXPECT_FALSE(more.keyframes[1].view.empty());
   EXPECT_EQ(more.first_frame, 3u);
@@ -152,7 +154,8 @@ TEST(MapFeed, ViewsAreInColourIfTheFirstIs) {
 /// A map of two landmarks, one place and the view of one keyframe.
 Map earlier_map() {
   Map map;
-  map.landmarks = {{4, 0, Eigen::Vector3d(0, 0, 1), 3}, {9, 0, Eigen::Vector3d(0, 0, 2), 3}};
+  map.landmarks = {{LandmarkId(4), KeyframeId(0), Eigen::Vector3d(0, 0, 1), 3},
+                   {LandmarkId(9), KeyframeId(0), Eigen::Vector3d(0, 0, 2), 3}};
   Keyframe keyframe;
   keyframe.view = describe_place(Image(120, 160, CV_8UC3, cv::Scalar(9, 99, 200)), {}, false);
   map.keyframes.push_back(keyframe);
@@ -166,10 +169,10 @@ TEST(MapFeed, LandmarksOfATakenUpMapComeFirstAndIdsGoOn) {
   run.add();
   const Map map = run.feed.snapshot(run.sources());
   ASSERT_EQ(map.landmarks.size(), run.odometry.map().landmarks().size() + 2);
-  EXPECT_EQ(map.landmarks[0].id, 4);
-  EXPECT_EQ(map.landmarks[1].id, 9);
+  EXPECT_EQ(map.landmarks[0].id, LandmarkId(4));
+  EXPECT_EQ(map.landmarks[1].id, LandmarkId(9));
   for (std::size_t i = 2; i < map.landmarks.size(); ++i)
-    EXPECT_EQ(map.landmarks[i].id, run.odometry.map().landmarks()[i - 2].id + 10);
+    EXPECT_EQ(map.landmarks[i].id.value(), run.odometry.map().landmarks()[i - 2].id.value() + 10);
 }
 
 TEST(MapFeed, ATakenUpMapIsNotToldAgain) {
@@ -180,9 +183,9 @@ TEST(MapFeed, ATakenUpMapIsNotToldAgain) {
   const MapChanges changes = run.feed.take_changes(run.sources());
   // Its one keyframe and its place, number 0 here as well, are known.
   ASSERT_EQ(changes.keyframes.size(), 1u);
-  EXPECT_EQ(changes.keyframes[0].id, 1);
+  EXPECT_EQ(changes.keyframes[0].id, KeyframeId(1));
   ASSERT_EQ(changes.places.size(), 1u);
-  EXPECT_EQ(changes.places[0].id, 0);
+  EXPECT_EQ(changes.places[0].id, PlaceId(0));
   EXPECT_TRUE(changes.appearances.empty());
 }
 

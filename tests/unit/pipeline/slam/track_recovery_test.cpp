@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/slam/track_recovery.h>
+#include <placegraph/pipeline/internal/slam/track_recovery.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -25,8 +25,8 @@ struct Scene {
         closer({}, calibration, 1) {
     Frame first;
     recorder.begin(first);
-    recorder.add_keyframe({0, first});
-    mapper.add_keyframe(0, std::nullopt, T_map_keyframe, 10);
+    recorder.add_keyframe({KeyframeId(0), first});
+    mapper.add_keyframe(KeyframeId(0), std::nullopt, T_map_keyframe, 10);
     recovery.stands_at(T_map_keyframe);
   }
   static Calibration calibrated() {
@@ -38,7 +38,7 @@ struct Scene {
   KnownMap known() const { return {closer, mapper, recorder}; }
   static Frame dark(std::int64_t id) {
     Frame f;
-    f.id = id;
+    f.id = FrameId(id);
     f.stamp_ns = id * 1'000'000'000;
     f.image = Image::zeros(street_camera().height, street_camera().width, CV_8UC1);
     f.right = f.image;
@@ -71,7 +71,7 @@ TEST(TrackRecovery, APureRotationAnchorsTheNextSegmentAtTheLastKeyframe) {
   (void)scene.recovery.restart(Scene::dark(1), std::nullopt, update, scene.known(), scene.odometry);
   const auto link = scene.recovery.take_link(scene.odometry.map(), scene.mapper);
   ASSERT_TRUE(link);
-  EXPECT_EQ(link->from, 0);
+  EXPECT_EQ(link->from, KeyframeId(0));
   EXPECT_LT(error(link->T_from_this, SE3(R, {0, 0, 0})), 1e-12);
   EXPECT_EQ(link->source, ConstraintSource::kOther);
   // Ten metres away, 0.002 rad of a translation pass for a rotation.
@@ -88,7 +88,7 @@ TEST(TrackRecovery, BeginsANewComponentAfterTooManyLostFrames) {
   EXPECT_FALSE(scene.recovery.take_link(scene.odometry.map(), scene.mapper));
   const StreetDataset street(1);
   Frame seen = street.frame(0, Sensor::kStereo);
-  seen.id = 9;
+  seen.id = FrameId(9);
   const OdometryUpdate begun = scene.odometry.add_frame(seen);
   ASSERT_EQ(begun.state, TrackingState::kTracking);
   EXPECT_LT(error(begun.T_odom_cam, scene.T_map_keyframe), 1e-9);  // where the last pose was
@@ -118,7 +118,7 @@ TEST(TrackRecovery, MotionOfOtherSensorsCarriesAFrameFromTheLastKeyframe) {
   const auto at = scene.recovery.pose_without_tracking(Scene::dark(5), std::nullopt, Scene::lost(),
                                                        scene.known(), scene.odometry);
   ASSERT_TRUE(at);
-  EXPECT_EQ(at->match, 0);
+  EXPECT_EQ(at->match, KeyframeId(0));
   EXPECT_LT(error(at->T_match_query, SE3(SO3(), Eigen::Vector3d(0, 0, 10))), 1e-9);
   EXPECT_LT(error(scene.known().T_map_frame(*at),
                   scene.T_map_keyframe * SE3(SO3(), Eigen::Vector3d(0, 0, 10))),
@@ -127,7 +127,7 @@ TEST(TrackRecovery, MotionOfOtherSensorsCarriesAFrameFromTheLastKeyframe) {
 
 TEST(TrackRecovery, ARunThatIsTakenUpContinuesItsSegment) {
   Scene scene;
-  scene.recovery.take_up(0, 10, scene.known());
+  scene.recovery.take_up(KeyframeId(0), 10, scene.known());
   EXPECT_LT(error(scene.recovery.T_map_last(), scene.T_map_keyframe), 1e-12);
   const auto link = scene.recovery.take_link(scene.odometry.map(), scene.mapper);
   ASSERT_TRUE(link);
@@ -137,7 +137,7 @@ TEST(TrackRecovery, ARunThatIsTakenUpContinuesItsSegment) {
 
 TEST(TrackRecovery, ASegmentThatBeginsLaterIsNoContinuation) {
   Scene scene;
-  scene.recovery.take_up(0, 10, scene.known());
+  scene.recovery.take_up(KeyframeId(0), 10, scene.known());
   (void)scene.recovery.expect(Scene::dark(1), scene.known(), scene.odometry);
   const auto link = scene.recovery.take_link(scene.odometry.map(), scene.mapper);
   ASSERT_TRUE(link);

@@ -1,12 +1,12 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/slam/trajectory_recorder.h>
+#include <placegraph/pipeline/internal/slam/trajectory_recorder.h>
 
 namespace placegraph {
 namespace {
 
 Frame frame(std::int64_t id) {
   Frame f;
-  f.id = id;
+  f.id = FrameId(id);
   f.stamp_ns = 100 * id;
   return f;
 }
@@ -24,9 +24,9 @@ struct Recorded {
       if (i % 3 == 0) {
         map.add_keyframe(along(i));
         map.update_poses({}, false);
-        recorder.add_keyframe({i / 3, frame(i)});
+        recorder.add_keyframe({KeyframeId(i / 3), frame(i)});
       }
-      recorder.record(i / 3, along(i % 3), 50);
+      recorder.record(KeyframeId(i / 3), along(i % 3), 50);
       recorder.finish(along(i));
     }
     recorder.tell_all();
@@ -36,12 +36,12 @@ struct Recorded {
 TEST(TrajectoryRecorder, KeepsFramesRelativeToTheirKeyframe) {
   const Recorded r;
   ASSERT_EQ(r.recorder.records().size(), 5u);
-  EXPECT_EQ(r.recorder.records()[4].keyframe, 1);
+  EXPECT_EQ(r.recorder.records()[4].keyframe, KeyframeId(1));
   EXPECT_NEAR(r.recorder.records()[4].T_keyframe_frame->translation().z(), 1, 1e-12);
   EXPECT_EQ(r.recorder.records()[4].inliers, 50);
-  EXPECT_EQ(r.recorder.newest_keyframe(), 1);
-  EXPECT_EQ(r.recorder.frame_of(1), 3);
-  EXPECT_EQ(r.recorder.stamp_ns_of(1), 300);
+  EXPECT_EQ(r.recorder.newest_keyframe(), KeyframeId(1));
+  EXPECT_EQ(r.recorder.frame_of(KeyframeId(1)), FrameId(3));
+  EXPECT_EQ(r.recorder.stamp_ns_of(KeyframeId(1)), 300);
 }
 
 TEST(TrajectoryRecorder, FramesMustBeInOrder) {
@@ -56,8 +56,8 @@ TEST(TrajectoryRecorder, FramesMustBeInOrder) {
 
 TEST(TrajectoryRecorder, ACorrectionStaysWithTheKeyframeOfItsSegment) {
   Recorded r;
-  r.recorder.correct({{1, along(1.25)}, {4, along(4.5)}}, 1, r.map);
-  EXPECT_EQ(r.recorder.records()[1].keyframe, 0);
+  r.recorder.correct({{FrameId(1), along(1.25)}, {FrameId(4), along(4.5)}}, KeyframeId(1), r.map);
+  EXPECT_EQ(r.recorder.records()[1].keyframe, KeyframeId(0));
   EXPECT_NEAR(r.recorder.records()[1].T_keyframe_frame->translation().z(), 1.25, 1e-12);
   EXPECT_NEAR(r.recorder.records()[4].T_keyframe_frame->translation().z(), 1.5, 1e-12);
   EXPECT_EQ(r.recorder.first_changed(), 1u);
@@ -68,16 +68,16 @@ TEST(TrajectoryRecorder, ACorrectionStaysWithTheKeyframeOfItsSegment) {
 TEST(TrajectoryRecorder, FramesFromBeforeASegmentHangOnItsFirstKeyframe) {
   Recorded r;
   r.map.restart(Scale::kMetric, std::nullopt);
-  const std::int64_t first = r.map.add_keyframe(along(10));
+  const KeyframeId first = r.map.add_keyframe(along(10));
   r.map.update_poses({}, false);
-  r.recorder.correct({{2, along(8)}}, first, r.map);
+  r.recorder.correct({{FrameId(2), along(8)}}, first, r.map);
   EXPECT_EQ(r.recorder.records()[2].keyframe, first);
   EXPECT_NEAR(r.recorder.records()[2].T_keyframe_frame->translation().z(), -2, 1e-12);
 }
 
 TEST(TrajectoryRecorder, ANewScaleReachesTheKeyframesOfItsSegment) {
   Recorded r;
-  r.recorder.rescale(1, 3);
+  r.recorder.rescale(KeyframeId(1), 3);
   EXPECT_NEAR(r.recorder.records()[1].T_keyframe_frame->translation().z(), 1, 1e-12);
   EXPECT_NEAR(r.recorder.records()[4].T_keyframe_frame->translation().z(), 3, 1e-12);
   EXPECT_EQ(r.recorder.first_changed(), 0u);
@@ -102,13 +102,13 @@ TEST(TrajectoryRecorder, TakesUpASavedMapUpToItsLastKeyframe) {
   map.frames = r.recorder.records();
   map.trajectory_online = r.recorder.online();
   Keyframe keyframe;
-  keyframe.id = 1, keyframe.frame = 3, keyframe.stamp_ns = 300;
+  keyframe.id = KeyframeId(1), keyframe.frame = FrameId(3), keyframe.stamp_ns = 300;
   map.keyframes.push_back(keyframe);
   TrajectoryRecorder next;
-  next.take_up(map, 3);
+  next.take_up(map, FrameId(3));
   EXPECT_EQ(next.records().size(), 4u);
   EXPECT_EQ(next.online().poses.size(), 4u);
-  EXPECT_EQ(next.newest_keyframe(), 1);
+  EXPECT_EQ(next.newest_keyframe(), KeyframeId(1));
   EXPECT_EQ(next.first_changed(), 4u);
 }
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/tracking/direct_tracker.h>
+#include <placegraph/pipeline/internal/tracking/direct_tracker.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -84,7 +84,7 @@ TEST(DirectTracker, TheFirstKeyframeStandsWhereItIsToldAndHasTheDepthOfItsSurfac
   Tracking t;
   t.map.restart(Scale::kMetric, 50);  // what another segment saw
   ASSERT_TRUE(t.keyframe(0, street_T_world_cam(0)));
-  EXPECT_LT(error(t.map.pose(0), street_T_world_cam(0)), 1e-12);
+  EXPECT_LT(error(t.map.pose(KeyframeId(0)), street_T_world_cam(0)), 1e-12);
   EXPECT_GT(t.map.median_depth(), 2 * kStreetHeight_m);  // of the road ahead
   EXPECT_LT(t.map.median_depth(), 8 * kStreetHeight_m);
   EXPECT_TRUE(t.map.window().factors().empty());  // a single keyframe has not moved
@@ -98,8 +98,8 @@ TEST(DirectTracker, TheMotionBetweenKeyframesGoesIntoTheWindow) {
   ASSERT_TRUE(t.keyframe(1, tracked.T_odom_cam));
   ASSERT_EQ(t.map.window().factors().size(), 1u);
   EXPECT_EQ(t.map.window().factors()[0].variables,
-            (std::vector{keyframe_variable(0), keyframe_variable(1)}));
-  EXPECT_LT(error(t.map.pose(1), street_T_world_cam(1)), 0.03);
+            (std::vector{keyframe_variable(KeyframeId(0)), keyframe_variable(KeyframeId(1))}));
+  EXPECT_LT(error(t.map.pose(KeyframeId(1)), street_T_world_cam(1)), 0.03);
   EXPECT_FALSE(t.tracker.keyframe_to_retry_from());  // it is the newest frame itself
 }
 
@@ -111,7 +111,7 @@ TEST(DirectTracker, AFrameThatIsFarFromTheKeyframeIsDueAsOne) {
   for (; i < 4 && !tracked.keyframe_due; ++i) {
     tracked = t.track(i);
     ASSERT_TRUE(tracked.outcome) << i;
-    const double way = distance_m(tracked.T_odom_cam, t.map.pose(0));
+    const double way = distance_m(tracked.T_odom_cam, t.map.pose(KeyframeId(0)));
     if (way > 0.3 * t.map.median_depth()) {
       EXPECT_TRUE(tracked.keyframe_due) << i;
     }
@@ -145,7 +145,7 @@ TEST(DirectTracker, AfterALossTheLastPosedFrameMayHelpAsAKeyframe) {
   EXPECT_FALSE(t.tracker.track(dark, t.map, t.motion, t.random).outcome);
   const auto retry = t.tracker.keyframe_to_retry_from();
   ASSERT_TRUE(retry);
-  EXPECT_EQ(retry->id, 1);
+  EXPECT_EQ(retry->id, FrameId(1));
 }
 
 TEST(DirectTracker, AFrameWithoutSurfacesIsNoKeyframe) {

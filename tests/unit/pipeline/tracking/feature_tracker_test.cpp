@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/tracking/feature_tracker.h>
+#include <placegraph/pipeline/internal/cues/point_cue.h>
+#include <placegraph/pipeline/internal/tracking/feature_tracker.h>
 
 #include "tests/support/scenes/street.h"
 
@@ -125,7 +126,8 @@ TEST(FeatureTracker, FramesSinceTheLastKeyframeArePosedOnceMore) {
   const auto posed = t.keyframe(3, last.T_odom_cam);
   EXPECT_EQ(posed.size(), static_cast<std::size_t>(between));
   for (const PosedFrame& frame : posed)
-    EXPECT_LT(error(frame.second, T_odom_world * street_T_world_cam(static_cast<int>(frame.first))),
+    EXPECT_LT(error(frame.second,
+                    T_odom_world * street_T_world_cam(static_cast<int>(frame.first.value()))),
               0.02);
 }
 
@@ -171,7 +173,7 @@ TEST(FeatureTracker, ASingleCameraKnowsItsRotation) {
     PointCue& points = t.tracker.points();
     points.track(stereo_drive().frame(0, Sensor::kMono).image);
     points.detect({}, false, {});
-    std::map<std::int64_t, Eigen::Vector2d> px;
+    std::map<LandmarkId, Eigen::Vector2d> px;
     for (const PointTrack& track : points.tracks()) px[track.id] = track.px.cast<double>();
     points.track((rotates ? turns : stereo_drive()).frame(1, Sensor::kMono).image);
     const auto rotation = t.tracker.rotation_since(px, t.random);
@@ -185,7 +187,7 @@ TEST(FeatureTracker, ASingleCameraKnowsItsRotation) {
 TEST(FeatureTracker, ACameraThatMeasuresDepthIsNotAskedForRotations) {
   Tracking t;
   (void)t.keyframe(0, street_T_world_cam(0));
-  std::map<std::int64_t, Eigen::Vector2d> px;
+  std::map<LandmarkId, Eigen::Vector2d> px;
   for (const PointTrack& track : t.tracker.points().tracks())
     px[track.id] = track.px.cast<double>();
   EXPECT_FALSE(t.tracker.rotation_since(px, t.random));  // though nothing has moved
@@ -240,9 +242,9 @@ TEST(FeatureTracker, IntensitiesOfSurfacesJoinKeyframesThatPointsPose) {
   (void)t.keyframe(1, t.motion.T_odom_cam());
   ASSERT_EQ(t.map.window().factors().size(), 1u);
   EXPECT_EQ(t.map.window().factors()[0].variables,
-            (std::vector{keyframe_variable(0), keyframe_variable(1)}));
+            (std::vector{keyframe_variable(KeyframeId(0)), keyframe_variable(KeyframeId(1))}));
   EXPECT_FALSE(t.tracker.view(t.map, t.motion.T_odom_cam()).surfaces.empty());
-  EXPECT_LT(error(t.map.pose(1), street_T_world_cam(1)), 0.02);
+  EXPECT_LT(error(t.map.pose(KeyframeId(1)), street_T_world_cam(1)), 0.02);
 }
 
 }  // namespace

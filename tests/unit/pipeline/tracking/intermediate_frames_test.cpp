@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/tracking/intermediate_frames.h>
+#include <placegraph/pipeline/internal/tracking/intermediate_frames.h>
 
 #include "tests/support/scenes/window_world.h"
 
@@ -14,7 +14,7 @@ struct Scene {
   LocalMap map{{}, camera, Scale::kMetric};
   SE3 T_odom_keyframe{SO3::exp({0, 0.1, 0}), Eigen::Vector3d(1, 0, 2)};
   SE3 T_keyframe_cam{SO3::exp({0.01, -0.02, 0}), Eigen::Vector3d(0.05, 0, 0.3)};
-  std::vector<std::pair<std::int64_t, Eigen::Vector2d>> px;
+  std::vector<std::pair<LandmarkId, Eigen::Vector2d>> px;
 
   explicit Scene(int landmarks = 40) {
     map.add_keyframe(T_odom_keyframe);
@@ -23,7 +23,7 @@ struct Scene {
     for (int i = 0; i < landmarks; ++i) {
       const Eigen::Vector3d p_cam(random.uniform(-3, 3), random.uniform(-1, 1),
                                   random.uniform(5, 15));
-      map.window().add_landmark(i, T_odom_keyframe * T_keyframe_cam * p_cam);
+      map.window().add_landmark(LandmarkId(i), T_odom_keyframe * T_keyframe_cam * p_cam);
       px.emplace_back(i, *camera.project(p_cam));
     }
   }
@@ -34,28 +34,28 @@ TEST(IntermediateFrames, ArePosedByTheLandmarksAsTheyAreKnownNow) {
   const Scene scene;
   IntermediateFrames frames = scene.frames();
   const SE3 wrong = scene.T_keyframe_cam * SE3(SO3::exp({0, 0.01, 0}), {0.1, 0.05, -0.1});
-  frames.remember({5, wrong, scene.px, std::nullopt});
-  const auto posed = frames.repose(scene.map, 0, 1);
+  frames.remember({FrameId(5), wrong, scene.px, std::nullopt});
+  const auto posed = frames.repose(scene.map, KeyframeId(0), 1);
   ASSERT_EQ(posed.size(), 1u);
-  EXPECT_EQ(posed[0].first, 5);
+  EXPECT_EQ(posed[0].first, FrameId(5));
   EXPECT_LT((posed[0].second.inverse() * scene.T_odom_keyframe * scene.T_keyframe_cam).log().norm(),
             1e-6);
-  EXPECT_TRUE(frames.repose(scene.map, 0, 1).empty());  // they are forgotten
+  EXPECT_TRUE(frames.repose(scene.map, KeyframeId(0), 1).empty());  // they are forgotten
 }
 
 TEST(IntermediateFrames, StayAsTheyWereWithoutEnoughLandmarks) {
   const Scene scene(11);  // 12 are needed
   IntermediateFrames frames = scene.frames();
-  frames.remember({5, scene.T_keyframe_cam, scene.px, std::nullopt});
-  EXPECT_TRUE(frames.repose(scene.map, 0, 1).empty());
+  frames.remember({FrameId(5), scene.T_keyframe_cam, scene.px, std::nullopt});
+  EXPECT_TRUE(frames.repose(scene.map, KeyframeId(0), 1).empty());
 }
 
 TEST(IntermediateFrames, BeginWithinReachAfterTheMapHasBeenRescaled) {
   const Scene scene;
   IntermediateFrames frames = scene.frames();
   // When it was remembered, lengths were a hundred times as long: beyond all landmarks.
-  frames.remember({5, scene.T_keyframe_cam.scaled(100), scene.px, std::nullopt});
-  const auto posed = frames.repose(scene.map, 0, 0.01);
+  frames.remember({FrameId(5), scene.T_keyframe_cam.scaled(100), scene.px, std::nullopt});
+  const auto posed = frames.repose(scene.map, KeyframeId(0), 0.01);
   ASSERT_EQ(posed.size(), 1u);
   EXPECT_LT((posed[0].second.inverse() * scene.T_odom_keyframe * scene.T_keyframe_cam).log().norm(),
             1e-6);
@@ -69,12 +69,12 @@ TEST(IntermediateFrames, ShareTheDriftOfTheirTracksEvenly) {
   for (int k = 1; k <= 3; ++k) {
     auto drifted = scene.px;
     for (auto& [id, px] : drifted) px -= k / 4.0 * drift_px;
-    frames.remember({k, scene.T_keyframe_cam, drifted, std::nullopt});
+    frames.remember({FrameId(k), scene.T_keyframe_cam, drifted, std::nullopt});
   }
-  std::map<std::int64_t, Eigen::Vector2d> drift;
+  std::map<LandmarkId, Eigen::Vector2d> drift;
   for (const auto& [id, px] : scene.px) drift[id] = drift_px;
   frames.correct_drift(drift);
-  const auto posed = frames.repose(scene.map, 0, 1);
+  const auto posed = frames.repose(scene.map, KeyframeId(0), 1);
   ASSERT_EQ(posed.size(), 3u);
   for (const auto& [frame, T_odom_cam] : posed)
     EXPECT_LT((T_odom_cam.inverse() * scene.T_odom_keyframe * scene.T_keyframe_cam).log().norm(),
@@ -83,13 +83,14 @@ TEST(IntermediateFrames, ShareTheDriftOfTheirTracksEvenly) {
 
 TEST(IntermediateFrames, FollowTheManhattanFrameThatTheySaw) {
   Scene scene;
-  scene.map.window().add_world(3, SO3());
+  scene.map.window().add_world(ManhattanFrameId(3), SO3());
   IntermediateFrames frames = scene.frames();
   const SO3 R_odom_cam =
       (scene.T_odom_keyframe * scene.T_keyframe_cam).rotation() * SO3::exp({0, 0, 0.02});
-  const ManhattanCue::Heading heading{3, R_odom_cam.inverse(), 1e12 * Eigen::Matrix3d::Identity()};
-  frames.remember({5, scene.T_keyframe_cam, scene.px, heading});
-  const auto posed = frames.repose(scene.map, 0, 1);
+  const ManhattanCue::Heading heading{ManhattanFrameId(3), R_odom_cam.inverse(),
+                                      1e12 * Eigen::Matrix3d::Identity()};
+  frames.remember({FrameId(5), scene.T_keyframe_cam, scene.px, heading});
+  const auto posed = frames.repose(scene.map, KeyframeId(0), 1);
   ASSERT_EQ(posed.size(), 1u);
   EXPECT_LT((posed[0].second.rotation().inverse() * R_odom_cam).log().norm(), 1e-4);
 }

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/tracking/keyframe_selector.h>
+#include <placegraph/pipeline/internal/tracking/keyframe_selector.h>
 
 namespace placegraph {
 namespace {
@@ -14,7 +14,7 @@ std::vector<PointTrack> tracks(const Move& moved) {
   std::vector<PointTrack> all;
   for (int i = 0; i < 30; ++i) {
     PointTrack track;
-    track.id = i;
+    track.id = LandmarkId(i);
     track.px = moved(Eigen::Vector2f(60.f + 50.f * static_cast<float>(i % 6),
                                      60.f + 40.f * static_cast<float>(i / 6)));
     all.push_back(track);
@@ -87,7 +87,7 @@ TEST(KeyframeSelector, CountsFramesFromTheLastKeyframeOn) {
   s.count_frame();
   s.start(shifted(5), 50);
   EXPECT_EQ(s.frames(), 0);
-  EXPECT_EQ(s.px_at_keyframe().at(0), Eigen::Vector2d(65, 60));
+  EXPECT_EQ(s.px_at_keyframe().at(LandmarkId(0)), Eigen::Vector2d(65, 60));
   s.reset();
   EXPECT_TRUE(s.px_at_keyframe().empty());
   EXPECT_TRUE(s.flow_px(shifted(0), SO3()).empty());
@@ -96,7 +96,8 @@ TEST(KeyframeSelector, CountsFramesFromTheLastKeyframeOn) {
 TEST(KeyframeSelector, TracksThatBeganAfterTheKeyframeHaveNoDisplacement) {
   const KeyframeSelector s = selector();
   std::vector<PointTrack> now = shifted(4);
-  for (PointTrack& track : now) track.id += 10;  // twenty of them are known
+  for (PointTrack& track : now)
+    track.id = LandmarkId(track.id.value() + 10);  // twenty of them are known
   const std::vector<double> flow_px = s.flow_px(now, SO3());
   EXPECT_EQ(flow_px.size(), 20u);
 }

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
-#include <placegraph/graph/core/median.h>
-#include <placegraph/pipeline/tracking/line_pose.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/tracking/line_pose.h>
 
 #include "tests/support/scenes/boards.h"
 
@@ -30,8 +30,8 @@ struct Lines {
   Random random{1};
 
   Lines() : calibration(stereo()), cue({}, calibration, {}), window({}, calibration.camera) {
-    window.add_keyframe(0, way(0));
-    cue.observe(0, drive()[0], {}, kDepth_m, window);
+    window.add_keyframe(KeyframeId(0), way(0));
+    cue.observe(KeyframeId(0), drive()[0], {}, kDepth_m, window);
   }
   static Calibration stereo() {
     Calibration calibration;

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/synthetic/graphs/false_loops.h>
-#include <placegraph/io/synthetic/graphs/graph_world.h>
+#include <placegraph/io/internal/synthetic/graphs/false_loops.h>
+#include <placegraph/io/internal/synthetic/graphs/graph_world.h>
 
 #include <algorithm>
 
@@ -15,10 +15,14 @@ using test::edge_of;
 /// Ten poses a metre apart on a straight line, loops over two and over three of them.
 PoseGraph line_graph() {
   PoseGraph graph;
-  for (int i = 0; i < 10; ++i) graph.nodes.push_back({i, SE2(i, 0, 0), false});
+  for (int i = 0; i < 10; ++i) graph.nodes.push_back({NodeId(i), SE2(i, 0, 0), false});
   const auto measure = [&](int from, int to, ConstraintSource source) {
-    graph.constraints.emplace_back(RelativePoseConstraint{
-        from, to, SE2(to - from, 0, 0), Information::Identity(3, 3) * (to - from), source, {}});
+    graph.constraints.emplace_back(RelativePoseConstraint{NodeId(from),
+                                                          NodeId(to),
+                                                          SE2(to - from, 0, 0),
+                                                          Information::Identity(3, 3) * (to - from),
+                                                          source,
+                                                          {}});
   };
   for (int i = 1; i < 10; ++i) measure(i - 1, i, ConstraintSource::kOdometry);
   measure(0, 2, ConstraintSource::kLoop);
@@ -26,7 +30,7 @@ PoseGraph line_graph() {
   return graph;
 }
 
-using Key = std::tuple<std::int64_t, std::int64_t, double>;
+using Key = std::tuple<NodeId, NodeId, double>;
 std::vector<Key> keys(const PoseGraph& graph) {
   std::vector<Key> out;
   for (std::size_t i = 0; i < graph.constraints.size(); ++i)
@@ -44,7 +48,8 @@ TEST(FalseLoops, AreMeasuredLikeTrueOnesBetweenPosesThatStandApart) {
   for (std::size_t i = 11; i < 211; ++i) {
     const RelativePoseConstraint& loop = edge_of(graph, i);
     EXPECT_EQ(loop.source, ConstraintSource::kLoop);
-    EXPECT_GE(loop.to - loop.from, 2);  // a metre is more than 0.9 m, but that would be odometry
+    // A metre is more than 0.9 m, but that would be odometry.
+    EXPECT_GE(loop.to.value() - loop.from.value(), 2);
     const double said_m = std::get<SE2>(loop.T_from_to).translation()[0];
     EXPECT_EQ(loop.information(0, 0), said_m);
     over_two |= said_m == 2;

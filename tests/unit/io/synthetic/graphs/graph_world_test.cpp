@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/synthetic/graphs/graph_world.h>
+#include <placegraph/io/internal/synthetic/graphs/graph_world.h>
 
 namespace placegraph::synthetic {
 namespace {
@@ -15,6 +15,10 @@ std::size_t loops(const PoseGraph& graph) {
 template <class Group>
 const Group& pose(const PoseGraph& graph, std::size_t i) {
   return std::get<Group>(graph.nodes[i].T_world_node);
+}
+template <class Group>
+const Group& pose(const PoseGraph& graph, NodeId id) {
+  return pose<Group>(graph, static_cast<std::size_t>(id.value()));
 }
 
 /// The odometry agrees with the start: that is how it was made.
@@ -67,7 +71,7 @@ TEST(GraphWorld, ALongLoopHasItsClosuresWhereItIsDrivenAgain) {
     for (const Constraint& constraint : graph.constraints) {
       const auto& edge = std::get<RelativePoseConstraint>(constraint);
       if (edge.source == ConstraintSource::kLoop) {
-        EXPECT_EQ(edge.to - edge.from, 200);
+        EXPECT_EQ(edge.to.value() - edge.from.value(), 200);
       }
     }
   }

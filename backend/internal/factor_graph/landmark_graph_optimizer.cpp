@@ -1,0 +1,184 @@
+#include <placegraph/backend/factor_graph/landmark_graph_optimizer.h>
+#include <placegraph/backend/factors/point_in_node.h>
+#include <placegraph/backend/factors/pose_prior.h>
+#include <placegraph/backend/internal/linear/whitening.h>
+#include <placegraph/backend/internal/solver/free_directions.h>
+#include <placegraph/backend/internal/solver/local_solver.h>
+#include <placegraph/graph/internal/core/disjoint_sets.h>
+#include <placegraph/graph/pose_graph/node_index.h>
+
+#include <algorithm>
+
+namespace placegraph {
+namespace {
+
+/// Where nodes and points of a landmark graph stand among the variables.
+struct VariableIndex {
+  NodeIndex nodes, points;
+  int first_point = 0;
+
+  explicit VariableIndex(const LandmarkGraph& graph)
+      : nodes(graph.poses.index_by_id()), first_point(static_cast<int>(graph.poses.nodes.size())) {
+    std::vector<NodeId> ids;
+    for (const GraphPoint& point : graph.points) ids.push_back(point.id);
+    points = NodeIndex(ids);
+  }
+  int node(NodeId id) const { return nodes.at(id); }
+  int point(NodeId id) const { return first_point + points.at(id); }
+};
+
+/// The connected parts of nodes and points.
+DisjointSets connected(const LandmarkGraph& graph, const VariableIndex& index) {
+  DisjointSets sets(graph.poses.nodes.size() + graph.points.size());
+  for (const Constraint& constraint : graph.poses.constraints)
+    if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
+      sets.join(index.node(edge->from), index.node(edge->to));
+  for (const PointSight& sight : graph.sights)
+    sets.join(index.node(sight.node), index.point(sight.point));
+  return sets;
+}
+
+/// Fixed variables, and the first node of every part that nothing ties to the world.
+std::vector<char> held_variables(const LandmarkGraph& graph, const VariableIndex& index) {
+  const std::size_t count = graph.poses.nodes.size() + graph.points.size();
+  DisjointSets sets = connected(graph, index);
+  std::vector<char> held(count), tied(count);
+  const auto tie = [&](int variable) { tied[static_cast<std::size_t>(sets.root(variable))] = 1; };
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t nodes = graph.poses.nodes.size();
+    held[i] = i < nodes ? graph.poses.nodes[i].fixed : graph.points[i - nodes].fixed;
+    if (held[i]) tie(static_cast<int>(i));
+  }
+  for (const Constraint& constraint : graph.poses.constraints)
+    if (const auto* position = std::get_if<PositionConstraint>(&constraint))
+      tie(index.node(position->node));
+  for (const PosePriorConstraint& prior : graph.priors) tie(index.node(prior.node));
+  for (std::size_t i = 0; i < graph.poses.nodes.size(); ++i)
+    if (!tied[static_cast<std::size_t>(sets.root(static_cast<int>(i)))]) {
+      held[i] = 1;
+      tie(static_cast<int>(i));
+    }
+  return held;
+}
+
+template <class Group>
+void add_priors_and_sights(const LandmarkGraph& graph, const VariableIndex& index,
+                           RotationError rotation_error, FactorGraph& factors) {
+  constexpr int dim = Group::kDof == 3 ? 2 : 3;
+  for (const PosePriorConstraint& prior : graph.priors)
+    factors.add(PosePriorFactor<Group>(std::get<Group>(prior.T_world_node),
+                                       whitening<typename Group::Jacobian>(prior.information),
+                                       rotation_error),
+                {index.node(prior.node)});
+  for (const PointSight& sight : graph.sights)
+    factors.add(PointInNodeFactor<Group>(sight.position_node,
+                                         whitening<Eigen::Matrix<double, dim, dim>>(
+                                             sight.information.topLeftCorner<dim, dim>())),
+                {index.node(sight.node), index.point(sight.point)});
+}
+
+}  // namespace
+
+FactorGraph to_factor_graph(const LandmarkGraph& graph, RotationError rotation_error) {
+  graph.check();
+  const VariableIndex index(graph);
+  FactorGraph factors = to_factor_graph(graph.poses, rotation_error);
+  for (const GraphPoint& point : graph.points) factors.add_variable(point.position_world);
+  const std::vector<char> held = held_variables(graph, index);
+  for (std::size_t i = 0; i < held.size(); ++i) factors.variables[i].held = held[i];
+  if (graph.poses.kind() == PoseKind::kSE2)
+    add_priors_and_sights<SE2>(graph, index, rotation_error, factors);
+  else if (graph.poses.kind() == PoseKind::kSE3)
+    add_priors_and_sights<SE3>(graph, index, rotation_error, factors);
+  return factors;
+}
+
+double chi2(const LandmarkGraph& graph, RotationError rotation_error) {
+  double sum = 0;
+  for (const auto& square : squared_residuals(to_factor_graph(graph, rotation_error)))
+    sum += square.value_or(0);
+  return sum;
+}
+
+int count_components(const LandmarkGraph& graph) {
+  // Nodes come first, and so do the numbers of their parts.
+  const std::vector<int> numbers = connected(graph, VariableIndex(graph)).numbers();
+  const auto nodes = static_cast<std::ptrdiff_t>(graph.poses.nodes.size());
+  return nodes == 0 ? 0 : 1 + *std::max_element(numbers.begin(), numbers.begin() + nodes);
+}
+
+std::vector<int> held_for_want_of_a_tie(const LandmarkGraph& graph) {
+  const std::vector<char> held = held_variables(graph, VariableIndex(graph));
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < graph.poses.nodes.size(); ++i)
+    if (held[i] && !graph.poses.nodes[i].fixed) nodes.push_back(static_cast<int>(i));
+  return nodes;
+}
+
+namespace {
+
+/// By the normal equations of the pose graph, points as poses that do not turn.
+template <class Group>
+LandmarkGraphReport solve_packed(LandmarkGraph graph, const LandmarkGraphOptions& options) {
+  constexpr int dim = Group::kDof == 3 ? 2 : 3;
+  PackedGraph<Group> packed = pack<Group>(graph);
+  LandmarkGraphReport report;
+  const LocalSolution solution =
+      LocalSolver<Group>({.engine = PoseGraphEngine::kNative,
+                          .rotation_error = options.rotation_error,
+                          .max_iterations = options.max_iterations,
+                          .relative_decrease = options.relative_decrease})
+          .solve(packed);
+  report.outcome = solution.outcome;
+  report.iterations = solution.iterations;
+  report.chi2_initial = solution.cost_initial;
+  report.chi2_final = solution.cost_final;
+  unpack(packed, graph.poses);
+  const std::size_t nodes = graph.poses.nodes.size();
+  for (std::size_t i = 0; i < graph.points.size(); ++i)
+    if (!packed.held[nodes + i])
+      graph.points[i].position_world.head<dim>() = packed.poses[nodes + i].translation();
+  report.graph = std::move(graph);
+  return report;
+}
+
+LandmarkGraphReport solve_factors(LandmarkGraph graph, const LandmarkGraphOptions& options) {
+  LandmarkGraphReport report;
+  const FactorGraph factors = to_factor_graph(graph, options.rotation_error);
+  const FactorGraphReport solved =
+      optimize_factor_graph(factors, {options.max_iterations, options.relative_decrease});
+  report.outcome = solved.outcome;
+  report.iterations = solved.iterations;
+  report.chi2_initial = 2 * solved.cost_initial;
+  report.chi2_final = 2 * solved.cost_final;
+  const std::size_t nodes = graph.poses.nodes.size();
+  for (std::size_t i = 0; i < nodes; ++i)
+    if (!solved.graph.variables[i].held)
+      std::visit(
+          [&](auto& pose) {
+            pose = std::get<std::decay_t<decltype(pose)>>(solved.graph.variables[i].value);
+          },
+          graph.poses.nodes[i].T_world_node);
+  for (std::size_t i = 0; i < graph.points.size(); ++i)
+    graph.points[i].position_world =
+        std::get<Eigen::Vector3d>(solved.graph.variables[nodes + i].value);
+  report.graph = std::move(graph);
+  return report;
+}
+
+}  // namespace
+
+LandmarkGraphReport optimize_landmark_graph(LandmarkGraph graph,
+                                            const LandmarkGraphOptions& options) {
+  graph.check();
+  LandmarkGraphReport report;
+  if (options.engine == PoseGraphEngine::kCeres || graph.poses.kind() == PoseKind::kSim3)
+    report = solve_factors(std::move(graph), options);
+  else
+    report = graph.poses.kind() == PoseKind::kSE2 ? solve_packed<SE2>(std::move(graph), options)
+                                                  : solve_packed<SE3>(std::move(graph), options);
+  if (report.outcome) report.free = find_free_directions(report.graph, options.rotation_error);
+  return report;
+}
+
+}  // namespace placegraph

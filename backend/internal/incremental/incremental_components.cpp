@@ -1,0 +1,93 @@
+#include <placegraph/backend/internal/incremental/incremental_components.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace placegraph {
+
+int GrowingComponents::add_node(bool fixed) {
+  const int node = static_cast<int>(nodes_.size());
+  nodes_.push_back({static_cast<int>(components_.size()), fixed, true});
+  components_.push_back({{node}, node, fixed ? 1 : 0, fixed ? -1 : node});
+  return node;
+}
+
+void GrowingComponents::set_held(int node, bool held) {
+  if (nodes_[node].held == held) return;
+  nodes_[node].held = held;
+  changed_.push_back(node);
+}
+
+/// Holds the first node of a component without anchors and lets it go in one that has some.
+void GrowingComponents::settle(Component& component) {
+  const int hold = component.anchors > 0 || component.nodes.empty() ? -1 : component.first;
+  if (component.held == hold) return;
+  if (component.held >= 0) set_held(component.held, nodes_[component.held].fixed);
+  if (hold >= 0) set_held(hold, true);
+  component.held = hold;
+}
+
+std::vector<int> GrowingComponents::join(int a, int b) {
+  int stays = nodes_[a].component, moves = nodes_[b].component;
+  const auto before = [&](int x, int y) {
+    const bool x_tied = components_[x].anchors > 0, y_tied = components_[y].anchors > 0;
+    return x_tied != y_tied ? x_tied : components_[x].first < components_[y].first;
+  };
+  if (before(moves, stays)) std::swap(stays, moves);
+  std::vector<int> moved;
+  if (components_[moves].anchors == 0) moved = components_[moves].nodes;
+
+  // The larger one keeps its number.
+  Component &x = components_[stays], &y = components_[moves];
+  const bool swap = x.nodes.size() < y.nodes.size();
+  Component &into = swap ? y : x, &from = swap ? x : y;
+  const int first = std::min(x.first, y.first);
+  if (from.held >= 0 && from.held != first) set_held(from.held, nodes_[from.held].fixed);
+  if (into.held >= 0 && into.held != first) set_held(into.held, nodes_[into.held].fixed);
+  into.held = std::max(into.held == first ? first : -1, from.held == first ? first : -1);
+  into.first = first;
+  into.anchors += from.anchors;
+  for (const int node : from.nodes) nodes_[node].component = swap ? moves : stays;
+  into.nodes.insert(into.nodes.end(), from.nodes.begin(), from.nodes.end());
+  from = Component{{}, -1, 0, -1};
+  free_components_.push_back(swap ? stays : moves);
+  settle(into);
+  return moved;
+}
+
+void GrowingComponents::split(const std::vector<int>& part) {
+  const int old = nodes_[part.front()].component;
+  int created = static_cast<int>(components_.size());
+  if (free_components_.empty()) {
+    components_.emplace_back();
+  } else {
+    created = free_components_.back();
+    free_components_.pop_back();
+  }
+  components_[created] = {part, part.front(), 0, -1};
+  for (const int node : part) nodes_[node].component = created;
+  std::erase_if(components_[old].nodes, [&](int n) { return nodes_[n].component != old; });
+  for (const int c : {old, created}) {
+    Component& component = components_[c];
+    component.first = *std::min_element(component.nodes.begin(), component.nodes.end());
+    component.anchors = 0;
+    for (const int node : component.nodes)
+      component.anchors += nodes_[node].positions + nodes_[node].fixed;
+  }
+  Component &rest = components_[old], &taken = components_[created];
+  if (rest.held >= 0 && nodes_[rest.held].component == created)
+    taken.held = std::exchange(rest.held, -1);
+  settle(rest);
+  settle(taken);
+}
+
+void GrowingComponents::anchor(int node, int count) {
+  nodes_[node].positions += count;
+  Component& component = components_[nodes_[node].component];
+  component.anchors += count;
+  settle(component);
+}
+
+std::vector<int> GrowingComponents::take_changed() { return std::exchange(changed_, {}); }
+
+}  // namespace placegraph

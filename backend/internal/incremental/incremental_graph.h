@@ -1,0 +1,100 @@
+#pragma once
+#include <placegraph/backend/incremental/graph_change.h>
+#include <placegraph/backend/internal/incremental/incremental_components.h>
+#include <placegraph/backend/internal/incremental/incremental_terms.h>
+#include <placegraph/backend/internal/elimination/elimination_tree.h>
+#include <placegraph/graph/core/ids.h>
+
+#include <unordered_map>
+
+namespace placegraph {
+
+/// Nodes and constraints of a pose graph that grows, their terms at the present poses, and the
+/// elimination tree that these are written into. Constraints of weight zero are taken out of
+/// everything but the list of constraints. All that comes in has been checked by the caller.
+template <class Group>
+class GrowingGraph {
+ public:
+  using Tree = EliminationTree<Group::kDof>;
+  explicit GrowingGraph(RotationError rotation_error) : rotation_error_(rotation_error) {}
+
+  void add_node(const PoseNode& node);
+  /// `poses_hold`: constraints that join components move neither.
+  void add_constraints(const std::vector<Constraint>& constraints, bool poses_hold);
+  void revise(const ConstraintRevision& revision);
+  void set_weight(const ConstraintWeight& weight);
+
+  int nodes() const { return static_cast<int>(nodes_.size()); }
+  int constraints() const { return static_cast<int>(constraints_.size()); }
+  const Constraint& constraint(int number) const { return constraints_[number]; }
+  int find(NodeId node_id) const;  ///< -1: unknown
+  NodeId id(int node) const { return ids_[node]; }
+  const Group& pose(int node) const { return nodes_[node].T_world_node; }
+  bool together(int a, int b) const { return components_.together(a, b); }
+  /// Of the terms at the present poses.
+  double cost() const;
+  PackedGraph<Group> packed() const;
+  PoseGraph graph() const;
+
+  Tree& tree() { return tree_; }
+  const Tree& tree() const { return tree_; }
+  /// By their steps in the tree; move_back undoes that.
+  void move(const std::vector<int>& nodes);
+  void move_back(const std::vector<int>& nodes);
+  void set_poses(const std::vector<Group>& T_world_nodes);
+  /// Writes what has changed into the tree.
+  void set_gradients();
+  /// Edges of the nodes that moved last.
+  const std::vector<int>& visited() const { return visited_; }
+  /// Linearizes those of the edges anew whose Jacobians have changed by more than `change`; returns
+  /// how many.
+  int relinearize(const std::vector<int>& edges, double change);
+  int relinearize_all(double change);
+
+ private:
+  using Tangent = typename Group::Tangent;
+
+  struct Node {
+    Group T_world_node, T_before;  ///< before the present iteration
+    std::vector<int> edges, positions;
+    bool gradient_stale = false;
+  };
+  struct Edge : EdgeTerm<Group> {
+    int term = -1;  ///< of the tree
+    bool visited = false;
+  };
+  struct Position : PositionTerm<Group> {
+    int term = -1;
+    bool visited = false;
+  };
+
+  void attach(int constraint, double weight);
+  void detach(int constraint);
+  void add_edge(const RelativePoseConstraint& constraint, int number, double weight);
+  void add_position(const PositionConstraint& constraint, int number, double weight);
+  void join(const Edge& edge);
+  void split(int from, int to);
+  void apply_held();
+  void evaluate(int edge);
+  void linearize(int edge);
+  void evaluate_position(int position);
+  void evaluate_around(const std::vector<int>& nodes);
+
+  RotationError rotation_error_;
+  std::vector<NodeId> ids_;
+  std::unordered_map<NodeId, int> index_;
+  std::vector<char> fixed_;
+  std::vector<Constraint> constraints_;
+  std::vector<int> place_;  ///< of every constraint in edges_ or positions_; -1: of weight 0
+  std::vector<Node> nodes_;
+  GrowingComponents components_;
+  std::vector<Edge> edges_;
+  std::vector<double> edge_costs_;  ///< of every edge, close together
+  std::vector<Position> positions_;
+  std::vector<int> free_edges_, free_positions_;  ///< places that wait for others
+  std::vector<int> visited_, gradient_stale_;     ///< edges of the iteration; nodes
+  bool poses_hold_ = false;                       ///< joining components moves neither
+  Tree tree_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,48 @@
+#include <placegraph/backend/internal/initialization/certificate.h>
+#include <placegraph/backend/internal/initialization/chordal_relaxation.h>
+#include <placegraph/backend/internal/initialization/component_anchors.h>
+#include <placegraph/backend/internal/initialization/held_nodes.h>
+#include <placegraph/backend/internal/initialization/rotation_agreement.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+
+template <class Group>
+ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& graph,
+                                                      RotationError rotation_error,
+                                                      const CertificateOptions& options) {
+  constexpr int dim = kSpaceDim<Group>;
+  const IsotropicProblem<dim> problem = tied_problem(graph, find_anchors(graph), rotation_error);
+  ChordalIsotropicCertificate certificate;
+  certificate.cost_of_estimate = isotropic_cost(problem, graph.poses);
+  if (problem.edges.empty()) {
+    certificate.certified = true;
+    return certificate;
+  }
+  const ChordalRelaxation<dim> relaxation(problem);
+  const Eigen::MatrixXd estimate = relaxation.point(graph.poses);
+  Eigen::MatrixXd X = estimate;
+  certificate.cost = relaxation.minimize(X).cost;
+  CertificateMatrix<dim> matrix = relaxation.certificate_matrix(X);
+  const auto curvature = matrix.curvature(0);
+  certificate.smallest_eigenvalue = curvature.smallest_eigenvalue;
+  certificate.eigenvalue_scale = matrix.scale();
+  certificate.lower_bound = std::max(0.0, matrix.lower_bound(curvature.shift));
+  const bool near = std::isfinite(certificate.cost_of_estimate) && points_agree<dim>(estimate, X);
+  certificate.relative_gap = matrix.relative_gap(
+      near ? certificate.cost : certificate.cost_of_estimate, certificate.lower_bound);
+  certificate.certified = near && certificate.relative_gap <= options.max_relative_gap;
+  return certificate;
+}
+
+#define PLACEGRAPH_INSTANTIATE(Group)                             \
+  template ChordalIsotropicCertificate certify_chordal_isotropic( \
+      const PackedGraph<Group>&, RotationError, const CertificateOptions&);
+PLACEGRAPH_INSTANTIATE(SE2)
+PLACEGRAPH_INSTANTIATE(SE3)
+PLACEGRAPH_INSTANTIATE(Sim3)
+#undef PLACEGRAPH_INSTANTIATE
+
+}  // namespace placegraph

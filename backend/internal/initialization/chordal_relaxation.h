@@ -1,0 +1,66 @@
+#pragma once
+#include <placegraph/backend/internal/initialization/certificate_matrix.h>
+#include <placegraph/backend/internal/initialization/descent_effort.h>
+#include <placegraph/backend/internal/initialization/lifted_problem.h>
+
+#include <Eigen/Core>
+#include <limits>
+
+namespace placegraph {
+
+/// The semidefinite relaxation of the isotropic chordal problem, by its lifted forms of low rank
+/// (LiftedProblem; Rosen et al. 2019), whose cost is f.
+///
+/// At r = d it is the problem itself (with reflections admitted). A first-order critical point of
+/// any r at which S = Q - Lambda(X) is positive semi-definite is a global minimum over all r, and
+/// f there a lower bound of the problem.
+template <int dim>
+class ChordalRelaxation {
+ public:
+  explicit ChordalRelaxation(const IsotropicProblem<dim>& problem);
+
+  /// The lifted point of rank d.
+  template <class Group>
+  Eigen::MatrixXd point(const std::vector<Group>& poses) const;
+
+  double cost(const Eigen::MatrixXd& X) const;
+
+  struct DescentOptions {
+    int max_steps = 300;
+    /// The end: the preconditioned gradient promises less than this share of the cost.
+    double promise_share = 1e-14;
+    /// No step is begun after that; in iterations, see Descent.
+    double max_effort = std::numeric_limits<double>::infinity();
+  };
+  struct Descent {
+    double cost = 0;
+    int iterations = 0, products = 0;  ///< outer steps; Hessian products inside them
+    double effort = 0;                 ///< see DescentEffort
+    bool converged = false;
+  };
+  /// Down to a critical point near X, by a Riemannian trust-region method with truncated conjugate
+  /// gradients (Absil et al. 2007), preconditioned with the Gauss-Newton Hessian's Cholesky factor.
+  Descent minimize(Eigen::MatrixXd& X, const DescentOptions& options) const;
+  Descent minimize(Eigen::MatrixXd& X) const { return minimize(X, DescentOptions{}); }
+
+  /// Of so many factorizations of S and solutions with it; see DescentEffort.
+  double certificate_effort(int factorizations, int solutions) const;
+
+  /// S at X.
+  CertificateMatrix<dim> certificate_matrix(const Eigen::MatrixXd& X) const;
+
+  /// X with one row more, lowered along a direction of negative curvature.
+  Eigen::MatrixXd escape(const Eigen::MatrixXd& X, const Eigen::VectorXd& direction) const;
+
+  /// The point of rank d nearest to X: rows turned onto the d leading singular vectors, rotations
+  /// made proper; translations follow.
+  Eigen::MatrixXd round(const Eigen::MatrixXd& X) const;
+
+ private:
+  using Lifted = LiftedProblem<dim>;
+
+  Lifted problem_;
+  DescentEffort effort_;
+};
+
+}  // namespace placegraph

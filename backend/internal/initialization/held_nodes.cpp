@@ -1,0 +1,60 @@
+#include <placegraph/backend/internal/initialization/held_nodes.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+constexpr double kStiffness = 1e3;  // in the heaviest edge's weights
+
+template <class Group>
+void tie_held_nodes(const PackedGraph<Group>& graph, const Anchors& anchors,
+                    IsotropicProblem<kSpaceDim<Group>>& problem) {
+  double rotation_weight = 0, translation_weight = 0;
+  for (const auto& edge : problem.edges) {
+    rotation_weight = std::max(rotation_weight, kStiffness * edge.rotation_weight);
+    translation_weight = std::max(translation_weight, kStiffness * edge.translation_weight);
+  }
+  std::vector<int> last(anchors.components, -1);  // held node of the component
+  for (std::size_t i = 0; i < graph.poses.size(); ++i) {
+    if (!graph.held[i]) continue;
+    int& previous = last[anchors.component[i]];
+    if (previous >= 0) {
+      const auto R_world_from = graph.poses[previous].rotation();
+      const auto R_from_world = R_world_from.inverse();
+      problem.edges.push_back(
+          {previous, static_cast<int>(i), (R_from_world * graph.poses[i].rotation()).matrix(),
+           R_from_world * (graph.poses[i].translation() - graph.poses[previous].translation()),
+           rotation_weight, translation_weight});
+    }
+    previous = static_cast<int>(i);
+  }
+}
+
+}  // namespace
+
+template <class Group>
+IsotropicProblem<kSpaceDim<Group>> tied_problem(const PackedGraph<Group>& graph,
+                                                const Anchors& anchors,
+                                                RotationError rotation_error) {
+  Eigen::VectorXd log_scale;
+  if constexpr (Group::kDof == 7) {
+    log_scale.resize(static_cast<Eigen::Index>(graph.poses.size()));
+    for (Eigen::Index i = 0; i < log_scale.size(); ++i)
+      log_scale[i] = std::log(graph.poses[static_cast<std::size_t>(i)].scale());
+  }
+  auto problem = isotropic_problem(graph, rotation_error, log_scale);
+  tie_held_nodes(graph, anchors, problem);
+  return problem;
+}
+
+#define PLACEGRAPH_INSTANTIATE(Group)                                                 \
+  template IsotropicProblem<kSpaceDim<Group>> tied_problem(const PackedGraph<Group>&, \
+                                                           const Anchors&, RotationError);
+PLACEGRAPH_INSTANTIATE(SE2)
+PLACEGRAPH_INSTANTIATE(SE3)
+PLACEGRAPH_INSTANTIATE(Sim3)
+#undef PLACEGRAPH_INSTANTIATE
+
+}  // namespace placegraph

@@ -1,0 +1,96 @@
+#include <placegraph/backend/incremental/incremental_optimizer.h>
+#include <placegraph/backend/internal/initialization/incremental_initialization.h>
+#include <placegraph/backend/internal/solver/odometry_chain.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
+
+namespace placegraph {
+namespace {
+
+constexpr std::size_t kParts = 100;
+
+/// The nodes along the odometry, run after run; without any as they stand.
+template <class Group>
+std::vector<int> order_of_growth(const PackedGraph<Group>& graph) {
+  const OdometryChain<Group> odometry(graph);
+  std::vector<int> order(graph.poses.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::pair(odometry.run(a), odometry.position(a)) <
+           std::pair(odometry.run(b), odometry.position(b));
+  });
+  return order;
+}
+
+/// The constraints of the graph with their weights, by the later one of their nodes in the order;
+/// places in that order serve as ids.
+template <class Group>
+std::vector<std::vector<Constraint>> constraints_by_step(const PackedGraph<Group>& graph,
+                                                         const std::vector<int>& order) {
+  std::vector<int> step(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) step[order[k]] = static_cast<int>(k);
+  std::vector<std::vector<Constraint>> constraints(order.size());
+  const auto add = [&](int at, auto constraint, double weight) {
+    if (weight == 0) return;
+    // weight rho(s; width) = rho(weight s; sqrt(weight) width) for every kernel.
+    constraint.information *= weight;
+    constraint.kernel.width *= std::sqrt(weight);
+    constraints[at].push_back(std::move(constraint));
+  };
+  for (const auto& edge : graph.edges) {
+    RelativePoseConstraint relative;
+    relative.from = NodeId(step[edge.from]);
+    relative.to = NodeId(step[edge.to]);
+    relative.T_from_to = edge.T_to_from.inverse();
+    relative.information = edge.information;
+    relative.source = edge.odometry ? ConstraintSource::kOdometry : ConstraintSource::kLoop;
+    relative.kernel = edge.kernel;
+    add(std::max(step[edge.from], step[edge.to]), std::move(relative), edge.weight);
+  }
+  for (const auto& position : graph.positions)
+    add(step[position.node],
+        PositionConstraint{NodeId(step[position.node]), position.position_world, position.lever_arm,
+                           position.information, position.kernel},
+        position.weight);
+  return constraints;
+}
+
+}  // namespace
+
+template <class Group>
+bool replayed_start(PackedGraph<Group>& graph, RotationError rotation_error,
+                    double most_factorizations) {
+  const std::size_t nodes = graph.poses.size();
+  const std::size_t part = (nodes + kParts - 1) / kParts;
+  const std::vector<int> order = order_of_growth(graph);
+  auto constraints = constraints_by_step(graph, order);
+  IncrementalOptimizer optimizer({.rotation_error = rotation_error});
+  double eliminated = 0;
+  for (std::size_t first = 0; first < nodes; first += part) {
+    GraphChange change;
+    const std::size_t end = std::min(nodes, first + part);
+    for (std::size_t k = first; k < end; ++k) {
+      change.nodes.push_back({NodeId(k), graph.poses[order[k]], graph.held[order[k]] != 0});
+      std::move(constraints[k].begin(), constraints[k].end(),
+                std::back_inserter(change.constraints));
+    }
+    const IncrementalStep step = optimizer.apply(change);
+    eliminated += step.nodes_refactored;
+    if (step.solved_from_scratch) eliminated += step.iterations * static_cast<double>(end);
+    if (!std::isfinite(step.cost) || eliminated > most_factorizations * static_cast<double>(nodes))
+      return false;
+  }
+  for (std::size_t k = 0; k < nodes; ++k)
+    if (!graph.held[order[k]]) graph.poses[order[k]] = std::get<Group>(*optimizer.pose(NodeId(k)));
+  return true;
+}
+
+template bool replayed_start(PackedGraph<SE2>&, RotationError, double);
+template bool replayed_start(PackedGraph<SE3>&, RotationError, double);
+template bool replayed_start(PackedGraph<Sim3>&, RotationError, double);
+
+}  // namespace placegraph

@@ -1,0 +1,326 @@
+#include <placegraph/backend/internal/initialization/certified_initialization.h>
+#include <placegraph/backend/internal/initialization/component_anchors.h>
+#include <placegraph/backend/internal/initialization/incremental_initialization.h>
+#include <placegraph/backend/internal/initialization/initialization.h>
+#include <placegraph/backend/internal/initialization/isotropic_problem.h>
+#include <placegraph/backend/internal/initialization/rotation_agreement.h>
+#include <placegraph/backend/internal/pose_graph/initialization_selection.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace placegraph {
+namespace {
+
+constexpr double kLogOdds = 6;
+constexpr int kMostContinued = 4;   // times that a descent which ran out of iterations goes on
+constexpr double kWithinReach = 2;  // times the lowest minimum: a descent above that is given up
+/// What the certified start and the replay may cost, in descents like the first one; the certified
+/// start at least so many iterations: where its relaxation is tight it takes a few dozen.
+constexpr double kCertifiedDescents = 5, kLeastCertifiedIterations = 200;
+constexpr double kReplayDescents = 10;
+constexpr double kCosineOfNear = 0.88;  // 0.5 rad
+
+/// The residual rotation of an edge, turned into the world frame (its third component in the
+/// plane), and the inverse of the rotation weight.
+struct Residual {
+  Eigen::Vector3d angles;
+  double variance;
+};
+
+template <class Group>
+std::vector<Residual> rotation_residuals(const PackedGraph<Group>& graph) {
+  std::vector<Residual> residuals;
+  residuals.reserve(graph.edges.size());
+  for (const auto& edge : graph.edges) {
+    const auto& R_world_to = graph.poses[edge.to].rotation();
+    const auto E =
+        edge.T_to_from.rotation() * (graph.poses[edge.from].rotation().inverse() * R_world_to);
+    Residual residual;
+    if constexpr (Group::kDof == 3)
+      residual.angles = {0, 0, E.angle()};
+    else
+      residual.angles = R_world_to * E.log();
+    const double weight = edge.weight * rotation_information<Group>(edge.information);
+    residual.variance = weight > 0 ? 1 / weight : 0;
+    residuals.push_back(residual);
+  }
+  return residuals;
+}
+
+/// Edges by node, without those that carry no rotation.
+struct Adjacency {
+  std::vector<int> start, edge;
+  template <class Edges>
+  Adjacency(std::size_t nodes, const Edges& edges, const std::vector<Residual>& residuals)
+      : start(nodes + 1, 0) {
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      if (residuals[k].variance == 0) continue;
+      ++start[edges[k].from + 1];
+      ++start[edges[k].to + 1];
+    }
+    for (std::size_t i = 0; i < nodes; ++i) start[i + 1] += start[i];
+    edge.resize(start.back());
+    std::vector<int> next(start.begin(), start.end() - 1);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      if (residuals[k].variance == 0) continue;
+      edge[next[edges[k].from]++] = static_cast<int>(k);
+      edge[next[edges[k].to]++] = static_cast<int>(k);
+    }
+  }
+};
+
+/// A breadth-first spanning forest: for every node the sum of the residual rotations on the way
+/// from its root, and of their variances.
+struct Tree {
+  struct Node {
+    Eigen::Vector3d angles = Eigen::Vector3d::Zero();
+    double variance = -1;  // not reached yet
+    int edge = -1;         // by which it was reached
+  };
+  std::vector<Node> nodes;
+  int roots = 0;
+
+  template <class Group>
+  Tree(const PackedGraph<Group>& graph, const std::vector<Residual>& residuals)
+      : nodes(graph.poses.size()) {
+    const Adjacency adjacency(nodes.size(), graph.edges, residuals);
+    std::vector<int> queue;
+    queue.reserve(nodes.size());
+    for (std::size_t root = 0; root < nodes.size(); ++root) {
+      if (nodes[root].variance >= 0) continue;
+      nodes[root].variance = 0;
+      ++roots;
+      queue.push_back(static_cast<int>(root));
+      for (std::size_t next = queue.size() - 1; next < queue.size(); ++next) {
+        const int i = queue[next];
+        for (int k = adjacency.start[i]; k < adjacency.start[i + 1]; ++k) {
+          const int e = adjacency.edge[k];
+          const bool forward = graph.edges[e].from == i;
+          const int j = forward ? graph.edges[e].to : graph.edges[e].from;
+          if (nodes[j].variance >= 0) continue;
+          nodes[j].angles = nodes[i].angles + (forward ? 1 : -1) * residuals[e].angles;
+          nodes[j].variance = nodes[i].variance + residuals[e].variance;
+          nodes[j].edge = e;
+          queue.push_back(j);
+        }
+      }
+    }
+  }
+};
+
+/// A descent that goes on where it ran out of iterations, was still falling and is below `worth`.
+template <class Group>
+LocalSolution descend_to_the_end(PackedGraph<Group>& graph, LocalSolver<Group>& solver,
+                                 double worth = std::numeric_limits<double>::infinity()) {
+  LocalSolution solution = solver.solve(graph);
+  for (int round = 0; round < kMostContinued && !solution.outcome && solution.cost_final < worth;
+       ++round) {
+    LocalSolution next = solver.solve(graph);
+    const bool fell = next.cost_final < solution.cost_final;
+    solution.outcome = std::move(next.outcome);
+    solution.iterations += next.iterations;
+    solution.cost_final = next.cost_final;
+    if (!fell) break;
+  }
+  return solution;
+}
+
+/// Whether a is to be preferred: first of all it must have ended, then be lower.
+bool better(const LocalSolution& a, const LocalSolution& b) {
+  if (std::isfinite(a.cost_final) != std::isfinite(b.cost_final))
+    return std::isfinite(a.cost_final);
+  if (static_cast<bool>(a.outcome) != static_cast<bool>(b.outcome))
+    return static_cast<bool>(a.outcome);
+  return a.cost_final < b.cost_final;
+}
+
+/// Descents from several starts; remembers the lowest minimum.
+template <class Group>
+class Candidates {
+ public:
+  Candidates(PackedGraph<Group>& graph, LocalSolver<Group>& solver)
+      : graph_(graph), solver_(solver) {}
+
+  void descend(std::vector<Group> poses, PoseGraphStart start) {
+    starts_.push_back(poses);
+    graph_.poses = std::move(poses);
+    LocalSolution solution =
+        best_.solution.outcome
+            ? descend_to_the_end(graph_, solver_, kWithinReach * best_.solution.cost_final)
+            : descend_to_the_end(graph_, solver_);
+    iterations_ += solution.iterations;
+    if (!poses_.empty() && !better(solution, best_.solution)) return;
+    best_.solution = std::move(solution);
+    best_.used = start;
+    poses_ = graph_.poses;
+  }
+  /// Unless a descent from about there has been made.
+  void descend_if_new(const std::vector<Group>& poses, PoseGraphStart start) {
+    for (const std::vector<Group>& earlier : starts_)
+      if (rotations_agree(earlier, poses)) return;
+    descend(poses, start);
+  }
+  int iterations() const { return iterations_; }
+  const LocalSolution& best() const { return best_.solution; }
+  const std::vector<Group>& poses() const { return poses_; }
+  /// Leaves the lowest minimum in the graph.
+  StartSolution take() {
+    graph_.poses = std::move(poses_);
+    best_.solution.iterations = iterations_;
+    best_.refined_from_certified = best_.used == PoseGraphStart::kCertified;
+    return std::move(best_);
+  }
+
+ private:
+  PackedGraph<Group>& graph_;
+  LocalSolver<Group>& solver_;
+  std::vector<std::vector<Group>> starts_;
+  std::vector<Group> poses_;
+  StartSolution best_;
+  int iterations_ = 0;
+};
+
+/// Whether no measured rotation is further from the poses than a step of Gauss-Newton can mend.
+template <class Group>
+bool rotations_are_near(const PackedGraph<Group>& graph) {
+  for (const auto& edge : graph.edges) {
+    if (edge.weight == 0) continue;
+    const auto E = edge.T_to_from.rotation() *
+                   (graph.poses[edge.from].rotation().inverse() * graph.poses[edge.to].rotation());
+    if (!(cosine_of(E) > kCosineOfNear)) return false;
+  }
+  return true;
+}
+
+template <class Group>
+StartSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotation_error,
+                                  LocalSolver<Group>& solver) {
+  const std::vector<Group> file = graph.poses;
+  std::vector<Group> chordal;
+  bool file_first = rotations_are_near(graph);
+  const auto make_chordal = [&] {
+    chordal_start(graph, rotation_error);
+    chordal = graph.poses;
+  };
+  if (!file_first) {
+    const double file_cost = robust_cost(graph, rotation_error);
+    make_chordal();
+    // A file that is not finite in cost (absurdly far out) loses the comparison.
+    file_first = file_cost <= robust_cost(graph, rotation_error);
+  }
+  Candidates<Group> candidates(graph, solver);
+  candidates.descend(file_first ? file : chordal,
+                     file_first ? PoseGraphStart::kFile : PoseGraphStart::kChordal);
+  if (candidates.best().outcome &&
+      (windings_are_settled(graph) || certified_as_they_are(graph, rotation_error)))
+    return candidates.take();
+  graph.poses = chordal.empty() ? file : chordal;
+  if (chordal.empty()) make_chordal();
+  const double descent = std::max(1, candidates.iterations());
+  const bool tight =
+      certified_start(graph, rotation_error,
+                      std::max(kCertifiedDescents * descent, kLeastCertifiedIterations))
+          .tight;
+  if (tight && candidates.best().outcome && rotations_agree(graph.poses, candidates.poses()))
+    return candidates.take();
+  candidates.descend(std::vector<Group>(graph.poses), PoseGraphStart::kCertified);
+  if (tight) return candidates.take();
+  candidates.descend(file_first ? chordal : file,
+                     file_first ? PoseGraphStart::kChordal : PoseGraphStart::kFile);
+  spanning_tree_start(graph);
+  candidates.descend_if_new(std::vector<Group>(graph.poses), PoseGraphStart::kOdometry);
+  if (replayed_start(graph, rotation_error, kReplayDescents * descent))
+    candidates.descend(std::vector<Group>(graph.poses), PoseGraphStart::kOdometry);
+  return candidates.take();
+}
+
+}  // namespace
+
+const char* to_string(PoseGraphStart start) {
+  switch (start) {
+    case PoseGraphStart::kAuto:
+      return "auto";
+    case PoseGraphStart::kFile:
+      return "file";
+    case PoseGraphStart::kOdometry:
+      return "odometry";
+    case PoseGraphStart::kChordal:
+      return "chordal";
+    case PoseGraphStart::kCertified:
+      return "certified";
+  }
+  return "";
+}
+
+template <class Group>
+void set_start(PackedGraph<Group>& graph, PoseGraphStart start, RotationError rotation_error) {
+  switch (start) {
+    case PoseGraphStart::kAuto:
+    case PoseGraphStart::kFile:
+      return;
+    case PoseGraphStart::kOdometry:
+      return spanning_tree_start(graph);
+    case PoseGraphStart::kChordal:
+      return chordal_start(graph, rotation_error);
+    case PoseGraphStart::kCertified:
+      chordal_start(graph, rotation_error);
+      (void)certified_start(graph, rotation_error);
+      return;
+  }
+}
+
+template <class Group>
+bool windings_are_settled(const PackedGraph<Group>& graph) {
+  const std::vector<Residual> residuals = rotation_residuals(graph);
+  const Tree tree(graph, residuals);
+  // Rotations that hang on translations alone: nothing is said about those.
+  if (tree.roots > find_anchors(graph).components) return false;
+  // How many times the scatter is what the weights say.
+  double squares = 0;
+  int edges = 0;
+  for (const Residual& residual : residuals) {
+    if (residual.variance == 0) continue;
+    squares += residual.angles.squaredNorm() / residual.variance;
+    ++edges;
+  }
+  const int cycles = edges - (static_cast<int>(graph.poses.size()) - tree.roots);
+  if (cycles <= 0) return true;
+  constexpr int axes = kSpaceDim<Group> == 2 ? 1 : 3;
+  const double factor = squares / (axes * cycles);
+  for (std::size_t e = 0; e < residuals.size(); ++e) {
+    const auto& from = tree.nodes[graph.edges[e].from];
+    const auto& to = tree.nodes[graph.edges[e].to];
+    if (residuals[e].variance == 0 || from.edge == static_cast<int>(e) ||
+        to.edge == static_cast<int>(e))
+      continue;
+    // What both ways share does not belong to the cycle; counted all the same, to be careful.
+    const double variance = factor * (from.variance + to.variance + residuals[e].variance);
+    const double sum = (from.angles + residuals[e].angles - to.angles).norm();
+    if (2 * std::numbers::pi * (std::numbers::pi - sum) < kLogOdds * variance) return false;
+  }
+  return true;
+}
+
+template <class Group>
+StartSolution solve_from_start(PackedGraph<Group>& graph, PoseGraphStart start,
+                               RotationError rotation_error, LocalSolver<Group>& solver) {
+  if (start == PoseGraphStart::kAuto) return solve_automatically(graph, rotation_error, solver);
+  set_start(graph, start, rotation_error);
+  const bool certified = start == PoseGraphStart::kCertified;
+  return {certified ? descend_to_the_end(graph, solver) : solver.solve(graph), start, certified};
+}
+
+#define PLACEGRAPH_INSTANTIATE(Group)                                                         \
+  template void set_start(PackedGraph<Group>&, PoseGraphStart, RotationError);                \
+  template bool windings_are_settled(const PackedGraph<Group>&);                              \
+  template StartSolution solve_from_start(PackedGraph<Group>&, PoseGraphStart, RotationError, \
+                                          LocalSolver<Group>&);
+PLACEGRAPH_INSTANTIATE(SE2)
+PLACEGRAPH_INSTANTIATE(SE3)
+PLACEGRAPH_INSTANTIATE(Sim3)
+#undef PLACEGRAPH_INSTANTIATE
+
+}  // namespace placegraph

@@ -1,0 +1,122 @@
+#include <placegraph/backend/internal/pose_graph/initialization_selection.h>
+#include <placegraph/backend/internal/pose_graph/robust_optimizer.h>
+#include <placegraph/backend/internal/solver/free_directions.h>
+#include <placegraph/backend/pose_graph/pose_graph_optimizer.h>
+#include <placegraph/graph/internal/core/log_message.h>
+
+#include <utility>
+
+namespace placegraph {
+namespace {
+
+/// e^T Omega e of every constraint, in the order of PoseGraph::constraints.
+template <class Group>
+std::vector<double> chi2_by_constraint(const PackedGraph<Group>& graph,
+                                       RotationError rotation_error) {
+  std::vector<double> chi2(graph.edges.size() + graph.positions.size());
+  const std::vector<double> edges = chi2_by_edge(graph, rotation_error);
+  for (std::size_t i = 0; i < edges.size(); ++i) chi2[graph.edges[i].constraint] = edges[i];
+  const std::vector<double> positions = chi2_by_position(graph);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    chi2[graph.positions[i].constraint] = positions[i];
+  return chi2;
+}
+
+double sum(const std::vector<double>& values) {
+  double total = 0;
+  for (const double value : values) total += value;
+  return total;
+}
+
+/// Where a robust method begins. False loops spoil starts that are made from loops; of the others
+/// graduated non-convexity needs one that is worth something, whatever the poses are.
+PoseGraphStart robust_start(const PoseGraphOptions& options) {
+  if (options.start != PoseGraphStart::kAuto) return options.start;
+  return options.robust.method == RobustMethod::kGnc ? PoseGraphStart::kOdometry
+                                                     : PoseGraphStart::kFile;
+}
+
+/// From the chosen start to the minimum; fills what the report says of the way there.
+template <class Group>
+void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
+              const PoseGraphOptions& options, PoseGraphReport& report) {
+  StartSolution found;
+  if (options.robust.method == RobustMethod::kNone) {
+    LocalSolver<Group> solver(local);
+    found = solve_from_start(graph, options.start, options.rotation_error, solver);
+  } else {
+    found.used = robust_start(options);
+    set_start(graph, found.used, options.rotation_error);
+    RobustSolution robust =
+        solve_robustly(graph, local, options.robust, options.start == PoseGraphStart::kAuto);
+    found.solution = std::move(robust.local);
+    found.refined_from_certified = found.used == PoseGraphStart::kCertified;
+    report.rejected = std::move(robust.rejected);
+    report.loops_judged = robust.judged;
+  }
+  if (!found.solution.regular) report.free = find_free_directions(graph, options.rotation_error);
+  report.outcome = found.solution.outcome;
+  report.iterations = found.solution.iterations;
+  report.start_used = found.used;
+  report.refined_from_certified = found.refined_from_certified;
+}
+
+template <class Group>
+PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
+                         const LogSink& log_sink) {
+  PackedGraph<Group> packed = pack<Group>(graph);
+  PoseGraphReport report;
+  report.chi2_initial = sum(chi2_by_constraint(packed, options.rotation_error));
+  minimize(packed,
+           {.engine = options.engine,
+            .rotation_error = options.rotation_error,
+            .step_rule = options.step_rule,
+            .max_iterations = options.max_iterations,
+            .relative_decrease = options.relative_decrease,
+            .log = log_sink},
+           options, report);
+  unpack(packed, graph);
+  report.graph = std::move(graph);
+  report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
+  report.chi2_final = sum(report.chi2_by_constraint);
+  log(log_sink, LogLevel::kInfo, "pose graph: chi2 {:f} -> {:f} in {} iterations, start {}",
+      report.chi2_initial, report.chi2_final, report.iterations, to_string(report.start_used));
+  return report;
+}
+
+template <class Group>
+double chi2_of(const PoseGraph& graph, RotationError rotation_error) {
+  return sum(chi2_by_constraint(pack<Group>(graph), rotation_error));
+}
+
+}  // namespace
+
+PoseGraphReport optimize_pose_graph(PoseGraph graph, const PoseGraphOptions& options,
+                                    const LogSink& log) {
+  options.check();
+  graph.check();
+  switch (graph.kind()) {
+    case PoseKind::kSE2:
+      return optimize<SE2>(std::move(graph), options, log);
+    case PoseKind::kSE3:
+      return optimize<SE3>(std::move(graph), options, log);
+    case PoseKind::kSim3:
+      break;
+  }
+  return optimize<Sim3>(std::move(graph), options, log);
+}
+
+double chi2(const PoseGraph& graph, RotationError rotation_error) {
+  graph.check();
+  switch (graph.kind()) {
+    case PoseKind::kSE2:
+      return chi2_of<SE2>(graph, rotation_error);
+    case PoseKind::kSE3:
+      return chi2_of<SE3>(graph, rotation_error);
+    case PoseKind::kSim3:
+      break;
+  }
+  return chi2_of<Sim3>(graph, rotation_error);
+}
+
+}  // namespace placegraph

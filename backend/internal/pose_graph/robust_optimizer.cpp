@@ -1,0 +1,220 @@
+#include <placegraph/backend/internal/pose_graph/initialization_selection.h>
+#include <placegraph/backend/internal/pose_graph/robust_optimizer.h>
+#include <placegraph/backend/internal/robust/parallel_odometry.h>
+#include <placegraph/backend/internal/robust/pcm.h>
+#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/graph/internal/core/log_message.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace placegraph {
+namespace {
+
+template <class Group>
+LocalSolution solve_with_kernel(PackedGraph<Group>& graph, const RobustKernel& kernel,
+                                const LocalSolverOptions& solver) {
+  for (auto& edge : graph.edges)
+    if (!edge.odometry) edge.kernel = kernel;
+  return LocalSolver<Group>(solver).solve(graph);
+}
+
+/// Whether the errors at a plain minimum leave no doubt about any loop: the noise is about that of
+/// the rings of neighbouring loops, and no loop lies far outside of the others.
+template <class Group>
+bool beyond_doubt(const PackedGraph<Group>& graph, double ring_scale, const RobustOptions& options,
+                  RotationError rotation_error) {
+  constexpr double kDrift = 10;  // the noise of long rings over that of short ones
+  constexpr double kTail = 10;   // the worst of true loops over the worst but one in a hundred
+  const std::vector<double> chi2 = chi2_by_edge(graph, rotation_error);
+  const auto redundant =
+      static_cast<double>(graph.edges.size()) - static_cast<double>(graph.poses.size()) + 1;
+  if (redundant <= 0) return true;
+  const double scale = std::accumulate(chi2.begin(), chi2.end(), 0.0) / (Group::kDof * redundant);
+  std::vector<double> loops;
+  for (std::size_t i = 0; i < chi2.size(); ++i)
+    if (!graph.edges[i].odometry) loops.push_back(chi2[i]);
+  std::sort(loops.begin(), loops.end());
+  const double usual =
+      loops[static_cast<std::size_t>(0.99 * static_cast<double>(loops.size() - 1))];
+  const double gate =
+      options.growth.margin * scale * chi_squared_quantile(options.gate_probability, Group::kDof);
+  return scale <= kDrift * ring_scale && loops.back() <= std::max(gate, kTail * usual);
+}
+
+/// Lays the poses along the odometry, where it alone reaches them all.
+template <class Group>
+void start_from_odometry(PackedGraph<Group>& graph, const OdometryChain<Group>& chain) {
+  const auto held = std::find(graph.held.begin(), graph.held.end(), 1) - graph.held.begin();
+  if (chain.runs() != 1 || !graph.positions.empty() ||
+      std::count(graph.held.begin(), graph.held.end(), 1) != 1)
+    return;
+  const Group T_world_first = graph.poses[held] * chain.pose(static_cast<int>(held)).inverse();
+  for (std::size_t i = 0; i < graph.poses.size(); ++i)
+    if (!graph.held[i]) graph.poses[i] = T_world_first * chain.pose(static_cast<int>(i));
+}
+
+/// Where the plain descent begins: at the poses as they are, or where these are rough at the
+/// chordal ones if they cost less.
+template <class Group>
+void start_plain(PackedGraph<Group>& graph, RotationError rotation_error) {
+  constexpr double kRough = 0.5;  // [rad]
+  constexpr int dim = Group::kDof == 3 ? 2 : 3, turns = dim == 2 ? 1 : 3;
+  const bool rough = std::any_of(graph.edges.begin(), graph.edges.end(), [&](const auto& edge) {
+    const typename Group::Tangent e =
+        (edge.T_to_from * (graph.poses[edge.from].inverse() * graph.poses[edge.to])).log();
+    return e.template segment<turns>(dim).norm() > kRough;
+  });
+  if (!rough || !graph.positions.empty()) return;
+  PackedGraph<Group> chordal = graph;
+  set_start(chordal, PoseGraphStart::kChordal, rotation_error);
+  const auto cost = [&](const PackedGraph<Group>& at) {
+    const std::vector<double> chi2 = chi2_by_edge(at, rotation_error);
+    return std::accumulate(chi2.begin(), chi2.end(), 0.0);
+  };
+  if (cost(chordal) < cost(graph)) graph.poses = std::move(chordal.poses);
+}
+
+template <class Group>
+RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>& chain,
+                          const LoopSupport& support, const LocalSolverOptions& solver,
+                          const RobustOptions& options, bool free_start) {
+  // Where many loops stand alone the plain minimum is not worth its time: false loops are many.
+  constexpr double kManyAlone = 0.05;
+  const std::size_t loops = support.loops();
+  RobustSolution result;
+  PackedGraph<Group> plain = graph;
+  const bool tried = support.alone <= kManyAlone * static_cast<double>(loops) || loops < 50;
+  if (tried) {
+    // Where nothing is false a few steps do; with false loops the minimum is far and of no use.
+    constexpr int kSteps = 20;
+    LocalSolverOptions short_solver = solver;
+    short_solver.max_iterations = std::min(solver.max_iterations, kSteps);
+    if (free_start) start_plain(plain, solver.rotation_error);
+    result.local = LocalSolver<Group>(short_solver).solve(plain);
+    if (loops == 0 || (result.local.outcome &&
+                       beyond_doubt(plain, support.noise_scale, options, solver.rotation_error))) {
+      graph = std::move(plain);
+      return result;
+    }
+  }
+  start_from_odometry(graph, chain);
+  const LoopGrowth growth =
+      grow_loops(graph, support, options.gate_probability, solver, options.growth, options.gnc);
+  result.noise_scale = growth.noise_scale;
+  const bool all = std::all_of(graph.edges.begin(), graph.edges.end(),
+                               [](const auto& edge) { return edge.weight > 0; });
+  // Nothing was false after all: the plain minimum, if it is the same one.
+  constexpr double kSameCost = 1 + 1e-6;
+  if (all && tried && result.local.outcome &&
+      result.local.cost_final <= growth.local.cost_final * kSameCost)
+    graph = std::move(plain);
+  else
+    result.local = growth.local;
+  return result;
+}
+
+template <class Group>
+std::vector<RejectedEdge> edges_without_weight(const PackedGraph<Group>& graph,
+                                               const OdometryChain<Group>& chain,
+                                               const LoopSupport& support, double gate,
+                                               RotationError rotation_error) {
+  std::vector<RejectedEdge> rejected;
+  std::vector<char> alone(graph.edges.size(), false);
+  for (const auto& cluster : support.clusters)
+    if (cluster.size() == 1) alone[cluster.front()] = true;
+  const std::vector<double> chi2 = chi2_by_edge(graph, rotation_error);
+  for (const LoopOnChain<Group>& loop : loops_on_chain(graph, chain)) {
+    const auto& edge = graph.edges[loop.edge];
+    if (edge.weight > 0) continue;
+    const char* reason = "residual";
+    if (chain.run(loop.from) == chain.run(loop.to) && drift_misclosure(loop, chain).chi2 > gate)
+      reason = "inconsistent with odometry";
+    else if (alone[loop.edge])
+      reason = "pairwise";
+    rejected.push_back({edge.constraint, chi2[loop.edge], reason});
+  }
+  std::sort(rejected.begin(), rejected.end(),
+            [](const auto& a, const auto& b) { return a.constraint < b.constraint; });
+  return rejected;
+}
+
+/// The methods that leave loops out.
+template <class Group>
+RobustSolution solve_rejecting(PackedGraph<Group>& graph, const LocalSolverOptions& solver,
+                               const RobustOptions& options, bool free_start) {
+  const OdometryChain<Group> chain(graph);
+  const LoopSupport support = support_loops(graph, chain, options.support);
+  const double quantile = chi_squared_quantile(options.gate_probability, Group::kDof);
+  RobustSolution result;
+  if (!support.clusters.empty() && !support.scale_is_known) {
+    result.judged = false;
+    result.local = LocalSolver<Group>(solver).solve(graph);
+    return result;
+  }
+  if (options.method == RobustMethod::kAuto) {
+    result = solve_auto(graph, chain, support, solver, options, free_start);
+  } else if (options.method == RobustMethod::kPcm) {
+    const double gate = options.growth.margin * quantile * support.noise_scale;
+    LoopSupport sets = support;
+    sets.clusters = consistent_loops(graph, chain, gate);
+    start_from_odometry(graph, chain);
+    const LoopGrowth growth =
+        grow_loops(graph, sets, options.gate_probability, solver, options.growth, options.gnc);
+    result.local = growth.local;
+    result.noise_scale = growth.noise_scale;
+  } else {
+    const double gate = options.growth.margin * quantile * support.noise_scale;
+    (void)graduated_non_convexity(graph, gate, solver, options.gnc);
+    const LoopGrowth settled =
+        settle_loops(graph, support, options.gate_probability, solver, options.growth, options.gnc);
+    result.local = settled.local;
+    result.noise_scale = settled.noise_scale;
+  }
+  result.rejected = edges_without_weight(graph, chain, support,
+                                         options.growth.margin * quantile * result.noise_scale,
+                                         solver.rotation_error);
+  return result;
+}
+
+}  // namespace
+
+template <class Group>
+RobustSolution solve_robustly(PackedGraph<Group>& graph, const LocalSolverOptions& solver,
+                              const RobustOptions& options, bool free_start) {
+  options.check();
+  RobustSolution result;
+  if (options.method != RobustMethod::kNone) set_parallel_odometry_apart(graph, options.support);
+  switch (options.method) {
+    case RobustMethod::kNone:
+      result.local = LocalSolver<Group>(solver).solve(graph);
+      break;
+    case RobustMethod::kHuber:
+      result.local =
+          solve_with_kernel(graph, {RobustKernel::Kind::kHuber, options.kernel_width}, solver);
+      break;
+    case RobustMethod::kDcs:
+      result.local =
+          solve_with_kernel(graph, {RobustKernel::Kind::kDcs, options.kernel_width}, solver);
+      break;
+    case RobustMethod::kGnc:
+    case RobustMethod::kPcm:
+    case RobustMethod::kAuto:
+      result = solve_rejecting(graph, solver, options, free_start);
+      break;
+  }
+  if (!result.rejected.empty())
+    log(solver.log, LogLevel::kInfo, "pose graph: {} edges left out as false",
+        result.rejected.size());
+  return result;
+}
+
+template RobustSolution solve_robustly(PackedGraph<SE2>&, const LocalSolverOptions&,
+                                       const RobustOptions&, bool);
+template RobustSolution solve_robustly(PackedGraph<SE3>&, const LocalSolverOptions&,
+                                       const RobustOptions&, bool);
+template RobustSolution solve_robustly(PackedGraph<Sim3>&, const LocalSolverOptions&,
+                                       const RobustOptions&, bool);
+
+}  // namespace placegraph

@@ -1,0 +1,126 @@
+#include <placegraph/backend/internal/robust/loop_pairs.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace placegraph {
+namespace {
+
+template <class Group>
+LoopOnChain<Group> loop_on_chain(const PackedGraph<Group>& graph, int edge,
+                                 const OdometryChain<Group>& chain) {
+  const auto& e = graph.edges[edge];
+  LoopOnChain<Group> loop{edge, e.from, e.to, {}, {}, {}};
+  const Group T_first_measured = chain.pose(e.from) * e.T_to_from.inverse();
+  loop.W = T_first_measured * chain.pose(e.to).inverse();
+  const typename Group::Jacobian adjoint = T_first_measured.adjoint();
+  loop.covariance = adjoint * covariance_of(e.information) * adjoint.transpose();
+  const auto place = [&](int node) { return std::pair(chain.run(node), chain.position(node)); };
+  if (place(e.to) < place(e.from)) {
+    std::swap(loop.from, loop.to);
+    loop.W = loop.W.inverse();
+    const typename Group::Jacobian back = loop.W.adjoint();
+    loop.covariance = (back * loop.covariance * back.transpose()).eval();
+  }
+  loop.adjoint = loop.W.adjoint();
+  return loop;
+}
+
+}  // namespace
+
+template <class Group>
+std::vector<LoopOnChain<Group>> loops_on_chain(const PackedGraph<Group>& graph,
+                                               const OdometryChain<Group>& chain) {
+  std::vector<LoopOnChain<Group>> loops;
+  for (std::size_t i = 0; i < graph.edges.size(); ++i)
+    if (!graph.edges[i].odometry) loops.push_back(loop_on_chain(graph, static_cast<int>(i), chain));
+  std::sort(loops.begin(), loops.end(), [](const auto& a, const auto& b) {
+    if (std::tie(a.from, a.to) != std::tie(b.from, b.to))
+      return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+    const auto log_a = a.W.log(), log_b = b.W.log();
+    return std::lexicographical_compare(log_a.begin(), log_a.end(), log_b.begin(), log_b.end());
+  });
+  return loops;
+}
+
+template <class Group>
+RingMisclosure ring_misclosure(const LoopOnChain<Group>& a, const LoopOnChain<Group>& b,
+                               const OdometryChain<Group>& chain) {
+  typename Group::Jacobian covariance =
+      a.covariance + b.covariance + chain.covariance(a.from, b.from);
+  covariance.noalias() += a.adjoint * chain.covariance(a.to, b.to) * a.adjoint.transpose();
+  const Eigen::LLT<typename Group::Jacobian> factor(covariance);
+  const typename Group::Tangent e = factor.matrixL().solve((a.W * b.W.inverse()).log());
+  return {e.squaredNorm(), 2 * factor.matrixLLT().diagonal().array().log().sum()};
+}
+
+template <class Group>
+RingMisclosure drift_misclosure(const LoopOnChain<Group>& loop, const OdometryChain<Group>& chain) {
+  const typename Group::Jacobian covariance =
+      loop.covariance + chain.covariance(loop.from, loop.to);
+  const typename Group::Tangent e = loop.W.log();
+  const Eigen::LLT<typename Group::Jacobian> factor(covariance);
+  return {e.dot(factor.solve(e)), 2 * factor.matrixLLT().diagonal().array().log().sum()};
+}
+
+template <class Group>
+std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>& loops,
+                                         const OdometryChain<Group>& chain, int reach,
+                                         int neighbours) {
+  // Loops by cells of `reach` x `reach` poses: neighbours lie in the same or an adjoining one.
+  using Cell = std::tuple<int, int, int, int>;
+  const auto cell_of = [&](const LoopOnChain<Group>& loop, int di, int dj) {
+    return Cell{chain.run(loop.from), chain.run(loop.to), chain.position(loop.from) / reach + di,
+                chain.position(loop.to) / reach + dj};
+  };
+  std::map<Cell, std::vector<int>> cells;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    cells[cell_of(loops[i], 0, 0)].push_back(static_cast<int>(i));
+
+  std::vector<std::pair<int, int>> pairs;
+  std::vector<std::pair<int, int>> near;  // distance, loop
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    near.clear();
+    for (int di = -1; di <= 1; ++di)
+      for (int dj = -1; dj <= 1; ++dj) {
+        const auto cell = cells.find(cell_of(loops[i], di, dj));
+        if (cell == cells.end()) continue;
+        for (const int other : cell->second) {
+          const int at_from =
+              std::abs(chain.position(loops[i].from) - chain.position(loops[other].from));
+          const int at_to = std::abs(chain.position(loops[i].to) - chain.position(loops[other].to));
+          if (other != static_cast<int>(i) && at_from <= reach && at_to <= reach)
+            near.emplace_back(at_from + at_to, other);
+        }
+      }
+    const std::size_t n = std::min(near.size(), static_cast<std::size_t>(neighbours));
+    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(n), near.end());
+    for (std::size_t k = 0; k < n; ++k)
+      pairs.emplace_back(std::minmax(static_cast<int>(i), near[k].second));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<LoopPair> result;
+  result.reserve(pairs.size());
+  for (const auto& [a, b] : pairs)
+    result.push_back({a, b, ring_misclosure(loops[a], loops[b], chain)});
+  return result;
+}
+
+#define PLACEGRAPH_INSTANTIATE(Group)                                                           \
+  template std::vector<LoopOnChain<Group>> loops_on_chain(const PackedGraph<Group>&,            \
+                                                          const OdometryChain<Group>&);         \
+  template RingMisclosure ring_misclosure(const LoopOnChain<Group>&, const LoopOnChain<Group>&, \
+                                          const OdometryChain<Group>&);                         \
+  template RingMisclosure drift_misclosure(const LoopOnChain<Group>&,                           \
+                                           const OdometryChain<Group>&);                        \
+  template std::vector<LoopPair> neighbouring_pairs(const std::vector<LoopOnChain<Group>>&,     \
+                                                    const OdometryChain<Group>&, int, int);
+PLACEGRAPH_INSTANTIATE(SE2)
+PLACEGRAPH_INSTANTIATE(SE3)
+PLACEGRAPH_INSTANTIATE(Sim3)
+#undef PLACEGRAPH_INSTANTIATE
+
+}  // namespace placegraph

@@ -1,0 +1,12 @@
+#pragma once
+#include <placegraph/backend/internal/solver/local_solver_options.h>
+#include <placegraph/backend/internal/solver/packed_graph.h>
+
+namespace placegraph {
+
+/// The engine `ceres`: Levenberg-Marquardt with analytic cost functions and a sparse Cholesky
+/// factorization (SuiteSparse's; without the GPL Eigen's).
+template <class Group>
+LocalSolution solve_with_ceres(PackedGraph<Group>& graph, const LocalSolverOptions& options);
+
+}  // namespace placegraph

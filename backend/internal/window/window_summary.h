@@ -1,0 +1,13 @@
+#pragma once
+#include <placegraph/graph/core/outcome.h>
+
+namespace placegraph {
+
+/// What optimizing a sliding window came to.
+struct WindowSummary {
+  Outcome outcome;
+  double cost_initial = 0, cost_final = 0;  ///< half the robust sum of squares
+  int iterations = 0;
+};
+
+}  // namespace placegraph

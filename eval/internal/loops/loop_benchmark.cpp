@@ -1,0 +1,133 @@
+#include <placegraph/eval/loops/loop_benchmark.h>
+#include <placegraph/graph/core/error.h>
+
+#include <algorithm>
+#include <map>
+
+namespace placegraph {
+namespace {
+
+enum class RangeTest { kInside, kTooYoung, kOutOfRange };
+
+RangeTest range_test_of(std::int64_t min_age, FrameId id, const LoopQuery& query,
+                        FrameId candidate) {
+  if (min_age > 0 && id.value() - candidate.value() < min_age) return RangeTest::kTooYoung;
+  const bool inside = candidate >= query.first && candidate <= query.last;
+  return inside ? RangeTest::kInside : RangeTest::kOutOfRange;
+}
+
+/// What the truth says of an image, matches that are no candidates left out.
+LoopQuery query_of(const LoopTruth& truth, FrameId id) {
+  const auto listed = truth.queries.find(id);
+  if (listed == truth.queries.end()) return {};
+  LoopQuery query = listed->second;
+  std::erase_if(query.matches, [&](FrameId match) {
+    return range_test_of(truth.min_age, id, query, match) != RangeTest::kInside;
+  });
+  return query;
+}
+
+bool is_true(const LoopQuery& query, FrameId candidate, int tolerance) {
+  const auto next = std::lower_bound(query.matches.begin(), query.matches.end(),
+                                     FrameId(candidate.value() - tolerance));
+  return next != query.matches.end() && next->value() <= candidate.value() + tolerance;
+}
+
+struct Candidate {
+  LoopPrediction prediction;
+  bool correct = false;
+};
+
+// Best first, false ones before true ones of the same score, and never by their order.
+bool stands_before(const Candidate& a, const Candidate& b) {
+  if (a.prediction.score != b.prediction.score) return a.prediction.score > b.prediction.score;
+  if (a.correct != b.correct) return b.correct;
+  return a.prediction.candidate < b.prediction.candidate;
+}
+
+struct Gathered {
+  LoopQuery query;
+  std::vector<Candidate> candidates;
+  bool too_young = false, out_of_range = false;
+};
+
+JudgedQuery judge(FrameId id, Gathered& gathered) {
+  JudgedQuery judged;
+  judged.query = id;
+  judged.has_match = !gathered.query.matches.empty();
+  std::vector<Candidate>& candidates = gathered.candidates;
+  if (candidates.empty()) {
+    if (gathered.too_young) judged.verdict = LoopVerdict::kTooYoung;
+    if (gathered.out_of_range) judged.verdict = LoopVerdict::kOutOfRange;
+    return judged;
+  }
+  std::sort(candidates.begin(), candidates.end(), stands_before);
+  judged.best = candidates.front().prediction;
+  judged.verdict = candidates.front().correct ? LoopVerdict::kHit : LoopVerdict::kMiss;
+  const auto first = std::find_if(candidates.begin(), candidates.end(),
+                                  [](const Candidate& candidate) { return candidate.correct; });
+  if (first != candidates.end()) judged.rank = static_cast<int>(first - candidates.begin()) + 1;
+  return judged;
+}
+
+}  // namespace
+
+std::string to_string(LoopVerdict verdict) {
+  switch (verdict) {
+    case LoopVerdict::kHit:
+      return "hit";
+    case LoopVerdict::kMiss:
+      return "miss";
+    case LoopVerdict::kSilent:
+      return "silent";
+    case LoopVerdict::kTooYoung:
+      return "too_young";
+    case LoopVerdict::kOutOfRange:
+      return "out_of_range";
+  }
+  return {};
+}
+
+LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
+                          int tolerance) {
+  require(tolerance >= 0, "judge_loops: tolerance is negative");
+  LoopBenchmark result;
+  std::map<FrameId, Gathered> gathered;
+  for (const auto& [id, query] : truth.queries) gathered[id].query = query_of(truth, id);
+  for (const LoopPrediction& prediction : predictions) {
+    if (!truth.unlisted_have_none && !truth.queries.contains(prediction.query)) {
+      ++result.unjudged;
+      continue;
+    }
+    Gathered& of_query = gathered[prediction.query];
+    const RangeTest place =
+        range_test_of(truth.min_age, prediction.query, of_query.query, prediction.candidate);
+    of_query.too_young |= place == RangeTest::kTooYoung;
+    of_query.out_of_range |= place == RangeTest::kOutOfRange;
+    if (place == RangeTest::kInside)
+      of_query.candidates.push_back(
+          {prediction, is_true(of_query.query, prediction.candidate, tolerance)});
+    else
+      ++result.dropped;
+  }
+  std::vector<ScoredAnswer> answers;
+  std::array<int, LoopBenchmark::kRanks.size()> found = {};
+  for (auto& [id, of_query] : gathered) {
+    const JudgedQuery judged = judge(id, of_query);
+    result.positives += judged.has_match;
+    for (const Candidate& candidate : of_query.candidates)
+      result.candidates.push_back({candidate.prediction.score, candidate.correct});
+    if (!of_query.candidates.empty())
+      answers.push_back({judged.best.score, judged.verdict == LoopVerdict::kHit});
+    for (std::size_t i = 0; i < found.size(); ++i)
+      found[i] += judged.rank > 0 && judged.rank <= LoopBenchmark::kRanks[i];
+    result.queries.push_back(judged);
+  }
+  result.answered = static_cast<int>(answers.size());
+  for (std::size_t i = 0; i < found.size() && result.positives > 0; ++i)
+    result.recall_at[i] = static_cast<double>(found[i]) / result.positives;
+  result.curve = precision_recall(std::move(answers), result.positives);
+  return result;
+}
+
+}  // namespace placegraph

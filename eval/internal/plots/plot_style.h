@@ -1,0 +1,11 @@
+#pragma once
+#include <placegraph/eval/internal/plots/plot_canvas.h>
+
+namespace placegraph {
+
+/// What the plots of curves share.
+inline constexpr Colour kInk = {40, 40, 40}, kGrid = {228, 228, 228}, kFrame = {120, 120, 120},
+                        kWhite = {255, 255, 255};
+inline constexpr double kTextPx = 17, kTitlePx = 22;
+
+}  // namespace placegraph

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+#include <placegraph/eval/internal/trajectory/plausibility.h>
+#include <placegraph/eval/trajectory/evaluate.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+// A scale further from 1 than this, that also explains half the error, is a wrong unit or a
+// monocular estimate rather than drift.
+constexpr double kScaleTolerance = 0.1;
+
+bool usable(const AlignmentResult& alignment) { return alignment.outcome || alignment.rank == 1; }
+
+void align_estimates(const AlignmentResult& alignment, std::vector<FramePair>& pairs) {
+  for (FramePair& pair : pairs)
+    if (pair.T_world_estimate) pair.T_world_estimate = alignment.apply(*pair.T_world_estimate);
+}
+
+std::vector<FramePair> scaled(double scale, std::vector<FramePair> pairs) {
+  for (FramePair& pair : pairs)
+    if (pair.T_world_estimate) pair.T_world_estimate->translation() *= scale;
+  return pairs;
+}
+
+/// RPE, t_rel and r_rel: motions between frames, with the alignment's scale and nothing else of it.
+void judge_motions(const std::vector<FramePair>& pairs, bool has_times,
+                   const SegmentOptions& segments, EvaluationResult& r) {
+  r.rpe = rpe(pairs);
+  r.segments = kitti_segments(pairs, has_times, segments);
+}
+
+std::string scale_warning(const std::vector<FramePair>& pairs, Alignment used) {
+  if (used == Alignment::kSim3 || used == Alignment::kScale) return {};
+  const AlignmentResult rigid = align(pairs, Alignment::kSe3);
+  const AlignmentResult similar = align(pairs, Alignment::kSim3);
+  if (!usable(rigid) || !usable(similar)) return {};
+  const bool far =
+      similar.scale > 0 && std::abs(std::log(similar.scale)) > std::log1p(kScaleTolerance);
+  if (!far || similar.rmse_m > 0.5 * rigid.rmse_m) return {};
+  return fmt::format(
+      "the estimate looks mis-scaled: a scale of {:.4f} fits clearly better "
+      "(--align sim3 or --align scale fit one)",
+      similar.scale);
+}
+
+void add_warnings(EvaluationResult& r, const PairingResult& paired) {
+  if (r.alignment.rank == 1)
+    r.warnings.push_back(
+        "the positions lie on a line: the rotation about it was chosen at will "
+        "(the ATE does not depend on it)");
+  const std::string scale = scale_warning(paired.pairs, r.protocol.alignment);
+  if (!scale.empty()) r.warnings.push_back(scale);
+  if (paired.has_orientation)
+    for (const std::string& warning : convention_warnings(paired.pairs))
+      r.warnings.push_back(warning);
+  if (!r.segments.outcome) r.warnings.push_back("no t_rel and r_rel: " + r.segments.outcome.reason);
+  if (!r.rpe.outcome) r.warnings.push_back("no RPE: " + r.rpe.outcome.reason);
+  if (r.coverage < 0.5)
+    r.warnings.push_back(
+        fmt::format("only {:.1f} % of the frames have an estimate: the figures "
+                    "speak of those alone",
+                    100 * r.coverage));
+  if (r.judged < r.frames)
+    r.warnings.push_back(
+        fmt::format("the ground truth is denser than the estimate: {} of its {} "
+                    "frames are judged",
+                    r.judged, r.frames));
+  if (r.estimate_without_truth > 0)
+    r.warnings.push_back(
+        fmt::format("{} of the estimate's {} poses have no ground truth{}",
+                    r.estimate_without_truth, r.estimate_frames,
+                    r.protocol.association == Association::kTime
+                        ? fmt::format(" within {:g} s", r.protocol.max_difference_s)
+                        : " of their number"));
+}
+
+/// Which of the two has all its positions in one point; empty if neither.
+std::string who_stands(const std::vector<FramePair>& pairs) {
+  const Eigen::Isometry3d *first_truth = nullptr, *first_estimate = nullptr;
+  double truth_m = 0, estimate_m = 0;
+  for (const FramePair& pair : pairs) {
+    if (!pair.T_world_estimate) continue;
+    if (!first_truth) {
+      first_truth = &pair.T_world_truth;
+      first_estimate = &*pair.T_world_estimate;
+    }
+    const auto from = [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+      return (a.translation() - b.translation()).norm();
+    };
+    truth_m = std::max(truth_m, from(pair.T_world_truth, *first_truth));
+    estimate_m = std::max(estimate_m, from(*pair.T_world_estimate, *first_estimate));
+  }
+  constexpr double kNoWay_m = 1e-9;
+  if (estimate_m < kNoWay_m) return ": the estimate never moves";
+  return truth_m < kNoWay_m ? ": the ground truth never moves" : "";
+}
+
+Outcome needs_orientation(const char* what) {
+  return Outcome::failure(Outcome::Code::kTooFewData,
+                          std::string(what) + " needs orientations, but there are positions alone");
+}
+
+/// Of the true path, from the first posed frame to the last.
+double posed_path_m(const std::vector<FramePair>& pairs, const std::vector<double>& travelled_m) {
+  const auto posed = [](const FramePair& pair) { return pair.T_world_estimate.has_value(); };
+  const auto first = std::find_if(pairs.begin(), pairs.end(), posed);
+  const auto last = std::find_if(pairs.rbegin(), pairs.rend(), posed);
+  if (first == pairs.end()) return 0;
+  return travelled_m[static_cast<std::size_t>(pairs.rend() - last) - 1] -
+         travelled_m[static_cast<std::size_t>(first - pairs.begin())];
+}
+
+}  // namespace
+
+EvaluationResult evaluate(const Trajectory& truth, const Trajectory& estimate,
+                          const EvaluationOptions& options, const std::string& name) {
+  options.check();
+  return evaluate(pair_trajectories(truth, estimate, options.association, options.time), options,
+                  name);
+}
+
+EvaluationResult evaluate(PairingResult paired, const EvaluationOptions& options,
+                          const std::string& name) {
+  options.check();
+  EvaluationResult r;
+  r.name = name;
+  r.protocol = {options.alignment,     paired.association,         options.time.max_difference_s,
+                options.time.offset_s, options.segments.lengths_m, options.segments.step};
+  r.frames = paired.truth_frames;
+  r.judged = static_cast<int>(paired.pairs.size());
+  r.posed = paired.posed;
+  r.estimate_frames = paired.estimate_frames;
+  r.estimate_without_truth = paired.estimate_without_truth;
+  r.outcome = paired.outcome;
+  const bool by_first_pose =
+      options.alignment == Alignment::kOrigin || options.alignment == Alignment::kScale;
+  if (r.outcome && by_first_pose && !paired.has_orientation)
+    r.outcome = needs_orientation(("align " + to_string(options.alignment)).c_str());
+  if (!r.outcome) return r;
+  r.warnings = std::move(paired.warnings);
+
+  for (const FramePair& pair : paired.pairs)
+    if (!pair.T_world_estimate) r.lost_frames.push_back(pair.frame);
+  r.coverage = static_cast<double>(r.posed) / r.judged;
+  r.travelled_m = travelled_m(paired.pairs);
+  r.path_m = r.travelled_m.back();
+  r.posed_path_m = posed_path_m(paired.pairs, r.travelled_m);
+
+  r.alignment = align(paired.pairs, options.alignment);
+  if (!usable(r.alignment)) {
+    r.outcome = r.alignment.outcome;
+    if (r.outcome.code == Outcome::Code::kDegenerate) r.outcome.reason += who_stands(paired.pairs);
+    return r;
+  }
+  if (!paired.has_orientation) {
+    r.rpe.outcome = needs_orientation("RPE");
+    r.segments.outcome = needs_orientation("a relative error");
+  } else if (r.alignment.scale == 1) {
+    judge_motions(paired.pairs, paired.has_times, options.segments, r);
+  } else {
+    judge_motions(scaled(r.alignment.scale, paired.pairs), paired.has_times, options.segments, r);
+  }
+  add_warnings(r, paired);
+  r.aligned_pairs = std::move(paired.pairs);
+  align_estimates(r.alignment, r.aligned_pairs);
+  r.ape = ape(r.aligned_pairs);
+  return r;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,205 @@
+#include <placegraph/eval/trajectory/pairing.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/internal/measurements/stamp_plausibility.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace placegraph {
+namespace {
+
+/// Above this ratio of line rates the ground truth counts as denser than the estimate.
+constexpr double kDenserRatio = 1.5;
+/// Nearer to a pose of the estimate than this share of its spacing, a frame is not lost.
+constexpr double kNearShare = 0.75;
+
+std::string seconds_text(double ns) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.3f", ns * 1e-9);
+  return text;
+}
+
+double median_gap_ns(const Trajectory& trajectory) {
+  std::vector<double> gaps_ns;
+  for (std::size_t i = 1; i < trajectory.size(); ++i)
+    gaps_ns.push_back(
+        static_cast<double>(trajectory.poses[i].stamp_ns - trajectory.poses[i - 1].stamp_ns));
+  return gaps_ns.empty() ? 0 : median_of(std::move(gaps_ns));
+}
+
+std::vector<std::int64_t> stamps_of(const Trajectory& trajectory) {
+  std::vector<std::int64_t> stamps_ns;
+  for (const StampedPose& pose : trajectory.poses) stamps_ns.push_back(pose.stamp_ns);
+  return stamps_ns;
+}
+
+/// What is odd about the times of a trajectory; empty if nothing is.
+std::string odd_times(const Trajectory& trajectory, const char* whose) {
+  if (!trajectory.has_times) return {};
+  const std::string odd = odd_spacing(stamps_of(trajectory), "pose");
+  return odd.empty() ? odd : std::string(whose) + " has " + odd;
+}
+
+Outcome why_not_by_index(const Trajectory& truth, const Trajectory& estimate) {
+  if (truth.size() == estimate.size() || truth.numbered || estimate.numbered) return Outcome::ok();
+  return Outcome::failure(Outcome::Code::kInconsistent,
+                          "association by index needs lines of the same number: the ground truth "
+                          "has " +
+                              std::to_string(truth.size()) + ", the estimate " +
+                              std::to_string(estimate.size()) +
+                              " (with times on both sides, as in .tum, they are paired by time)");
+}
+
+Outcome why_not_by_time(const Trajectory& truth, const Trajectory& estimate,
+                        const AssociationOptions& options) {
+  if (!truth.has_times || !estimate.has_times)
+    return Outcome::failure(Outcome::Code::kInconsistent,
+                            std::string("association by time needs times on both sides: the ") +
+                                (truth.has_times ? "estimate" : "ground truth") +
+                                " has none (give a times file, or associate by index)");
+  if (truth.poses.empty() || estimate.poses.empty()) return Outcome::ok();
+  const double offset_ns = options.offset_s * 1e9;
+  const double slack_ns = options.max_difference_s * 1e9;
+  const double first = static_cast<double>(estimate.poses.front().stamp_ns) + offset_ns;
+  const double last = static_cast<double>(estimate.poses.back().stamp_ns) + offset_ns;
+  const auto truth_first = static_cast<double>(truth.poses.front().stamp_ns);
+  const auto truth_last = static_cast<double>(truth.poses.back().stamp_ns);
+  if (first <= truth_last + slack_ns && last >= truth_first - slack_ns) return Outcome::ok();
+  const std::string clock = other_clock(stamps_of(truth), stamps_of(estimate), "the estimate");
+  return Outcome::failure(Outcome::Code::kInconsistent,
+                          "the stamps do not overlap: ground truth " + seconds_text(truth_first) +
+                              " to " + seconds_text(truth_last) + " s, estimate " +
+                              seconds_text(first) + " to " + seconds_text(last) + " s" +
+                              (clock.empty() ? "" : "; " + clock));
+}
+
+/// Whether a frame of the ground truth that has no partner is lost, and one of those to judge.
+class LostFrames {
+ public:
+  LostFrames(const Trajectory& truth, const Trajectory& estimate, double offset_s)
+      : gap_ns_(median_gap_ns(estimate)),
+        denser_(gap_ns_ > kDenserRatio * median_gap_ns(truth)),
+        offset_ns_(std::llround(offset_s * 1e9)) {
+    for (const StampedPose& pose : estimate.poses)
+      if (pose.T_world_body) posed_ns_.push_back(pose.stamp_ns + offset_ns_);
+  }
+
+  /// `last_ns`: of the last frame that is judged; none before the first.
+  bool judge(std::int64_t stamp_ns, std::optional<std::int64_t> last_ns) const {
+    if (distance_ns(stamp_ns) < kNearShare * gap_ns_) return false;
+    return !denser_ || !last_ns || static_cast<double>(stamp_ns - *last_ns) >= gap_ns_ * 0.999;
+  }
+
+ private:
+  double distance_ns(std::int64_t stamp_ns) const {
+    const auto after = std::lower_bound(posed_ns_.begin(), posed_ns_.end(), stamp_ns);
+    double distance = std::numeric_limits<double>::infinity();
+    if (after != posed_ns_.end()) distance = static_cast<double>(*after - stamp_ns);
+    if (after != posed_ns_.begin())
+      distance = std::min(distance, static_cast<double>(stamp_ns - *std::prev(after)));
+    return distance;
+  }
+
+  double gap_ns_;
+  bool denser_;
+  std::int64_t offset_ns_;
+  std::vector<std::int64_t> posed_ns_;
+};
+
+/// Of every line of the ground truth, the line of the estimate; -1 none.
+std::vector<int> partners(const Trajectory& truth, const Trajectory& estimate, bool by_time,
+                          const AssociationOptions& options) {
+  std::vector<int> estimate_of(truth.size(), -1);
+  if (by_time) {
+    for (const auto& [i, j] : associate_by_time(truth, estimate, options))
+      estimate_of[static_cast<std::size_t>(i)] = j;
+  } else if (truth.numbered || estimate.numbered) {
+    for (std::size_t i = 0, j = 0; i < truth.size() && j < estimate.size();) {
+      const std::int64_t a = truth.poses[i].stamp_ns, b = estimate.poses[j].stamp_ns;
+      if (a == b) estimate_of[i] = static_cast<int>(j);
+      if (a <= b) ++i;
+      if (b <= a) ++j;
+    }
+  } else {
+    for (std::size_t i = 0; i < truth.size(); ++i) estimate_of[i] = static_cast<int>(i);
+  }
+  return estimate_of;
+}
+
+Association choose(Association wanted, const Trajectory& truth, const Trajectory& estimate,
+                   Outcome& outcome) {
+  outcome = Outcome::ok();
+  if (wanted != Association::kAuto) return wanted;
+  if (truth.has_times == estimate.has_times)
+    return truth.has_times ? Association::kTime : Association::kIndex;
+  outcome =
+      Outcome::failure(Outcome::Code::kInconsistent,
+                       std::string("only the ") + (truth.has_times ? "ground truth" : "estimate") +
+                           " has times: give a times file for the other, or associate by "
+                           "index");
+  return wanted;
+}
+
+}  // namespace
+
+std::string to_string(Association association) {
+  switch (association) {
+    case Association::kAuto:
+      return "auto";
+    case Association::kIndex:
+      return "index";
+    case Association::kTime:
+      return "time";
+  }
+  throw ArgumentError("unknown association");
+}
+
+PairingResult pair_trajectories(const Trajectory& truth, const Trajectory& estimate,
+                                Association association, const AssociationOptions& options) {
+  PairingResult result;
+  result.association = choose(association, truth, estimate, result.outcome);
+  if (!result.outcome) return result;
+  const bool by_time = result.association == Association::kTime;
+  result.outcome =
+      by_time ? why_not_by_time(truth, estimate, options) : why_not_by_index(truth, estimate);
+  if (!result.outcome) return result;
+
+  const std::vector<int> estimate_of = partners(truth, estimate, by_time, options);
+  const LostFrames lost(truth, estimate, options.offset_s);
+  for (std::string odd :
+       {odd_times(truth, "the ground truth"), odd_times(estimate, "the estimate")})
+    if (!odd.empty()) result.warnings.push_back(std::move(odd));
+  result.has_times = truth.has_times;
+  result.has_orientation = truth.has_orientation && estimate.has_orientation;
+  result.pairs.reserve(by_time ? std::min(truth.size(), estimate.size()) : truth.size());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (!truth.poses[i].T_world_body) continue;
+    ++result.truth_frames;
+    FramePair pair;
+    pair.frame = static_cast<int>(i);
+    pair.stamp_ns = truth.poses[i].stamp_ns;
+    pair.T_world_truth = *truth.poses[i].T_world_body;
+    if (estimate_of[i] >= 0)
+      pair.T_world_estimate = estimate.poses[static_cast<std::size_t>(estimate_of[i])].T_world_body;
+    const auto last_ns = result.pairs.empty()
+                             ? std::nullopt
+                             : std::optional<std::int64_t>(result.pairs.back().stamp_ns);
+    if (by_time && estimate_of[i] < 0 && !lost.judge(pair.stamp_ns, last_ns)) continue;
+    result.posed += pair.T_world_estimate.has_value();
+    result.pairs.push_back(pair);
+  }
+  result.estimate_frames = static_cast<int>(estimate.posed());
+  result.estimate_without_truth = result.estimate_frames - result.posed;
+  if (result.posed < 2)
+    result.outcome = Outcome::failure(
+        Outcome::Code::kTooFewData,
+        "only " + std::to_string(result.posed) + " of " + std::to_string(result.truth_frames) +
+            " ground-truth frames have an estimate" +
+            (by_time ? " within " + seconds_text(options.max_difference_s * 1e9) + " s" : ""));
+  return result;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,348 @@
+#include <placegraph/frontend/internal/align/alignment_covariance.h>
+#include <placegraph/frontend/internal/align/grey_pyramid.h>
+#include <placegraph/frontend/internal/align/plane_tracker.h>
+#include <placegraph/graph/core/error.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+using Code = Outcome::Code;
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+
+/// Twice the signed area of a convex quadrilateral; nothing if it is none.
+std::optional<double> convex_area(const std::vector<Vector2d>& corners) {
+  double area = 0, least = 0, greatest = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector2d &a = corners[i], &b = corners[(i + 1) % 4], &c = corners[(i + 2) % 4];
+    const Vector2d in = b - a, out = c - b;
+    const double turn = in.x() * out.y() - in.y() * out.x();
+    least = i == 0 ? turn : std::min(least, turn);
+    greatest = i == 0 ? turn : std::max(greatest, turn);
+    area += a.x() * b.y() - a.y() * b.x();
+  }
+  if (!std::isfinite(area) || !(least * greatest > 0)) return std::nullopt;
+  return area / 2;
+}
+
+/// Where a homography takes corners; empty if one goes beyond the horizon.
+std::vector<Vector2d> mapped(const Matrix3d& H, const std::vector<Vector2d>& corners) {
+  std::vector<Vector2d> there;
+  for (const Vector2d& corner : corners) {
+    const auto px = map_pixel(H, corner);
+    if (!px) return {};
+    there.push_back(*px);
+  }
+  return there;
+}
+
+/// Where a template of convex corners is seen with a positive area; 0 where no camera sees it so.
+double seen_area_px(const Matrix3d& H, const std::vector<Vector2d>& corners) {
+  const std::vector<Vector2d> there = mapped(H, corners);
+  if (there.empty()) return 0;
+  const auto from = convex_area(corners), to = convex_area(there);
+  return from && to && *from * *to > 0 ? std::abs(*to) : 0;
+}
+
+/// Covariance of where a warp takes corners.
+Eigen::Matrix<double, 8, 8> covariance_of(const PlanarWarp& warp,
+                                          const std::vector<Vector2d>& corners,
+                                          const Eigen::MatrixXd& covariance) {
+  Eigen::MatrixXd J(8, warp.dof());
+  for (int c = 0; c < 4; ++c)
+    J.middleRows<2>(2 * c) = warp.pixel_jacobian(corners[static_cast<std::size_t>(c)]);
+  return J * covariance * J.transpose();
+}
+
+/// d(H px) / d px.
+Eigen::Matrix2d slope_at(const Matrix3d& H, const Vector2d& px) {
+  const Eigen::Vector3d q = H * px.homogeneous();
+  Eigen::Matrix<double, 2, 3> by_q;
+  by_q << 1 / q.z(), 0, -q.x() / (q.z() * q.z()), 0, 1 / q.z(), -q.y() / (q.z() * q.z());
+  return by_q * H.leftCols<2>();
+}
+
+AlignOptions swarm_of(AlignOptions options) {
+  options.optimizer = AlignOptimizer::kSwarmEsm;
+  return options;
+}
+
+PlaneTrack lost(const Outcome& why, PlaneTrackSource source) {
+  PlaneTrack track;
+  track.outcome = why;
+  track.source = source;
+  return track;
+}
+
+}  // namespace
+
+const std::vector<std::string>& plane_model_names() {
+  static const std::vector<std::string> names = {"homography", "se3plane", "se2plane"};
+  return names;
+}
+
+const std::vector<std::string>& plane_track_source_names() {
+  static const std::vector<std::string> names = {"prediction", "last_place", "second_template",
+                                                 "swarm", "features"};
+  return names;
+}
+
+void PlaneTrackerOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, PlaneTrackerOptions& o) {
+  field.group("align", o.align, "alignment of the template");
+  field.choice("model", o.model, plane_model_names(), "how the template may move");
+  field("levels", o.levels, "of the pyramid", {1, 10});
+  field("max_samples", o.max_samples, "of a level", {100, 10000000});
+  field("chance_trials", o.chance_trials, "pictures that calibrate the likeness", {2, 1000});
+  field("chance_deviations", o.chance_deviations, "of the likeness above chance", {0, 20});
+  field("rival_margin", o.rival_margin, "of a likeness above what the image repeats", {0, 1});
+  field("max_area_change", o.max_area_change, "from frame to frame, either way", {1, 100});
+  field("min_area_px", o.min_area_px, "of the template's image", {1, 1e9});
+  field("search_sigma", o.search_sigma, "of corners in the search, in diagonals", {0.001, 2});
+  field("search_shift", o.search_shift, "of all corners in the search, in diagonals", {0, 10});
+  field("back_px", o.back_px, "agreement of the way there and back", {0.01, 100});
+  field.group("finder", o.finder, "search by point features");
+  field("key_likeness", o.key_likeness, "of a view that becomes the second template", {0, 1});
+  field("key_interval", o.key_interval, "frames between second templates", {1, 1000000});
+  field.group("normal", o.normal, "the plane's normal from several views");
+}
+
+struct PlaneTracker::View {
+  const Image& image;
+  std::vector<Image> pyramid;
+};
+
+PlaneTracker::PlaneTracker(const Image& image_ref, const std::vector<Vector2d>& corners_px,
+                           const PlaneTrackerOptions& options, const std::optional<Camera>& camera,
+                           const std::optional<Eigen::Vector3d>& normal_ref)
+    : pyramid_ref_(grey_pyramid(image_ref, options.levels)),
+      corners_px_(corners_px),
+      options_(options),
+      camera_(camera),
+      template_(image_ref, corners_px, options.levels, options.max_samples),
+      finder_(image_ref, corners_px, options.finder),
+      image_size_px_(image_ref.cols, image_ref.rows) {
+  options.check();
+  require(corners_px.size() == 4 && convex_area(corners_px),
+          "plane tracker: four corners of a convex quadrilateral needed");
+  require(camera || (options.model == PlaneModel::kHomography && !normal_ref),
+          "plane tracker: this needs a camera");
+  if (normal_ref) {
+    require(std::abs(normal_ref->norm() - 1) < 1e-6, "plane tracker: normal not of unit length");
+    plane_.outcome = Outcome::ok();
+    plane_.normal_ref = *normal_ref;
+  } else if (camera) {
+    normal_.emplace(camera->K(), corners_px, options.normal);
+    plane_ = normal_->estimate();
+  }
+  const int samples = static_cast<int>(template_.levels()[0].samples.size());
+  if (samples < options.align.min_samples) {
+    outcome_ =
+        Outcome::failure(Code::kTooFewData, "a template of " + std::to_string(samples) + " pixels");
+    return;
+  }
+  const double promised_px = promised_corner_sigma_px(
+      template_, 0, template_.homography(Matrix3d::Identity()), 2 * std::sqrt(10.0));
+  if (!(promised_px <= options.align.max_sigma_px)) {
+    outcome_ = Outcome::failure(Code::kDegenerate, "the template has too little texture");
+    return;
+  }
+  chance_ = chance_likeness(image_ref, corners_px, template_, swarm_of(options.align),
+                            options.chance_trials);
+  outcome_ = Outcome::ok();
+}
+
+double PlaneTracker::least_likeness_found() const {
+  return std::max(least_likeness(), chance_.rival + options_.rival_margin);
+}
+
+/// Of the model's family, once the plane's normal is known.
+PlanarWarp PlaneTracker::warp_at(const Matrix3d& H_cur_ref) const {
+  if (options_.model == PlaneModel::kHomography || !plane_.outcome)
+    return template_.homography(H_cur_ref);
+  const Plane plane{plane_.normal_ref, 1};
+  if (options_.model == PlaneModel::kSe3Plane)
+    return PlanarWarp::rigid_motion(camera_->K(), SE3(), plane).at(H_cur_ref);
+  return PlanarWarp::planar_motion(camera_->K(), SE2(), plane).at(H_cur_ref);
+}
+
+Outcome PlaneTracker::judge(const AlignResult& result, const Matrix3d& H_cur_ref,
+                            double least) const {
+  if (!result.outcome) return result.outcome;
+  const double area_px = seen_area_px(H_cur_ref, corners_px_);
+  if (area_px < options_.min_area_px)
+    return Outcome::failure(Code::kInconsistent, "no camera sees the template so, or hardly");
+  if (lost_ == 0) {
+    const double change = area_px / seen_area_px(H_last_ref_, corners_px_);
+    if (std::max(change, 1 / change) > options_.max_area_change)
+      return Outcome::failure(Code::kInconsistent,
+                              "area changed by a factor of " + std::to_string(change));
+  }
+  if (result.likeness < least)
+    return Outcome::failure(Code::kInconsistent, "likeness " + std::to_string(result.likeness) +
+                                                     ", " + std::to_string(least) + " needed");
+  return Outcome::ok();
+}
+
+/// The first template aligned from a start.
+PlaneTrack PlaneTracker::aligned(const View& view, const Matrix3d& H_start,
+                                 const AlignOptions& options, double least,
+                                 PlaneTrackSource source) const {
+  const AlignResult result = align(template_, view.pyramid, warp_at(H_start), options);
+  PlaneTrack track;
+  track.source = source;
+  track.outcome = judge(result, result.warp.H_cur_ref(), least);
+  track.similarity = result.agreement;
+  track.likeness = result.likeness;
+  track.visible_share = result.visible_share;
+  track.inlier_share = result.inlier_share;
+  if (!track.outcome) return track;
+  track.H_cur_ref = result.warp.H_cur_ref();
+  track.corners_px = mapped(track.H_cur_ref, corners_px_);
+  track.covariance = covariance_of(result.warp, corners_px_, result.covariance);
+  return track;
+}
+
+/// From where the last two frames lead, then from where it was.
+PlaneTrack PlaneTracker::follow(const View& view) const {
+  const Matrix3d H_predicted = H_last_before_ * H_last_ref_;
+  const double area_px = seen_area_px(H_last_ref_, corners_px_);
+  const double change = seen_area_px(H_predicted, corners_px_) / area_px;
+  const bool plausible = std::max(change, 1 / change) < std::sqrt(options_.max_area_change);
+  if (plausible) {
+    const PlaneTrack track =
+        aligned(view, H_predicted, options_.align, least_likeness(), PlaneTrackSource::kPrediction);
+    if (track.outcome || template_.corner_distance_px(H_predicted, H_last_ref_) < 1) return track;
+  }
+  return aligned(view, H_last_ref_, options_.align, least_likeness(), PlaneTrackSource::kLastPlace);
+}
+
+/// By a recent view; then by the first image from there, whose word is the last if it holds.
+PlaneTrack PlaneTracker::by_second_template(const View& view) const {
+  const auto source = PlaneTrackSource::kSecondTemplate;
+  if (!key_) return lost(Outcome::failure(Code::kTooFewData, "no second template"), source);
+  const Matrix3d H_ref_key = key_->H_key_ref.inverse();
+  const AlignResult result =
+      align(key_->planar_template, view.pyramid,
+            key_->planar_template.homography(H_last_ref_ * H_ref_key), options_.align);
+  const Matrix3d H_cur_key = result.warp.H_cur_ref(), H_cur_ref = H_cur_key * key_->H_key_ref;
+  const Outcome outcome = judge(result, H_cur_ref, least_likeness());
+  if (!outcome) return lost(outcome, source);
+  PlaneTrack track = aligned(view, H_cur_ref, options_.align, least_likeness(), source);
+  if (track.outcome) return track;
+  track.outcome = Outcome::ok();
+  track.H_cur_ref = H_cur_ref;
+  track.corners_px = mapped(H_cur_ref, corners_px_);
+  track.covariance = covariance_of(result.warp, key_->corners_px, result.covariance);
+  Eigen::Matrix<double, 8, 8> slope = Eigen::Matrix<double, 8, 8>::Zero();
+  for (int c = 0; c < 4; ++c)
+    slope.block<2, 2>(2 * c, 2 * c) =
+        slope_at(H_cur_key, key_->corners_px[static_cast<std::size_t>(c)]);
+  track.covariance += slope * key_->covariance * slope.transpose();
+  track.similarity = result.agreement;
+  track.likeness = result.likeness;
+  track.visible_share = result.visible_share;
+  track.inlier_share = result.inlier_share;
+  return track;
+}
+
+/// About its last place, the further the longer it is lost.
+PlaneTrack PlaneTracker::search(const View& view) const {
+  AlignOptions options = swarm_of(options_.align);
+  const double widest = image_size_px_.norm() / template_.diagonal_px();
+  options.search_sigma = options_.search_sigma;
+  options.search_shift_sigma = std::min({options_.search_shift * (1 + 0.5 * lost_), widest, 10.0});
+  options.swarm.seed += static_cast<std::uint64_t>(frames_);
+  PlaneTrack track =
+      aligned(view, H_last_ref_, options, least_likeness_found(), PlaneTrackSource::kSwarm);
+  if (track.outcome) track.outcome = the_way_back(view, track);
+  return track;
+}
+
+/// Anywhere.
+PlaneTrack PlaneTracker::find(const View& view) {
+  PlaneTrack track = lost(Outcome::failure(Code::kNoConsensus, "not found by features either"),
+                          PlaneTrackSource::kFeatures);
+  for (const FoundPlace& place : finder_.find(view.image, random_)) {
+    if (seen_area_px(place.H_cur_ref, corners_px_) < options_.min_area_px) continue;
+    PlaneTrack there = aligned(view, place.H_cur_ref, options_.align, least_likeness_found(),
+                               PlaneTrackSource::kFeatures);
+    if (there.outcome) there.outcome = the_way_back(view, there);
+    if (there.outcome) return there;
+    track = there;
+  }
+  return track;
+}
+
+/// What is seen there, cut out and looked for in the first image from a few pixels beside, has to
+/// come back to where the template was cut.
+Outcome PlaneTracker::the_way_back(const View& view, const PlaneTrack& track) const {
+  constexpr double kBesidePx = 3;
+  const PlanarTemplate seen(view.image, track.corners_px, options_.levels, options_.max_samples);
+  const Matrix3d H_ref_cur = track.H_cur_ref.inverse();
+  Matrix3d beside = Matrix3d::Identity();
+  beside(0, 2) = kBesidePx;
+  const AlignResult back =
+      align(seen, pyramid_ref_, seen.homography(beside * H_ref_cur), options_.align);
+  if (!back.outcome) return back.outcome;
+  double apart_px = 0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const auto there = map_pixel(back.warp.H_cur_ref(), track.corners_px[c]);
+    apart_px = there ? std::max(apart_px, (*there - corners_px_[c]).norm()) : 1e9;
+  }
+  if (apart_px > std::max(options_.back_px, 3 * back.corner_sigma_px))
+    return Outcome::failure(Code::kInconsistent,
+                            "the way back ends " + std::to_string(apart_px) + " px off");
+  return Outcome::ok();
+}
+
+void PlaneTracker::remember(const View& view, const PlaneTrack& track) {
+  if (!track.outcome) {
+    ++lost_;
+    H_last_before_ = Matrix3d::Identity();
+    return;
+  }
+  H_last_before_ =
+      lost_ == 0 ? Matrix3d(track.H_cur_ref * H_last_ref_.inverse()) : Matrix3d::Identity();
+  H_last_ref_ = track.H_cur_ref;
+  lost_ = 0;
+  const bool whole = track.visible_share > 0.95 && track.likeness >= options_.key_likeness;
+  const bool due = !key_ || frames_ - key_frame_ >= options_.key_interval;
+  if (!whole || !due || track.source == PlaneTrackSource::kSecondTemplate) return;
+  key_.emplace(
+      KeyView{PlanarTemplate(view.image, track.corners_px, options_.levels, options_.max_samples),
+              track.corners_px, track.H_cur_ref, track.covariance});
+  key_frame_ = frames_;
+}
+
+void PlaneTracker::add_motion(PlaneTrack& track) {
+  if (!camera_ || !track.outcome) return;
+  if (normal_ && normal_->add(track.H_cur_ref)) plane_ = normal_->estimate();
+  track.normal_outcome = plane_.outcome;
+  track.normal_ref = plane_.normal_ref;
+  track.normal_sigma_rad = plane_.sigma_rad;
+  if (plane_.outcome)
+    track.T_cur_ref = motion_from_homography(camera_->K(), track.H_cur_ref, plane_.normal_ref);
+}
+
+PlaneTrack PlaneTracker::track(const Image& image) {
+  if (!outcome_) return lost(outcome_, PlaneTrackSource::kPrediction);
+  const View view{image, grey_pyramid(image, options_.levels)};
+  PlaneTrack track = follow(view);
+  const Outcome why = track.outcome;
+  if (!track.outcome) track = by_second_template(view);
+  if (!track.outcome) track = search(view);
+  if (!track.outcome) track = find(view);
+  if (!track.outcome) track = lost(why, track.source);
+  remember(view, track);
+  add_motion(track);
+  ++frames_;
+  return track;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,16 @@
+#pragma once
+#include <placegraph/frontend/features/feature_options.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/image/image.h>
+#include <placegraph/graph/landmark.h>
+
+#include <vector>
+
+namespace placegraph {
+
+/// ORB features (Rublee et al. 2011, by OpenCV), spread over the image by a grid: at most
+/// max_features, `point_cam` empty. `mask` 0 = not here (may be empty).
+std::vector<Feature> detect_features(const Image& image, const DetectorOptions& options,
+                                     const Image& mask = {});
+
+}  // namespace placegraph

@@ -1,0 +1,29 @@
+#pragma once
+#include <placegraph/frontend/features/feature_options.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/landmark.h>
+
+#include <vector>
+
+namespace placegraph {
+
+struct FeatureMatch {
+  int a = 0, b = 0;  ///< indices into the two feature lists
+  int distance = 0;  ///< bits
+};
+
+/// Mutually best matches that pass the ratio test, ascending in a. Only features whose flag in
+/// `use_b` is set are looked at in b (empty: all).
+std::vector<FeatureMatch> match_features(const std::vector<Feature>& a,
+                                         const std::vector<Feature>& b,
+                                         const MatcherOptions& options,
+                                         const std::vector<bool>& use_b = {});
+
+/// Matches along epipolar lines of a known motion: a candidate lies within `band_px` of the line of
+/// the feature in a, and its ray does not meet a's behind either camera.
+std::vector<FeatureMatch> match_epipolar(const Camera& camera, const std::vector<Feature>& a,
+                                         const std::vector<Feature>& b, const SE3& T_a_b,
+                                         double band_px, const MatcherOptions& options);
+
+}  // namespace placegraph

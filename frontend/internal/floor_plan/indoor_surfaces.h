@@ -1,0 +1,29 @@
+#pragma once
+#include <placegraph/frontend/floor_plan/floor_plan_options.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/image/image.h>
+#include <placegraph/graph/scene/indoor_map.h>
+
+namespace placegraph {
+
+/// Points of the surfaces in a depth image (CV_32FC1 [m], 0 = none) of `depth_camera`, in the frame
+/// that `T_cam_depth` leads to. Inverse depth is linear in the pixel on a plane: where a patch's
+/// are, its plane gives the normal. Deviations are those of the patch, at least those of inverse
+/// depth, `sigma_inverse` [1/m] (CV_32FC1, a pixel each). Throws ArgumentError for an image of
+/// another size or type.
+std::vector<SurfacePoint> surface_points(const Image& depth_m, const Image& sigma_inverse,
+                                         const Camera& depth_camera, const SE3& T_cam_depth,
+                                         const SurfacePointOptions& options = {});
+/// With deviations that are the same all over: `sigma_at_1m` z^2 [m].
+std::vector<SurfacePoint> surface_points(const Image& depth_m, const Camera& depth_camera,
+                                         const SE3& T_cam_depth, double sigma_at_1m,
+                                         const SurfacePointOptions& options = {});
+
+/// Depth of every pixel of the left eye that both eyes agree on (semi-global matching,
+/// Hirschmueller 2008, by OpenCV): CV_32FC1 [m], 0 = none.
+Image dense_stereo(const Image& left, const Image& right, double fx, double baseline_m,
+                   const DenseStereoOptions& options = {});
+
+}  // namespace placegraph

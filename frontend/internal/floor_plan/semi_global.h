@@ -1,0 +1,29 @@
+#pragma once
+#include <placegraph/frontend/floor_plan/floor_plan_options.h>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace placegraph {
+
+/// What it costs to take each of `levels` hypotheses for each pixel of an image.
+struct CostVolume {
+  CostVolume(int width_px, int height_px, int level_count)
+      : width(width_px),
+        height(height_px),
+        levels(level_count),
+        costs(static_cast<std::size_t>(width_px) * height_px * level_count) {}
+  std::size_t at(int u, int v) const {
+    return (static_cast<std::size_t>(v) * width + u) * static_cast<std::size_t>(levels);
+  }
+  int width, height, levels;
+  std::vector<std::uint8_t> costs;  ///< a pixel's levels beside each other, pixels by rows
+};
+
+/// Least costs of paths that end in each pixel at each level, summed over the eight directions that
+/// they come from (Hirschmueller 2008, "Stereo processing by semi-global matching and mutual
+/// information"), laid out like the costs. Throws ArgumentError for penalties below 0 or above
+/// 4000.
+std::vector<std::uint16_t> sum_over_paths(const CostVolume& volume, const PathCosts& penalty);
+
+}  // namespace placegraph

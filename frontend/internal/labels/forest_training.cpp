@@ -1,0 +1,255 @@
+#include <placegraph/frontend/internal/labels/forest_training.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/parallel.h>
+#include <placegraph/graph/internal/core/random.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace placegraph {
+
+void ForestOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, ForestOptions& o) {
+  field("trees", o.trees, "how many", {1, 1000});
+  field("max_depth", o.max_depth, "of a tree", {1, 40});
+  field("min_leaf", o.min_leaf, "rows a leaf holds at least", {1, 1e6});
+  field("tries", o.tries, "features looked at for a split", {1, 60000});
+  field("share_blocks", o.share_blocks, "of the blocks, taken by a tree", {0.01, 1});
+  field("share_rows", o.share_rows, "of the rows of its blocks, taken by a tree", {0.001, 1});
+  field("seed", o.seed, "of what is drawn");
+}
+
+namespace {
+
+constexpr int kMostClasses = 64;
+
+struct Split {
+  int feature = -1, threshold = 0;
+  double gain = 0;
+};
+
+/// One tree that grows.
+class Grower {
+ public:
+  Grower(const ForestLesson& lesson, const ForestOptions& options, std::uint64_t stream)
+      : lesson_(lesson),
+        options_(options),
+        random_(options.seed, stream),
+        n_(static_cast<std::size_t>(lesson.classes)),
+        histogram_(256 * n_),
+        filled_(256) {}
+
+  DecisionForest grow() {
+    draw_rows();
+    tree_.classes = lesson_.classes;
+    tree_.dimension = lesson_.dimension();
+    tree_.roots = {0};
+    if (rows_.empty()) add_any_row();
+    grow_node(0, rows_.size(), 0);
+    return std::move(tree_);
+  }
+  const std::vector<char>& taken() const { return taken_; }
+
+ private:
+  void draw_rows() {
+    taken_.resize(static_cast<std::size_t>(lesson_.blocks));
+    for (char& taken : taken_) taken = random_.uniform() < options_.share_blocks ? 1 : 0;
+    for (int i = 0; i < lesson_.rows(); ++i)
+      if (lesson_.label[static_cast<std::size_t>(i)] != ForestLesson::kVoid &&
+          taken_[static_cast<std::size_t>(lesson_.block[static_cast<std::size_t>(i)])] &&
+          random_.uniform() < options_.share_rows)
+        rows_.push_back(static_cast<std::uint32_t>(i));
+  }
+
+  // A tree whose blocks were all left out: it answers with the class of one row.
+  void add_any_row() {
+    for (std::size_t i = 0; i < lesson_.label.size() && rows_.empty(); ++i)
+      if (lesson_.label[i] != ForestLesson::kVoid) rows_.push_back(static_cast<std::uint32_t>(i));
+  }
+
+  void grow_node(std::size_t begin, std::size_t end, int depth) {
+    const std::size_t self = tree_.nodes.size();
+    tree_.nodes.emplace_back();
+    std::array<double, kMostClasses> sums{};
+    for (std::size_t i = begin; i < end; ++i)
+      sums[lesson_.label[rows_[i]]] += lesson_.weight[rows_[i]];
+    const bool pure = std::count_if(sums.begin(), sums.end(), [](double s) { return s > 0; }) <= 1;
+    Split split;
+    if (!pure && depth < options_.max_depth &&
+        end - begin >= 2 * static_cast<std::size_t>(options_.min_leaf))
+      split = best_split(begin, end, sums);
+    if (split.feature < 0) {
+      make_leaf(self, sums);
+      return;
+    }
+    const std::vector<std::uint8_t>& column =
+        lesson_.columns[static_cast<std::size_t>(split.feature)];
+    const auto middle =
+        std::partition(rows_.begin() + static_cast<std::ptrdiff_t>(begin),
+                       rows_.begin() + static_cast<std::ptrdiff_t>(end),
+                       [&](std::uint32_t row) { return column[row] <= split.threshold; });
+    const auto cut = static_cast<std::size_t>(middle - rows_.begin());
+    grow_node(begin, cut, depth + 1);
+    tree_.nodes[self] = {static_cast<std::uint16_t>(split.feature),
+                         static_cast<std::uint16_t>(split.threshold),
+                         static_cast<std::uint32_t>(tree_.nodes.size())};
+    grow_node(cut, end, depth + 1);
+  }
+
+  void make_leaf(std::size_t self, const std::array<double, kMostClasses>& sums) {
+    double sum = 0;
+    for (std::size_t c = 0; c < n_; ++c) sum += sums[c];
+    tree_.nodes[self] = {DecisionForest::kLeaf, 0,
+                         static_cast<std::uint32_t>(tree_.leaves.size() / n_)};
+    for (std::size_t c = 0; c < n_; ++c)
+      tree_.leaves.push_back(static_cast<std::uint8_t>(sum > 0 ? 255 * sums[c] / sum + 0.5 : 0));
+  }
+
+  Split best_split(std::size_t begin, std::size_t end,
+                   const std::array<double, kMostClasses>& sums) {
+    Split best;
+    double sum = 0, squares = 0;
+    for (std::size_t c = 0; c < n_; ++c) sum += sums[c], squares += sums[c] * sums[c];
+    best.gain = squares / sum + 1e-9 * sum;
+    for (int i = 0; i < options_.tries; ++i)
+      try_feature(random_.index(lesson_.dimension()), begin, end, sums, best);
+    return best;
+  }
+
+  void try_feature(int feature, std::size_t begin, std::size_t end,
+                   const std::array<double, kMostClasses>& sums, Split& best) {
+    const std::vector<std::uint8_t>& column = lesson_.columns[static_cast<std::size_t>(feature)];
+    int low = 255, high = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t row = rows_[i];
+      const int value = column[row];
+      low = std::min(low, value);
+      high = std::max(high, value);
+      ++filled_[static_cast<std::size_t>(value)];
+      histogram_[static_cast<std::size_t>(value) * n_ + lesson_.label[row]] += lesson_.weight[row];
+    }
+    std::array<double, kMostClasses> left{};
+    double left_sum = 0, sum = 0;
+    for (std::size_t c = 0; c < n_; ++c) sum += sums[c];
+    std::size_t left_rows = 0;
+    const std::size_t all = end - begin, least = static_cast<std::size_t>(options_.min_leaf);
+    for (int t = low; t <= high; ++t) {
+      const auto at = static_cast<std::size_t>(t);
+      if (filled_[at] == 0) continue;
+      float* bin = histogram_.data() + at * n_;
+      left_rows += static_cast<std::size_t>(filled_[at]);
+      double left_squares = 0, right_squares = 0;
+      for (std::size_t c = 0; c < n_; ++c) {
+        left[c] += static_cast<double>(bin[c]);
+        left_sum += static_cast<double>(bin[c]);
+        bin[c] = 0;
+        left_squares += left[c] * left[c];
+        right_squares += (sums[c] - left[c]) * (sums[c] - left[c]);
+      }
+      filled_[at] = 0;
+      if (left_rows < least || all - left_rows < least || t == high) continue;
+      const double gain = left_squares / left_sum + right_squares / (sum - left_sum);
+      if (gain > best.gain) best = {feature, t, gain};
+    }
+  }
+
+  const ForestLesson& lesson_;
+  const ForestOptions& options_;
+  Random random_;
+  std::size_t n_;
+  std::vector<float> histogram_;
+  std::vector<int> filled_;
+  std::vector<std::uint32_t> rows_;
+  std::vector<char> taken_;
+  DecisionForest tree_;
+};
+
+/// The leaf of a row that lies in columns.
+const std::uint8_t* leaf_of(const DecisionForest& tree, const ForestLesson& lesson,
+                            std::size_t row) {
+  const DecisionForest::Node* node = tree.nodes.data();
+  while (node->feature != DecisionForest::kLeaf)
+    node =
+        lesson.columns[node->feature][row] <= node->threshold ? node + 1 : &tree.nodes[node->other];
+  return tree.leaves.data() +
+         static_cast<std::size_t>(node->other) * static_cast<std::size_t>(tree.classes);
+}
+
+void append_tree(DecisionForest& forest, const DecisionForest& tree) {
+  const auto node_offset = static_cast<std::uint32_t>(forest.nodes.size());
+  const auto leaf_offset =
+      static_cast<std::uint32_t>(forest.leaves.size() / static_cast<std::size_t>(forest.classes));
+  forest.roots.push_back(node_offset);
+  for (DecisionForest::Node node : tree.nodes) {
+    node.other += node.feature == DecisionForest::kLeaf ? leaf_offset : node_offset;
+    forest.nodes.push_back(node);
+  }
+  forest.leaves.insert(forest.leaves.end(), tree.leaves.begin(), tree.leaves.end());
+}
+
+/// Sums of the answers of the trees that did not see a row, then shares.
+std::vector<float> judge_unseen(const ForestLesson& lesson,
+                                const std::vector<DecisionForest>& trees,
+                                const std::vector<std::vector<char>>& taken, int threads) {
+  const auto n = static_cast<std::size_t>(lesson.classes);
+  std::vector<float> unseen(lesson.label.size() * n, 0.0f);
+  std::vector<double> prior(n, 0.0);
+  double all = 0;
+  for (std::size_t i = 0; i < lesson.label.size(); ++i)
+    if (lesson.label[i] != ForestLesson::kVoid)
+      prior[lesson.label[i]] += static_cast<double>(lesson.weight[i]),
+          all += static_cast<double>(lesson.weight[i]);
+  constexpr std::size_t kPart = 4096;
+  const int parts = static_cast<int>((lesson.label.size() + kPart - 1) / kPart);
+  parallel_for(parts, threads, [&](int part) {
+    const std::size_t begin = static_cast<std::size_t>(part) * kPart;
+    const std::size_t end = std::min(begin + kPart, lesson.label.size());
+    for (std::size_t t = 0; t < trees.size(); ++t)
+      for (std::size_t i = begin; i < end; ++i) {
+        if (taken[t][static_cast<std::size_t>(lesson.block[i])]) continue;
+        const std::uint8_t* leaf = leaf_of(trees[t], lesson, i);
+        for (std::size_t c = 0; c < n; ++c) unseen[i * n + c] += leaf[c];
+      }
+    for (std::size_t i = begin; i < end; ++i) {
+      float sum = 0;
+      for (std::size_t c = 0; c < n; ++c) sum += unseen[i * n + c];
+      for (std::size_t c = 0; c < n; ++c)
+        unseen[i * n + c] = sum > 0 ? unseen[i * n + c] / sum : static_cast<float>(prior[c] / all);
+    }
+  });
+  return unseen;
+}
+
+}  // namespace
+
+TrainedForest train_forest(const ForestLesson& lesson, const ForestOptions& options, int threads) {
+  options.check();
+  const std::size_t rows = lesson.label.size();
+  const auto learned =
+      std::count_if(lesson.label.begin(), lesson.label.end(),
+                    [](std::uint8_t label) { return label != ForestLesson::kVoid; });
+  require(learned > 0 && lesson.classes > 0 && lesson.classes <= kMostClasses && lesson.blocks > 0,
+          "train_forest: nothing to learn from");
+  require(lesson.weight.size() == rows && lesson.block.size() == rows && lesson.dimension() > 0 &&
+              lesson.dimension() < DecisionForest::kLeaf,
+          "train_forest: the sizes do not agree");
+  for (const auto& column : lesson.columns)
+    require(column.size() == rows, "train_forest: the sizes do not agree");
+  std::vector<DecisionForest> trees(static_cast<std::size_t>(options.trees));
+  std::vector<std::vector<char>> taken(trees.size());
+  parallel_for(options.trees, threads, [&](int i) {
+    Grower grower(lesson, options, static_cast<std::uint64_t>(i));
+    trees[static_cast<std::size_t>(i)] = grower.grow();
+    taken[static_cast<std::size_t>(i)] = grower.taken();
+  });
+  TrainedForest result;
+  result.forest.classes = lesson.classes;
+  result.forest.dimension = lesson.dimension();
+  for (const DecisionForest& tree : trees) append_tree(result.forest, tree);
+  result.unseen = judge_unseen(lesson, trees, taken, threads);
+  return result;
+}
+
+}  // namespace placegraph

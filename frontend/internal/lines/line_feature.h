@@ -1,0 +1,41 @@
+#pragma once
+#include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/geometry/line3.h>
+#include <placegraph/graph/geometry/line_segment.h>
+#include <placegraph/graph/image/image.h>
+#include <placegraph/graph/landmark.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// A straight edge of a keyframe, described, with its line in the keyframe's camera frame where
+/// that is known.
+struct LineFeature {
+  LineSegment segment;
+  BinaryDescriptor descriptor{};
+  std::optional<Line3> line_cam;
+};
+
+/// Line band descriptors, 256 bits, of segments of a grey image (Zhang & Koch 2013, by OpenCV).
+/// Throws ArgumentError if the image is not CV_8UC1 or a segment lies outside it or has no length.
+std::vector<BinaryDescriptor> describe_segments(const Image& image,
+                                                const std::vector<LineSegment>& segments);
+
+struct LineFeatureMatch {
+  int a = 0, b = 0;  ///< indices into the two lists
+};
+
+/// Segments of a that show lines of b, whose pose T_b_a is known about: near the projection of b's
+/// line, along it, beside its part that b sees, the most alike descriptor. Each segment of a has
+/// one partner at most; ascending in a.
+std::vector<LineFeatureMatch> match_lines_guided(const Camera& camera,
+                                                 const std::vector<LineFeature>& a,
+                                                 const std::vector<LineFeature>& b,
+                                                 const SE3& T_b_a,
+                                                 const LineFeatureMatcherOptions& options);
+
+}  // namespace placegraph

@@ -1,0 +1,27 @@
+#include <placegraph/frontend/internal/places/classifiers/place_machine.h>
+
+namespace placegraph {
+
+void PlaceClassifierOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, PlaceClassifierOptions& o) {
+  field.choice("machine", o.machine, {"kernel", "svm", "adaboost"}, "what learns the places");
+  field("ridge", o.ridge, "added to the diagonal of the kernel matrix", {1e-9, 1e3});
+  field("folds", o.folds, "parts of a visit, each left out of the training once", {2, 20});
+  field("rounds", o.rounds, "stumps of one boosted machine", {1, 10000});
+}
+
+TrainedPlaceMachine train_place_machine(const PlaceLesson& lesson,
+                                        const PlaceClassifierOptions& options) {
+  switch (options.machine) {
+    case PlaceMachineKind::kSvm:
+      return train_support_vectors(lesson, options);
+    case PlaceMachineKind::kAdaboost:
+      return train_boosted_machine(lesson, options);
+    case PlaceMachineKind::kKernel:
+      break;
+  }
+  return train_kernel_machine(lesson, options);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,18 @@
+#pragma once
+#include <placegraph/frontend/internal/places/cues/cue_grid.h>
+#include <placegraph/graph/image/image.h>
+
+namespace placegraph {
+
+struct ColourHistogramOptions {
+  int cells = 4;  ///< columns and rows, whatever the shape of the image
+  int hues = 16, saturations = 4, values = 4;
+};
+
+/// Histograms of hue, saturation and value in the cells of a grid. A pixel counts for the two
+/// nearest bins of each and for the four nearest cells, by its distance. A cell's histogram sums to
+/// one and its root is taken, so that the cosine of two is their Bhattacharyya coefficient. BGR of
+/// 8 bits (ArgumentError otherwise): a grey image has no such cue.
+CueGrid colour_histogram_cue(const Image& bgr, const ColourHistogramOptions& options = {});
+
+}  // namespace placegraph

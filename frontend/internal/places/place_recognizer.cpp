@@ -1,0 +1,160 @@
+#include <placegraph/frontend/internal/places/dense_index.h>
+#include <placegraph/frontend/internal/places/place_view.h>
+#include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/frontend/places/place_recognizer.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/function_clones.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+/// A view of the short list with what is known of it so far.
+struct Candidate {
+  int view = 0;
+  double coarse = 0;
+  GridLikeness grids;
+  double corners = 0;
+  bool verified = false;
+  double score() const { return grids.sum() + corners; }
+};
+
+// Best first by some figure; equal ones keep their order.
+template <class Figure>
+void sort_by(std::vector<Candidate>& candidates, const Figure& figure) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [&](const Candidate& a, const Candidate& b) { return figure(a) > figure(b); });
+}
+
+// The corners of a view that any cue puts among its first are looked at, not only of those that
+// are first in the sum: where one cue fails, the sum is no good guide.
+void nominate(std::vector<Candidate>& candidates, const PlaceRecognizerOptions& options) {
+  const auto mark = [&](auto figure, int count) {
+    sort_by(candidates, figure);
+    const auto longest = std::min(candidates.size(), static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < longest; ++i) candidates[i].verified = true;
+  };
+  mark([](const Candidate& c) { return c.grids.tiny; }, options.nominated);
+  mark([](const Candidate& c) { return c.grids.colour; }, options.nominated);
+  mark([](const Candidate& c) { return c.grids.gradients; }, options.nominated);
+  mark([](const Candidate& c) { return c.score(); }, options.verified);
+}
+
+/// Inner products of unit vectors, three at most: far below 2^31.
+PLACEGRAPH_CLONES
+void inner_products(const std::int16_t* query, const std::int16_t* stored, std::ptrdiff_t length,
+                    int count, std::int32_t* products) {
+  for (int view = 0; view < count; ++view) {
+    const std::int16_t* other = stored + view * length;
+    std::int32_t sum = 0;
+    for (std::ptrdiff_t i = 0; i < length; ++i)
+      sum += static_cast<std::int32_t>(query[i]) * other[i];
+    products[view] = sum;
+  }
+}
+
+std::vector<float> unit_vector(const std::int16_t* glance, std::size_t length) {
+  std::vector<float> vector(glance, glance + length);
+  float squares = 0;
+  for (const float value : vector) squares += value * value;
+  const float scale = squares > 0 ? 1 / std::sqrt(squares) : 0;
+  for (float& value : vector) value *= scale;
+  return vector;
+}
+
+}  // namespace
+
+PlaceRecognizer::PlaceRecognizer(const PlaceRecognizerOptions& options) : options_(options) {
+  options_.check();
+}
+
+PlaceRecognizer::~PlaceRecognizer() = default;
+PlaceRecognizer::PlaceRecognizer(PlaceRecognizer&&) noexcept = default;
+PlaceRecognizer& PlaceRecognizer::operator=(PlaceRecognizer&&) noexcept = default;
+
+int PlaceRecognizer::add(PlaceView view) {
+  require(views_.empty() || views_.front().colour.empty() == view.colour.empty(),
+          "PlaceRecognizer: one view is grey and one in colour");
+  if (view.tiny.size() > 1) view.tiny.resize(1);
+  if (view.gradients.size() > 1) view.gradients.resize(1);
+  require(views_.empty() || views_.front().glance.size() == view.glance.size(),
+          "PlaceRecognizer: views of different cues");
+  glances_.insert(glances_.end(), view.glance.begin(), view.glance.end());
+  views_.push_back(std::move(view));
+  grow_graph();
+  return size() - 1;
+}
+
+// From half of the number on two views are entered for each that comes, so that none waits long.
+void PlaceRecognizer::grow_graph() {
+  const std::size_t length = views_.back().glance.size();
+  if (length == 0 || size() < options_.indexed_from / 2) return;
+  if (!graph_) graph_ = std::make_unique<DenseIndex>(static_cast<int>(length), 0);
+  for (int i = 0; i < 2 && graph_->size() < size(); ++i)
+    graph_->add(
+        unit_vector(glances_.data() + static_cast<std::size_t>(graph_->size()) * length, length));
+}
+
+std::vector<int> PlaceRecognizer::glance_along_graph(const PlaceView& query, int first,
+                                                     int last) const {
+  std::vector<int> views;
+  for (const PlaceLikeness& likeness : graph_->query(
+           unit_vector(query.glance.data(), query.glance.size()), options_.glanced, first, last))
+    views.push_back(likeness.view);
+  std::sort(views.begin(), views.end());
+  return views;
+}
+
+std::vector<int> PlaceRecognizer::glance(const PlaceView& query, int first, int last) const {
+  if (first > last) return {};
+  if (graph_ && graph_->size() == size() && last - first + 1 >= options_.indexed_from)
+    return glance_along_graph(query, first, last);
+  const auto length = static_cast<std::ptrdiff_t>(query.glance.size());
+  std::vector<std::int32_t> likeness(static_cast<std::size_t>(last - first + 1));
+  inner_products(query.glance.data(), glances_.data() + first * length, length, last - first + 1,
+                 likeness.data());
+  std::vector<std::pair<std::int32_t, int>> order;  // minus the likeness, view
+  order.reserve(likeness.size());
+  for (int view = first; view <= last; ++view)
+    order.emplace_back(-likeness[static_cast<std::size_t>(view - first)], view);
+  const auto count = std::min(order.size(), static_cast<std::size_t>(options_.glanced));
+  if (count < order.size())
+    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
+                     order.end());
+  std::vector<int> views;
+  for (std::size_t i = 0; i < count; ++i) views.push_back(order[i].second);
+  std::sort(views.begin(), views.end());
+  return views;
+}
+
+std::vector<PlaceLikeness> PlaceRecognizer::query(const PlaceView& query, int first,
+                                                  int last) const {
+  const auto view_at = [&](int i) -> const PlaceView& {
+    return views_[static_cast<std::size_t>(i)];
+  };
+  require(views_.empty() || query.glance.size() == views_.front().glance.size(),
+          "PlaceRecognizer: a query of other cues than the views");
+  std::vector<Candidate> candidates;
+  for (const int view : glance(query, std::max(first, 0), std::min(last, size() - 1)))
+    candidates.push_back(
+        {view, coarse_likeness(query, view_at(view), options_.cues), {}, 0, false});
+  sort_by(candidates, [](const Candidate& c) { return c.coarse; });
+  if (candidates.size() > static_cast<std::size_t>(options_.short_list))
+    candidates.resize(static_cast<std::size_t>(options_.short_list));
+  for (Candidate& candidate : candidates)
+    candidate.grids = grid_likeness(query, view_at(candidate.view), options_.cues);
+  if (options_.cues.corners > 0) {
+    nominate(candidates, options_);
+    for (Candidate& candidate : candidates)
+      if (candidate.verified)
+        candidate.corners = corner_likeness(query, view_at(candidate.view), options_.cues);
+  }
+  sort_by(candidates, [](const Candidate& c) { return c.score(); });
+  std::vector<PlaceLikeness> list;
+  for (const Candidate& candidate : candidates) list.push_back({candidate.view, candidate.score()});
+  return list;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,115 @@
+#include <placegraph/frontend/places/sequence_filter.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/function_clones.h>
+#include <placegraph/graph/internal/core/median.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace placegraph {
+namespace {
+
+constexpr std::array kPaces = {1.0, -1.0, 0.5, -0.5, 2.0, -2.0};
+
+// best[i] = max(best[i], before[i] - penalty)
+PLACEGRAPH_CLONES
+void raise(double* best, const double* before, std::size_t count, double penalty) {
+  for (std::size_t i = 0; i < count; ++i) best[i] = std::max(best[i], before[i] - penalty);
+}
+
+// Of many scores every few are asked: the map may be large.
+double middle_of(const std::vector<double>& scores) {
+  constexpr std::size_t kMost = 2000;
+  const std::size_t stride = 1 + (scores.size() - 1) / kMost;
+  if (stride == 1) return median_of(scores);
+  std::vector<double> some;
+  for (std::size_t i = 0; i < scores.size(); i += stride) some.push_back(scores[i]);
+  return median_of(std::move(some));
+}
+
+}  // namespace
+
+SequenceFilter::SequenceFilter(const SequenceFilterOptions& options) : options_(options) {
+  options_.check();
+}
+
+std::vector<double> SequenceFilter::predict(const State& state, int first, int last) const {
+  const auto count = static_cast<int>(state.score.size());
+  // A path may begin at a view that was none before: as likely as the middle one.
+  const double begin = middle_of(state.score);
+  const int size = last - first + 1;
+  std::vector<double> best(static_cast<std::size_t>(size),
+                           -std::numeric_limits<double>::infinity());
+  const int direction = state.pace < 0 ? -1 : 1;
+  for (int step = 0; step <= options_.max_step; ++step) {
+    const double off = step - std::abs(state.pace);
+    const double penalty = options_.pace_penalty * off * off;
+    // Of first..last, those that a view known before leads to; a path begins at the others.
+    const int shift = direction * step + first_ - first;
+    const int known = std::clamp(shift, 0, size), end = std::clamp(count + shift, known, size);
+    if (known < end)
+      raise(&best[static_cast<std::size_t>(known)],
+            &state.score[static_cast<std::size_t>(known - shift)],
+            static_cast<std::size_t>(end - known), penalty);
+    const auto begin_at = [&](double& score) { score = std::max(score, begin - penalty); };
+    std::for_each(best.begin(), best.begin() + known, begin_at);
+    std::for_each(best.begin() + end, best.end(), begin_at);
+  }
+  return best;
+}
+
+std::vector<PlaceLikeness> SequenceFilter::update(const std::vector<PlaceLikeness>& list, int first,
+                                                  int last) {
+  if (list.empty()) {
+    restart();
+    return {};
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const PlaceLikeness& likeness : list) {
+    require(likeness.view >= first && likeness.view <= last,
+            "SequenceFilter: a view outside the range");
+    least = std::min(least, likeness.score);
+  }
+  std::vector<double> row(static_cast<std::size_t>(last - first + 1), least);
+  for (const PlaceLikeness& likeness : list)
+    row[static_cast<std::size_t>(likeness.view - first)] = likeness.score;
+
+  if (states_.empty()) {
+    for (const double pace : kPaces) states_.push_back({pace, row});
+    weight_ = 1;
+  } else {
+    for (State& state : states_) {
+      std::vector<double> score = predict(state, first, last);
+      for (std::size_t i = 0; i < row.size(); ++i) score[i] = row[i] + options_.memory * score[i];
+      state.score = std::move(score);
+    }
+    weight_ = 1 + options_.memory * weight_;
+  }
+  first_ = first;
+  std::vector<PlaceLikeness> result;
+  for (int view = first; view <= last; ++view) {
+    double best = -std::numeric_limits<double>::infinity();
+    for (const State& state : states_)
+      best = std::max(best, state.score[static_cast<std::size_t>(view - first)]);
+    result.push_back({view, best / weight_});
+  }
+  std::stable_sort(
+      result.begin(), result.end(),
+      [](const PlaceLikeness& a, const PlaceLikeness& b) { return a.score > b.score; });
+  return result;
+}
+
+double SequenceFilter::confidence(const PlaceLikeness& answer,
+                                  const std::vector<PlaceLikeness>& list) const {
+  double present = std::numeric_limits<double>::infinity();
+  for (const PlaceLikeness& likeness : list) {
+    present = likeness.view == answer.view ? likeness.score : std::min(present, likeness.score);
+    if (likeness.view == answer.view) break;
+  }
+  if (list.empty()) return answer.score;
+  return (answer.score + options_.present * present) / (1 + options_.present);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,192 @@
+#include <placegraph/frontend/internal/planes/dominant_surface.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+
+constexpr std::array kRegions{SurfaceRegion::kAhead, SurfaceRegion::kNear, SurfaceRegion::kFar,
+                              SurfaceRegion::kLeft, SurfaceRegion::kRight};
+constexpr double kChi2 = 16.27;  // 3 degrees of freedom, 99.9 %
+
+/// Bounds in distances of the surface: along the optical axis and to the right.
+struct Bounds {
+  double near, far, left, right;
+};
+
+Bounds bounds_of(SurfaceRegion region, const DominantSurfaceOptions& o) {
+  const double w = o.half_width_heights, middle = std::sqrt(o.near_heights * o.far_heights);
+  switch (region) {
+    case SurfaceRegion::kAhead:
+      return {o.near_heights, o.far_heights, -w, w};
+    case SurfaceRegion::kNear:
+      return {o.near_heights, middle, -w, w};
+    case SurfaceRegion::kFar:
+      return {middle, 1.5 * o.far_heights, -w, w};
+    case SurfaceRegion::kLeft:
+      return {o.near_heights, o.far_heights, -3 * w, -0.5 * w};
+    case SurfaceRegion::kRight:
+      return {o.near_heights, o.far_heights, 0.5 * w, 3 * w};
+  }
+  return {};
+}
+
+}  // namespace
+
+const char* to_string(SurfaceRegion region) {
+  constexpr std::array kNames{"ahead", "near", "far", "left", "right"};
+  return kNames[static_cast<std::size_t>(region)];
+}
+
+DominantSurface::DominantSurface(const DominantSurfaceOptions& options, const Camera& camera,
+                                 const Plane& mounting_cam)
+    : options_(options),
+      camera_(camera),
+      g_cam_(mounting_cam.normal.normalized() / mounting_cam.distance_m) {
+  options_.check();
+  require(mounting_cam.distance_m > 0, "DominantSurface: the distance must be positive");
+  widen(deg_to_rad(options_.mounting_sigma_deg), options_.mounting_sigma_distance);
+}
+
+Plane DominantSurface::plane_cam() const { return {g_cam_.normalized(), 1 / g_cam_.norm()}; }
+
+/// Pitch and roll are across the normal, the height along it.
+void DominantSurface::widen(double sigma_rad, double sigma_log_distance) {
+  const Vector3d n = g_cam_.normalized();
+  const Matrix3d along = n * n.transpose();
+  covariance_ += g_cam_.squaredNorm() * (sigma_rad * sigma_rad * (Matrix3d::Identity() - along) +
+                                         sigma_log_distance * sigma_log_distance * along);
+}
+
+/// n' = R n and d' = d + n'^T t, so that g' = R g / (1 + (R g)^T t).
+void DominantSurface::predict(const SE3& T_cur_last) {
+  const Matrix3d R = T_cur_last.rotation().matrix();
+  const Vector3d turned = R * g_cam_, &t = T_cur_last.translation();
+  const double stretch = 1 + turned.dot(t);
+  if (stretch > 0.1) {  // else the motion leads through the surface: not believed
+    const Matrix3d J = (Matrix3d::Identity() - turned * t.transpose() / stretch) * R / stretch;
+    g_cam_ = turned / stretch;
+    covariance_ = J * covariance_ * J.transpose();
+  }
+  widen(deg_to_rad(options_.pitching_sigma_deg), options_.distance_drift);
+}
+
+std::vector<Vector2f> DominantSurface::pixels_of(SurfaceRegion region, const Image& mask) const {
+  const Bounds b = bounds_of(region, options_);
+  const double distance = 1 / g_cam_.norm();
+  const auto on_grid = [&](int step) {
+    std::vector<Vector2f> px;
+    for (int v = step / 2; v < camera_.height; v += step)
+      for (int u = step / 2; u < camera_.width; u += step) {
+        if (!mask.empty() && !mask.at<std::uint8_t>(v, u)) continue;
+        const auto ray = camera_.unproject({static_cast<double>(u), static_cast<double>(v)});
+        if (!ray) continue;
+        const double heights = 1 / (distance * g_cam_.dot(*ray));
+        const double right = ray->x() * heights;
+        if (heights > b.near && heights < b.far && right > b.left && right < b.right)
+          px.emplace_back(static_cast<float>(u), static_cast<float>(v));
+      }
+    return px;
+  };
+  // The grid's step is told by how many pixels a coarse one finds.
+  constexpr int kCoarse = 8;
+  const double area = kCoarse * kCoarse * static_cast<double>(on_grid(kCoarse).size());
+  return on_grid(std::max(1, static_cast<int>(std::sqrt(area / options_.pixels))));
+}
+
+InverseDepthPlane DominantSurface::measure(SurfaceRegion region, const SurfaceDepths& depths,
+                                           const Image& mask, Random& random,
+                                           SurfaceLook& look) const {
+  const std::vector<Vector2f> px = pixels_of(region, mask);
+  std::vector<double> expected;
+  for (const Vector2f& p : px)
+    expected.push_back(g_cam_.dot(camera_.unproject(p.cast<double>()).value_or(Vector3d::UnitZ())));
+  const auto answers = depths(px, expected);
+  require(answers.size() == px.size(), "DominantSurface: as many depths as pixels needed");
+  std::vector<InverseDepth> known;
+  std::vector<Vector2f> known_px;
+  for (std::size_t i = 0; i < px.size(); ++i)
+    if (answers[i]) {
+      known.push_back(*answers[i]);
+      known_px.push_back(px[i]);
+    }
+  InverseDepthPlane plane = fit_inverse_depth_plane(known, options_.fit, random);
+  look.region = region;
+  look.share = known.empty()
+                   ? 0
+                   : static_cast<double>(plane.inliers.size()) / static_cast<double>(known.size());
+  look.on_px.clear();
+  look.off_px.clear();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < known_px.size(); ++i) {
+    const bool on = next < plane.inliers.size() && plane.inliers[next] == static_cast<int>(i);
+    next += on;
+    (on ? look.on_px : look.off_px).push_back(known_px[i]);
+  }
+  return plane;
+}
+
+SurfaceLook DominantSurface::look(const SurfaceDepths& depths, const SE3& T_cur_last,
+                                  const Image& mask, Random& random) {
+  require(mask.empty() ||
+              (mask.type() == CV_8UC1 && mask.cols == camera_.width && mask.rows == camera_.height),
+          "DominantSurface: a mask of the camera's size needed");
+  predict(T_cur_last);
+  std::vector<SurfaceRegion> order{last_region_};
+  for (const SurfaceRegion region : kRegions)
+    if (region != last_region_) order.push_back(region);
+
+  SurfaceLook best;
+  best.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no depths below the horizon");
+  for (const SurfaceRegion region : order) {
+    SurfaceLook look;
+    const InverseDepthPlane measured = measure(region, depths, mask, random, look);
+    if (measured.outcome && look.share >= options_.min_share) {
+      const Vector3d innovation = measured.g_cam - g_cam_;
+      const Matrix3d S = covariance_ + measured.covariance;
+      look.chi2 = innovation.dot(S.ldlt().solve(innovation));
+      if (look.chi2 < kChi2) {
+        const Matrix3d gain = S.ldlt().solve(covariance_).transpose();
+        g_cam_ += gain * innovation;
+        const Matrix3d rest = Matrix3d::Identity() - gain;
+        covariance_ =
+            rest * covariance_ * rest.transpose() + gain * measured.covariance * gain.transpose();
+        look.outcome = Outcome::ok();
+        last_region_ = region;
+        best = std::move(look);
+        break;
+      }
+      look.outcome = Outcome::failure(Outcome::Code::kInconsistent,
+                                      std::string("another plane ") + to_string(region));
+    } else {
+      look.outcome =
+          measured.outcome
+              ? Outcome::failure(Outcome::Code::kNoConsensus,
+                                 "too small a share on a plane " + std::string(to_string(region)))
+              : measured.outcome;
+    }
+    // Of failures, the one that came farthest is told.
+    const auto rank = [](const Outcome& o) {
+      return o.code == Outcome::Code::kInconsistent ? 2
+             : o.code == Outcome::Code::kTooFewData ? 0
+                                                    : 1;
+    };
+    if (rank(look.outcome) > rank(best.outcome)) best = std::move(look);
+  }
+  if (best.outcome.code == Outcome::Code::kInconsistent)
+    widen(deg_to_rad(options_.slope_sigma_deg), options_.distance_drift);
+  best.plane_cam = plane_cam();
+  best.sigma_normal_rad = placegraph::sigma_normal_rad(g_cam_, covariance_);
+  best.sigma_log_distance = placegraph::sigma_log_distance(g_cam_, covariance_);
+  return best;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,391 @@
+#include <placegraph/frontend/internal/planes/label_expansion.h>
+#include <placegraph/frontend/internal/planes/planar_regions.h>
+#include <placegraph/graph/core/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace placegraph {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+
+constexpr double kMaxCost = 1e4;  ///< of one match [nats]: stands for impossible
+/// Where the noise begins, over noise_px: with too much of it small planes fall to large ones, with
+/// too little large ones to pieces; the cost decides.
+constexpr double kNoiseStarts[] = {0.3, 0.6, 1.2, 2.4};
+/// Neighbours that must agree with a sample beside its own.
+constexpr int kMoreNeighbours = 2;
+constexpr int kFitIterations = 10;
+constexpr int kRounds = 12;  ///< of labels, models and noise in turn
+
+struct Answer {
+  std::vector<Matrix3d> models;
+  std::vector<int> labels;  // 0: none, k: models[k - 1]
+  double share_none = 1;    // of label 0
+  double noise_px = 1;
+  bool noise_free = false;  // re-estimated with the models
+  double cost = 0;
+};
+
+/// The matches and what does not change while planes are looked for.
+class Search {
+ public:
+  Search(const PointMatches& matches, const PlanarRegionsOptions& options)
+      : matches_(matches), options_(options) {
+    Vector2d low = matches.px_cur[0], high = low;
+    for (const Vector2d& px : matches.px_cur) {
+      low = low.cwiseMin(px);
+      high = high.cwiseMax(px);
+    }
+    log_area_ = std::log(std::max((high - low).prod(), 1.0));
+    find_neighbours();
+  }
+
+  Answer nothing(double noise_px) const;
+  /// The best of many local samples, refined; false if none helps.
+  bool propose(const Answer& answer, Random& random, Matrix3d& H) const;
+  /// Labels, models, noise and shares in turn until the cost stands; weak planes are dropped.
+  Answer settle(Answer answer, int rounds) const;
+  Answer merged(Answer answer) const;
+  /// Plane after plane with the noise held, then all together with the noise free.
+  Answer search(double noise_px, Random& random) const;
+  std::vector<int> members(const Answer& answer, int label) const;
+
+ private:
+  void find_neighbours();
+  double on_plane_cost(const Matrix3d& H, double noise_px, int i) const;
+  double plane_cost(const Answer& answer, int matches) const;
+  Eigen::MatrixXd costs(const Answer& answer) const;
+  double total(const Answer& answer) const;
+  void drop(Answer& answer, int label) const;
+  bool relabel(Answer& answer) const;
+  void refit(Answer& answer) const;
+  /// Whether some of the neighbours among which a sample was drawn lie on its plane, too.
+  bool agrees(const Matrix3d& H, const Answer& answer, const std::vector<int>& near) const;
+  double gain(const Matrix3d& H, const Answer& answer, const std::vector<double>& now,
+              std::vector<int>* inliers) const;
+
+  const PointMatches& matches_;
+  const PlanarRegionsOptions& options_;
+  double log_area_ = 0;
+  std::vector<std::vector<int>> near_;  // of each match, nearest first
+  std::vector<std::pair<int, int>> neighbours_;
+};
+
+void Search::find_neighbours() {
+  const int n = matches_.size();
+  const int count = std::min(std::max(options_.neighbours, options_.sample_neighbours), n - 1);
+  near_.resize(static_cast<std::size_t>(n));
+  std::set<std::pair<int, int>> pairs;
+  std::vector<std::pair<double, int>> distances;
+  for (int i = 0; i < n; ++i) {
+    const auto a = static_cast<std::size_t>(i);
+    distances.clear();
+    for (int j = 0; j < n; ++j) {
+      const auto b = static_cast<std::size_t>(j);
+      if (j != i)
+        distances.emplace_back((matches_.px_ref[a] - matches_.px_ref[b]).squaredNorm() +
+                                   (matches_.px_cur[a] - matches_.px_cur[b]).squaredNorm(),
+                               j);
+    }
+    std::partial_sort(distances.begin(), distances.begin() + count, distances.end());
+    for (int k = 0; k < count; ++k) {
+      near_[a].push_back(distances[static_cast<std::size_t>(k)].second);
+      if (k < options_.neighbours)
+        pairs.insert(std::minmax(i, distances[static_cast<std::size_t>(k)].second));
+    }
+  }
+  neighbours_.assign(pairs.begin(), pairs.end());
+}
+
+double Search::on_plane_cost(const Matrix3d& H, double noise_px, int i) const {
+  const auto k = static_cast<std::size_t>(i);
+  const TransferError error = transfer_error(H, matches_.px_ref[k], matches_.px_cur[k]);
+  const double cost = TransferNoise{noise_px, options_.tail_freedom}.cost(error);
+  return std::isfinite(cost) ? std::min(cost, kMaxCost) : kMaxCost;
+}
+
+/// Four points of the current view, each to the precision with which n matches give it.
+double Search::plane_cost(const Answer& answer, int n) const {
+  return 4 * (log_area_ - std::log(2 * std::numbers::pi * 2 * answer.noise_px * answer.noise_px) +
+              std::log(std::max(n, 4) / 4.0));
+}
+
+Eigen::MatrixXd Search::costs(const Answer& answer) const {
+  const int n = matches_.size(), labels = static_cast<int>(answer.models.size()) + 1;
+  Eigen::MatrixXd unary(n, labels);
+  for (int l = 0; l < labels; ++l) {
+    const double share = -std::log(l == 0 ? answer.share_none : 1 - answer.share_none);
+    for (int i = 0; i < n; ++i)
+      unary(i, l) = share + (l == 0 ? log_area_
+                                    : on_plane_cost(answer.models[static_cast<std::size_t>(l - 1)],
+                                                    answer.noise_px, i));
+  }
+  return unary;
+}
+
+std::vector<int> Search::members(const Answer& answer, int label) const {
+  std::vector<int> which;
+  for (int i = 0; i < matches_.size(); ++i)
+    if (answer.labels[static_cast<std::size_t>(i)] == label) which.push_back(i);
+  return which;
+}
+
+void set_share(Answer& answer) {
+  // One more of each than there is, so that none is impossible.
+  const auto none = std::count(answer.labels.begin(), answer.labels.end(), 0);
+  answer.share_none =
+      (1.0 + static_cast<double>(none)) / (2.0 + static_cast<double>(answer.labels.size()));
+}
+
+double Search::total(const Answer& answer) const {
+  double cost = label_cost({costs(answer), neighbours_, options_.smoothness}, answer.labels);
+  for (std::size_t k = 1; k <= answer.models.size(); ++k)
+    cost += plane_cost(answer, static_cast<int>(members(answer, static_cast<int>(k)).size()));
+  // The noise's prior, inverse gamma, that goes with the estimate of refit.
+  const double ratio = options_.noise_px / answer.noise_px;
+  return cost + options_.noise_confidence * (ratio * ratio - 2 * std::log(ratio));
+}
+
+Answer Search::nothing(double noise_px) const {
+  Answer answer;
+  answer.labels.assign(static_cast<std::size_t>(matches_.size()), 0);
+  answer.noise_px = noise_px;
+  set_share(answer);
+  answer.cost = total(answer);
+  return answer;
+}
+
+void Search::drop(Answer& answer, int label) const {
+  answer.models.erase(answer.models.begin() + label - 1);
+  for (int& l : answer.labels) {
+    if (l == label) l = 0;
+    if (l > label) --l;
+  }
+  set_share(answer);
+}
+
+double Search::gain(const Matrix3d& H, const Answer& answer, const std::vector<double>& now,
+                    std::vector<int>* inliers) const {
+  double sum = 0;
+  if (inliers) inliers->clear();
+  const double share = -std::log(1 - answer.share_none);
+  for (int i = 0; i < matches_.size(); ++i) {
+    const double less =
+        now[static_cast<std::size_t>(i)] - on_plane_cost(H, answer.noise_px, i) - share;
+    if (!(less > 0)) continue;
+    sum += less;
+    if (inliers) inliers->push_back(i);
+  }
+  return sum;
+}
+
+bool Search::agrees(const Matrix3d& H, const Answer& answer, const std::vector<int>& near) const {
+  const double none = log_area_ - std::log(answer.share_none) + std::log(1 - answer.share_none);
+  int count = 0;
+  for (const int i : near) count += on_plane_cost(H, answer.noise_px, i) < none;
+  return count >= 3 + kMoreNeighbours;
+}
+
+bool Search::propose(const Answer& answer, Random& random, Matrix3d& H) const {
+  const int n = matches_.size();
+  const Eigen::MatrixXd unary = costs(answer);
+  std::vector<double> now(static_cast<std::size_t>(n));
+  std::vector<int> seeds;
+  for (int i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    now[k] = unary(i, answer.labels[k]);
+    if (answer.labels[k] == 0) seeds.push_back(i);
+  }
+  double best = 0;
+  std::vector<int> three, inliers;
+  for (int sample = 0; sample < options_.samples; ++sample) {
+    // Every other sample begins at a match without a plane.
+    const int seed =
+        sample % 2 == 0 && !seeds.empty()
+            ? seeds[static_cast<std::size_t>(random.index(static_cast<int>(seeds.size())))]
+            : random.index(n);
+    const std::vector<int>& near = near_[static_cast<std::size_t>(seed)];
+    if (near.size() < 3) return false;
+    const int reach =
+        std::min<int>(static_cast<int>(near.size()), std::max(3, options_.sample_neighbours));
+    random.sample(reach, 3, three);
+    const auto hypothesis =
+        homography_through(matches_, {seed, near[static_cast<std::size_t>(three[0])],
+                                      near[static_cast<std::size_t>(three[1])],
+                                      near[static_cast<std::size_t>(three[2])]});
+    if (!hypothesis) continue;
+    Matrix3d model = *hypothesis;
+    if (!agrees(model, answer, near)) continue;
+    double score = gain(model, answer, now, &inliers);
+    // Four neighbours fix a plane far off badly: refined on what agrees, while that helps.
+    for (int round = 0; round < 6 && score > 0.4 * best && inliers.size() > 5; ++round) {
+      const HomographyFit fit =
+          refine_homography(model, matches_, inliers, {answer.noise_px, options_.tail_freedom}, 3);
+      if (!fit.outcome) break;
+      std::vector<int> agree;
+      const double refined = gain(fit.H_cur_ref, answer, now, &agree);
+      if (!(refined > score)) break;
+      score = refined;
+      model = fit.H_cur_ref;
+      inliers = agree;
+    }
+    if (score > best) {
+      best = score;
+      H = model;
+    }
+  }
+  return best > 0;
+}
+
+bool Search::relabel(Answer& answer) const {
+  std::vector<int> labels = answer.labels;
+  const LabelProblem problem{costs(answer), neighbours_, options_.smoothness};
+  expand_labels(problem, labels);
+  const bool changed = labels != answer.labels;
+  answer.labels = labels;
+  for (int k = static_cast<int>(answer.models.size()); k >= 1; --k)
+    if (static_cast<int>(members(answer, k).size()) < options_.min_matches) drop(answer, k);
+  set_share(answer);
+  return changed;
+}
+
+void Search::refit(Answer& answer) const {
+  const TransferNoise noise{answer.noise_px, options_.tail_freedom};
+  double squared = 2 * options_.noise_confidence * options_.noise_px * options_.noise_px;
+  double freedom = 2 * options_.noise_confidence;
+  for (int k = static_cast<int>(answer.models.size()); k >= 1; --k) {
+    Matrix3d& model = answer.models[static_cast<std::size_t>(k - 1)];
+    const std::vector<int> which = members(answer, k);
+    const HomographyFit fit = refine_homography(model, matches_, which, noise, kFitIterations);
+    if (!fit.outcome) {
+      drop(answer, k);
+      continue;
+    }
+    model = fit.H_cur_ref;
+    for (const int i : which) {
+      const auto j = static_cast<std::size_t>(i);
+      const TransferError error = transfer_error(model, matches_.px_ref[j], matches_.px_cur[j]);
+      squared += noise.weight(error) * error.squared;
+    }
+    freedom += 2.0 * static_cast<double>(which.size());
+  }
+  if (answer.noise_free) answer.noise_px = std::sqrt(squared / freedom);
+}
+
+Answer Search::settle(Answer answer, int rounds) const {
+  set_share(answer);
+  Answer best;
+  for (int round = 0; round < rounds; ++round) {
+    const bool changed = relabel(answer);
+    refit(answer);
+    answer.cost = total(answer);
+    if (round == 0 || answer.cost < best.cost) best = answer;
+    if (!changed) break;
+  }
+  return best;
+}
+
+Answer Search::merged(Answer answer) const {
+  for (bool lower = true; lower;) {
+    lower = false;
+    const int planes = static_cast<int>(answer.models.size());
+    for (int a = 1; a <= planes && !lower; ++a)
+      for (int b = 0; b <= planes && !lower; ++b) {
+        if (b == a) continue;
+        Answer trial = answer;
+        for (int& l : trial.labels)
+          if (l == a) l = b;
+        drop(trial, a);
+        trial = settle(trial, 2);
+        if (!(trial.cost < answer.cost - 1e-6)) continue;
+        answer = settle(trial, kRounds);
+        lower = true;
+      }
+  }
+  return answer;
+}
+
+Answer Search::search(double noise_px, Random& random) const {
+  Answer answer = nothing(noise_px);
+  while (static_cast<int>(answer.models.size()) < options_.max_planes) {
+    Answer more = answer;
+    Matrix3d H;
+    if (!propose(answer, random, H)) break;
+    more.models.push_back(H);
+    more = settle(more, kRounds);
+    if (!(more.cost < answer.cost - 1e-6)) break;
+    answer = std::move(more);
+  }
+  answer.noise_free = true;
+  return merged(settle(answer, kRounds));
+}
+
+}  // namespace
+
+void PlanarRegionsOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, PlanarRegionsOptions& o) {
+  field("noise_px", o.noise_px, "noise of a match per coordinate and view, to start from",
+        {0.01, 100});
+  field("noise_confidence", o.noise_confidence, "matches that noise_px weighs in the estimate",
+        {0, 1e9});
+  field("tail_freedom", o.tail_freedom, "degrees of freedom of the noise, Student t", {1, 1e9});
+  field("smoothness", o.smoothness, "cost of two neighbours with different labels [nats]",
+        {0, 100});
+  field("neighbours", o.neighbours, "of each match, near in both views", {0, 100});
+  field("samples", o.samples, "of four matches, per plane that is looked for", {1, 1e7});
+  field("sample_neighbours", o.sample_neighbours,
+        "a sample lies among so many nearest of its first match", {3, 1e6});
+  field("min_matches", o.min_matches, "a plane with fewer is none", {5, 1e6});
+  field("max_planes", o.max_planes, "found at most", {1, 1000});
+}
+
+PlanarRegionsResult find_planar_regions(const PointMatches& matches,
+                                        const PlanarRegionsOptions& options, Random& random) {
+  options.check();
+  require(matches.px_ref.size() == matches.px_cur.size(),
+          "find_planar_regions: as many pixels in both views needed");
+  PlanarRegionsResult result;
+  result.labels.assign(matches.px_ref.size(), 0);
+  if (matches.size() < options.min_matches) {
+    result.outcome = Outcome::failure(Outcome::Code::kTooFewData,
+                                      std::to_string(matches.size()) + " matches, " +
+                                          std::to_string(options.min_matches) + " needed");
+    return result;
+  }
+  const Search search(matches, options);
+  Answer answer = search.nothing(options.noise_px);
+  const double empty = answer.cost;
+  for (const double factor : kNoiseStarts) {
+    Answer other = search.search(factor * options.noise_px, random);
+    if (other.cost < answer.cost) answer = std::move(other);
+  }
+  result.noise = {answer.noise_px, options.tail_freedom};
+  result.description_length = answer.cost - empty;
+  if (answer.models.empty()) {
+    result.outcome = Outcome::failure(Outcome::Code::kNoConsensus, "no plane is worth its cost");
+    return result;
+  }
+  std::vector<std::pair<int, int>> order;
+  for (int k = 1; k <= static_cast<int>(answer.models.size()); ++k)
+    order.emplace_back(-static_cast<int>(search.members(answer, k).size()), k);
+  std::sort(order.begin(), order.end());
+  for (const auto& [minus_size, k] : order) {
+    const std::vector<int> which = search.members(answer, k);
+    const HomographyFit fit = refine_homography(answer.models[static_cast<std::size_t>(k - 1)],
+                                                matches, which, result.noise, kFitIterations);
+    result.regions.push_back(
+        {fit.H_cur_ref, fit.covariance, static_cast<int>(which.size()), fit.cost});
+    for (const int i : which)
+      result.labels[static_cast<std::size_t>(i)] = static_cast<int>(result.regions.size());
+  }
+  result.outcome = Outcome::ok();
+  return result;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,31 @@
+#pragma once
+#include <placegraph/frontend/relative_pose/relative_pose_options.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/internal/core/ransac.h>
+
+#include <vector>
+
+namespace placegraph {
+
+/// Which model explains two views.
+enum class TwoViewModel { kEssential, kHomography };
+
+struct Pose2d2dResult {
+  Outcome outcome;
+  TwoViewModel model = TwoViewModel::kEssential;
+  /// Candidate motions T_ref_cur with |t| = 1, all that the model allows: four for an essential
+  /// matrix, up to two for a homography. The caller decides by triangulation.
+  std::vector<SE3> T_ref_cur;
+  std::vector<int> inliers;
+  double homography_share = 0;  ///< R_H
+};
+
+/// Relative pose up to scale of two views: five-point essential matrix (Nister 2004, by OpenGV) and
+/// four-point homography, each in RANSAC; the better one by the scores of ORB-SLAM (Mur-Artal et
+/// al. 2015, sec. IV). Outcomes: too few data, no consensus.
+[[nodiscard]] Pose2d2dResult estimate_pose_2d2d(const Camera& camera,
+                                                const std::vector<Eigen::Vector2d>& px_ref,
+                                                const std::vector<Eigen::Vector2d>& px_cur,
+                                                const Pose2d2dOptions& options, Random& random);
+
+}  // namespace placegraph

@@ -1,0 +1,246 @@
+#include <placegraph/frontend/internal/relative_pose/epipolar_error.h>
+#include <placegraph/frontend/internal/relative_pose/epipolar_refinement.h>
+#include <placegraph/frontend/internal/relative_pose/relative_pose.h>
+#include <placegraph/graph/core/error.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace placegraph {
+namespace {
+
+using Code = Outcome::Code;
+using Model = RelativePoseModel;
+
+struct Views {
+  const Camera& camera;
+  const std::vector<Eigen::Vector2d>& px_ref;
+  const std::vector<Eigen::Vector2d>& px_cur;
+  std::vector<Eigen::Vector3d> x_ref, x_cur;  // rays with z = 1
+};
+
+std::vector<Eigen::Vector2d> chosen(const std::vector<Eigen::Vector2d>& px,
+                                    const std::vector<int>& indices) {
+  std::vector<Eigen::Vector2d> result;
+  for (const int i : indices) result.push_back(px[i]);
+  return result;
+}
+
+/// The rotation among the matches `indices`, if one moves nearly all of them.
+Rotation2d2dResult rotation_of(const Views& views, const std::vector<int>& indices,
+                               const Rotation2d2dOptions& options, Random& random) {
+  Rotation2d2dResult result = estimate_rotation_2d2d(
+      views.camera, chosen(views.px_ref, indices), chosen(views.px_cur, indices), options, random);
+  for (int& i : result.inliers) i = indices[i];
+  return result;
+}
+
+void take_rotation(const Rotation2d2dResult& rotation, RelativePose& result) {
+  result.model = Model::kRotation;
+  result.outcome = rotation.outcome;
+  result.inliers = rotation.inliers;
+  result.rmse_px = rotation.rmse_px;
+  result.parallax_px = 0;
+  if (!rotation.outcome) return;
+  result.R_ref_cur = rotation.R_ref_cur;
+  result.covariance.bottomRightCorner<3, 3>() = rotation.covariance;
+}
+
+/// On five degrees of freedom: the translation's length is not seen.
+Matrix6d covariance_of(const Matrix6d& information) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(information);
+  Matrix6d covariance = Matrix6d::Zero();
+  for (int i = 1; i < 6; ++i)
+    covariance += eigen.eigenvectors().col(i) * eigen.eigenvectors().col(i).transpose() /
+                  std::max(eigen.eigenvalues()[i], 1e-12);
+  return covariance;
+}
+
+/// The matches whose rays meet to `threshold_px`.
+std::vector<int> meeting(const Views& views, const SE3& T_ref_cur, double threshold_px) {
+  const EpipolarError error(views.camera, T_ref_cur);
+  std::vector<int> indices;
+  for (int i = 0; i < static_cast<int>(views.x_ref.size()); ++i)
+    if (std::abs(error(views.x_ref[i], views.x_cur[i])) < threshold_px) indices.push_back(i);
+  return indices;
+}
+
+/// Of the four motions of an essential matrix the one that has most points before both eyes.
+void take_essential(const Views& views, const Pose2d2dResult& found,
+                    const RelativePoseOptions& options, RelativePose& result) {
+  constexpr double kLeastSigma_px = 0.1;  // the residuals of a few points may be small by chance
+  result.model = Model::kEssential;
+  std::vector<std::pair<int, SE3>> ranked;
+  for (const SE3& T_ref_cur : found.T_ref_cur)
+    ranked.emplace_back(
+        two_view_parallax(views.camera, T_ref_cur, views.x_ref, views.x_cur, found.inliers).ahead,
+        T_ref_cur);
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  const double huber_px = options.two_view.threshold_px / 2;
+  const auto refine = [&](const SE3& T, double sigma_px, Matrix6d* information) {
+    return refine_epipolar(views.camera, views.x_ref, views.x_cur, result.inliers, T,
+                           {huber_px, sigma_px, 10}, information);
+  };
+  // The inliers of five points are a biased choice; those of all of them less so.
+  SE3 T = ranked[0].second;
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    T = refine(T, 1, nullptr);
+    result.inliers = meeting(views, T, options.two_view.threshold_px);
+  }
+  result.rmse_px = epipolar_rmse_px(views.camera, views.x_ref, views.x_cur, result.inliers, T);
+  Matrix6d information = Matrix6d::Zero();
+  T = refine(T, std::max(kLeastSigma_px, result.rmse_px), &information);
+  result.T_ref_cur = T;
+  result.R_ref_cur = T.rotation();
+  result.covariance = covariance_of(information);
+  const TwoViewParallax parallax =
+      two_view_parallax(views.camera, T, views.x_ref, views.x_cur, result.inliers);
+  result.parallax_px = parallax.median_px;
+  for (const auto& [ahead, other] : ranked)
+    if (ahead > options.ambiguity * ranked[0].first) result.rivals.push_back(other);
+  if (parallax.median_px < options.min_parallax_px)
+    result.outcome =
+        Outcome::failure(Code::kDegenerate, "a parallax of " + std::to_string(parallax.median_px) +
+                                                " px tells no translation");
+  else if (result.rivals.size() > 1)
+    result.outcome = Outcome::failure(Code::kInconsistent, "two motions explain the views");
+  else
+    result.outcome = Outcome::ok();
+  if (result.rivals.size() == 1) result.rivals.clear();
+}
+
+/// The inliers of a homography as one region, with the noise that they show.
+PlanarRegionsResult one_plane(const PointMatches& matches, const std::vector<int>& inliers,
+                              HomographyFit& fit) {
+  constexpr int kIterations = 20;
+  constexpr double kLeastSigma_px = 0.1;
+  PlanarRegionsResult regions;
+  std::array<int, 4> corners{};
+  // Four of them in a quarter each, as far out as can be, to begin with.
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::Vector2d out(k & 1 ? 1 : -1, k & 2 ? 1 : -1);
+    corners[static_cast<std::size_t>(k)] = *std::max_element(
+        inliers.begin(), inliers.end(),
+        [&](int a, int b) { return out.dot(matches.px_ref[a]) < out.dot(matches.px_ref[b]); });
+  }
+  const auto start = homography_through(matches, corners);
+  if (!start) {
+    fit.outcome = Outcome::failure(Code::kDegenerate, "the matches do not span a plane");
+    return regions;
+  }
+  regions.noise.sigma_px = 1;
+  fit = refine_homography(*start, matches, inliers, regions.noise, kIterations);
+  if (!fit.outcome) return regions;
+  double sum = 0;
+  for (const int i : inliers)
+    sum += transfer_error(fit.H_cur_ref, matches.px_ref[i], matches.px_cur[i]).squared;
+  regions.noise.sigma_px =
+      std::max(kLeastSigma_px, std::sqrt(sum / (2 * static_cast<double>(inliers.size()))));
+  fit = refine_homography(fit.H_cur_ref, matches, inliers, regions.noise, kIterations);
+  if (!fit.outcome) return regions;
+  regions.labels.assign(matches.px_ref.size(), 0);
+  for (const int i : inliers) regions.labels[static_cast<std::size_t>(i)] = 1;
+  regions.regions = {{fit.H_cur_ref, fit.covariance, static_cast<int>(inliers.size()), fit.cost}};
+  regions.outcome = Outcome::ok();
+  return regions;
+}
+
+void take_homography(const Views& views, const Pose2d2dResult& found,
+                     const RelativePoseOptions& options, RelativePose& result) {
+  result.model = Model::kHomography;
+  const PointMatches matches{views.px_ref, views.px_cur};
+  HomographyFit fit;
+  const PlanarRegionsResult regions = one_plane(matches, found.inliers, fit);
+  if (!regions.outcome) {
+    result.outcome = fit.outcome;
+    return;
+  }
+  result.rmse_px = regions.noise.sigma_px;
+  const MotionFromPlanesResult motion =
+      motion_from_planes(views.camera, matches, regions, options.plane);
+  result.outcome = motion.outcome;
+  if (motion.readings.empty()) return;
+  for (const PlanesReading& reading : motion.readings)
+    result.rivals.push_back(reading.T_cur_ref.inverse());
+  const SE3& T_cur_ref = motion.readings.front().T_cur_ref;
+  result.T_ref_cur = T_cur_ref.inverse();
+  result.R_ref_cur = result.T_ref_cur->rotation();
+  // (T Exp(xi))^-1 = T^-1 Exp(-Ad_T xi)
+  const Matrix6d Ad = T_cur_ref.adjoint();
+  const Matrix6d covariance = Ad * motion.readings.front().covariance * Ad.transpose();
+  result.covariance = 0.5 * (covariance + covariance.transpose());
+  result.parallax_px =
+      two_view_parallax(views.camera, *result.T_ref_cur, views.x_ref, views.x_cur, found.inliers)
+          .median_px;
+  if (result.outcome && result.rivals.size() > 1)
+    result.outcome = Outcome::failure(Code::kInconsistent, "two motions explain the plane");
+  if (result.rivals.size() == 1) result.rivals.clear();
+}
+
+}  // namespace
+
+const std::vector<std::string>& relative_pose_model_names() {
+  static const std::vector<std::string> names = {"auto", "essential", "homography", "rotation"};
+  return names;
+}
+
+void RelativePoseOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, RelativePoseOptions& o) {
+  field.choice("model", o.model, relative_pose_model_names(), "what explains the views");
+  field.group("two_view", o.two_view, "essential matrix and homography");
+  field.group("rotation", o.rotation, "the camera turns only");
+  field.group("plane", o.plane, "motion before one plane");
+  field("min_parallax_px", o.min_parallax_px,
+        "median displacement below which no translation is told", {0, 100});
+  field("ambiguity", o.ambiguity, "share of the best motion's points that makes another a rival",
+        {0, 1});
+}
+
+RelativePose estimate_relative_pose(const Camera& camera,
+                                    const std::vector<Eigen::Vector2d>& px_ref,
+                                    const std::vector<Eigen::Vector2d>& px_cur,
+                                    const RelativePoseOptions& options, Random& random) {
+  options.check();
+  require(px_ref.size() == px_cur.size(),
+          "estimate_relative_pose: as many pixels in both views needed");
+  const Views views{camera, px_ref, px_cur, rays_of(camera, px_ref), rays_of(camera, px_cur)};
+  RelativePose result;
+  std::vector<int> all(px_ref.size());
+  std::iota(all.begin(), all.end(), 0);
+  if (options.model == Model::kRotation) {
+    take_rotation(rotation_of(views, all, options.rotation, random), result);
+    return result;
+  }
+  Pose2d2dOptions two_view = options.two_view;
+  if (options.model == Model::kEssential) two_view.homography_share = 1;
+  if (options.model == Model::kHomography) two_view.homography_share = 0;
+  const Pose2d2dResult found = estimate_pose_2d2d(camera, px_ref, px_cur, two_view, random);
+  result.outcome = found.outcome;
+  result.inliers = found.inliers;
+  result.homography_share = found.homography_share;
+  result.model = options.model;
+  if (options.model == Model::kAuto && !found.inliers.empty()) {
+    const Rotation2d2dResult rotation = rotation_of(views, found.inliers, options.rotation, random);
+    if (rotation.outcome) {
+      take_rotation(rotation, result);
+      return result;
+    }
+  }
+  if (!found.outcome) return result;
+  if (options.model == Model::kHomography && found.model != TwoViewModel::kHomography) {
+    result.outcome = Outcome::failure(Code::kNoConsensus, "no plane among the matches");
+    return result;
+  }
+  if (found.model == TwoViewModel::kEssential)
+    take_essential(views, found, options, result);
+  else
+    take_homography(views, found, options, result);
+  return result;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,21 @@
+#pragma once
+#include <placegraph/frontend/internal/segments/edge_refinement.h>
+#include <placegraph/frontend/internal/segments/segment_merging.h>
+#include <placegraph/frontend/lines/line_options.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/geometry/line_segment.h>
+#include <placegraph/graph/image/image.h>
+
+#include <vector>
+
+namespace placegraph {
+
+/// Straight edges of a grey image (CV_8UC1, else ArgumentError): LSD (von Gioi et al. 2010, by
+/// OpenCV), pieces of one edge merged, each fitted anew to the gradient at sub-pixel accuracy. All
+/// have their polarity: the brighter side is on the right. Longest first.
+std::vector<EdgeSegment> detect_segments(const Image& image, const SegmentDetectorOptions& options);
+
+/// The segments alone, in order.
+std::vector<LineSegment> segments_of(const std::vector<EdgeSegment>& edges);
+
+}  // namespace placegraph

@@ -1,0 +1,84 @@
+#include <placegraph/frontend/internal/segments/segment_merging.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/disjoint_sets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace placegraph {
+namespace {
+
+/// A piece with what most pairs can be told apart by.
+struct Piece {
+  LineSegment segment;
+  Eigen::Vector2d direction = Eigen::Vector2d::Zero(), middle = Eigen::Vector2d::Zero();
+  double half_length = 0;
+};
+
+bool joined(const Piece& a, const Piece& b, double least_cosine,
+            const SegmentMergingOptions& options) {
+  if (a.direction.dot(b.direction) < least_cosine) return false;
+  const double reach = a.half_length + b.half_length + options.max_gap_px + options.max_distance_px;
+  if ((a.middle - b.middle).squaredNorm() > reach * reach) return false;
+  const Collinearity lie = collinearity(a.segment, b.segment);
+  return lie.gap_px <= options.max_gap_px && lie.distance_px <= options.max_distance_px &&
+         lie.angle_rad <= deg_to_rad(options.max_angle_deg);
+}
+
+/// One segment over all pieces; nothing if an end lies too far from the common line.
+std::optional<LineSegment> common(const std::vector<LineSegment>& pieces, double max_distance_px) {
+  std::vector<Eigen::Vector2d> ends;
+  std::vector<double> sigmas;
+  for (const LineSegment& piece : pieces)
+    for (const Eigen::Vector2d& end : {piece.start, piece.end}) {
+      ends.push_back(end);
+      sigmas.push_back(1 / std::sqrt(piece.length()));
+    }
+  const std::optional<ImageLine> line = fit_line(ends, sigmas);
+  if (!line) return std::nullopt;
+  const Eigen::Vector2d n = line->normal();
+  Eigen::Vector2d along(-n.y(), n.x());
+  if (along.dot(pieces.front().vector()) < 0) along = -along;
+  double from = 0, to = 0;
+  for (const Eigen::Vector2d& end : ends) {
+    if (std::abs(n.dot(end) - line->offset_px) > max_distance_px) return std::nullopt;
+    const double position = along.dot(end - line->anchor);
+    from = std::min(from, position), to = std::max(to, position);
+  }
+  return LineSegment{line->anchor + from * along, line->anchor + to * along};
+}
+
+}  // namespace
+
+std::vector<LineSegment> merge_segments(const std::vector<LineSegment>& pieces,
+                                        const SegmentMergingOptions& options) {
+  options.check();
+  const int n = static_cast<int>(pieces.size());
+  std::vector<Piece> known;
+  for (const LineSegment& piece : pieces)
+    known.push_back({piece, piece.direction(), piece.middle(), 0.5 * piece.length()});
+  const double least_cosine = std::cos(deg_to_rad(options.max_angle_deg)) - 1e-9;
+  DisjointSets sets(pieces.size());
+  for (int i = 0; i < n; ++i)
+    for (int j = i + 1; j < n; ++j)
+      if (joined(known[i], known[j], least_cosine, options)) sets.join(i, j);
+  const std::vector<int> number = sets.numbers();
+  std::vector<std::vector<LineSegment>> edges;
+  for (int i = 0; i < n; ++i) {
+    if (number[i] == static_cast<int>(edges.size())) edges.emplace_back();
+    edges[number[i]].push_back(pieces[i]);
+  }
+  std::vector<LineSegment> merged;
+  for (const std::vector<LineSegment>& edge : edges) {
+    const auto whole =
+        edge.size() > 1 ? common(edge, options.max_distance_px) : std::optional<LineSegment>();
+    if (whole)
+      merged.push_back(*whole);
+    else
+      merged.insert(merged.end(), edge.begin(), edge.end());
+  }
+  return merged;
+}
+
+}  // namespace placegraph

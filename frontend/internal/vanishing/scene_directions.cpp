@@ -1,0 +1,147 @@
+#include <placegraph/frontend/internal/vanishing/scene_directions.h>
+#include <placegraph/frontend/internal/vanishing/vanishing_search.h>
+#include <placegraph/graph/internal/core/angle.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+constexpr double kSame = 0.9962;  ///< cosine of 5 degrees: axes nearer than that are one
+
+/// The axis `a` of a world as its own lines show it, held to where the world has it: as closely as
+/// the axes keep to right angles, and the world is known.
+FittedDirection axis_direction(const VanishingEvidence& evidence, const ManhattanFrame& frame,
+                               int a, const ManhattanOptions& options) {
+  const Eigen::Matrix3d M = frame.R_cam_manhattan.matrix();
+  const Eigen::Vector3d axis = M.col(a);
+  const TangentBasis B = tangent_basis(axis);
+  // Three angles tell little of how right all are: what is expected is allowed in any case.
+  const double s = kRadPerDeg * std::max(frame.orthogonality_deg, options.orthogonality_deg);
+  const TangentBasis J = (B.transpose() * -M * hat(Eigen::Vector3d::Unit(a))).transpose();
+  const Eigen::Matrix2d prior =
+      s * s * Eigen::Matrix2d::Identity() + J.transpose() * frame.covariance * J;
+  std::vector<int> lines;
+  for (int i = 0; i < evidence.size(); ++i)
+    if (frame.axis[static_cast<std::size_t>(i)] == a) lines.push_back(i);
+  FittedDirection own = fit_direction(evidence, axis, lines, 3);
+  Eigen::Matrix2d covariance = prior;
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+  if (own.ok) {
+    const Eigen::Vector3d v = own.v.dot(axis) < 0 ? Eigen::Vector3d(-own.v) : own.v;
+    const Eigen::Matrix2d information = (B.transpose() * own.covariance * B).inverse();
+    covariance = (information + prior.inverse()).inverse();
+    offset = covariance * information * (B.transpose() * v);
+  }
+  FittedDirection result;
+  result.ok = result.held = true;
+  result.v = (axis + B * offset).normalized();
+  if (result.v.z() < 0) result.v = -result.v;
+  result.covariance = B * covariance * B.transpose();
+  result.precision_cost = -0.5 * std::log(covariance.determinant());
+  return result;
+}
+
+/// The axes of all worlds that enough lines show; one that two worlds share once.
+std::vector<std::pair<PointRole, FittedDirection>> axes_of(
+    const VanishingEvidence& evidence, const std::vector<ManhattanFrame>& frames,
+    const ManhattanOptions& options) {
+  std::vector<std::pair<PointRole, FittedDirection>> axes;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    for (int a = 0; a < 3; ++a) {
+      if (frames[f].segments[static_cast<std::size_t>(a)] < options.min_segments) continue;
+      const Eigen::Vector3d axis = frames[f].R_cam_manhattan.matrix().col(a);
+      if (std::any_of(axes.begin(), axes.end(), [&](const auto& known) {
+            return std::abs(known.second.v.dot(axis)) > kSame;
+          }))
+        continue;
+      axes.push_back({{.frame = static_cast<int>(f), .axis = a},
+                      axis_direction(evidence, frames[f], a, options)});
+    }
+  }
+  return axes;
+}
+
+/// Whether most lines of a point are those of one axis.
+bool is_axis(const std::vector<int>& labels, int point, const std::vector<ManhattanFrame>& frames,
+             const ManhattanOptions& options) {
+  for (const ManhattanFrame& frame : frames) {
+    std::array<int, 3> shared{};
+    int all = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (labels[i] != point) continue;
+      ++all;
+      if (frame.axis[i] >= 0) ++shared[static_cast<std::size_t>(frame.axis[i])];
+    }
+    for (std::size_t a = 0; a < 3; ++a)
+      if (frame.segments[a] >= options.min_segments && 2 * shared[a] > all) return true;
+  }
+  return false;
+}
+
+/// The axes of all worlds, one that two worlds share once, and which they are.
+std::pair<DirectionPrior, std::vector<PointRole>> prior_of(
+    const std::vector<ManhattanFrame>& frames, const SceneDirectionOptions& options) {
+  DirectionPrior prior;
+  prior.sigma_rad = options.off_right_deg * kRadPerDeg;
+  prior.free_share = options.free_share;
+  std::vector<PointRole> roles;
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    for (int a = 0; a < 3; ++a) {
+      const Eigen::Vector3d axis = frames[f].R_cam_manhattan.matrix().col(a);
+      if (std::any_of(prior.axes.begin(), prior.axes.end(), [&](const Eigen::Vector3d& known) {
+            return std::abs(known.dot(axis)) > kSame;
+          }))
+        continue;
+      prior.axes.push_back(axis);
+      roles.push_back({.across_frame = static_cast<int>(f), .across_axis = a});
+    }
+  return {prior, roles};
+}
+
+}  // namespace
+
+SceneDirections find_scene_directions(const std::vector<LineSegment>& segments,
+                                      const Camera& camera, const SceneDirectionOptions& options,
+                                      Random& random) {
+  options.check();
+  VanishingEvidence evidence(segments, camera, options.points.noise);
+  SceneDirections scene;
+  scene.vanishing = find_vanishing_points(evidence, options.points, random);
+  if (scene.vanishing.outcome)
+    scene.frames = find_manhattan_frames(evidence, scene.vanishing, options.manhattan);
+  const auto axes = axes_of(evidence, scene.frames, options.manhattan);
+  std::vector<FittedDirection> directions;
+  for (const auto& axis : axes) directions.push_back(axis.second);
+  VanishingModel model(evidence, options.points.point_cost, options.points.min_segments);
+  const auto [prior, roles_across] = prior_of(scene.frames, options);
+  model = model.with_all(directions);
+  model.expect(prior);
+  // The other points, as far as the axes have left something to them.
+  for (std::size_t p = 0; p < scene.vanishing.points.size(); ++p) {
+    if (is_axis(scene.vanishing.labels, static_cast<int>(p), scene.frames, options.manhattan))
+      continue;
+    const VanishingPoint& point = scene.vanishing.points[p];
+    std::optional<VanishingModel> trial = model.with(point.direction);
+    if (trial && trial->cost() < model.cost()) model = *std::move(trial);
+  }
+  if (scene.vanishing.outcome) {
+    VanishingSearch search(evidence, options.points.samples, random);
+    search.grow(model, options.points.max_points);
+    std::vector<int> order;
+    scene.vanishing = vanishing_points(evidence, model, order);
+    for (const int z : order) {
+      const auto at = static_cast<std::size_t>(z);
+      const int across = model.directions()[at].across_axis;
+      scene.roles.push_back(at < axes.size() ? axes[at].first
+                            : across < 0     ? PointRole{}
+                                             : roles_across[static_cast<std::size_t>(across)]);
+    }
+  }
+  spread_labels(evidence, segments.size(), scene.vanishing.labels);
+  for (ManhattanFrame& frame : scene.frames) spread_labels(evidence, segments.size(), frame.axis);
+  return scene;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,79 @@
+#pragma once
+#include <compare>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <string>
+
+namespace [[gnu::visibility("default")]] placegraph {
+
+/// The number of one thing of a kind; ids of two kinds cannot be exchanged or compared.
+/// `Tag` is an incomplete type that names the kind, as in graph/core/ids.h. There is no id that
+/// means "none": where one may be missing stands a std::optional. Files write ids as the integers
+/// that they are.
+template <class Tag>
+class Id {
+ public:
+  /// The id 0.
+  constexpr Id() = default;
+  /// The id of that number, which must be an integer.
+  template <std::integral Integer>
+    requires(!std::same_as<Integer, bool>)
+  constexpr explicit Id(Integer value) : value_(static_cast<std::int64_t>(value)) {}
+
+  /// The number: for files, messages, and arithmetic on positions in a sequence.
+  [[nodiscard]] constexpr std::int64_t value() const { return value_; }
+
+  /// Becomes the next id, for what numbers its own things.
+  constexpr Id& operator++() {
+    ++value_;
+    return *this;
+  }
+  /// Becomes the next id; returns the one before.
+  constexpr Id operator++(int) {
+    const Id before = *this;
+    ++value_;
+    return before;
+  }
+
+  /// Ids of one kind compare by their numbers.
+  friend constexpr bool operator==(Id, Id) = default;
+  friend constexpr auto operator<=>(Id, Id) = default;
+
+  /// The number as text, for messages.
+  friend std::string to_string(Id id) { return std::to_string(id.value_); }
+  /// Writes the number.
+  friend std::ostream& operator<<(std::ostream& out, Id id) { return out << id.value_; }
+
+  /// Writes the number; nlohmann::json finds this function by argument-dependent lookup.
+  template <class Json>
+  friend void to_json(Json& json, Id id) {
+    json = id.value_;
+  }
+  /// Reads the number; throws what nlohmann::json throws where there is none.
+  template <class Json>
+  friend void from_json(const Json& json, Id& id) {
+    id.value_ = json.template get<std::int64_t>();
+  }
+
+  /// An id below all others of the kind, as a bound of ranges.
+  static constexpr Id lowest() { return Id(std::numeric_limits<std::int64_t>::min()); }
+  /// An id above all others of the kind, as a bound of ranges.
+  static constexpr Id highest() { return Id(std::numeric_limits<std::int64_t>::max()); }
+
+ private:
+  std::int64_t value_ = 0;
+};
+
+}  // namespace placegraph
+
+/// Hashes an id as its number.
+template <class Tag>
+struct std::hash<placegraph::Id<Tag>> {
+  std::size_t operator()(placegraph::Id<Tag> id) const noexcept {
+    return std::hash<std::int64_t>()(id.value());
+  }
+};

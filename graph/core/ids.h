@@ -1,0 +1,31 @@
+#pragma once
+#include <placegraph/graph/core/id.h>
+
+namespace [[gnu::visibility("default")]] placegraph {
+
+/// A frame: its position in the sequence or folder of images that it was read from.
+using FrameId = Id<struct FrameTag>;
+
+/// A keyframe. Keyframes are numbered in the order of their frames, over all components of a map.
+/// A part of a place is identified by its first keyframe, its anchor.
+using KeyframeId = Id<struct KeyframeTag>;
+
+/// A topological place: a node of the place graph.
+using PlaceId = Id<struct PlaceTag>;
+
+/// A point of the scene. The track of its observations in the images has the same id.
+using LandmarkId = Id<struct LandmarkTag>;
+
+/// A straight line of the scene. The track of its edges in the images has the same id.
+using LineId = Id<struct LineTag>;
+
+/// A plane of the scene.
+using PlaneId = Id<struct PlaneTag>;
+
+/// A Manhattan frame: three orthogonal directions that many edges of the scene are parallel to.
+using ManhattanFrameId = Id<struct ManhattanFrameTag>;
+
+/// A vertex of a pose graph: a pose, or a point beside the poses. Ids may be any integers.
+using NodeId = Id<struct NodeTag>;
+
+}  // namespace placegraph

@@ -1,0 +1,13 @@
+#pragma once
+#include <fmt/core.h>
+#include <placegraph/graph/core/id.h>
+
+/// Formats an id as its number, without a format specification: fmt::format("{}", id).
+template <class Tag>
+struct fmt::formatter<placegraph::Id<Tag>> {
+  constexpr auto parse(fmt::format_parse_context& context) { return context.begin(); }
+  template <class Context>
+  auto format(placegraph::Id<Tag> id, Context& context) const {
+    return fmt::format_to(context.out(), "{}", id.value());
+  }
+};

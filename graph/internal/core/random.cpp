@@ -1,0 +1,73 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/random.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace placegraph {
+
+Random::Random(std::uint64_t seed, std::uint64_t stream)
+    : state_(0), increment_((stream << 1) | 1) {
+  next();
+  state_ += seed;
+  next();
+}
+
+std::uint32_t Random::next() {
+  const std::uint64_t old = state_;
+  state_ = old * 6364136223846793005ULL + increment_;
+  const auto xorshifted = static_cast<std::uint32_t>(((old >> 18) ^ old) >> 27);
+  const auto rotation = static_cast<std::uint32_t>(old >> 59);
+  return (xorshifted >> rotation) | (xorshifted << ((32 - rotation) & 31));
+}
+
+int Random::index(int n) {
+  require(n >= 1, "random: index of an empty range");
+  // The first 2^32 mod n values are refused, so that n divides the rest.
+  const auto bound = static_cast<std::uint32_t>(n);
+  const std::uint32_t threshold = (0u - bound) % bound;
+  std::uint32_t value = next();
+  while (value < threshold) value = next();
+  return static_cast<int>(value % bound);
+}
+
+double Random::uniform(double min, double max) {
+  const std::uint64_t high = next() >> 5, low = next() >> 6;
+  const double unit = static_cast<double>((high << 26) | low) * 0x1p-53;
+  const double value = min + (max - min) * unit;
+  return value < max ? value : min;  // rounding may reach max
+}
+
+double Random::normal(double mean, double sigma) {
+  // Marsaglia's polar method.
+  double u, v, s;
+  do {
+    u = uniform(-1, 1);
+    v = uniform(-1, 1);
+    s = u * u + v * v;
+  } while (s >= 1 || s == 0);
+  return mean + sigma * u * std::sqrt(-2 * std::log(s) / s);
+}
+
+void Random::sample(int n, int k, std::vector<int>& out) {
+  if (k < 0 || k > n)
+    throw ArgumentError("random: cannot draw " + std::to_string(k) + " different indices of " +
+                        std::to_string(n));
+  out.clear();
+  if (k <= 32) {  // Floyd's algorithm: the look-up is cheap while k is small
+    for (int j = n - k; j < n; ++j) {
+      const int candidate = index(j + 1);
+      const bool taken = std::find(out.begin(), out.end(), candidate) != out.end();
+      out.push_back(taken ? j : candidate);
+    }
+    return;
+  }
+  out.resize(n);
+  std::iota(out.begin(), out.end(), 0);
+  for (int i = 0; i < k; ++i) std::swap(out[i], out[i + index(n - i)]);
+  out.resize(k);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,129 @@
+#include <placegraph/graph/internal/image/jpeg_codec.h>
+#include <placegraph/graph/internal/image/picture_size.h>
+
+#include <jpeglib.h>
+#include <algorithm>
+#include <csetjmp>
+#include <cstdint>
+#include <cstdio>  // jpeglib.h needs FILE
+#include <vector>
+
+namespace placegraph {
+namespace {
+
+// libjpeg reports errors by a jump out of its functions. A jump must not pass over a C++ object
+// that has a destructor: the functions below that call setjmp, and the callbacks, hold none.
+struct JpegErrors {
+  jpeg_error_mgr base;
+  std::jmp_buf jump;
+};
+
+[[noreturn]] void leave_jpeg(j_common_ptr info) {
+  std::longjmp(reinterpret_cast<JpegErrors*>(info->err)->jump, 1);
+}
+void ignore_jpeg_message(j_common_ptr) {}
+
+void do_nothing(j_decompress_ptr) {}
+/// There are no more bytes than those in memory.
+boolean end_of_data(j_decompress_ptr) { return FALSE; }
+void skip_data(j_decompress_ptr info, long count) {
+  jpeg_source_mgr& source = *info->src;
+  if (count <= 0) return;
+  const std::size_t skipped = std::min(static_cast<std::size_t>(count), source.bytes_in_buffer);
+  source.next_input_byte += skipped;
+  source.bytes_in_buffer -= skipped;
+}
+
+class JpegReader {
+ public:
+  explicit JpegReader(std::string_view bytes) {
+    info_.err = jpeg_std_error(&errors_.base);
+    errors_.base.error_exit = leave_jpeg;
+    errors_.base.output_message = ignore_jpeg_message;
+    source_.next_input_byte = reinterpret_cast<const JOCTET*>(bytes.data());
+    source_.bytes_in_buffer = bytes.size();
+    source_.init_source = do_nothing;
+    source_.fill_input_buffer = end_of_data;
+    source_.skip_input_data = skip_data;
+    source_.resync_to_restart = jpeg_resync_to_restart;
+    source_.term_source = do_nothing;
+  }
+  ~JpegReader() { jpeg_destroy_decompress(&info_); }
+  JpegReader(const JpegReader&) = delete;
+  JpegReader& operator=(const JpegReader&) = delete;
+
+  /// False if libjpeg refuses what comes before the pixels.
+  bool read_header() noexcept {
+    if (setjmp(errors_.jump)) return false;
+    jpeg_create_decompress(&info_);
+    info_.src = &source_;
+    return jpeg_read_header(&info_, TRUE) == JPEG_HEADER_OK;
+  }
+
+  unsigned width() const { return info_.image_width; }
+  unsigned height() const { return info_.image_height; }
+  int components() const { return info_.num_components; }
+  bool arithmetic_code() const { return info_.arith_code != FALSE; }
+
+  /// Begins to decode to grey, BGR or four inks, after read_header().
+  bool start() noexcept {
+    if (setjmp(errors_.jump)) return false;
+    info_.out_color_space = components() == 1   ? JCS_GRAYSCALE
+                            : components() == 4 ? JCS_CMYK
+                                                : JCS_EXT_BGR;
+    return jpeg_start_decompress(&info_) != FALSE;
+  }
+
+  /// Decodes the next row.
+  bool read_row(JSAMPROW row) noexcept {
+    if (setjmp(errors_.jump)) return false;
+    return jpeg_read_scanlines(&info_, &row, 1) == 1;
+  }
+
+ private:
+  JpegErrors errors_{};
+  jpeg_source_mgr source_{};
+  jpeg_decompress_struct info_{};
+};
+
+/// Whether so few bytes can hold so many pixels: a block of 8x8 takes one bit at least.
+bool can_hold_blocks(std::size_t file_bytes, const JpegReader& reader) {
+  return reader.arithmetic_code() ||
+         std::uint64_t{reader.width()} * reader.height() / 512 <= file_bytes;
+}
+
+/// Colour of ink over white: what the ink lets through of the light that black lets through.
+void inks_to_bgr(const std::vector<JSAMPLE>& inks, JSAMPROW bgr) {
+  for (std::size_t i = 0; i < inks.size(); i += 4, bgr += 3) {
+    const int black = inks[i + 3];
+    for (std::size_t c = 0; c < 3; ++c)
+      bgr[2 - c] = static_cast<JSAMPLE>(black - ((255 - inks[i + c]) * black >> 8));
+  }
+}
+
+}  // namespace
+
+bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xff\xd8"); }
+
+bool is_truncated_jpeg(std::string_view bytes) {
+  const auto end = bytes.rfind("\xff\xd9"), scan = bytes.rfind("\xff\xda");
+  return end == std::string_view::npos || (scan != std::string_view::npos && end < scan);
+}
+
+Image decode_jpeg(std::string_view bytes) {
+  if (!bytes.starts_with("\xff\xd8\xff")) return {};
+  JpegReader reader(bytes);
+  if (!reader.read_header() || !is_decodable_size(reader.width(), reader.height()) ||
+      !can_hold_blocks(bytes.size(), reader) || !reader.start())
+    return {};
+  Image image(static_cast<int>(reader.height()), static_cast<int>(reader.width()),
+              reader.components() == 1 ? CV_8UC1 : CV_8UC3);
+  std::vector<JSAMPLE> inks(reader.components() == 4 ? std::size_t{4} * reader.width() : 0);
+  for (int v = 0; v < image.rows; ++v) {
+    if (!reader.read_row(inks.empty() ? image.ptr(v) : inks.data())) return {};
+    if (!inks.empty()) inks_to_bgr(inks, image.ptr(v));
+  }
+  return image;
+}
+
+}  // namespace placegraph

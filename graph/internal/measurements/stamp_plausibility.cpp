@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/time.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/graph/internal/measurements/stamp_plausibility.h>
+
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+constexpr double kLeastSpacing_s = 2e-4, kGreatestSpacing_s = 10;
+/// Frames of cameras, poses of motion capture: from 500 Hz to one in 2 s.
+constexpr double kLikelyLeast_s = 2e-3, kLikelyGreatest_s = 2;
+
+double median_spacing_s(const std::vector<std::int64_t>& stamps_ns) {
+  std::vector<double> spacings_s;
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i)
+    spacings_s.push_back(seconds(stamps_ns[i - 1], stamps_ns[i]));
+  return spacings_s.empty() ? 0 : median_of(std::move(spacings_s));
+}
+
+bool likely(double spacing_s) {
+  return spacing_s >= kLikelyLeast_s && spacing_s <= kLikelyGreatest_s;
+}
+
+/// In which unit numbers that were read as so many seconds would be likely.
+std::string likely_unit(double spacing_s) {
+  if (likely(spacing_s * 1e-3)) return "are these milliseconds?";
+  if (likely(spacing_s * 1e-6)) return "are these microseconds?";
+  if (likely(spacing_s * 1e-9)) return "are these nanoseconds?";
+  for (const double factor : {1e3, 1e6, 1e9})
+    if (likely(spacing_s * factor))
+      return fmt::format("are the times {:g} times too small?", factor);
+  return "is their unit right?";
+}
+
+}  // namespace
+
+std::string odd_spacing(const std::vector<std::int64_t>& stamps_ns, const std::string& what) {
+  const double spacing_s = median_spacing_s(stamps_ns);
+  if (stamps_ns.size() < 2 || (spacing_s >= kLeastSpacing_s && spacing_s <= kGreatestSpacing_s))
+    return {};
+  return fmt::format("a {} every {:.3g} s ({:.3g} Hz): {}", what, spacing_s, 1 / spacing_s,
+                     likely_unit(spacing_s));
+}
+
+std::string other_clock(const std::vector<std::int64_t>& stamps_ns,
+                        const std::vector<std::int64_t>& other_ns, const std::string& other) {
+  const double first = 1e-9 * static_cast<double>(stamps_ns.front());
+  const double last = 1e-9 * static_cast<double>(stamps_ns.back());
+  const double other_first = 1e-9 * static_cast<double>(other_ns.front());
+  const double other_last = 1e-9 * static_cast<double>(other_ns.back());
+  const double length = last - first, other_length = other_last - other_first;
+  const auto alike = [](double a, double b) { return a > 0.5 * b && b > 0.5 * a; };
+  for (int power = -9; power <= 9; power += 3) {
+    const double factor = std::pow(10.0, power);
+    if (power == 0 || !alike(length, factor * other_length)) continue;
+    const bool overlap = factor * other_first < last && factor * other_last > first;
+    const char* unit = power == -3   ? "in milliseconds"
+                       : power == -6 ? "in microseconds"
+                       : power == -9 ? "in nanoseconds"
+                                     : "of another unit";
+    return fmt::format("{} seems to have its times {}: times {:g} it {}", other, unit, factor,
+                       overlap ? "fits" : "is as long, though at another time");
+  }
+  if (alike(length, other_length))
+    return fmt::format(
+        "both are {:.4g} s and {:.4g} s long: {} seems to be of another clock, {:.3f} s "
+        "later",
+        length, other_length, other, other_first - first);
+  return {};
+}
+
+}  // namespace placegraph

@@ -1,0 +1,42 @@
+#include <placegraph/graph/internal/pose_graph/rigid_graph.h>
+#include <placegraph/graph/pose_graph/node_index.h>
+
+namespace placegraph {
+namespace {
+
+/// Over [translation, rotation]: the log scale marginalized out, translations `scale` times as
+/// long.
+Information rigid_information(const Information& of_similarity, double scale) {
+  Information information = of_similarity.topLeftCorner(6, 6);
+  if (of_similarity(6, 6) > 0) {
+    const Vector6d coupling = of_similarity.topRightCorner(6, 1);
+    information -= coupling * coupling.transpose() / of_similarity(6, 6);
+  }
+  information.topRows(3) /= scale;
+  information.leftCols(3) /= scale;
+  return 0.5 * (information + information.transpose());
+}
+
+}  // namespace
+
+PoseGraph rigid_graph(const PoseGraph& graph) {
+  if (graph.kind() != PoseKind::kSim3) return graph;
+  const NodeIndex index = graph.index_by_id();
+  PoseGraph rigid = graph;
+  for (PoseNode& node : rigid.nodes) {
+    const Sim3& S = std::get<Sim3>(node.T_world_node);
+    node.T_world_node = SE3(S.rotation(), S.translation());
+  }
+  for (Constraint& constraint : rigid.constraints) {
+    auto* edge = std::get_if<RelativePoseConstraint>(&constraint);
+    if (!edge) continue;
+    const auto from = static_cast<std::size_t>(index.at(edge->from));
+    const double scale = std::get<Sim3>(graph.nodes[from].T_world_node).scale();
+    const Sim3& S_from_to = std::get<Sim3>(edge->T_from_to);
+    edge->T_from_to = SE3(S_from_to.rotation(), scale * S_from_to.translation());
+    edge->information = rigid_information(edge->information, scale);
+  }
+  return rigid;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,225 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/scene/semantic_map.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace placegraph {
+namespace {
+
+constexpr float kLeastShare = 1e-3F;
+constexpr int kBits = 21, kMiddle = 1 << (kBits - 1);  // of a coordinate in a cell's key
+
+std::uint64_t key_of(const Eigen::Vector3i& at) {
+  std::uint64_t key = 0;
+  for (int i = 0; i < 3; ++i)
+    key = (key << kBits) |
+          (static_cast<std::uint64_t>(at[i] + kMiddle) & ((std::uint64_t{1} << kBits) - 1));
+  return key;
+}
+
+bool before(const Eigen::Vector3i& a, const Eigen::Vector3i& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+/// What one sight says of a cell.
+struct Told {
+  float weight = 0, height = 0;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  std::vector<float> log_shares;
+};
+
+}  // namespace
+
+void visit(OptionVisitor& field, SemanticGridOptions& o) {
+  field("cell_m", o.cell_m, "side of a cell", {0.05, 5});
+  field("max_sigma_m", o.max_sigma_m, "points whose depth is worse are left out", {0.01, 100});
+  field("sight_weight", o.sight_weight, "how much a further sight counts, as they err alike",
+        {0.01, 1});
+  field("full_weight", o.full_weight, "points of a sight in a cell that make it count wholly",
+        {0.1, 1000});
+  field("min_weight", o.min_weight, "points of a cell that is known", {0, 1e6});
+  field("min_sights", o.min_sights, "sights of a cell that is known", {1, 1000});
+  field("min_confidence", o.min_confidence, "probability below which a cell is unknown", {0, 1});
+}
+
+SemanticGrid::SemanticGrid(const SemanticGridOptions& options, std::vector<std::string> classes,
+                           const SO3& R_plan_map)
+    : options_(options), classes_(std::move(classes)), R_plan_map_(R_plan_map) {
+  options_.check();
+  require(classes_.size() > 1, "semantic grid: two classes at least");
+}
+
+std::size_t SemanticGrid::cell_at(const Eigen::Vector3i& at) {
+  const auto [entry, fresh] = index_.emplace(key_of(at), cells_.size());
+  if (fresh) {
+    SemanticCell cell;
+    cell.at = at;
+    cells_.push_back(cell);
+    log_odds_.resize(log_odds_.size() + classes_.size(), 0);
+  }
+  return entry->second;
+}
+
+void SemanticGrid::add(const SemanticSight& sight, const SE3& T_map_cam) {
+  const std::size_t n = classes_.size();
+  std::vector<float> log_shares(sight.shares.size());
+  for (std::size_t i = 0; i < log_shares.size(); ++i)
+    log_shares[i] = std::log(std::max(sight.shares[i], kLeastShare));
+  const SE3 T_plan_cam = SE3(R_plan_map_, Eigen::Vector3d::Zero()) * T_map_cam;
+  const Eigen::Matrix3f R = T_plan_cam.rotation().matrix().cast<float>();
+  const Eigen::Vector3d t = T_plan_cam.translation();
+  const auto cell = static_cast<float>(options_.cell_m);
+  // In the order of first sight, so that sums do not depend on a hash.
+  std::unordered_map<std::size_t, std::size_t> told_of;
+  std::vector<std::pair<std::size_t, Told>> all;
+  for (const SemanticPoint& p : sight.points) {
+    require((p.region + std::size_t{1}) * n <= sight.shares.size(),
+            "semantic grid: a point of a region that the sight does not have");
+    if (static_cast<double>(p.sigma) > options_.max_sigma_m) continue;
+    const Eigen::Vector3d at = (R * p.point).cast<double>() + t;
+    if (!at.allFinite() || at.cwiseAbs().maxCoeff() >= (kMiddle - 1) * options_.cell_m) continue;
+    const Eigen::Vector3i corner = (at / options_.cell_m).array().floor().cast<int>();
+    const std::size_t index = cell_at(corner);
+    const auto [entry, fresh] = told_of.emplace(index, all.size());
+    if (fresh) all.emplace_back(index, Told{0, 0, Eigen::Vector3f::Zero(), std::vector<float>(n)});
+    Told& told = all[entry->second].second;
+    const float weight = 1 / (1 + p.sigma * p.sigma / (cell * cell));
+    told.weight += weight;
+    told.height += weight * p.height_m;
+    // From the cell's corner, for the sake of digits.
+    told.sum += weight * (at - options_.cell_m * corner.cast<double>()).cast<float>();
+    for (std::size_t l = 0; l < n; ++l) told.log_shares[l] += weight * log_shares[p.region * n + l];
+  }
+  const float log_prior = -std::log(static_cast<float>(n));
+  for (const auto& [index, told] : all) {
+    SemanticCell& known = cells_[index];
+    known.weight += told.weight;
+    known.mean += told.sum;
+    known.height_m += told.height;
+    ++known.sights;
+    const float step = static_cast<float>(options_.sight_weight) *
+                       std::min(1.0F, told.weight / static_cast<float>(options_.full_weight));
+    for (std::size_t l = 0; l < n; ++l)
+      log_odds_[index * n + l] += step * (told.log_shares[l] / told.weight - log_prior);
+  }
+}
+
+SemanticMap SemanticGrid::map() const {
+  SemanticMap map;
+  map.classes = classes_;
+  map.R_plan_map = R_plan_map_;
+  map.cell_m = options_.cell_m;
+  if (cells_.empty()) {
+    map.outcome = Outcome::failure(Outcome::Code::kTooFewData, "nothing is seen");
+    return map;
+  }
+  map.outcome = Outcome::ok();
+  std::vector<std::size_t> order(cells_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return before(cells_[a].at, cells_[b].at); });
+  const std::size_t n = classes_.size();
+  for (const std::size_t i : order) {
+    SemanticCell cell = cells_[i];
+    cell.mean = (options_.cell_m * cell.at.cast<double>()).cast<float>() + cell.mean / cell.weight;
+    cell.height_m /= cell.weight;
+    const float* odds = log_odds_.data() + i * n;
+    const float* best = std::max_element(odds, odds + n);
+    float sum = 0;
+    for (std::size_t l = 0; l < n; ++l) sum += std::exp(odds[l] - *best);
+    cell.confidence = 1 / sum;
+    if (static_cast<double>(cell.confidence) >= options_.min_confidence &&
+        static_cast<double>(cell.weight) >= options_.min_weight &&
+        cell.sights >= options_.min_sights)
+      cell.label = static_cast<int>(best - odds);
+    map.cells.push_back(cell);
+    map.log_odds.insert(map.log_odds.end(), odds, odds + n);
+  }
+  return map;
+}
+
+namespace {
+
+/// Of the cells of one column that are in `standing` or not: the heaviest of the heaviest class,
+/// and the weight of all.
+struct Layer {
+  std::map<int, float> by_class;
+  float weight = 0;
+  void add(const SemanticCell& cell) {
+    by_class[*cell.label] += cell.weight;
+    weight += cell.weight;
+  }
+  int label() const {
+    int best = -1;
+    float most = 0;
+    for (const auto& [label, sum] : by_class)
+      if (sum > most) best = label, most = sum;
+    return best;
+  }
+};
+
+}  // namespace
+
+TopView top_view(const SemanticMap& map, double standing_m) {
+  TopView view;
+  view.cell_m = map.cell_m;
+  Eigen::Vector2i low = Eigen::Vector2i::Constant(1 << 30), high = -low;
+  for (const SemanticCell& cell : map.cells) {
+    if (!cell.label) continue;
+    low = low.cwiseMin(Eigen::Vector2i(cell.at[0], cell.at[2]));
+    high = high.cwiseMax(Eigen::Vector2i(cell.at[0], cell.at[2]));
+  }
+  if (high[0] < low[0]) return view;
+  view.low = low;
+  view.columns = high[0] - low[0] + 1;
+  view.rows = high[1] - low[1] + 1;
+  struct Column {
+    Layer ground, standing;
+  };
+  std::map<std::pair<int, int>, Column> columns;
+  const auto stands = [&](const SemanticCell& cell) {
+    return static_cast<double>(cell.height_m) > standing_m;
+  };
+  for (const SemanticCell& cell : map.cells) {
+    if (!cell.label) continue;
+    Column& column = columns[{cell.at[0], cell.at[2]}];
+    (stands(cell) ? column.standing : column.ground).add(cell);
+  }
+  view.cell.assign(static_cast<std::size_t>(view.columns) * static_cast<std::size_t>(view.rows),
+                   -1);
+  std::vector<float> weight(view.cell.size(), 0);
+  for (std::size_t i = 0; i < map.cells.size(); ++i) {
+    const SemanticCell& cell = map.cells[i];
+    if (!cell.label) continue;
+    const Column& column = columns[{cell.at[0], cell.at[2]}];
+    constexpr float kEnough = 0.25F;
+    const bool standing =
+        column.standing.weight > 0 && column.standing.weight >= kEnough * column.ground.weight;
+    if (stands(cell) != standing) continue;
+    if (cell.label != (standing ? column.standing : column.ground).label()) continue;
+    const std::size_t at =
+        static_cast<std::size_t>(cell.at[2] - low[1]) * static_cast<std::size_t>(view.columns) +
+        static_cast<std::size_t>(cell.at[0] - low[0]);
+    if (cell.weight > weight[at]) view.cell[at] = static_cast<int>(i), weight[at] = cell.weight;
+  }
+  return view;
+}
+
+std::array<std::uint8_t, 3> class_colour(const std::string& name, int number) {
+  static const std::map<std::string, std::array<std::uint8_t, 3>> kNamed = {
+      {"Sky", {128, 128, 128}},      {"Building", {128, 0, 0}},   {"Pole", {192, 192, 128}},
+      {"Road", {128, 64, 128}},      {"Pavement", {60, 40, 222}}, {"Tree", {128, 128, 0}},
+      {"Sign", {192, 128, 128}},     {"Fence", {64, 64, 128}},    {"Car", {64, 0, 128}},
+      {"Pedestrian", {200, 120, 0}}, {"Bicyclist", {0, 128, 192}}};
+  const auto found = kNamed.find(name);
+  if (found != kNamed.end()) return found->second;
+  const auto byte = [&](int factor) {
+    return static_cast<std::uint8_t>(40 + (number * factor) % 200);
+  };
+  return {byte(67), byte(131), byte(29)};
+}
+
+}  // namespace placegraph

@@ -1,0 +1,12 @@
+#pragma once
+// Inside io only.
+#include <placegraph/io/internal/calibration/foreign_calibration.h>
+#include <placegraph/io/internal/config/yaml_document.h>
+
+namespace placegraph {
+
+/// Kalibr's camchain: cam0 and, if asked for and there, cam1 as its right eye (T_cn_cnm1). Throws
+/// FileError with the line.
+ForeignCalibration read_kalibr(const YamlDocument& yaml, bool with_right);
+
+}  // namespace placegraph

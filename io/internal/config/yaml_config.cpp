@@ -1,0 +1,374 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/internal/config/yaml_document.h>
+#include <placegraph/io/internal/files/text_file.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <utility>
+
+namespace placegraph {
+namespace internal {
+namespace {
+
+/// Throws an error about the present key; `node` tells the line.
+using Fail = std::function<void(const YAML::Node& node, const std::string& message)>;
+
+std::string joined(const std::vector<std::string>& prefix, std::string_view key) {
+  std::string path;
+  for (const std::string& part : prefix) path += part + ".";
+  return path.append(key);
+}
+
+std::string seen(const YAML::Node& node) {
+  if (node.IsScalar()) return in_quotes(node.Scalar());
+  if (node.IsSequence()) return "a list";
+  return node.IsMap() ? "a map" : "nothing";
+}
+
+void require_range(double value, Range range, const YAML::Node& node, const Fail& fail) {
+  if (value >= range.min && value <= range.max) return;
+  fail(node, fmt::format("{} lies outside [{}, {}]", seen(node), range.min, range.max));
+}
+
+/// A plain scalar; quoted ones are texts, whatever they spell.
+bool is_plain(const YAML::Node& node) { return node.IsScalar() && node.Tag() != "!"; }
+
+template <class Integer>
+bool parse_whole(const YAML::Node& node, Integer& value) {
+  if (!is_plain(node)) return false;
+  const std::string& text = node.Scalar();
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+void assign(const YAML::Node& node, bool& value, const Fail& fail) {
+  const bool known = is_plain(node) && (node.Scalar() == "true" || node.Scalar() == "false");
+  if (!known) fail(node, "expected true or false, found " + seen(node));
+  value = node.Scalar() == "true";
+}
+
+void assign(const YAML::Node& node, int& value, Range range, const Fail& fail) {
+  int parsed = 0;
+  if (!parse_whole(node, parsed)) fail(node, "expected an integer, found " + seen(node));
+  require_range(parsed, range, node, fail);
+  value = parsed;
+}
+
+void assign(const YAML::Node& node, std::uint64_t& value, const Fail& fail) {
+  std::uint64_t parsed = 0;
+  if (!parse_whole(node, parsed)) fail(node, "expected an integer from 0, found " + seen(node));
+  value = parsed;
+}
+
+void assign(const YAML::Node& node, double& value, Range range, const Fail& fail) {
+  const std::optional<double> parsed = yaml_number(node);
+  if (!parsed) fail(node, "expected a number, found " + seen(node));
+  require_range(*parsed, range, node, fail);
+  value = *parsed;
+}
+
+void assign(const YAML::Node& node, std::string& value, const Fail& fail) {
+  if (!node.IsScalar()) fail(node, "expected a text, found " + seen(node));
+  value = node.Scalar();
+}
+
+void assign(const YAML::Node& node, std::vector<double>& value, Range range, const Fail& fail) {
+  if (!node.IsSequence()) fail(node, "expected a list [a, b, ...], found " + seen(node));
+  std::vector<double> parsed;
+  for (const YAML::Node& element : node) assign(element, parsed.emplace_back(), range, fail);
+  value = std::move(parsed);
+}
+
+void assign_choice(const YAML::Node& node, int& index, const std::vector<std::string>& names,
+                   const Fail& fail) {
+  const auto match = node.IsScalar() ? std::ranges::find(names, node.Scalar()) : names.end();
+  if (match == names.end()) {
+    fail(node, fmt::format("expected one of {}, found {}", fmt::join(names, " | "), seen(node)));
+  }
+  index = static_cast<int>(match - names.begin());
+}
+
+}  // namespace
+
+/// The visitor's seven doors lead into one: find the value of a key, then assign it.
+class AssigningVisitor : public OptionVisitor {
+ public:
+  void operator()(const char* key, bool& value, const char*) override {
+    take(key, [&](const YAML::Node& node, const Fail& fail) { assign(node, value, fail); });
+  }
+  void operator()(const char* key, int& value, const char*, Range range) override {
+    take(key, [&](const YAML::Node& node, const Fail& fail) { assign(node, value, range, fail); });
+  }
+  void operator()(const char* key, std::uint64_t& value, const char*) override {
+    take(key, [&](const YAML::Node& node, const Fail& fail) { assign(node, value, fail); });
+  }
+  void operator()(const char* key, double& value, const char*, Range range) override {
+    take(key, [&](const YAML::Node& node, const Fail& fail) { assign(node, value, range, fail); });
+  }
+  void operator()(const char* key, std::string& value, const char*) override {
+    take(key, [&](const YAML::Node& node, const Fail& fail) { assign(node, value, fail); });
+  }
+  void operator()(const char* key, std::vector<double>& value, const char*, Range range) override {
+    take(key, [&](const YAML::Node& node, const Fail& fail) { assign(node, value, range, fail); });
+  }
+
+ protected:
+  using Assign = std::function<void(const YAML::Node&, const Fail&)>;
+  /// Calls `assign` with the value of `key`, if there is one.
+  virtual void take(const char* key, const Assign& assign) = 0;
+
+  void choice_index(const char* key, int& index, const std::vector<std::string>& names,
+                    const char*) override {
+    take(key, [&](const YAML::Node& node, const Fail& fail) {
+      assign_choice(node, index, names, fail);
+    });
+  }
+};
+
+class OptionsFile::Reader : public AssigningVisitor {
+ public:
+  explicit Reader(const std::string& path) : document_(path) { enter(document_.root()); }
+  Reader(const std::string& path, const std::string& text) : document_(path, text) {
+    enter(document_.root());
+  }
+
+  void finish() {
+    leave();
+    if (unknown_) throw *unknown_;
+  }
+
+ private:
+  struct Level {
+    YAML::Node map;
+    std::set<std::string> known;
+  };
+
+  void take(const char* key, const Assign& assign) override {
+    levels_.back().known.insert(key);
+    const YAML::Node value = find(key);
+    if (!value.IsDefined()) return;
+    const std::string path = joined(prefix_, key);
+    assign(value, [this, &path](const YAML::Node& node, const std::string& message) {
+      document_.fail(node, path + ": " + message);
+    });
+  }
+
+  YAML::Node find(const char* key) const {
+    const YAML::Node& map = levels_.back().map;
+    return map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
+  }
+
+  void begin_group(const char* key, const char*) override {
+    levels_.back().known.insert(key);
+    const YAML::Node value = find(key);
+    prefix_.emplace_back(key);
+    enter(value.IsDefined() ? value : YAML::Node());
+  }
+
+  void end_group() override {
+    leave();
+    prefix_.pop_back();
+  }
+
+  void enter(const YAML::Node& node) {
+    if (!node.IsNull() && !node.IsMap()) {
+      const std::string name =
+          prefix_.empty() ? "the file" : fmt::format("{}", fmt::join(prefix_, "."));
+      document_.fail(node, name + ": expected keys and values, found " + seen(node));
+    }
+    std::set<std::string> keys;
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) document_.fail(entry.first, "a key is not a text");
+      const std::string& key = entry.first.Scalar();
+      if (!keys.insert(key).second) {
+        document_.fail(entry.first, joined(prefix_, key) + ": duplicate key");
+      }
+    }
+    levels_.push_back({node, {}});
+  }
+
+  /// Keeps the unknown key that stands first in the file; thrown at the end, after wrong values.
+  void leave() {
+    for (const auto& entry : levels_.back().map) {
+      const std::string& key = entry.first.Scalar();
+      if (levels_.back().known.contains(key)) continue;
+      const int line = yaml_line(entry.first);
+      if (unknown_ && unknown_line_ <= line) continue;
+      unknown_line_ = line;
+      unknown_.emplace(document_.path(), line, joined(prefix_, key) + ": unknown key");
+    }
+    levels_.pop_back();
+  }
+
+  YamlDocument document_;
+  std::vector<Level> levels_;
+  std::vector<std::string> prefix_;
+  std::optional<FileError> unknown_;
+  int unknown_line_ = 0;
+};
+
+OptionsFile::OptionsFile(const std::string& path) : reader_(std::make_unique<Reader>(path)) {}
+OptionsFile::OptionsFile(const std::string& path, const std::string& text)
+    : reader_(std::make_unique<Reader>(path, text)) {}
+OptionsFile::~OptionsFile() = default;
+OptionVisitor& OptionsFile::visitor() { return *reader_; }
+void OptionsFile::finish() { reader_->finish(); }
+
+class OptionAssignment::Setter : public AssigningVisitor {
+ public:
+  explicit Setter(const std::string& assignment) : assignment_(assignment) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0) fail("expected key=value");
+    key_ = assignment.substr(0, equals);
+    try {
+      value_ = YAML::Load(assignment.substr(equals + 1));
+    } catch (const YAML::Exception& error) {
+      fail("the value is no YAML: " + error.msg);
+    }
+  }
+
+  void finish(const std::vector<OptionEntry>& known) const {
+    if (assigned_) return;
+    if (group_) fail("is a group of options, not one");
+    std::string message = "unknown key";
+    const std::vector<std::string> near = near_matches(known);
+    if (!near.empty()) message += fmt::format("; similar: {}", fmt::join(near, ", "));
+    fail(message);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw ArgumentError("--set " + assignment_ + ": " + message);
+  }
+
+  void take(const char* key, const Assign& assign) override {
+    if (joined(prefix_, key) != key_) return;
+    assign(value_, [this](const YAML::Node&, const std::string& message) { fail(message); });
+    assigned_ = true;
+  }
+
+  void begin_group(const char* key, const char*) override {
+    prefix_.emplace_back(key);
+    group_ = group_ || joined({prefix_.begin(), prefix_.end() - 1}, key) == key_;
+  }
+  void end_group() override { prefix_.pop_back(); }
+
+  /// Levenshtein's distance.
+  static std::size_t distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= b.size(); ++j) {
+        const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
+        diagonal = row[j];
+        row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+      }
+    }
+    return row[b.size()];
+  }
+
+  /// Keys spelled alike, or with the same last word under another group; the closest three.
+  std::vector<std::string> near_matches(const std::vector<OptionEntry>& known) const {
+    const auto last_word = [](const std::string& path) { return path.substr(path.rfind('.') + 1); };
+    std::vector<std::pair<std::size_t, std::string>> candidates;
+    for (const OptionEntry& entry : known) {
+      if (entry.type == "group") continue;
+      const std::size_t whole = distance(entry.path, key_);
+      const std::size_t word = distance(last_word(entry.path), last_word(key_));
+      const std::size_t score = std::min(whole, word + 1);
+      if (score <= 3) candidates.emplace_back(score, entry.path);
+    }
+    std::ranges::stable_sort(candidates, {}, &std::pair<std::size_t, std::string>::first);
+    std::vector<std::string> near;
+    for (const auto& [score, path] : candidates) {
+      if (near.size() < 3) near.push_back(path);
+    }
+    return near;
+  }
+
+  std::string assignment_, key_;
+  YAML::Node value_;
+  std::vector<std::string> prefix_;
+  bool assigned_ = false, group_ = false;
+};
+
+OptionAssignment::OptionAssignment(const std::string& assignment)
+    : setter_(std::make_unique<Setter>(assignment)) {}
+OptionAssignment::~OptionAssignment() = default;
+OptionVisitor& OptionAssignment::visitor() { return *setter_; }
+void OptionAssignment::finish(const std::vector<OptionEntry>& known) { setter_->finish(known); }
+
+}  // namespace internal
+
+namespace {
+
+std::string describe_domain(const OptionEntry& entry) {
+  if (!entry.choices.empty()) return fmt::format("{}", fmt::join(entry.choices, " | "));
+  const bool below = std::isfinite(entry.range.min), above = std::isfinite(entry.range.max);
+  if (below && above) return fmt::format("{} to {}", entry.range.min, entry.range.max);
+  if (below) return fmt::format(">= {}", entry.range.min);
+  if (above) return fmt::format("<= {}", entry.range.max);
+  return {};
+}
+
+std::string escaped_for_table(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string dump_options(const std::vector<OptionEntry>& entries) {
+  std::string text;
+  for (const OptionEntry& entry : entries) {
+    const auto depth = static_cast<std::size_t>(std::ranges::count(entry.path, '.'));
+    const std::string indent(2 * depth, ' ');
+    const std::string key = entry.path.substr(entry.path.rfind('.') + 1);
+    const std::string domain = describe_domain(entry);
+    text += fmt::format("{}# {}{}\n", indent, entry.doc,
+                        domain.empty() ? "" : fmt::format(" ({})", domain));
+    text += entry.type == "group" ? fmt::format("{}{}:\n", indent, key)
+                                  : fmt::format("{}{}: {}\n", indent, key, entry.value);
+  }
+  return text;
+}
+
+std::string options_markdown(const std::vector<OptionEntry>& entries) {
+  std::string text;
+  bool table = false;
+  std::string group;
+  for (const OptionEntry& entry : entries) {
+    if (entry.type == "group") {
+      text += fmt::format("\n## `{}`\n\n{}\n", entry.path, entry.doc);
+      group = entry.path + ".";
+      table = false;
+      continue;
+    }
+    const std::string parent = entry.path.substr(0, entry.path.rfind('.') + 1);
+    if (parent != group) {  // back from a nested group
+      text += parent.empty()
+                  ? std::string("\n## Further options\n")
+                  : fmt::format("\n## `{}`, continued\n", parent.substr(0, parent.size() - 1));
+      group = parent;
+      table = false;
+    }
+    if (!table) text += "\n| key | default | range | meaning |\n|---|---|---|---|\n";
+    table = true;
+    text += fmt::format("| `{}` | `{}` | {} | {} |\n", entry.path, escaped_for_table(entry.value),
+                        escaped_for_table(describe_domain(entry)), escaped_for_table(entry.doc));
+  }
+  return text;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,72 @@
+#include <fcntl.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/files/atomic_file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+namespace placegraph {
+namespace fs = std::filesystem;
+namespace {
+
+/// Creates a file that did not exist before, so that two writers never share a temporary.
+std::string create_temporary(const std::string& path) {
+  const fs::path target(path);
+  for (int attempt = 0; attempt < 1000; ++attempt) {
+    fs::path candidate = target.parent_path() / target.stem();
+    candidate += ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
+    candidate += target.extension();
+    const int descriptor = ::open(candidate.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      ::close(descriptor);
+      return candidate.string();
+    }
+    if (errno != EEXIST) break;
+  }
+  throw FileError(path, std::string("cannot be written: ") + std::strerror(errno));
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)) {
+  if (path_.empty()) throw ArgumentError("the path of an output file is empty");
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path_, ignored);
+  if (fs::is_directory(status)) throw FileError(path_, "is a folder, not a file");
+  const bool replaces = fs::is_regular_file(status);
+  if (replaces && fs::is_symlink(path_, ignored)) path_ = fs::canonical(path_).string();
+  if (replaces || !fs::exists(status)) temporary_ = create_temporary(path_);
+  stream_.open(temporary_path(), std::ios::binary | std::ios::trunc);
+  if (!stream_) {
+    if (!temporary_.empty()) std::remove(temporary_.c_str());
+    throw FileError(path_, "cannot be opened for writing");
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  if (committed_) return;
+  stream_.close();
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+}
+
+void AtomicFile::commit() {
+  if (committed_) return;
+  stream_.close();
+  if (!stream_) throw FileError(path_, "cannot be written (is the disk full?)");
+  std::error_code error;
+  if (!temporary_.empty()) fs::rename(temporary_, path_, error);
+  if (error) throw FileError(path_, "cannot be written: " + error.message());
+  committed_ = true;
+}
+
+void make_output_folder(const std::string& path) {
+  if (path.empty()) throw ArgumentError("the path of the output folder is empty");
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw FileError(path, "cannot be made: " + error.message());
+  if (!fs::is_directory(path)) throw FileError(path, "exists and is not a folder");
+}
+
+}  // namespace placegraph

@@ -1,0 +1,283 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/id_format.h>
+#include <placegraph/io/graphs/g2o.h>
+#include <placegraph/io/internal/files/atomic_file.h>
+#include <placegraph/io/internal/graphs/parse_graph.h>
+#include <placegraph/io/internal/graphs/pose_graph_builder.h>
+
+#include <cmath>
+#include <iterator>
+
+namespace placegraph {
+namespace {
+
+using Fields = PoseGraphBuilder::Fields;
+
+constexpr double kQuaternionTolerance = 1e-2;
+constexpr double kMaxLogScale = 300;
+/// Where g2o's [rotation, translation, log scale] stand in our tangent.
+constexpr int kSim3Order[] = {3, 4, 5, 0, 1, 2, 6};
+
+SE3 parse_se3(const TextFile& file, const Fields& fields, std::size_t at) {
+  double v[7];
+  for (std::size_t i = 0; i < 7; ++i) v[i] = file.number(fields[at + i], "pose");
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (!(std::abs(q.norm() - 1) <= kQuaternionTolerance)) {
+    file.fail(fmt::format("the quaternion has length {:.6g}, not 1", q.norm()));
+  }
+  return {SO3(q), Eigen::Vector3d(v[0], v[1], v[2])};
+}
+
+/// Two or three numbers, z 0 where there are two.
+Eigen::Vector3d parse_point(const TextFile& file, const Fields& fields, std::size_t at, int dim) {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (int i = 0; i < dim; ++i)
+    point[i] = file.number(fields[at + static_cast<std::size_t>(i)], "position");
+  return point;
+}
+
+Sim3 parse_sim3(const TextFile& file, const Fields& fields, std::size_t at) {
+  Vector7d xi;
+  for (int i = 0; i < 7; ++i) xi[kSim3Order[i]] = file.number(fields[at + i], "pose");
+  if (!(std::abs(xi[6]) < kMaxLogScale))
+    file.fail(fmt::format("the logarithm of the scale is {:.6g}", xi[6]));
+  return Sim3::exp(xi);
+}
+
+Information parse_sim3_information(const PoseGraphBuilder& builder, const Fields& fields,
+                                   std::size_t at) {
+  const Information of_file = builder.symmetric(fields, at, 7);
+  Information information(7, 7);
+  for (int i = 0; i < 7; ++i)
+    for (int j = 0; j < 7; ++j) information(kSim3Order[i], kSim3Order[j]) = of_file(i, j);
+  return information;
+}
+
+/// Priors, point landmarks and where sensors sit; false for any other tag.
+bool parse_landmark_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
+  const std::string_view tag = fields[0];
+  LandmarkLines& lines = builder.landmarks();
+  if (tag == "PARAMS_SE3OFFSET") {
+    builder.require_count(fields, 8);
+    lines.add_offset(fields[1], parse_se3(file, fields, 2));
+  } else if (tag == "EDGE_SE3_PRIOR") {
+    builder.require_count(fields, 30);
+    const SE3 T = parse_se3(file, fields, 3);
+    builder.require_near(T.translation());
+    lines.add_prior(fields[1], T, builder.plausible(builder.symmetric(fields, 10, 6)), fields[2]);
+  } else if (tag == "EDGE_PRIOR_SE2") {
+    builder.require_count(fields, 10);
+    const SE2 T = builder.se2(fields, 2);
+    builder.require_near({T.translation().x(), T.translation().y(), 0});
+    lines.add_prior(fields[1], T, builder.plausible(builder.symmetric(fields, 5, 3)));
+  } else if (tag == "EDGE_PRIOR_SE2_XY") {
+    builder.require_count(fields, 6);
+    builder.add_position(fields[1], parse_point(file, fields, 2, 2).head<2>(),
+                         builder.symmetric(fields, 4, 2));
+  } else if (tag == "VERTEX_XY" || tag == "VERTEX_TRACKXYZ") {
+    const int dim = tag == "VERTEX_XY" ? 2 : 3;
+    builder.require_count(fields, 1 + static_cast<std::size_t>(dim));
+    const Eigen::Vector3d position = parse_point(file, fields, 2, dim);
+    builder.require_near(position);
+    lines.add_point(fields[1], position, dim == 2);
+  } else if (tag == "EDGE_SE2_XY") {
+    builder.require_count(fields, 7);
+    const Eigen::Vector3d position = parse_point(file, fields, 3, 2);
+    builder.require_near(position);
+    Information information = Information::Zero(3, 3);
+    information.topLeftCorner<2, 2>() = builder.symmetric(fields, 5, 2);
+    lines.add_sight(fields[1], fields[2], position, builder.plausible(information), true);
+  } else if (tag == "EDGE_SE3_TRACKXYZ") {
+    builder.require_count(fields, 12);
+    const Eigen::Vector3d position = parse_point(file, fields, 4, 3);
+    builder.require_near(position);
+    lines.add_sight(fields[1], fields[2], position,
+                    builder.plausible(builder.symmetric(fields, 7, 3)), false, fields[3]);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void parse_g2o_line(const TextFile& file, const Fields& fields, PoseGraphBuilder& builder) {
+  const std::string_view tag = fields[0];
+  if (tag == "VERTEX_SE2") {
+    builder.require_count_before_stamp(fields, 4);
+    builder.add_node(fields[1], builder.se2(fields, 2));
+  } else if (tag == "EDGE_SE2") {
+    builder.require_count(fields, 11);
+    builder.add_edge(fields[1], fields[2], builder.se2(fields, 3), builder.symmetric(fields, 6, 3));
+  } else if (tag == "VERTEX_SE3:QUAT") {
+    builder.require_count_before_stamp(fields, 8);
+    builder.add_node(fields[1], parse_se3(file, fields, 2));
+  } else if (tag == "EDGE_SE3:QUAT") {
+    builder.require_count(fields, 30);
+    builder.add_edge(fields[1], fields[2], parse_se3(file, fields, 3),
+                     builder.symmetric(fields, 10, 6));
+  } else if (tag == "VERTEX_SIM3:EXPMAP") {
+    // Four numbers of a camera follow in what g2o writes.
+    builder.require_count(fields, fields.size() == 13 ? 12 : 8);
+    builder.add_node(fields[1], parse_sim3(file, fields, 2));
+  } else if (tag == "EDGE_SIM3:EXPMAP") {
+    builder.require_count(fields, 37);
+    builder.add_edge(fields[1], fields[2], parse_sim3(file, fields, 3),
+                     parse_sim3_information(builder, fields, 10));
+  } else if (tag == "FIX") {
+    if (fields.size() < 2) file.fail("FIX: expected an id");
+    for (std::size_t i = 1; i < fields.size(); ++i) builder.fix(fields[i]);
+  } else if (!parse_landmark_line(file, fields, builder) && !tag.starts_with("PARAMS_")) {
+    file.fail(in_quotes(tag) +
+              ": unknown tag; known are VERTEX_ and EDGE_ of SE2, SE3:QUAT and SIM3:EXPMAP, "
+              "EDGE_PRIOR_SE2, EDGE_PRIOR_SE2_XY, EDGE_SE3_PRIOR, VERTEX_XY, EDGE_SE2_XY, "
+              "VERTEX_TRACKXYZ, EDGE_SE3_TRACKXYZ, FIX, PARAMS_*");
+  }
+}
+
+constexpr const char* kNoCamera =
+    " 1 1 0 0";  ///< focal lengths and principal point, as g2o has them by default
+
+using Buffer = std::back_insert_iterator<fmt::memory_buffer>;
+
+void format_number(Buffer out, double value) { fmt::format_to(out, " {:.17g}", value); }
+
+const char* suffix_of(PoseKind kind) {
+  if (kind == PoseKind::kSE2) return "SE2";
+  return kind == PoseKind::kSE3 ? "SE3:QUAT" : "SIM3:EXPMAP";
+}
+
+void format_pose(Buffer out, const Pose& pose) {
+  if (const SE2* planar = std::get_if<SE2>(&pose)) {
+    for (const double v :
+         {planar->translation().x(), planar->translation().y(), planar->rotation().angle()}) {
+      format_number(out, v);
+    }
+  } else if (const SE3* T = std::get_if<SE3>(&pose)) {
+    for (const double v : T->translation()) format_number(out, v);
+    for (const double v : T->rotation().quaternion().coeffs()) format_number(out, v);  // x y z w
+  } else {
+    const Vector7d xi = std::get<Sim3>(pose).log();
+    for (const int i : kSim3Order) format_number(out, xi[i]);
+  }
+}
+
+void format_edge(Buffer out, const RelativePoseConstraint& edge) {
+  const PoseKind kind = kind_of(edge.T_from_to);
+  fmt::format_to(out, "EDGE_{} {} {}", suffix_of(kind), edge.from, edge.to);
+  format_pose(out, edge.T_from_to);
+  const auto place = [&](int i) { return kind == PoseKind::kSim3 ? kSim3Order[i] : i; };
+  for (int row = 0; row < edge.information.rows(); ++row) {
+    for (int column = row; column < edge.information.cols(); ++column) {
+      format_number(out, edge.information(place(row), place(column)));
+    }
+  }
+  fmt::format_to(out, "\n");
+}
+
+/// The upper triangle of the first `size` rows and columns, and the end of the line.
+template <class Matrix>
+void format_information(Buffer out, const Matrix& information, int size) {
+  for (int row = 0; row < size; ++row)
+    for (int column = row; column < size; ++column) format_number(out, information(row, column));
+  fmt::format_to(out, "\n");
+}
+
+void format_point(Buffer out, const Eigen::Vector3d& point, bool planar) {
+  for (int i = 0; i < (planar ? 2 : 3); ++i) format_number(out, point[i]);
+}
+
+void format_position(Buffer out, const PositionConstraint& position, PoseKind kind) {
+  require(kind == PoseKind::kSE2 && position.lever_arm.isZero(0),
+          "g2o: there is no text form for positions in space or beside a node");
+  fmt::format_to(out, "EDGE_PRIOR_SE2_XY {}", position.node);
+  format_point(out, position.position_world, true);
+  format_information(out, position.information, 2);
+}
+
+/// Of the node itself: parameters 0 are the identity.
+void format_prior(Buffer out, const PosePriorConstraint& prior) {
+  const bool planar = kind_of(prior.T_world_node) == PoseKind::kSE2;
+  fmt::format_to(out, "{} {}{}", planar ? "EDGE_PRIOR_SE2" : "EDGE_SE3_PRIOR", prior.node,
+                 planar ? "" : " 0");
+  format_pose(out, prior.T_world_node);
+  format_information(out, prior.information, planar ? 3 : 6);
+}
+
+void format_sight(Buffer out, const PointSight& sight, bool planar) {
+  fmt::format_to(out, "{} {} {}{}", planar ? "EDGE_SE2_XY" : "EDGE_SE3_TRACKXYZ", sight.node,
+                 sight.point, planar ? "" : " 0");
+  format_point(out, sight.position_node, planar);
+  format_information(out, sight.information, planar ? 2 : 3);
+}
+
+void format_poses(Buffer out, const PoseGraph& graph) {
+  for (const PoseNode& node : graph.nodes) {
+    fmt::format_to(out, "VERTEX_{} {}", suffix_of(graph.kind()), node.id);
+    format_pose(out, node.T_world_node);
+    if (graph.kind() == PoseKind::kSim3) fmt::format_to(out, kNoCamera);
+    fmt::format_to(out, "\n");
+  }
+  for (const PoseNode& node : graph.nodes) {
+    if (node.fixed) fmt::format_to(out, "FIX {}\n", node.id);
+  }
+  for (const Constraint& constraint : graph.constraints) {
+    if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
+      format_edge(out, *edge);
+    else
+      format_position(out, std::get<PositionConstraint>(constraint), graph.kind());
+  }
+}
+
+void format_beside_poses(Buffer out, const LandmarkGraph& graph) {
+  const bool planar = graph.poses.kind() == PoseKind::kSE2;
+  for (const GraphPoint& point : graph.points) {
+    fmt::format_to(out, "{} {}", planar ? "VERTEX_XY" : "VERTEX_TRACKXYZ", point.id);
+    format_point(out, point.position_world, planar);
+    fmt::format_to(out, "\n");
+  }
+  for (const GraphPoint& point : graph.points)
+    if (point.fixed) fmt::format_to(out, "FIX {}\n", point.id);
+  for (const PosePriorConstraint& prior : graph.priors) format_prior(out, prior);
+  for (const PointSight& sight : graph.sights) format_sight(out, sight, planar);
+}
+
+void write_text(const std::string& path, const fmt::memory_buffer& text) {
+  AtomicFile file(path);
+  file.stream().write(text.data(), static_cast<std::streamsize>(text.size()));
+  file.commit();
+}
+
+}  // namespace
+
+PoseGraph parse_g2o(TextFile& file, const PoseGraphReading& reading) {
+  return parse_lines(file, parse_g2o_line).finish(reading);
+}
+
+PoseGraph read_g2o(const std::string& path, const PoseGraphReading& reading) {
+  TextFile file(path);
+  return parse_g2o(file, reading);
+}
+
+LandmarkGraph parse_g2o_landmarks(TextFile& file, const PoseGraphReading& reading) {
+  return parse_lines(file, parse_g2o_line).finish_landmarks(reading);
+}
+
+void write_g2o(const std::string& path, const PoseGraph& graph) {
+  graph.check();
+  fmt::memory_buffer text;
+  format_poses(std::back_inserter(text), graph);
+  write_text(path, text);
+}
+
+void write_g2o(const std::string& path, const LandmarkGraph& graph) {
+  graph.check();
+  fmt::memory_buffer text;
+  const Buffer out = std::back_inserter(text);
+  if (!graph.has_poses_alone() && graph.poses.kind() == PoseKind::kSE3)
+    fmt::format_to(out, "PARAMS_SE3OFFSET 0 0 0 0 0 0 0 1\n");
+  format_poses(out, graph.poses);
+  format_beside_poses(out, graph);
+  write_text(path, text);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,95 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/pose_graph/node_index.h>
+#include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/io/graphs/pose_graph_reading.h>
+#include <placegraph/io/internal/files/text_file.h>
+#include <placegraph/io/internal/graphs/landmark_lines.h>
+
+#include <optional>
+#include <span>
+
+namespace placegraph {
+
+/// Puts a pose graph together from the lines of a text file, whatever the format; edges may precede
+/// their vertices. What is wrong is said with the line it came from: members throw FileError for
+/// the line the file stands at, finish() for the line that added what is wrong.
+class PoseGraphBuilder {
+ public:
+  using Fields = std::vector<std::string_view>;
+
+  /// `file` must outlive the builder.
+  explicit PoseGraphBuilder(const TextFile& file);
+
+  /// Numbers of the present line, from field `at` on.
+  SE2 se2(const Fields& fields, std::size_t at) const;  ///< x y theta
+  /// n (n + 1) / 2 numbers, row by row, the lower triangle zero.
+  Information upper_triangle(const Fields& fields, std::size_t at, int n) const;
+  /// The same, mirrored into the lower triangle.
+  Information symmetric(const Fields& fields, std::size_t at, int n) const;
+  /// Refuses the line unless `count` fields follow its tag.
+  void require_count(const Fields& fields, std::size_t count) const;
+  /// The same of a vertex, whose line may have a time stamp behind its numbers, where all vertices
+  /// have one: a number that rises from line to line. Anything else may be a part of the pose.
+  void require_count_before_stamp(const Fields& fields, std::size_t count);
+  /// The matrix, or the semi-definite one that its printed digits stand for. Refuses what is
+  /// indefinite by more than that, all zero or above 1e100.
+  Information plausible(const Information& information) const;
+  /// Refuses positions beyond 1e50 m.
+  void require_near(const Eigen::Vector3d& position) const;
+
+  /// Refuses SE2, SE3 and Sim3 mixed, and positions beyond 1e50 m.
+  void add_node(std::string_view id, const Pose& T_world_node);
+  /// Refuses mixed kinds, an edge from a node to itself, information that is indefinite (by more
+  /// than its printed digits allow), all
+  /// zero or above 1e100, and positions beyond 1e50 m. Edges of
+  /// consecutive ids are odometry, others loops, unless `source` says what they are; see finish().
+  void add_edge(std::string_view from, std::string_view to, const Pose& T_from_to,
+                const Information& information, std::optional<ConstraintSource> source = {});
+  /// A measured position of a node in the plane [m].
+  void add_position(std::string_view node, const Eigen::Vector2d& position_world,
+                    const Eigen::Matrix2d& information);
+  void fix(std::string_view id);
+  LandmarkLines& landmarks() { return landmarks_; }
+
+  /// The graph, in the order of the file. Of edges alone the vertices are those the edges name, by
+  /// ascending id, with poses chained along the spanning tree (odometry first) from the origin.
+  /// Where ids leave gaps so that hardly an edge joins
+  /// consecutive ones (every tenth frame is a node), edges from an id to the next larger one that
+  /// is there are the odometry instead. Refuses ids that are there twice, edges and fixes on
+  /// vertices that are not there, neither, and what `reading` asks to refuse.
+  /// Priors and landmarks are refused.
+  [[nodiscard]] PoseGraph finish(const PoseGraphReading& reading);
+  /// The same with them. Parts of which each is tied to the world need not be connected.
+  [[nodiscard]] LandmarkGraph finish_landmarks(const PoseGraphReading& reading);
+
+ private:
+  PoseGraph finish_poses();
+  void require_kind(PoseKind kind);
+  void tell_stamps(const PoseGraphReading& reading) const;
+  int find(const NodeIndex& index, NodeId id, int line) const;
+  void require_connected(const PoseGraph& graph) const;
+  void add_nodes_of_edges();
+  void tell_odometry_by_order();
+
+  const TextFile* file_;
+  /// Where the last matrix was read from, in the present line.
+  mutable std::span<const std::string_view> information_fields_;
+  PoseGraph graph_;
+  std::optional<PoseKind> kind_;
+  std::vector<int> node_lines_, edge_lines_;
+  std::vector<std::pair<PositionConstraint, int>> positions_;  ///< and their lines
+  LandmarkLines landmarks_;
+  /// Of the vertices: how many had a time stamp and not, the last one, the line of the first.
+  int stamped_ = 0, unstamped_ = 0, first_stamp_line_ = 0;
+  double last_stamp_ = 0;
+  std::vector<char> source_is_told_;           ///< of the edges, by their tags
+  std::vector<std::pair<NodeId, int>> fixed_;  ///< id and line
+};
+
+/// Hands every line that is neither blank nor a comment to `parse_line`, split into fields.
+PoseGraphBuilder parse_lines(TextFile& file,
+                             void (*parse_line)(const TextFile&, const PoseGraphBuilder::Fields&,
+                                                PoseGraphBuilder&));
+
+}  // namespace placegraph

@@ -1,0 +1,155 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/map/map_writer.h>
+#include <placegraph/io/map/map_database.h>
+
+#include <filesystem>
+
+namespace placegraph {
+namespace {
+
+namespace fs = std::filesystem;
+
+void remove_with_journal(const std::string& path) {
+  for (const char* ending : {"", "-wal", "-shm", "-journal"}) fs::remove(path + ending);
+}
+
+/// Where a map of that name is written: what a link names, never what is no plain file.
+std::string target_of(const std::string& path) {
+  std::error_code ignored;
+  const std::string target =
+      fs::is_symlink(path, ignored) ? fs::weakly_canonical(path).string() : path;
+  if (fs::exists(target, ignored) && !fs::is_regular_file(target, ignored))
+    throw FileError(path, "cannot be written: is no plain file");
+  return target;
+}
+
+/// Puts `fresh` in the place of `path`, at no time without either; the log of the old one goes.
+void replace(const std::string& fresh, const std::string& path) {
+  for (const char* ending : {"-wal", "-shm", "-journal"}) fs::remove(path + ending);
+  std::error_code code;
+  fs::rename(fresh, path, code);
+  if (code) throw FileError(path, "cannot be written: " + code.message());
+}
+
+void insert_camera(SqliteDatabase& database, std::int64_t id, const Camera& camera) {
+  SqliteStatement put(database,
+                      "INSERT INTO camera VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  put << id << std::int64_t{camera.width} << std::int64_t{camera.height} << camera.fx << camera.fy
+      << camera.cx << camera.cy << static_cast<std::int64_t>(camera.distortion);
+  for (const double coefficient : camera.coefficients) put << coefficient;
+  put.run();
+}
+
+/// Origin and cameras, in place of those that are there.
+void write_origin(SqliteDatabase& database, const MapOrigin& origin) {
+  database.execute("DELETE FROM origin");
+  database.execute("DELETE FROM camera");
+  SqliteStatement put(
+      database, "INSERT INTO origin VALUES (1, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 0, 10, 0, 0, 0)");
+  put.text(origin.sequence) << static_cast<std::int64_t>(origin.sensor);
+  put.text(origin.options).text(origin.view_options);
+  put << origin.lens_k1 << std::int64_t{origin.lens_pass};
+  const auto& calibration = origin.calibration;
+  std::string T_cam_depth;
+  calibration ? put << calibration->baseline_m : put.null();
+  calibration && calibration->camera_height_m ? put << *calibration->camera_height_m : put.null();
+  if (calibration && calibration->depth) {
+    BlobWriter(T_cam_depth).pose(calibration->depth->T_cam_depth);
+    put.blob(T_cam_depth) << calibration->depth->sigma_at_1m;
+  } else {
+    put.null().null();
+  }
+  put.run();
+  if (!calibration) return;
+  insert_camera(database, 1, calibration->camera);
+  if (calibration->depth) insert_camera(database, 2, calibration->depth->camera);
+}
+
+}  // namespace
+
+MapDatabase::MapDatabase(std::unique_ptr<MapWriter> writer) : writer_(std::move(writer)) {}
+MapDatabase::MapDatabase(MapDatabase&&) noexcept = default;
+MapDatabase& MapDatabase::operator=(MapDatabase&&) noexcept = default;
+MapDatabase::~MapDatabase() = default;
+
+std::unique_ptr<MapWriter> MapDatabase::made(const std::string& path, const MapOrigin& origin,
+                                             bool synchronized) {
+  // A file of that name has its tables and its origin, or there is none.
+  const std::string fresh = path + ".new";
+  remove_with_journal(fresh);
+  {
+    SqliteDatabase database(fresh, SqliteDatabase::Access::kCreate);
+    database.execute("PRAGMA synchronous = OFF");
+    create_map_tables(database);
+    database.execute("BEGIN");
+    write_origin(database, origin);
+    database.execute("COMMIT");
+  }
+  replace(fresh, path);
+  return std::make_unique<MapWriter>(path, synchronized);
+}
+
+MapDatabase MapDatabase::create(const std::string& path, const MapOrigin& origin) {
+  return MapDatabase(made(target_of(path), origin, true));
+}
+
+MapDatabase MapDatabase::open(const std::string& path) {
+  return MapDatabase(std::make_unique<MapWriter>(path, true));
+}
+
+void MapDatabase::commit(const MapChanges& changes) { writer_->commit(changes, false); }
+
+void MapDatabase::clear(const MapOrigin& origin) {
+  SqliteDatabase& database = writer_->database;
+  database.execute("BEGIN IMMEDIATE");
+  for (const char* table : kMapTables) database.execute(std::string("DELETE FROM ") + table);
+  write_origin(database, origin);
+  database.execute("COMMIT");
+  const std::string path = database.path();
+  writer_.reset();
+  writer_ = std::make_unique<MapWriter>(path, true);
+}
+
+void MapDatabase::finish(const MapChanges& changes) {
+  writer_->commit(changes, true);
+  writer_->database.text("PRAGMA journal_mode = DELETE");  // everything into the one file
+  writer_.reset();
+}
+
+void MapDatabase::close() { writer_.reset(); }
+
+void write_map(const std::string& path, const StoredMap& stored) {
+  const Map& map = stored.map;
+  MapChanges changes;
+  changes.places = map.place_graph.places;
+  for (const Place& place : map.place_graph.places)
+    if (!place.appearance.words.empty())
+      changes.appearances.emplace_back(place.id, place.appearance);
+  std::int64_t number = 0;
+  for (const RelativePoseConstraint& constraint : map.place_graph.constraints)
+    changes.constraints.push_back({0, number++, constraint});
+  changes.keyframes = map.keyframes;
+  changes.frames = map.frames;
+  changes.online = map.trajectory_online.poses;
+  changes.landmarks = map.landmarks;
+  changes.loops = map.loops;
+  changes.history = stored.history;
+  changes.metric = map.metric;
+  const std::string target = target_of(path), fresh = target + ".part";
+  try {
+    // Nobody sees it before it is whole.
+    MapDatabase database(MapDatabase::made(fresh, stored.origin, true));
+    if (stored.finished) {
+      database.finish(changes);
+    } else {
+      database.commit(changes);
+      database.close();
+    }
+  } catch (...) {
+    remove_with_journal(fresh);
+    throw;
+  }
+  replace(fresh, target);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,129 @@
+#pragma once
+#include <placegraph/graph/core/id.h>
+#include <placegraph/io/internal/map/map_blobs.h>
+#include <placegraph/io/internal/map/sqlite.h>
+
+#include <bit>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace placegraph {
+
+/// The values of a row, in the order of its columns behind the key.
+class MapRow {
+ public:
+  MapRow& integer(std::int64_t value) { return put(value); }
+  template <class Tag>
+  MapRow& id(Id<Tag> id) {
+    return put(id.value());
+  }
+  MapRow& real(double value) { return put(Real{value}); }
+  MapRow& text(std::string_view value) { return put(Text{std::string(value)}); }
+  MapRow& blob(std::string_view value) { return put(Blob{std::string(value)}); }
+  MapRow& null() { return put(Null()); }
+  MapRow& pose(const SE3& T) {
+    std::string bytes;
+    BlobWriter(bytes).pose(T);
+    return blob(bytes);
+  }
+  template <class Matrix>
+  MapRow& symmetric(const Matrix& matrix) {
+    std::string bytes;
+    BlobWriter(bytes).symmetric(matrix);
+    return blob(bytes);
+  }
+
+  void bind(SqliteStatement& statement) const {
+    for (const Value& value : values_)
+      std::visit([&](const auto& v) { bind(statement, v); }, value);
+  }
+  bool operator==(const MapRow&) const = default;
+
+ private:
+  /// Equal if its bits are: NaN is what it was, and -0 is not 0.
+  struct Real {
+    double value;
+    bool operator==(const Real& other) const {
+      return std::bit_cast<std::uint64_t>(value) == std::bit_cast<std::uint64_t>(other.value);
+    }
+  };
+  struct Text {
+    std::string value;
+    bool operator==(const Text&) const = default;
+  };
+  struct Blob {
+    std::string value;
+    bool operator==(const Blob&) const = default;
+  };
+  using Null = std::monostate;
+  using Value = std::variant<Null, std::int64_t, Real, Text, Blob>;
+
+  static void bind(SqliteStatement& statement, Null) { statement.null(); }
+  static void bind(SqliteStatement& statement, std::int64_t value) { statement << value; }
+  static void bind(SqliteStatement& statement, const Real& real) { statement << real.value; }
+  static void bind(SqliteStatement& statement, const Text& text) { statement.text(text.value); }
+  static void bind(SqliteStatement& statement, const Blob& blob) { statement.blob(blob.value); }
+  MapRow& put(Value value) {
+    values_.push_back(std::move(value));
+    return *this;
+  }
+  std::vector<Value> values_;
+};
+
+/// A table with one whole number as its key, and what has been written to it.
+class MapTable {
+ public:
+  MapTable(SqliteDatabase& database, const std::string& name, const std::string& key, int columns)
+      : put_(database, put_sql(name, columns)),
+        erase_(database, "DELETE FROM " + name + " WHERE " + key + " = ?") {}
+
+  /// Writes the row unless it stands there already.
+  void put(std::int64_t key, const MapRow& row) {
+    MapRow& written = written_[key];
+    if (written == row) return;
+    written = row;
+    write(key, row);
+  }
+  /// Without remembering what was written.
+  void write(std::int64_t key, const MapRow& row) {
+    put_ << key;
+    row.bind(put_);
+    put_.run();
+  }
+  void erase(std::int64_t key) {
+    erase_ << key;
+    erase_.run();
+    written_.erase(key);
+  }
+  /// Rows that are there, whatever they say.
+  void take_keys(SqliteDatabase& database, const std::string& sql) {
+    SqliteRows rows(database, sql.substr(sql.find(' ') + 1), sql.substr(0, sql.find(' ')));
+    while (rows.next()) written_[rows.integer(0)];
+  }
+  /// Erases what is not among `keys`, and says what that was.
+  std::vector<std::int64_t> keep(const std::set<std::int64_t>& keys) {
+    std::vector<std::int64_t> gone;
+    for (const auto& [key, row] : written_)
+      if (!keys.count(key)) gone.push_back(key);
+    for (const std::int64_t key : gone) erase(key);
+    return gone;
+  }
+  void forget() { written_.clear(); }
+
+ private:
+  static std::string put_sql(const std::string& name, int columns) {
+    std::string sql = "INSERT OR REPLACE INTO " + name + " VALUES (?";
+    for (int i = 1; i < columns; ++i) sql += ", ?";
+    return sql + ")";
+  }
+  SqliteStatement put_, erase_;
+  std::map<std::int64_t, MapRow> written_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,68 @@
+#pragma once
+// Inside io only.
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/io/internal/map/map_blobs.h>
+#include <placegraph/io/internal/map/map_history_writer.h>
+#include <placegraph/io/internal/map/map_schema.h>
+#include <placegraph/io/internal/map/map_table.h>
+#include <placegraph/io/map/stored_map.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace placegraph {
+
+/// The open file of a MapDatabase: its tables, and what of them is written already.
+struct MapWriter {
+  MapWriter(const std::string& path, bool synchronized)
+      : database(path, SqliteDatabase::Access::kWrite),
+        places(prepared(synchronized), "place", "id", 7),
+        labels(database, "label", "place", 3),
+        appearances(database, "appearance", "place", 3),
+        keyframes(database, "keyframe", "id", 6),
+        features(database, "features", "keyframe", 3),
+        views(database, "view", "keyframe", 2),
+        frames(database, "frame", "number", 6),
+        online(database, "online", "number", 3),
+        loops(database, "loop", "number", 11),
+        landmarks(database, "landmarks", "number", 3),
+        history(database),
+        put_edge(database, "INSERT OR REPLACE INTO edge VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)"),
+        erase_edge(database, "DELETE FROM edge WHERE kind = ? AND number = ?") {
+    places.take_keys(database, "id place");
+    SqliteRows known(database, "keyframe", "id, frame, stamp_ns");
+    while (known.next())
+      keyframe_times[KeyframeId(known.integer(0))] = {FrameId(known.integer(1)), known.integer(2)};
+  }
+
+  /// The file belongs to this connection alone. A write-ahead log: a commit appends to it without
+  /// waiting for the disk; when a program is killed, all that it committed is there.
+  SqliteDatabase& prepared(bool synchronized) {
+    database.execute("PRAGMA locking_mode = EXCLUSIVE");
+    check_map_schema(database);
+    database.text("PRAGMA journal_mode = WAL");
+    upgrade_map_schema(database);
+    // A power cut, unlike a kill, may take the last commits along, but leaves the file whole.
+    database.execute(synchronized ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = OFF");
+    return database;
+  }
+
+  /// All of `changes` in one transaction, or nothing of them.
+  void commit(const MapChanges& changes, bool finished);
+  void put_places(const MapChanges& changes);
+  void put_keyframes(const MapChanges& changes);
+  void put_frames(const MapChanges& changes);
+  void put_constraints(const MapChanges& changes);
+  void put_landmarks(const MapChanges& changes);
+
+  SqliteDatabase database;
+  MapTable places, labels, appearances, keyframes, features, views, frames, online, loops,
+      landmarks;
+  MapHistoryWriter history;
+  SqliteStatement put_edge, erase_edge;
+  std::map<KeyframeId, std::pair<FrameId, std::int64_t>> keyframe_times;  // frame, stamp
+  std::map<PlaceId, std::vector<std::string>> written_labels;
+};
+
+}  // namespace placegraph

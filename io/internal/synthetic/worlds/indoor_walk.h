@@ -1,0 +1,19 @@
+#pragma once
+#include <placegraph/io/internal/synthetic/worlds/floor_plan.h>
+#include <placegraph/io/internal/synthetic/worlds/tours.h>
+
+namespace placegraph::synthetic {
+
+/// How a camera is carried through a building.
+struct IndoorWalk {
+  std::vector<Eigen::Vector2d> corners;  ///< (x, z); the first leg must run along +z
+  double turn_window_m = 1.0;            ///< over which corners are rounded
+  double speed_mps = 1.0;
+  double camera_height_m = 1.4;
+};
+
+/// Fills time, poses, camera and floor plan of `tour`: 10 Hz, 640 x 480, swaying like a walker. The
+/// first pose has the scene's axes, so that the plan and poses.txt differ by a shift only.
+void walk_through(const FloorPlan& plan, const IndoorWalk& walk, std::uint32_t seed, Tour& tour);
+
+}  // namespace placegraph::synthetic

@@ -1,0 +1,251 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/io/internal/synthetic/render/hash_noise.h>
+#include <placegraph/io/internal/synthetic/worlds/hover.h>
+#include <placegraph/io/internal/synthetic/worlds/synthetic_world.h>
+#include <placegraph/io/internal/synthetic/worlds/tours.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace placegraph {
+
+using synthetic::Tour;
+using synthetic::TourRequest;
+using synthetic::View;
+
+namespace {
+
+struct BuiltIn {
+  const char* name;
+  Tour (*make)(const TourRequest&);
+};
+constexpr BuiltIn kWorlds[] = {{"town-loop", synthetic::make_town_loop},
+                               {"repeated-blocks", synthetic::make_repeated_blocks},
+                               {"corridor-loop", synthetic::make_corridor_loop},
+                               {"warehouse", synthetic::make_warehouse},
+                               {"hover", synthetic::make_hover}};
+
+Tour make_tour(const SyntheticOptions& options) {
+  const TourRequest request{options.seed, synthetic::sensor_model(options.difficulty),
+                            options.duration_s};
+  for (const BuiltIn& world : kWorlds) {
+    if (options.world == world.name) return world.make(request);
+  }
+  if (!std::filesystem::exists(options.world)) {
+    std::string names;
+    for (const BuiltIn& world : kWorlds)
+      names += std::string(names.empty() ? "" : ", ") + world.name;
+    throw ArgumentError("world '" + options.world + "': neither a pose file nor one of " + names);
+  }
+  return synthetic::make_drive(options.world, request);
+}
+
+void resize(Camera& camera, int width, int height) {
+  const double sx = 1.0 * width / camera.width, sy = 1.0 * height / camera.height;
+  camera.fx *= sx;
+  camera.fy *= sy;
+  camera.cx = (camera.cx + 0.5) * sx - 0.5;  // pixel centres are at integers
+  camera.cy = (camera.cy + 0.5) * sy - 0.5;
+  camera.width = width;
+  camera.height = height;
+}
+
+}  // namespace
+
+void SyntheticOptions::check() const {
+  check_ranges(*this);
+  require(!world.empty(), "world: is empty");
+  require(duration_s == 0 || world == "hover", "duration_s: is for the hover world only");
+  require((width == 0) == (height == 0), "size: width and height go together");
+  require(width == 0 || (width >= 32 && height >= 32), "size: at least 32 x 32");
+}
+
+void visit(OptionVisitor& field, SyntheticOptions& o) {
+  field("world", o.world,
+        "town-loop, repeated-blocks, corridor-loop, warehouse, hover or a KITTI pose file");
+  field.choice("difficulty", o.difficulty, {"clean", "standard", "hard"}, "noise, blur, traffic");
+  field("seed", o.seed, "of textures, scenery, traffic and noise");
+  field("frames", o.frames, "at most this many; 0 = all", {0, 1e9});
+  field("duration_s", o.duration_s, "of the flight in the hover world; 0 = 120", {0, 3600});
+  field("width", o.width, "image width [px]; 0 = the world's own", {0, 16384});
+  field("height", o.height, "image height [px]; 0 = the world's own", {0, 16384});
+  field("threads", o.threads, "threads of one rendering", {1, 256});
+}
+
+const std::vector<std::string>& SyntheticWorld::worlds() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> list;
+    for (const BuiltIn& world : kWorlds) list.emplace_back(world.name);
+    return list;
+  }();
+  return names;
+}
+
+SyntheticWorld::SyntheticWorld(const SyntheticOptions& options) : options_(options) {
+  options_.check();
+  sensor_ = synthetic::sensor_model(options_.difficulty);
+  Tour tour = make_tour(options_);
+  if (options_.width > 0) resize(tour.camera, options_.width, options_.height);
+  tour_ = std::make_unique<const Tour>(std::move(tour));
+}
+
+SyntheticWorld::~SyntheticWorld() = default;
+SyntheticWorld::SyntheticWorld(SyntheticWorld&&) noexcept = default;
+SyntheticWorld& SyntheticWorld::operator=(SyntheticWorld&&) noexcept = default;
+
+const std::string& SyntheticWorld::name() const { return tour_->name; }
+
+std::size_t SyntheticWorld::size() const {
+  const std::size_t all = tour_->T_scene_cam.size();
+  return options_.frames > 0 ? std::min(all, static_cast<std::size_t>(options_.frames)) : all;
+}
+
+Calibration SyntheticWorld::calibration() const {
+  Calibration calibration;
+  calibration.camera = tour_->camera;
+  calibration.baseline_m = tour_->baseline_m;
+  calibration.depth = DepthCamera{tour_->camera, SE3(), 0.001};
+  if (tour_->camera_height_m > 0) calibration.camera_height_m = tour_->camera_height_m;
+  return calibration;
+}
+
+std::int64_t SyntheticWorld::stamp_ns(std::size_t index) const {
+  return static_cast<std::int64_t>(std::llround(tour_->time_s.at(index) * 1e9));
+}
+
+Trajectory SyntheticWorld::ground_truth() const {
+  Trajectory out;
+  const SE3 T_first_scene = tour_->T_scene_cam.front().inverse();
+  for (std::size_t i = 0; i < size(); ++i) {
+    const SE3 T = i == 0 ? SE3() : T_first_scene * tour_->T_scene_cam[i];
+    out.poses.push_back({stamp_ns(i), T.isometry()});
+  }
+  return out;
+}
+
+View SyntheticWorld::view(std::size_t index, bool right) const {
+  View view{tour_->camera, tour_->T_scene_cam.at(index), tour_->time_s[index]};
+  if (right)
+    view.T_scene_cam = view.T_scene_cam * SE3(SO3(), Eigen::Vector3d(tour_->baseline_m, 0, 0));
+  return view;
+}
+
+Image SyntheticWorld::expose(std::size_t index, bool right,
+                             const synthetic::Rendering& rendering) const {
+  const View at = view(index, right);
+  const std::size_t last = tour_->T_scene_cam.size() - 1;
+  const std::size_t a = index > 0 ? index - 1 : 0, b = std::min(index + 1, last);
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero(), turn = velocity;
+  if (!tour_->velocity_cam.empty()) {
+    velocity = tour_->velocity_cam[index].head<3>();
+    turn = tour_->velocity_cam[index].tail<3>();
+  } else if (b > a) {
+    // Central differences; rotations between frames are small enough for R^T R' = I + [w dt].
+    const View before = view(a, right), after = view(b, right);
+    const double dt = tour_->time_s[b] - tour_->time_s[a];
+    const Eigen::Matrix3d R = at.T_scene_cam.rotation().matrix();
+    velocity =
+        R.transpose() * (after.T_scene_cam.translation() - before.T_scene_cam.translation()) / dt;
+    const Eigen::Matrix3d step =
+        before.T_scene_cam.rotation().matrix().transpose() * after.T_scene_cam.rotation().matrix();
+    turn =
+        Eigen::Vector3d(step(2, 1) - step(1, 2), step(0, 2) - step(2, 0), step(1, 0) - step(0, 1)) /
+        (2 * dt);
+  }
+  const auto velocities = synthetic::point_velocities(tour_->scene, at, velocity, turn);
+  const auto seed = static_cast<std::uint32_t>(options_.seed);
+  const std::uint32_t frame_seed =
+      synthetic::hash_cell(static_cast<int>(index), right ? 1 : 0, seed * 7919U + 13U);
+  return synthetic::expose(rendering, at, velocities, sensor_, frame_seed, seed + 99U);
+}
+
+SyntheticFrame SyntheticWorld::render(std::size_t index, const SyntheticContents& contents) const {
+  require(index < size(), "synthetic world: frame index out of range");
+  const auto contrast = static_cast<float>(sensor_.contrast);
+  const View left = view(index, false);
+  const bool maps = contents.labels || contents.planes;
+  const synthetic::Rendering rendering =
+      synthetic::render(tour_->scene, left, contrast, maps, options_.threads);
+  SyntheticFrame out;
+  out.frame.id = FrameId(index);
+  out.frame.stamp_ns = stamp_ns(index);
+  out.frame.image = expose(index, false, rendering);
+  if (contents.right) {
+    const synthetic::Rendering right =
+        synthetic::render(tour_->scene, view(index, true), contrast, false, options_.threads);
+    out.frame.right = expose(index, true, right);
+  }
+  if (contents.depth) out.frame.depth = synthetic::depth_image(rendering);
+  if (contents.labels) out.labels = rendering.labels;
+  if (contents.planes) out.planes = rendering.planes;
+  if (contents.flow && index + 1 < size())
+    out.flow = synthetic::flow_image(tour_->scene, rendering, left, view(index + 1, false));
+  return out;
+}
+
+std::vector<std::string> SyntheticWorld::class_names() {
+  std::vector<std::string> names;
+  for (int i = 0; i < static_cast<int>(synthetic::SurfaceClass::kCount); ++i)
+    names.emplace_back(to_string(static_cast<synthetic::SurfaceClass>(i)));
+  return names;
+}
+
+std::vector<Eigen::Vector4d> SyntheticWorld::planes() const {
+  std::vector<Eigen::Vector4d> out = tour_->scene.planes;
+  const SE3& T_scene_first = tour_->T_scene_cam.front();
+  for (Eigen::Vector4d& plane : out) {
+    const Eigen::Vector3d n = plane.head<3>();
+    plane[3] -= n.dot(T_scene_first.translation());
+    plane.head<3>() = T_scene_first.rotation().inverse() * n;
+  }
+  return out;
+}
+
+std::vector<SceneClass> SyntheticWorld::scene_classes() {
+  const auto surface = [](const std::string& name) {
+    if (name == "Sky") return Surface::kSky;
+    if (name == "Road" || name == "Pavement") return Surface::kGround;
+    return name == "Car" ? Surface::kObject : Surface::kVertical;
+  };
+  std::vector<SceneClass> classes;
+  for (int i = 0; i < static_cast<int>(synthetic::SurfaceClass::kCount); ++i) {
+    const auto label = static_cast<synthetic::SurfaceClass>(i);
+    if (const char* urban = synthetic::urban_class_name(label))
+      classes.push_back({i, urban, surface(urban)});
+    else
+      classes.push_back({i, to_string(label), std::nullopt});
+  }
+  return classes;
+}
+
+LabelledMesh SyntheticWorld::static_mesh() const {
+  LabelledMesh mesh;
+  std::vector<int> number;
+  for (int i = 0; i < static_cast<int>(synthetic::SurfaceClass::kCount); ++i) {
+    const auto label = static_cast<synthetic::SurfaceClass>(i);
+    const char* urban = synthetic::urban_class_name(label);
+    const std::string name = urban ? urban : to_string(label);
+    const auto found = std::find(mesh.classes.begin(), mesh.classes.end(), name);
+    number.push_back(static_cast<int>(found - mesh.classes.begin()));
+    if (found == mesh.classes.end()) mesh.classes.push_back(name);
+  }
+  const SE3 T_first_scene = tour_->T_scene_cam.front().inverse();
+  for (const synthetic::Part& part : tour_->scene.parts)
+    for (const synthetic::Face& from : part.faces) {
+      LabelledMesh::Face face;
+      face.label = number[static_cast<std::size_t>(from.label)];
+      for (int i = 0; i < from.count; ++i) {
+        face.corners.push_back(static_cast<int>(mesh.vertices.size()));
+        mesh.vertices.emplace_back(T_first_scene * from.corners[static_cast<std::size_t>(i)]);
+      }
+      mesh.faces.push_back(std::move(face));
+    }
+  return mesh;
+}
+
+const std::string& SyntheticWorld::floor_plan() const { return tour_->floor_plan; }
+const synthetic::HoverSetting* SyntheticWorld::hover() const { return tour_->hover.get(); }
+bool SyntheticWorld::is_indoor() const { return !tour_->scene.outdoor; }
+
+}  // namespace placegraph

@@ -1,0 +1,37 @@
+#pragma once
+#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/pipeline/internal/cues/surface_cue.h>
+
+namespace placegraph {
+
+/// Direct alignment beside other cues: the motion between two keyframes by the intensities of
+/// surfaces goes into the window. The map must be metric.
+class KeyframeAlignment {
+ public:
+  KeyframeAlignment(const SurfaceCueOptions& options, const Calibration& calibration,
+                    const StereoMatcherOptions& stereo);
+
+  struct Keyframe {
+    KeyframeId id;
+    Frame frame;
+    Image ground;  ///< 0 = no ground there, CV_8UC1 of the image's size, or empty
+    std::vector<KnownPixel> landmarks;  ///< seen in it
+  };
+  /// Aligns the newest keyframe of the window with `previous`, if there is one, and makes it the
+  /// reference of the next.
+  void add(const Keyframe& keyframe, const std::optional<KeyframeId>& previous,
+           const RectificationError& rectification, SlidingWindow& window, Random& random);
+  /// The pixels that were aligned last.
+  std::vector<FrameView::SurfacePixel> view() const { return cue_.view(newest_); }
+  void forget_newest() { newest_ = DirectMotion(); }
+  void reset();
+
+ private:
+  SurfaceCue cue_;
+  bool measures_depth_;  // otherwise the lengths of the map are those of the camera's height
+  DirectMotion newest_;  // from the keyframe before it
+};
+
+}  // namespace placegraph

@@ -1,0 +1,188 @@
+#include <placegraph/frontend/internal/scene/orientation_map.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/cues/manhattan_cue.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <sstream>
+
+namespace placegraph {
+namespace {
+
+double largest_sigma_rad(const Eigen::Matrix3d& covariance) {
+  return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()[2]);
+}
+
+Image filled(const std::vector<Eigen::Vector2d>& outline_px, const cv::Size& size) {
+  std::vector<cv::Point> corners;
+  for (const Eigen::Vector2d& px : outline_px) {
+    const Eigen::Vector2d near = px.cwiseMax(-1e5).cwiseMin(1e5);
+    corners.emplace_back(static_cast<int>(near[0]), static_cast<int>(near[1]));
+  }
+  Image inside(size, CV_8UC1, cv::Scalar(0));
+  cv::fillConvexPoly(inside, corners, cv::Scalar(255));
+  return inside;
+}
+
+/// What lies before the walls: of every column what is below the lowest of them.
+Image below_walls(const Image& surfaces) {
+  Image below(surfaces.size(), CV_8UC1, cv::Scalar(0));
+  for (int u = 0; u < surfaces.cols; ++u)
+    for (int v = surfaces.rows - 1; v >= 0; --v) {
+      const auto surface = static_cast<IndoorSurface>(surfaces.at<std::uint8_t>(v, u));
+      if (surface == IndoorSurface::kWall || surface == IndoorSurface::kCeiling) break;
+      below.at<std::uint8_t>(v, u) = 255;
+    }
+  return below;
+}
+
+}  // namespace
+
+ManhattanCue::ManhattanCue(const ManhattanCueOptions& options, const Camera& camera,
+                           std::uint64_t seed, LogSink log)
+    : options_(options),
+      camera_(camera),
+      seed_(seed),
+      log_(std::move(log)),
+      worlds_(options.worlds) {
+  options_.check();
+}
+
+void ManhattanCue::reset() {
+  worlds_.reset();
+  view_.clear();
+  sight_.reset();
+}
+
+/// Pixels of the whole image; one of the halved image covers about four.
+std::vector<LineSegment> ManhattanCue::detect(const Image& image) const {
+  if (image.cols <= options_.max_width_px)
+    return segments_of(detect_segments(image, options_.segments));
+  Image half;
+  cv::resize(image, half, {image.cols / 2, image.rows / 2}, 0, 0, cv::INTER_AREA);
+  const Eigen::Array2d scale(static_cast<double>(image.cols) / half.cols,
+                             static_cast<double>(image.rows) / half.rows);
+  std::vector<LineSegment> segments = segments_of(detect_segments(half, options_.segments));
+  for (LineSegment& segment : segments)
+    for (Eigen::Vector2d* end : {&segment.start, &segment.end})
+      *end = (end->array() + 0.5) * scale - 0.5;
+  return segments;
+}
+
+/// Near where the window has it: farther off it is no sighting of that world.
+ManhattanFrame ManhattanCue::track(const std::vector<LineSegment>& segments,
+                                   const ManhattanWorlds::Expected& world) const {
+  const double reach_rad =
+      std::min(5 * kRadPerDeg, 1 * kRadPerDeg + 3 * largest_sigma_rad(world.covariance));
+  return track_manhattan_frame(segments, camera_, world.R_cam_world, reach_rad,
+                               options_.directions.points.noise, options_.directions.manhattan);
+}
+
+std::optional<ManhattanCue::Heading> ManhattanCue::heading(const Image& image,
+                                                           const SO3& R_odom_cam,
+                                                           const SlidingWindow& window,
+                                                           KeyframeId keyframe) const {
+  const auto expected = worlds_.expected(window, keyframe);
+  if (expected.empty()) return std::nullopt;
+  const std::vector<LineSegment> segments = detect(image);
+  for (ManhattanWorlds::Expected world : expected) {
+    const auto R_odom_world = window.world(world.world);
+    if (world.world == ManhattanWorlds::kMapAxes || !R_odom_world) continue;
+    world.R_cam_world = R_odom_cam.inverse() * *R_odom_world;
+    const ManhattanFrame frame = track(segments, world);
+    if (!trusted(frame)) continue;
+    return Heading{world.world, nearest_axes(frame.R_cam_manhattan, world.R_cam_world),
+                   worlds_.honest(frame.covariance).inverse()};
+  }
+  return std::nullopt;
+}
+
+bool ManhattanCue::trusted(const ManhattanFrame& frame) const {
+  if (!frame.outcome || frame.rank < 3) return false;
+  const ManhattanOptions& o = options_.directions.manhattan;
+  int seen = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+    seen += frame.segments[a] >= o.min_segments && frame.evidence[a] >= o.min_evidence;
+  return seen >= 2 && largest_sigma_rad(frame.covariance) < options_.max_sigma_deg * kRadPerDeg;
+}
+
+bool ManhattanCue::take(KeyframeId keyframe, const std::vector<LineSegment>& segments,
+                        const ManhattanFrame& frame, SlidingWindow& window) {
+  if (!trusted(frame)) return false;
+  if (!sight_) sight_ = Sight{segments, frame.axis, frame.R_cam_manhattan, frame.covariance};
+  const auto world = worlds_.add(keyframe, frame.R_cam_manhattan, frame.covariance, window);
+  if (log_) {
+    const Eigen::Vector3d w = frame.R_cam_manhattan.log();
+    std::ostringstream text;
+    text << "directions " << keyframe << " world " << (world ? world->value() : -1) << " turn "
+         << w.transpose() << " sigma_deg "
+         << frame.covariance.diagonal().cwiseSqrt().transpose() / kRadPerDeg;
+    log_(LogLevel::kDebug, text.str());
+  }
+  for (std::size_t i = 0; i < view_.size(); ++i)
+    if (world && frame.axis[i] >= 0 && !view_[i].axis)
+      view_[i].world = *world, view_[i].axis = frame.axis[i];
+  return world.has_value();
+}
+
+void ManhattanCue::observe(KeyframeId keyframe, const Image& image,
+                           const std::optional<std::vector<LineSegment>>& known,
+                           SlidingWindow& window) {
+  const std::vector<LineSegment> segments = known ? *known : detect(image);
+  view_.clear();
+  sight_.reset();
+  for (const LineSegment& segment : segments) view_.push_back({segment});
+  bool seen = false;
+  for (const ManhattanWorlds::Expected& world : worlds_.expected(window, keyframe)) {
+    if (take(keyframe, segments, track(segments, world), window)) seen = true;
+    if (seen) break;
+  }
+  if (seen) return;
+  Random random(seed_, static_cast<std::uint64_t>(keyframe.value()));
+  const SceneDirections scene =
+      find_scene_directions(segments, camera_, options_.directions, random);
+  for (const ManhattanFrame& frame : scene.frames) take(keyframe, segments, frame, window);
+}
+
+GroundSight ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px) const {
+  if (!sight_ || outline_px.size() < 3) return {};
+  const OrientationMap map =
+      compute_orientation_map(sight_->segments, sight_->axis, camera_, sight_->R_cam_manhattan);
+  if (!map.outcome) return {};
+  const Image surfaces = indoor_surfaces(map, camera_, sight_->R_cam_manhattan);
+  const Image walls = surfaces == static_cast<int>(IndoorSurface::kWall),
+              floor = surfaces == static_cast<int>(IndoorSurface::kFloor);
+  const Image outline = filled(outline_px, surfaces.size());
+  const auto in_outline = [&](const Image& part) { return cv::countNonZero(outline & part); };
+  constexpr double kStanding = 0.2, kShown = 0.2;  // of what is taken for ground
+  const double all = cv::countNonZero(outline);
+  if (all == 0 || in_outline(walls) < kStanding * all) return {};
+  if (in_outline(floor) < kShown * all) return {below_walls(surfaces), std::nullopt};
+  // A tilt of the vertical: turns about the other axes.
+  Eigen::Vector3d tilts = sight_->covariance.diagonal();
+  tilts[map.vertical_axis] = 0;
+  const Eigen::Vector3d vertical = sight_->R_cam_manhattan.matrix().col(map.vertical_axis);
+  return {floor, vertical.y() < 0 ? Eigen::Vector3d(-vertical) : vertical,
+          std::sqrt(tilts.maxCoeff())};
+}
+
+SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
+                 const std::optional<ManhattanCue::Heading>& heading, const SlidingWindow& window) {
+  const auto R_odom_world = heading ? window.world(heading->world) : std::nullopt;
+  if (!R_odom_world) return T_odom_cam;
+  const SO3 R_odom_cam = *R_odom_world * heading->R_cam_world.inverse();
+  // The heading's covariance is of R_cam_world's right tangent; that of R_odom_cam is rotated.
+  const Eigen::Matrix3d R = heading->R_cam_world.matrix();
+  const Eigen::Matrix3d weight = R * heading->information * R.transpose();
+  Matrix6d H = information;
+  H.bottomRightCorner<3, 3>() += weight;
+  Vector6d g = Vector6d::Zero();
+  g.tail<3>() = weight * (T_odom_cam.rotation().inverse() * R_odom_cam).log();
+  const Vector6d step = H.ldlt().solve(g);
+  return step.allFinite() ? T_odom_cam.plus(step) : T_odom_cam;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,286 @@
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/chi_squared.h>
+#include <placegraph/pipeline/internal/cues/plane_cue.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace placegraph {
+namespace {
+
+constexpr std::size_t kMostPoints = 400;  ///< of a landmark that are remembered
+
+/// What a chance of one in a hundred reaches.
+double plane_gate() {
+  static const double value = chi_squared_quantile(0.99, 3);
+  return value;
+}
+
+double plane_chi2(const Plane3& a, const Plane3& b, const Eigen::Matrix3d& covariance) {
+  const Eigen::Vector3d e = a.minus(b);
+  return e.dot(covariance.llt().solve(e));
+}
+
+/// The normal of a plane to the side that `eye` lies on.
+Eigen::Vector3d toward(const Plane3& plane, const Eigen::Vector3d& eye) {
+  return plane.distance_to(eye) < 0 ? Eigen::Vector3d(-plane.normal()) : plane.normal();
+}
+
+/// How near two points on planes must be to be of one place: what cells of the image are apart.
+double reach_m(const Eigen::Vector3d& p_cam) { return 0.08 * p_cam.norm(); }
+
+bool near_one(const Eigen::Vector3d& p, const std::vector<Eigen::Vector3d>& others, double reach) {
+  return std::any_of(others.begin(), others.end(), [&](const Eigen::Vector3d& other) {
+    return (p - other).squaredNorm() < reach * reach;
+  });
+}
+
+std::vector<Eigen::Vector3d> thinned(const std::vector<Eigen::Vector3d>& points,
+                                     std::size_t count) {
+  if (points.size() <= count) return points;
+  std::vector<Eigen::Vector3d> result;
+  for (std::size_t k = 0; k < count; ++k) result.push_back(points[k * points.size() / count]);
+  return result;
+}
+
+/// The share of the points of the smaller of both that lie where the larger is.
+double overlap(const std::vector<Eigen::Vector3d>& points_cam,
+               const std::vector<Eigen::Vector3d>& others_cam) {
+  constexpr std::size_t kSamples = 150;
+  const auto share = [](const std::vector<Eigen::Vector3d>& a,
+                        const std::vector<Eigen::Vector3d>& b) {
+    double count = 0;
+    for (const Eigen::Vector3d& p : a) count += near_one(p, b, reach_m(p));
+    return count / static_cast<double>(a.size());
+  };
+  const auto a = thinned(points_cam, kSamples), b = thinned(others_cam, kMostPoints);
+  return std::max(share(a, b), share(b, a));
+}
+
+std::vector<Eigen::Vector3d> moved(const SE3& T_new_old, const std::vector<Eigen::Vector3d>& old) {
+  std::vector<Eigen::Vector3d> result;
+  for (const Eigen::Vector3d& p : old) result.push_back(T_new_old * p);
+  return result;
+}
+
+}  // namespace
+
+Eigen::Matrix3d PlaneLandmarks::drift(const Plane3& plane_cam) const {
+  return plane_information(plane_cam, std::max(1e-6, options_.drift_deg * kRadPerDeg),
+                           std::max(1e-6, options_.drift_m))
+      .inverse();
+}
+
+/// Every plane and landmark that agree, the best first.
+std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(KeyframeId keyframe,
+                                                           const std::vector<DepthPlane>& seen,
+                                                           const SlidingWindow& window) const {
+  std::vector<Match> result;
+  const SE3 T_map_cam = window.pose(keyframe), T_cam_map = T_map_cam.inverse();
+  for (const auto& [id, landmark] : landmarks_) {
+    const auto covariance = plane_covariance(window, id, keyframe);
+    if (!covariance) continue;
+    const Plane3 expected = transform_to(T_map_cam, *window.plane(id));
+    const std::vector<Eigen::Vector3d> points_cam = moved(T_cam_map, landmark.points_map);
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const Eigen::Vector3d n = toward(seen[k].plane_cam, Eigen::Vector3d::Zero());
+      if (n.dot(T_cam_map.rotation() * landmark.toward_map) < 0) continue;
+      const double distance = plane_chi2(
+          seen[k].plane_cam, expected, *covariance + seen[k].covariance + drift(seen[k].plane_cam));
+      if (!(distance < plane_gate())) continue;
+      const double share = overlap(seen[k].points_cam, points_cam);
+      if (share < options_.min_overlap) continue;
+      // The larger it is, the sooner what is seen there is that plane.
+      const double cells =
+          share * static_cast<double>(std::min(points_cam.size(), seen[k].points_cam.size()));
+      result.push_back({distance, share, distance - 2 * std::log(1 + cells), k, id});
+    }
+  }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Match& a, const Match& b) { return a.score < b.score; });
+  return result;
+}
+
+void PlaneLandmarks::see(KeyframeId keyframe, const DepthPlane& plane, PlaneId id,
+                         SlidingWindow& window) {
+  add_plane_observation(
+      window, {keyframe, id, plane.plane_cam, (options_.correlation * plane.covariance).inverse()});
+  Landmark& landmark = landmarks_.at(id);
+  landmark.last_seen = std::max(landmark.last_seen, keyframe);
+  const SE3 T_map_cam = window.pose(keyframe);
+  landmark.toward_map = toward(*window.plane(id), T_map_cam.translation());
+  for (const Eigen::Vector3d& p_cam : thinned(plane.points_cam, kMostPoints)) {
+    const Eigen::Vector3d p_map = T_map_cam * p_cam;
+    if (!near_one(p_map, landmark.points_map, 0.5 * reach_m(p_cam)))
+      landmark.points_map.push_back(p_map);
+  }
+  // What was seen long ago goes first.
+  if (landmark.points_map.size() > kMostPoints)
+    landmark.points_map.erase(landmark.points_map.begin(),
+                              landmark.points_map.end() - static_cast<std::ptrdiff_t>(kMostPoints));
+}
+
+/// The one of those that wait which a plane of the newest keyframe agrees with best.
+std::optional<std::size_t> PlaneLandmarks::partner(KeyframeId keyframe, const DepthPlane& plane,
+                                                   const SlidingWindow& window) const {
+  double least = plane_gate();
+  std::optional<std::size_t> best;
+  const Eigen::Vector3d n = toward(plane.plane_cam, Eigen::Vector3d::Zero());
+  for (std::size_t k = 0; k < waiting_.size(); ++k) {
+    const DepthPlane& before = waiting_[k].plane;
+    if (waiting_[k].keyframe == keyframe) continue;
+    const auto motion = relative_covariance(window, waiting_[k].keyframe, keyframe);
+    if (!motion) continue;
+    const SE3 T_before_now = window.pose(waiting_[k].keyframe).inverse() * window.pose(keyframe);
+    Eigen::Matrix<double, 3, 6> J_pose;
+    Eigen::Matrix3d J_plane;
+    const Plane3 expected = transform_to(T_before_now, before.plane_cam, &J_pose, &J_plane);
+    if ((T_before_now.rotation() * n).dot(toward(before.plane_cam, Eigen::Vector3d::Zero())) < 0)
+      continue;
+    const Eigen::Matrix3d covariance = J_plane * before.covariance * J_plane.transpose() +
+                                       J_pose * *motion * J_pose.transpose() + plane.covariance +
+                                       drift(plane.plane_cam);
+    const double distance = plane_chi2(plane.plane_cam, expected, covariance);
+    if (distance < least &&
+        overlap(plane.points_cam, moved(T_before_now.inverse(), before.points_cam)) >=
+            options_.min_overlap)
+      best = k, least = distance;
+  }
+  return best;
+}
+
+/// Two planes that agree become a landmark.
+PlaneId PlaneLandmarks::begin(const Waiting& before, const Waiting& now, SlidingWindow& window) {
+  const PlaneId id = next_++;
+  window.add_plane(id, transform_to(window.pose(now.keyframe).inverse(), now.plane.plane_cam));
+  window.keep(plane_variable(id));
+  landmarks_[id] = {};
+  see(before.keyframe, before.plane, id, window);
+  see(now.keyframe, now.plane, id, window);
+  return id;
+}
+
+void PlaneLandmarks::forget(KeyframeId keyframe, SlidingWindow& window) {
+  while (!landmarks_.empty()) {
+    const auto longest = std::min_element(
+        landmarks_.begin(), landmarks_.end(),
+        [](const auto& a, const auto& b) { return a.second.last_seen < b.second.last_seen; });
+    if (static_cast<int>(landmarks_.size()) <= options_.max_landmarks &&
+        keyframe.value() - longest->second.last_seen.value() <= options_.patience)
+      return;
+    window.keep(plane_variable(longest->first), false);
+    landmarks_.erase(longest);
+  }
+}
+
+/// Each landmark to the plane that agrees with it best. A plane that agrees about as well with a
+/// landmark of the same place that no other plane is a sighting of gets none; nor does one whose
+/// landmark another plane agrees with about as well, unless that one is a sighting of its own.
+std::vector<std::optional<PlaneId>> PlaneLandmarks::assign(const std::vector<Match>& all,
+                                                           std::size_t count) {
+  constexpr double kClearly = 6;  // so much of plane_chi2 makes one of two landmarks the better one
+  constexpr double kUndecided = 2;  // so little of a score makes neither of two planes the better
+  std::vector<const Match*> chosen(count, nullptr);
+  std::set<PlaneId> taken;
+  for (const Match& match : all)
+    if (!chosen[match.seen] && taken.insert(match.landmark).second) chosen[match.seen] = &match;
+  std::vector<std::optional<PlaneId>> result(count);
+  for (std::size_t k = 0; k < count; ++k)
+    if (chosen[k]) result[k] = chosen[k]->landmark;
+  for (const Match& other : all) {
+    const Match* const mine = chosen[other.seen];
+    if (mine && !taken.contains(other.landmark) && other.chi2 < mine->chi2 + kClearly &&
+        other.overlap > 0.5 * mine->overlap)
+      result[other.seen].reset();
+    if (mine) continue;
+    const auto rival = std::find_if(chosen.begin(), chosen.end(), [&](const Match* m) {
+      return m && m->landmark == other.landmark;
+    });
+    if (rival != chosen.end() && other.score < (*rival)->score + kUndecided)
+      result[(*rival)->seen].reset();
+  }
+  return result;
+}
+
+std::vector<std::optional<PlaneId>> PlaneLandmarks::add(KeyframeId keyframe,
+                                                        const std::vector<DepthPlane>& seen,
+                                                        SlidingWindow& window) {
+  const KeyframeId oldest = window.keyframes().front();
+  std::erase_if(waiting_, [&](const Waiting& w) { return w.keyframe < oldest; });
+  // First all that is asked of the window, then all that changes it.
+  const std::vector<Match> all = matches(keyframe, seen, window);
+  std::vector<std::optional<PlaneId>> result = assign(all, seen.size());
+  std::vector<char> known(seen.size(), 0);
+  for (const Match& match : all) known[match.seen] = 1;
+  std::vector<std::optional<std::size_t>> partners(seen.size());
+  for (std::size_t k = 0; k < seen.size(); ++k)
+    if (!known[k]) partners[k] = partner(keyframe, seen[k], window);
+  std::vector<Waiting> still;
+  std::set<std::size_t> begun;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    if (result[k]) {
+      see(keyframe, seen[k], *result[k], window);
+    } else if (partners[k] && begun.insert(*partners[k]).second) {
+      result[k] = begin(waiting_[*partners[k]], {keyframe, seen[k]}, window);
+    } else if (!known[k]) {
+      still.push_back({keyframe, seen[k]});
+    }
+  }
+  std::vector<Waiting> before;
+  for (std::size_t k = 0; k < waiting_.size(); ++k)
+    if (!begun.contains(k)) before.push_back(std::move(waiting_[k]));
+  waiting_ = std::move(before);
+  waiting_.insert(waiting_.end(), still.begin(), still.end());
+  forget(keyframe, window);
+  if (log_) {
+    std::ostringstream text;
+    text << "planes " << keyframe << ":";
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      text << " " << seen[k].points_cam.size() << " cells ";
+      if (result[k])
+        text << "of " << *result[k];
+      else
+        text << (known[k] ? "ambiguous" : "new");
+    }
+    log_(LogLevel::kDebug, text.str());
+  }
+  return result;
+}
+
+void PlaneLandmarks::prune(SlidingWindow& window) {
+  constexpr double kSigmas = 4;
+  constexpr int kMostMisfits = 2;
+  if (window.keyframes().empty()) return;
+  const KeyframeId newest = window.keyframes().back();
+  for (const WindowFactor& seen : plane_observations(window)) {
+    const KeyframeId keyframe = seen.variables[0].keyframe();
+    const PlaneId plane = seen.variables[1].plane();
+    const auto landmark = landmarks_.find(plane);
+    if (keyframe != newest || landmark == landmarks_.end()) continue;
+    if (residual_sigmas(window, seen)->norm() < kSigmas) {
+      landmark->second.misfits = 0;
+      continue;
+    }
+    window.remove(seen);
+    if (++landmark->second.misfits <= kMostMisfits) continue;
+    window.remove_plane(plane);
+    landmarks_.erase(landmark);
+  }
+}
+
+std::vector<PlaneId> PlaneLandmarks::landmarks() const {
+  std::vector<PlaneId> ids;
+  for (const auto& [id, landmark] : landmarks_) ids.push_back(id);
+  return ids;
+}
+
+void PlaneLandmarks::reset() {
+  landmarks_.clear();
+  waiting_.clear();
+  next_ = PlaneId(1);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,316 @@
+#include <placegraph/frontend/internal/features/triangulation.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/cues/nearest_depth.h>
+#include <placegraph/pipeline/internal/cues/point_cue.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+void add_observation(KeyframeId keyframe, LandmarkId landmark, const Eigen::Vector2d& px,
+                     const Eigen::Matrix2d& covariance_px, const std::optional<InverseDepth>& depth,
+                     SlidingWindow& window) {
+  WindowObservation observation;
+  observation.keyframe = keyframe;
+  observation.landmark = landmark;
+  observation.px = px;
+  observation.covariance_px = covariance_px;
+  if (depth) {
+    observation.inverse_depth = depth->value;
+    observation.sigma_inverse_depth = depth->sigma;
+  }
+  window.add_observation(observation);
+}
+
+}  // namespace
+
+PointCue::PointCue(const PointCueOptions& options, const Calibration& calibration,
+                   const StereoMatcherOptions& stereo, StageTimes& times)
+    : options_(options),
+      camera_(calibration.camera),
+      depth_(calibration, stereo),
+      times_(times),
+      tracker_(options.tracker) {}
+
+void PointCue::track(const Image& image) { tracker_.track(image); }
+
+void PointCue::reset() {
+  tracker_.reset();
+  observations_.clear();
+}
+
+/// Where the tracks are seen from `T_odom_cam`: landmarks where they are, other points as deep as
+/// the landmarks beside them.
+std::vector<Eigen::Vector2f> PointCue::predict(const SlidingWindow& window, const SE3& T_odom_last,
+                                               const SE3& T_odom_cam, double median_depth) const {
+  const SE3 T_cam_odom = T_odom_cam.inverse(), T_last_odom = T_odom_last.inverse();
+  std::vector<std::optional<Eigen::Vector3d>> points;
+  std::vector<KnownDepth> known;
+  for (const PointTrack& track : tracks()) {
+    points.push_back(window.landmark(track.id));
+    if (!points.back()) continue;
+    const double depth = (T_last_odom * *points.back()).z();
+    if (depth > 0) known.push_back({track.px, depth});
+  }
+  std::vector<Eigen::Vector2f> predicted;
+  for (std::size_t i = 0; i < tracks().size(); ++i) {
+    const Eigen::Vector2f& px_last = tracks()[i].px;
+    predicted.push_back(px_last);
+    if (!points[i]) {
+      const auto ray = camera_.unproject(px_last.cast<double>());
+      if (!ray) continue;
+      const double depth = depth_nearby(known, px_last, median_depth);
+      points[i] = T_odom_last * Eigen::Vector3d(depth * *ray);
+    }
+    const auto px = camera_.project(T_cam_odom * *points[i]);
+    if (px && camera_.contains(*px, 2)) predicted.back() = px->cast<float>();
+  }
+  return predicted;
+}
+
+/// Where the points of the last frame were near to where the velocity had them, those of this frame
+/// are sought nearby; where half of the landmarks are not found again so, the camera has jerked,
+/// and they are sought all around.
+PointCue::TrackedPose PointCue::follow(const Image& image, const SlidingWindow& window,
+                                       const SE3& T_odom_last, const SE3& T_odom_expected,
+                                       bool velocity_known, double median_depth, Random& random) {
+  constexpr double kEnough = 0.5, kNear_px = 4;
+  const auto predicted = predict(window, T_odom_last, T_odom_expected, median_depth);
+  const auto search = [&](PointTracker::Search range) {
+    const auto span = times_.measure("point tracking");
+    std::map<LandmarkId, Eigen::Vector2f> expected;
+    for (std::size_t i = 0; i < predicted.size(); ++i) expected[tracks()[i].id] = predicted[i];
+    tracker_.track(image, predicted, range);
+    std::vector<double> errors_px;
+    for (const PointTrack& track : tracks())
+      errors_px.push_back((track.px - expected.at(track.id)).norm());
+    prediction_error_px_ = errors_px.empty() ? kNear_px : median_of(errors_px);
+    return pose(window, T_odom_expected, random);
+  };
+  if (velocity_known && prediction_error_px_ < kNear_px) {
+    const PointTracker before = tracker_;
+    const double landmarks = tracked_landmarks(window);
+    TrackedPose near = search(PointTracker::Search::kNear);
+    if (near.pose.outcome && static_cast<double>(near.pose.inliers.size()) > kEnough * landmarks)
+      return near;
+    tracker_ = before;
+  }
+  return search(PointTracker::Search::kWide);
+}
+
+PointCue::TrackedPose PointCue::pose(const SlidingWindow& window, const SE3& T_odom_prior,
+                                     Random& random) const {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector2d> px;
+  std::vector<int> track_of;
+  for (int i = 0; i < static_cast<int>(tracks().size()); ++i)
+    if (const auto point = window.landmark(tracks()[i].id)) {
+      points.push_back(*point);
+      px.push_back(tracks()[i].px.cast<double>());
+      track_of.push_back(i);
+    }
+  TrackedPose result;
+  result.pose = estimate_pose_3d2d(camera_, points, px, options_.pose, random, &T_odom_prior);
+  // Tracks that contradict the pose slid off their point, or the point moves.
+  result.keep.assign(tracks().size(), true);
+  if (!result.pose.outcome) return result;
+  const SE3 T_cam_odom = result.pose.T_ref_cam.inverse();
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto projected = camera_.project(T_cam_odom * points[k]);
+    result.keep[track_of[k]] =
+        projected && (*projected - px[k]).norm() < 2 * options_.pose.threshold_px;
+  }
+  return result;
+}
+
+std::map<LandmarkId, Eigen::Vector2d> PointCue::anchor() {
+  std::map<LandmarkId, Eigen::Vector2d> before, drift_px;
+  for (const PointTrack& track : tracks()) before[track.id] = track.px.cast<double>();
+  tracker_.anchor();
+  for (const PointTrack& track : tracks())
+    drift_px[track.id] = track.px.cast<double>() - before.at(track.id);
+  return drift_px;
+}
+
+void PointCue::leave_moving_objects(const Image& still) {
+  if (still.empty()) return;
+  std::vector<bool> keep;
+  int kept = 0;
+  for (const PointTrack& track : tracks()) {
+    const int u = std::clamp(static_cast<int>(std::lround(track.px.x())), 0, still.cols - 1);
+    const int v = std::clamp(static_cast<int>(std::lround(track.px.y())), 0, still.rows - 1);
+    keep.push_back(still.at<std::uint8_t>(v, u) != 0);
+    kept += keep.back();
+  }
+  if (kept >= options_.min_unmasked_tracks) tracker_.keep(keep);
+}
+
+void PointCue::detect(const Image& mask, bool labelled, const Image& given_mask) {
+  tracker_.detect(mask);
+  if (labelled && static_cast<int>(tracks().size()) < options_.min_unmasked_tracks)
+    tracker_.detect(given_mask);
+}
+
+std::vector<std::optional<InverseDepth>> PointCue::measure_depth(
+    const Frame& frame, const RectificationError& rectification, const SE3& T_odom_cam,
+    const SlidingWindow& window) const {
+  const auto span = times_.measure("depth of points");
+  const SE3 T_cam_odom = T_odom_cam.inverse();
+  std::vector<Eigen::Vector2f> px;
+  std::vector<std::optional<double>> expected_px;
+  for (const PointTrack& track : tracks()) {
+    px.push_back(track.px);
+    expected_px.emplace_back();
+    if (frame.right.empty()) continue;
+    if (const auto point = window.landmark(track.id))
+      expected_px.back() = depth_.disparity_px(T_cam_odom * *point, rectification);
+  }
+  return depth_.measure(frame, rectification, px, expected_px);
+}
+
+/// Where a point that the window does not hold yet lies [m], in the odometry frame: by its depth,
+/// or where the rays of its observations meet. Nothing where neither is certain enough.
+std::optional<Eigen::Vector3d> PointCue::place_point(const Observation& now,
+                                                     const std::vector<Observation>& before,
+                                                     const std::optional<InverseDepth>& depth,
+                                                     const SlidingWindow& window) const {
+  const SE3 T_odom_cam = window.pose(now.keyframe);
+  constexpr double kCertain = 0.2;  // of the inverse depth, for a depth alone to place a point
+  if (depth && depth->sigma < kCertain * depth->value) {
+    const auto ray = camera_.unproject(now.px);
+    if (!ray) return std::nullopt;
+    return T_odom_cam * Eigen::Vector3d(*ray / depth->value);
+  }
+  if (before.empty()) return std::nullopt;
+  std::vector<Sighting> rays{{T_odom_cam, now.px}};
+  for (const Observation& o : before) rays.push_back({window.pose(o.keyframe), o.px});
+  const auto point =
+      triangulate(camera_, rays, deg_to_rad(options_.min_parallax_deg), options_.outlier_px);
+  if (!point.outcome) return std::nullopt;
+  return point.point_ref;
+}
+
+void PointCue::observe(KeyframeId keyframe, const Frame& frame,
+                       const RectificationError& rectification, SlidingWindow& window) {
+  const auto span = times_.measure("triangulation");
+  const auto depths = measure_depth(frame, rectification, window.pose(keyframe), window);
+  const KeyframeId oldest = window.keyframes().front();
+  std::map<LandmarkId, std::vector<Observation>> all;
+  for (std::size_t i = 0; i < tracks().size(); ++i) {
+    const LandmarkId id = tracks()[i].id;
+    std::vector<Observation> observations;
+    if (const auto old = observations_.find(id); old != observations_.end())
+      for (const Observation& o : old->second)
+        if (o.keyframe >= oldest) observations.push_back(o);
+    // The error of a patch that is warped or half occluded changes slowly: the observations of a
+    // track are not independent, and count for less the more there are.
+    const double correlated = 1 + static_cast<double>(observations.size());
+    const Observation now{keyframe, tracks()[i].px.cast<double>(),
+                          correlated * tracks()[i].covariance.cast<double>()};
+    if (!window.landmark(id))
+      if (const auto point_odom = place_point(now, observations, depths[i], window)) {
+        window.add_landmark(id, *point_odom);
+        for (const Observation& o : observations)
+          add_observation(o.keyframe, id, o.px, o.covariance_px, std::nullopt, window);
+      }
+    if (window.landmark(id))
+      add_observation(keyframe, id, now.px, now.covariance_px, depths[i], window);
+    observations.push_back(now);
+    all[id] = std::move(observations);
+  }
+  observations_ = std::move(all);
+}
+
+void PointCue::observe_two_views(KeyframeId ref, KeyframeId cur,
+                                 const std::vector<TwoViewPoint>& points, SlidingWindow& window) {
+  for (const TwoViewPoint& p : points) {
+    observations_[p.track] = {{ref, p.px_ref, p.covariance_px}, {cur, p.px_cur, p.covariance_px}};
+    if (!p.point_odom) continue;
+    window.add_landmark(p.track, *p.point_odom);
+    for (const Observation& o : observations_[p.track])
+      add_observation(o.keyframe, p.track, o.px, o.covariance_px, std::nullopt, window);
+  }
+}
+
+void PointCue::observe_new_tracks(KeyframeId keyframe) {
+  for (const PointTrack& track : tracks()) {
+    auto& observations = observations_[track.id];
+    if (observations.empty())
+      observations.push_back({keyframe, track.px.cast<double>(), track.covariance.cast<double>()});
+  }
+}
+
+/// Whether a landmark is no point of the scene: where one contour covers another, their crossing
+/// moves along with both, and misses every projection by a little.
+bool PointCue::contradicts_itself(LandmarkId landmark, const SlidingWindow& window) const {
+  double sum_px = 0, sum_sigmas = 0;
+  int views = 0;
+  for (const WindowObservation& o : window.observations(landmark)) {
+    const auto px = residual_px(window, o), sigmas = residual_sigmas(window, o);
+    if (!px || !sigmas) continue;
+    sum_px += px->squaredNorm() / 2;
+    sum_sigmas += sigmas->squaredNorm() / 2;
+    ++views;
+  }
+  const double most_px = options_.misfit_px, most_sigmas = options_.misfit_sigmas;
+  return views > 2 && sum_px > most_px * most_px * views &&
+         sum_sigmas > most_sigmas * most_sigmas * views;
+}
+
+std::vector<double> PointCue::prune(SlidingWindow& window, KeyframeId newest) {
+  std::map<LandmarkId, std::size_t> track_of;
+  for (std::size_t i = 0; i < tracks().size(); ++i) track_of[tracks()[i].id] = i;
+  std::vector<bool> keep(tracks().size(), true);
+  std::vector<double> depths;
+  const SE3 T_cam_odom = window.pose(newest).inverse();
+  for (const LandmarkId id : window.landmarks()) {
+    const auto& observations = window.observations(id);
+    const auto track = track_of.find(id);
+    const auto residual =
+        observations.empty() ? std::nullopt : residual_px(window, observations.back());
+    const bool misfit = residual && contradicts_itself(id, window);
+    if (!residual || residual->norm() > options_.outlier_px || misfit) {
+      if (misfit && track != track_of.end()) keep[track->second] = false;
+      window.remove_landmark(id);
+      observations_.erase(id);
+    } else if (track != track_of.end()) {
+      depths.push_back((T_cam_odom * *window.landmark(id)).z());
+    }
+  }
+  tracker_.keep(keep);
+  return depths;
+}
+
+std::vector<std::pair<LandmarkId, Eigen::Vector2d>> PointCue::landmark_pixels(
+    const SlidingWindow& window) const {
+  std::vector<std::pair<LandmarkId, Eigen::Vector2d>> px;
+  for (const PointTrack& track : tracks())
+    if (window.landmark(track.id)) px.emplace_back(track.id, track.px.cast<double>());
+  return px;
+}
+
+std::vector<KnownPixel> PointCue::landmark_depths(const SlidingWindow& window,
+                                                  KeyframeId keyframe) const {
+  constexpr double kSigmaShare = 0.03;
+  const SE3 T_cam_odom = window.pose(keyframe).inverse();
+  std::vector<KnownPixel> known;
+  for (const PointTrack& track : tracks()) {
+    const auto point = window.landmark(track.id);
+    if (!point) continue;
+    const Eigen::Vector3d p_cam = T_cam_odom * *point;
+    if (!(p_cam.z() > 0)) continue;
+    known.push_back({track.px, {p_cam / p_cam.z(), 1 / p_cam.z(), kSigmaShare / p_cam.z()}});
+  }
+  return known;
+}
+
+int PointCue::tracked_landmarks(const SlidingWindow& window) const {
+  return static_cast<int>(std::count_if(
+      tracks().begin(), tracks().end(),
+      [&](const PointTrack& track) { return window.landmark(track.id).has_value(); }));
+}
+
+}  // namespace placegraph

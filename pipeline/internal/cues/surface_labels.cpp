@@ -1,0 +1,47 @@
+#include <placegraph/frontend/internal/segments/segment_detector.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/internal/cues/surface_labels.h>
+
+#include <opencv2/imgproc.hpp>
+
+namespace placegraph {
+
+SceneEye::SceneEye(std::shared_ptr<const SceneModel> surfaces, const SceneMaskOptions& options)
+    : surfaces_(std::move(surfaces)), options_(options) {
+  options_.check();
+  require(surfaces_ && surfaces_->kind == SceneModel::Kind::kSurfaces &&
+              surfaces_->class_count() == kSurfaceCount,
+          "SceneEye: a model of surfaces is needed");
+}
+
+SceneSight SceneEye::look(const Frame& frame, bool masks) const {
+  const SceneView view = view_scene(frame.colour.empty() ? frame.image : frame.colour);
+  const std::vector<float> surfaces = classify_superpixels(*surfaces_, view);
+  SceneSight sight;
+  sight.frame = frame.id;
+  sight.shares = surface_shares(surfaces, view);
+  if (masks) sight.masks = mask_scene(surfaces, view, options_);
+  return sight;
+}
+
+std::pair<std::vector<LineSegment>, Camera> edges_of(const Image& grey, const Camera& camera) {
+  constexpr int kMostWidth = 640;
+  Image image = grey;
+  Camera of = camera;
+  while (image.cols > kMostWidth) {
+    Image half;
+    cv::resize(image, half, {image.cols / 2, image.rows / 2}, 0, 0, cv::INTER_AREA);
+    image = half;
+    of.width = image.cols;
+    of.height = image.rows;
+    of.fx /= 2;
+    of.fy /= 2;
+    of.cx = (of.cx - 0.5) / 2;  // a pixel of the halved image lies in the middle of four
+    of.cy = (of.cy - 0.5) / 2;
+  }
+  SegmentDetectorOptions options;
+  options.min_length_px = 20;
+  return {segments_of(detect_segments(image, options)), of};
+}
+
+}  // namespace placegraph

@@ -1,0 +1,89 @@
+#pragma once
+#include <placegraph/backend/internal/inertial/error_state_filter.h>
+#include <placegraph/graph/core/stage_times.h>
+#include <placegraph/graph/image/frame.h>
+#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/pipeline/internal/flight/delay_line.h>
+#include <placegraph/pipeline/internal/flight/floor_flow.h>
+#include <placegraph/pipeline/internal/flight/hover_options.h>
+#include <placegraph/pipeline/internal/flight/imu_buffer.h>
+#include <placegraph/pipeline/internal/flight/marker_sensor.h>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// What is seen in one image.
+struct HoverSights {
+  std::int64_t stamp_ns = 0;
+  std::vector<FlowVector> flow = {};  ///< from the last image to this one
+  std::vector<MarkerSighting> markers = {};
+  std::vector<BeaconSighting> beacons = {};
+};
+
+/// What became of one image.
+struct HoverFrame {
+  std::int64_t stamp_ns = 0;
+  Outcome outcome;  ///< of `state`: see PositionFilter::at
+  BodyState state;
+  Outcome flow;          ///< whether flow over the floor was measured and accepted
+  int flow_points = 0;   ///< inliers of the flow
+  double flow_chi2 = 0;  ///< of the inliers, per degree of freedom
+  Outcome markers;       ///< whether a pose by markers was measured and accepted
+  /// The measurements, accepted or not, for a smoother beside the filter.
+  std::optional<FlowSighting> flow_sighting;
+  std::optional<PoseSighting> pose_sighting;
+  int markers_seen = 0, beacons_seen = 0;  ///< that the pose was computed from
+};
+
+/// The pose of a small flying robot, image by image: flow over the floor without the rotation that
+/// the gyro measured is velocity over height (FloorFlow), markers become poses (MarkerSensor), and
+/// the position filter joins both with the inertial sensor. It starts with the first markers that
+/// leave one pose only, and anew where markers contradict it persistently; before the start, and
+/// whenever its inputs stop, it has no state.
+class FlightEstimator {
+ public:
+  /// `camera` has no distortion. World: z up. Throws ArgumentError if an option is out of range.
+  FlightEstimator(const HoverOptions& options, const Camera& camera, const SE3& T_body_cam,
+                  const MarkerLayout& layout);
+
+  /// Inertial samples in the order of their stamps, before the images at or after them. Outcomes as
+  /// PositionFilter's; samples before the start are kept.
+  Outcome add(const ImuSample& sample);
+  /// The next image; with `markers_visible` false it is not searched for markers.
+  HoverFrame add(const Frame& frame, bool markers_visible = true);
+  /// The same where the measurements of the image are made elsewhere. Throws ArgumentError if its
+  /// stamp is not after the last one's.
+  HoverFrame add(const HoverSights& sights);
+  /// Starts with a state that something else knows, instead of by markers.
+  void start(const BodyState& state);
+
+  /// The state at a time from the last image on, by the last inertial sample.
+  PositionFilter::Answer at(std::int64_t stamp_ns) const { return filter_.at(stamp_ns); }
+  const StageTimes& times() const { return times_; }
+
+ private:
+  struct LastImage {
+    std::int64_t stamp_ns = 0;
+    std::optional<BodyState> state;  // if it was known
+  };
+
+  void use_flow(const HoverSights& sights, const KnownRotation& rotation, HoverFrame& result);
+  void use_markers(const HoverSights& sights, const KnownRotation& rotation, HoverFrame& result);
+  Outcome start_by(const PoseSighting& pose);
+  Outcome deliver_poses(std::int64_t now_ns);
+
+  HoverOptions options_;
+  SO3 R_body_cam_;
+  FloorFlow flow_;
+  std::optional<MarkerSensor> markers_;  // nothing: the layout has neither markers nor beacons
+  ImuBuffer imu_;
+  DelayLine<PoseSighting> delayed_poses_;
+  PositionFilter filter_;
+  std::optional<LastImage> last_;
+  StageTimes times_;
+};
+
+}  // namespace placegraph

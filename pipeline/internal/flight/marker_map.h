@@ -1,0 +1,50 @@
+#pragma once
+#include <placegraph/frontend/internal/markers/marker_detector.h>
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/graph/pose_graph/pose_graph.h>
+#include <placegraph/pipeline/internal/flight/hover_options.h>
+
+#include <map>
+#include <vector>
+
+namespace placegraph {
+
+/// A frame whose motion is known from elsewhere, and the markers it shows.
+struct MarkerFrame {
+  SE3 T_odom_cam;
+  /// Of the motion from the frame before (right tangent of T_before_this); not used of the first.
+  Matrix6d step_covariance = Matrix6d::Identity();
+  std::vector<MarkerSighting> markers;
+};
+
+struct MappedMarker {
+  PlacedMarker marker;
+  Matrix6d covariance =
+      Matrix6d::Zero();  ///< right tangent of T_world_marker; zero if it was known
+  int views = 0;
+};
+
+struct MarkerMap {
+  /// Outcomes: too few data (no marker was seen often enough), those of the optimizer.
+  Outcome outcome;
+  std::vector<MappedMarker> markers;  ///< in the order of their ids
+  PoseGraph graph;                    ///< frames by number, markers by marker_node
+  /// The markers as a layout, for MarkerFilter.
+  MarkerLayout layout(const std::string& dictionary) const;
+};
+
+/// The node of a marker in the graph.
+NodeId marker_node(int id);
+
+/// Markers as landmarks of a pose graph: frames are tied by their motions, frames and markers by
+/// the marker's pose in the frame with its covariance; of the two poses of a sighting the one that
+/// agrees with the other frames. Markers of `known` are held where they are and so give the world;
+/// without any the first frame's odometry does. `sides_m`: of the markers that are not known;
+/// others are left out. Throws ArgumentError for a side that is not positive.
+[[nodiscard]] MarkerMap map_markers(const std::vector<MarkerFrame>& frames,
+                                    const MarkerLayout& known, const std::map<int, double>& sides_m,
+                                    const Camera& camera, const MarkerMapOptions& options = {});
+
+}  // namespace placegraph

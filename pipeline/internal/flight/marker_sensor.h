@@ -1,0 +1,67 @@
+#pragma once
+#include <placegraph/frontend/internal/markers/beacon_detector.h>
+#include <placegraph/frontend/internal/markers/marker_detector.h>
+#include <placegraph/frontend/internal/markers/marker_filter.h>
+#include <placegraph/graph/core/options.h>
+#include <placegraph/graph/core/outcome.h>
+#include <placegraph/graph/core/stage_times.h>
+#include <placegraph/graph/geometry/camera.h>
+#include <placegraph/graph/image/image.h>
+#include <placegraph/graph/internal/measurements/body_state.h>
+#include <placegraph/graph/internal/measurements/marker_layout.h>
+#include <placegraph/pipeline/internal/flight/hover_options.h>
+
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// The markers and beacons in one image.
+struct MarkerDetections {
+  std::vector<MarkerSighting> markers;
+  std::vector<BeaconSighting> beacons;
+};
+
+/// Poses of the body by markers and beacons of a layout, and where in the image they are searched
+/// for: near where an estimator expects them, and in the whole image where nothing is expected or
+/// no marker has been accepted for a while.
+class MarkerSensor {
+ public:
+  /// The camera has no distortion. Throws ArgumentError if an option is out of range, or if the
+  /// layout has neither markers nor beacons.
+  MarkerSensor(const MarkerSensorOptions& options, const Camera& camera, const SE3& T_body_cam,
+               const MarkerLayout& layout);
+
+  /// Searches an image (CV_8UC1). `expected` is the body at that image, if something knows it.
+  /// Beacons are searched for where one may be in view and fewer than three markers are found.
+  MarkerDetections detect(const Image& image, const std::optional<BodyState>& expected,
+                          StageTimes& times);
+  /// The pose by what one image shows, with the help of the expectation if it `relies_on` that.
+  /// Outcomes: those of MarkerFilter::observe.
+  MarkerAnswer estimate(const MarkerView& view, const BodyExpectation& expectation);
+  /// What became of the pose of one image: accepted by the estimator that expects states, or not,
+  /// and whether the image shows markers.
+  void report(const Outcome& accepted, bool markers_in_view);
+  /// Whether markers have contradicted the expected states in `restart_after` images in a row, so
+  /// that the markers are right. Until a pose is accepted.
+  bool is_refuted() const { return contradictions_ >= options_.restart_after; }
+  /// Whether there is an expected state, and markers have not refuted such states.
+  bool relies_on(const BodyExpectation& expectation) const {
+    return expectation.state.has_value() && !is_refuted();
+  }
+
+ private:
+  std::vector<ExpectedSquare> expected_squares(const BodyState& expected) const;
+  bool beacons_in_view(const BodyState& expected) const;
+
+  MarkerSensorOptions options_;
+  Camera camera_;
+  SE3 T_body_cam_;
+  std::vector<Eigen::Vector3d> beacons_world_;
+  std::optional<MarkerDetector> detector_;  // nothing: the layout has beacons only
+  MarkerFilter filter_;
+  int contradictions_ = 0;      // images in a row
+  int images_since_found_ = 0;  // since a pose was accepted or an image was searched whole
+};
+
+}  // namespace placegraph

@@ -1,0 +1,96 @@
+#include <placegraph/backend/internal/window/sliding_window.h>
+#include <placegraph/pipeline/internal/lines/line_course.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace placegraph {
+namespace {
+
+/// The plane of a line along d, and how well the turn of such planes is seen.
+struct PlaneAlong {
+  Eigen::Vector3d n;  ///< unit, at right angles to d
+  double reach;       ///< sine of the angle from d to the outer end of what is seen
+  double sigma_rad;   ///< of a turn about d
+};
+
+std::optional<PlaneAlong> plane_along(const Camera& camera, const ImageLine::Carriers& seen,
+                                      const Eigen::Vector3d& d_cam) {
+  constexpr double kPasses = 0.99;  // it does point along d
+  const Eigen::Vector3d n = plane_normal(camera, seen.first, seen.second);
+  const Eigen::Vector3d across = n - n.dot(d_cam) * d_cam;
+  if (!(across.norm() > kPasses)) return std::nullopt;
+  double reach = 0;
+  for (const Eigen::Vector2d& px : {seen.first, seen.second}) {
+    const Eigen::Vector3d ray((px.x() - camera.cx) / camera.fx, (px.y() - camera.cy) / camera.fy,
+                              1);
+    reach = std::max(reach, ray.normalized().cross(d_cam).norm());
+  }
+  if (!(reach > 0)) return std::nullopt;
+  return PlaneAlong{across.normalized(), reach,
+                    seen.sigma_px / (std::min(camera.fx, camera.fy) * reach)};
+}
+
+}  // namespace
+
+/// With t the way in the earlier keyframe, n the plane's normal there and r the line's distance
+/// across, n^T t = r sin(turn). r is known to a factor only, so that the turn itself counts as its
+/// deviation.
+std::vector<MotionObservation> course_along_lines(
+    const SlidingWindow& window, const Camera& camera,
+    const std::vector<DirectionCompass::Family>& families, const LineSightings& sightings,
+    KeyframeId keyframe, double depth, double max_turn_rad) {
+  constexpr std::size_t kBack = 5;        // keyframes
+  constexpr double kAlong = 0.96;         // cosine to the way: others are placed, or far
+  constexpr double kRollSigmaRad = 1e-3;  // between two keyframes
+  constexpr double kFactor = 2;           // of the distance
+  const auto keyframes = window.keyframes();
+  const KeyframeId oldest = keyframes[keyframes.size() - std::min(keyframes.size(), kBack + 1)];
+  const SE3 T_odom_to = window.pose(keyframe);
+  std::vector<MotionObservation> motions;
+  for (const auto& family : families) {
+    std::map<KeyframeId, Eigen::Matrix3d> held;  // by the earlier keyframe, in its frame
+    for (const LineId id : family.tracks) {
+      const auto track = sightings.find(id);
+      if (track == sightings.end() || window.line(id)) continue;
+      const LineInKeyframe& now = track->second.back();
+      const auto then = std::find_if(track->second.begin(), track->second.end(),
+                                     [&](const LineInKeyframe& s) { return s.keyframe >= oldest; });
+      if (now.keyframe != keyframe || then->keyframe == keyframe) continue;
+      const SE3 T_odom_from = window.pose(then->keyframe);
+      const SE3 T_from_to = T_odom_from.inverse() * T_odom_to;
+      const Eigen::Vector3d d_from = T_odom_from.rotation().inverse() * family.d_ref;
+      if (!(std::abs(d_from.dot(T_from_to.translation())) >
+            kAlong * T_from_to.translation().norm()))
+        continue;
+      const auto a = plane_along(camera, then->seen, d_from);
+      const auto b = plane_along(camera, now.seen, T_from_to.rotation().inverse() * d_from);
+      if (!a || !b) continue;
+      const double turn_rad =
+          std::asin(std::min(1.0, a->n.cross(T_from_to.rotation() * b->n).norm()));
+      if (turn_rad > max_turn_rad) continue;
+      const double sigma =
+          kFactor * depth * b->reach *
+          std::hypot(turn_rad, std::hypot(a->sigma_rad, b->sigma_rad), kRollSigmaRad);
+      held.try_emplace(then->keyframe, Eigen::Matrix3d::Zero()).first->second +=
+          a->n * a->n.transpose() / (sigma * sigma);
+    }
+    for (const auto& [from, across] : held) {
+      const SE3 T_odom_from = window.pose(from);
+      const SE3 T_from_to = T_odom_from.inverse() * T_odom_to;
+      const Eigen::Vector3d d_from = T_odom_from.rotation().inverse() * family.d_ref;
+      MotionObservation motion{
+          from, keyframe, SE3(T_from_to.rotation(), d_from * d_from.dot(T_from_to.translation())),
+          Matrix6d::Zero()};
+      const Eigen::Matrix3d R = T_from_to.rotation().matrix();
+      const Eigen::Matrix3d seen = R.transpose() * across * R;
+      motion.information.topLeftCorner<3, 3>() = 0.5 * (seen + seen.transpose());
+      motions.push_back(motion);
+    }
+  }
+  return motions;
+}
+
+}  // namespace placegraph

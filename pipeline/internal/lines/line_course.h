@@ -1,0 +1,24 @@
+#pragma once
+#include <placegraph/backend/internal/window/window_measurements.h>
+#include <placegraph/frontend/internal/lines/direction_compass.h>
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/pipeline/internal/lines/line_sightings.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace placegraph {
+
+class SlidingWindow;
+
+/// Motions between earlier keyframes and the newest one that lines along the way of the camera
+/// allow. Such lines are never triangulated, but a camera that leaves their direction sees their
+/// planes turn: what did not turn says where the newest keyframe does not lie.
+/// `families`: directions that lines share, in the window's frame, with the tracks along them.
+/// `depth` [m]: of the scene. `max_turn_rad`: a line whose plane turns by more can be triangulated.
+std::vector<MotionObservation> course_along_lines(
+    const SlidingWindow& window, const Camera& camera,
+    const std::vector<DirectionCompass::Family>& families, const LineSightings& sightings,
+    KeyframeId keyframe, double depth, double max_turn_rad);
+
+}  // namespace placegraph

@@ -1,0 +1,31 @@
+#include <placegraph/pipeline/internal/local_map/keyframe_masks.h>
+
+#include <opencv2/core.hpp>
+
+namespace placegraph {
+
+void KeyframeMasks::set_model(std::shared_ptr<const SceneEye> labeller, bool masks) {
+  labeller_ = std::move(labeller);
+  masks_ = masks;
+}
+
+KeyframeImages KeyframeMasks::apply(const Frame& frame) {
+  KeyframeImages images{frame, frame.mask, nullptr};
+  if (!labeller_) return images;
+  if (!labels_ || labels_->frame != frame.id) {
+    const auto span = times_.measure("scene labels");
+    labels_ = std::make_shared<const SceneSight>(labeller_->look(frame, masks_ && trusted_));
+  }
+  images.labels = labels_;
+  const Image& use = labels_->masks.use;
+  if (use.empty()) return images;
+  if (frame.mask.empty()) {
+    images.frame.mask = use;
+  } else {
+    images.frame.mask = Image();  // that of the caller must not change
+    cv::bitwise_and(frame.mask, use, images.frame.mask);
+  }
+  return images;
+}
+
+}  // namespace placegraph

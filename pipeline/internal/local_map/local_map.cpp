@@ -1,0 +1,153 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/local_map/local_map.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+
+LocalMap::LocalMap(const SlidingWindowOptions& options, const Camera& camera, Scale scale)
+    : options_(options), camera_(camera), window_(options, camera), scale_(scale) {}
+
+void LocalMap::restart(Scale scale, const std::optional<double>& median_depth) {
+  past_landmarks_ = landmarks();
+  window_ = SlidingWindow(options_, camera_);
+  scale_ = scale;
+  median_depth_ = median_depth.value_or(median_depth_);
+  first_ = next_;
+  poses_.clear();
+  links_.clear();
+}
+
+void LocalMap::go_on_from(KeyframeId next_keyframe, double median_depth) {
+  next_ = next_keyframe;
+  median_depth_ = median_depth;
+}
+
+KeyframeId LocalMap::add_keyframe(const SE3& T_odom_cam) {
+  window_.add_keyframe(next_, T_odom_cam);
+  return next_++;
+}
+
+void LocalMap::discard(double median_depth) {
+  window_ = SlidingWindow(options_, camera_);
+  poses_.clear();
+  links_.clear();
+  next_ = first_;
+  median_depth_ = median_depth;
+}
+
+Outcome LocalMap::optimize() {
+  return window_.keyframes().size() < 2 ? Outcome::ok() : window_.optimize().outcome;
+}
+
+void LocalMap::update_poses(const std::vector<double>& depths, bool rotations_corrected) {
+  constexpr double kLeastDepth = 1e-3;
+  if (!depths.empty()) median_depth_ = std::max(kLeastDepth, median_of(depths));
+  if (rotations_corrected) widen_link_to_oldest();
+  for (const KeyframeId id : window_.keyframes()) poses_[id] = window_.pose(id);
+}
+
+void LocalMap::widen_link_to_oldest() {
+  const KeyframeId oldest = window_.keyframes().front();
+  const auto link = links_.find(KeyframeId(oldest.value() - 1));
+  const auto before = poses_.find(oldest);
+  if (link == links_.end() || before == poses_.end()) return;
+  // (H^-1 + g g^T)^-1 of the rotation g (Sherman & Morrison 1950)
+  Vector6d g = Vector6d::Zero();
+  g.tail<3>() = (before->second.rotation().inverse() * window_.pose(oldest).rotation()).log();
+  Matrix6d& H = link->second.information;
+  const Vector6d Hg = H * g;
+  H -= Hg * Hg.transpose() / (1 + g.dot(Hg));
+}
+
+void LocalMap::marginalize() {
+  const auto keyframes = window_.keyframes();
+  const auto size = static_cast<std::size_t>(options_.max_keyframes);
+  if (keyframes.size() <= size) return;
+  for (std::size_t i = 0; i + 1 < keyframes.size() && keyframes.size() - i > size; ++i)
+    links_[keyframes[i]] = {motion_information(keyframes[i], keyframes[i + 1]), scale_drift()};
+  std::vector<PointLandmark> before;
+  for (const LandmarkId id : window_.landmarks())
+    if (window_.observations(id).size() > 1) before.push_back(describe(id));
+  window_.marginalize();
+  for (const PointLandmark& landmark : before)
+    if (!window_.landmark(landmark.id)) past_landmarks_.push_back(landmark);
+}
+
+Rescale LocalMap::rescale(double factor) {
+  const Eigen::Vector3d centre = window_.pose(window_.keyframes().front()).translation();
+  window_.rescale(factor);
+  for (auto& [id, T_odom_keyframe] : poses_)
+    T_odom_keyframe =
+        SE3(T_odom_keyframe.rotation(), centre + factor * (T_odom_keyframe.translation() - centre));
+  for (PointLandmark& landmark : past_landmarks_)
+    if (landmark.keyframe >= first_) landmark.point_cam *= factor;
+  median_depth_ *= factor;
+  scale_ = Scale::kMetric;
+  return {factor, centre};
+}
+
+LocalMap::Link LocalMap::link(KeyframeId id) const {
+  const auto link = links_.find(id);
+  if (link != links_.end()) return link->second;
+  return {motion_information(id, ++KeyframeId(id)), scale_drift()};
+}
+
+/// Of the unit of length (logarithm), from one keyframe to the next: half a window's worth, spread
+/// over its links. The landmarks that both halves see hold it.
+double LocalMap::scale_drift() const {
+  if (metric()) return 0;
+  constexpr double kMost = 0.1;
+  const auto ids = window_.keyframes();
+  if (ids.size() < 3) return kMost;
+  const double sigma =
+      sigma_log_length_ratio(window_, ids.front(), ids[ids.size() / 2], ids.back());
+  return std::min(kMost, sigma / std::sqrt(0.5 * static_cast<double>(ids.size() - 1)));
+}
+
+Matrix6d LocalMap::motion_information(KeyframeId from, KeyframeId to) const {
+  Matrix6d information = relative_information(window_, from, to);
+  if (metric()) return information;
+  // The prior's hold on the scale is arbitrary and common to all motions: no error of this one.
+  const SE3 T_from_to = window_.pose(from).inverse() * window_.pose(to);
+  const double length = T_from_to.translation().norm();
+  if (!(length > 0)) return information;
+  const Eigen::Vector3d along = T_from_to.rotation().inverse() * T_from_to.translation() / length;
+  const double sigma = std::max(1e-3, scale_drift()) * length;
+  information.topLeftCorner<3, 3>() += along * along.transpose() / (sigma * sigma);
+  return information;
+}
+
+std::optional<KeyframeId> LocalMap::window_begin() const {
+  const auto ids = window_.keyframes();
+  if (ids.empty()) return std::nullopt;
+  return ids.front();
+}
+
+int LocalMap::landmarks_in_window() const {
+  return static_cast<int>(window_.landmarks().size() + window_.lines().size());
+}
+
+PointLandmark LocalMap::describe(LandmarkId id) const {
+  const auto& observations = window_.observations(id);
+  PointLandmark landmark;
+  landmark.id = id;
+  landmark.keyframe = observations.front().keyframe;
+  landmark.point_cam = window_.pose(landmark.keyframe).inverse() * *window_.landmark(id);
+  landmark.observations = static_cast<int>(observations.size());
+  return landmark;
+}
+
+std::vector<PointLandmark> LocalMap::landmarks(std::size_t first) const {
+  require(first <= past_landmarks_.size(),
+          "LocalMap::landmarks: those of the window have no order");
+  std::vector<PointLandmark> result(past_landmarks_.begin() + static_cast<std::ptrdiff_t>(first),
+                                    past_landmarks_.end());
+  for (const LandmarkId id : window_.landmarks())
+    if (!window_.observations(id).empty()) result.push_back(describe(id));
+  return result;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,65 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/core/log.h>
+#include <placegraph/graph/measurements/measured_motion.h>
+#include <placegraph/pipeline/internal/cues/manhattan_cue.h>
+#include <placegraph/pipeline/internal/lines/line_cue.h>
+#include <placegraph/pipeline/internal/local_map/keyframe_masks.h>
+#include <placegraph/pipeline/internal/local_map/local_map.h>
+#include <placegraph/pipeline/internal/scale/floor_line_scale.h>
+#include <placegraph/pipeline/internal/scale/ground_plane_scale.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace placegraph {
+
+/// Gives the map of a monocular camera its metric scale: from the ground plane or lines on the
+/// floor under a camera of known height, or from motion that another sensor measured. Until the
+/// scale is known, a measurement rescales the map; afterwards each one is a distance in the window.
+class MetricScale {
+ public:
+  explicit MetricScale(LogSink log) : log_(std::move(log)) {}
+  /// Ways to measure; any number of them may be used.
+  void use_ground_plane(const GroundScaleOptions& options, const Camera& camera, double height_m);
+  void use_floor_lines(const FloorScaleOptions& options, const Camera& camera, double height_m);
+  void use_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
+  /// Whether anything measures the scale.
+  bool available() const { return ground_ || floor_ || motion_; }
+  bool uses_ground_plane() const { return ground_.has_value(); }
+  bool uses_floor_lines() const { return floor_.has_value(); }
+  /// Whether the ground lies where the camera's height says.
+  void trust_height(bool trusted) { height_trusted_ = trusted; }
+  void reset();
+
+  /// What the cues see in a keyframe; null: not among the cues, or not believed.
+  struct Cues {
+    const LineCue* lines = nullptr;
+    const ManhattanCue* manhattan = nullptr;
+  };
+  /// Keeps a keyframe of the map, not the newest one, for later measurements.
+  void remember(KeyframeId keyframe, const Frame& frame);
+  /// Measures at the newest keyframe of the map. Returns how its lengths have grown, if they have.
+  std::optional<Rescale> measure(const KeyframeImages& images, const Cues& cues, LocalMap& map);
+  /// Outline in the image of the ground plane that is measured; empty if there is none.
+  std::vector<Eigen::Vector2d> ground_outline_px() const;
+
+ private:
+  std::optional<Rescale> measure_ground(const KeyframeImages& images, const Cues& cues,
+                                        LocalMap& map);
+  std::optional<Rescale> measure_floor(const Cues& cues, LocalMap& map);
+  std::optional<Rescale> measure_motion(LocalMap& map);
+  std::optional<DistanceObservation> measured_distance(KeyframeId from, KeyframeId to) const;
+  GroundSight ground_in(const KeyframeImages& images, const Cues& cues) const;
+
+  LogSink log_;
+  std::optional<GroundScale> ground_;
+  std::optional<FloorScale> floor_;
+  std::shared_ptr<const MeasuredMotion> motion_;
+  bool height_trusted_ = true;
+  std::map<KeyframeId, std::int64_t> stamps_ns_;  // of the segment's keyframes
+  std::map<KeyframeId, Frame> frames_;            // of the window, where the ground is measured
+};
+
+}  // namespace placegraph

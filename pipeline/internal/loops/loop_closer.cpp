@@ -1,0 +1,202 @@
+#include <placegraph/frontend/internal/places/place_database.h>
+#include <placegraph/frontend/internal/places/verification/loop_verifier.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/random.h>
+#include <placegraph/pipeline/internal/loops/loop_closer.h>
+#include <placegraph/pipeline/internal/loops/loop_gates.h>
+#include <placegraph/pipeline/internal/loops/loop_probability.h>
+
+#include <algorithm>
+
+namespace placegraph {
+
+LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibration,
+                       std::uint64_t seed)
+    : options_(options),
+      describer_(options.detector, options.verifier.matcher, calibration),
+      seed_(seed),
+      database_(options.database, seed) {
+  options_.check();
+}
+
+LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibration,
+                       std::uint64_t seed, const Map& map)
+    : LoopCloser(options, calibration, seed) {
+  for (const Keyframe& keyframe : map.keyframes) {
+    require(views_.empty() || views_.back().keyframe < keyframe.id,
+            "LoopCloser: the map's keyframes must stand in the order of their ids");
+    database_.add(keyframe.id, keyframe.features);
+    views_.push_back({keyframe.id, keyframe.frame, keyframe.features, {}});
+  }
+  records_ = map.loops;
+}
+
+const LoopCloser::View& LoopCloser::view(KeyframeId keyframe) const {
+  return *std::lower_bound(views_.begin(), views_.end(), keyframe,
+                           [](const View& v, KeyframeId id) { return v.keyframe < id; });
+}
+
+void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
+                          const std::optional<SE3>& T_previous_this,
+                          std::vector<LineFeature> lines) {
+  View view = describer_.describe(keyframe, frame, std::move(lines));
+  if (T_previous_this && !views_.empty())
+    describer_.triangulate(views_.back(), view, *T_previous_this);
+  database_.add(keyframe, view.features);
+  views_.push_back(std::move(view));
+}
+
+/// Older views that look like the newest one, the most similar first.
+std::vector<LoopCloser::Candidate> LoopCloser::retrieve() const {
+  const View& query = views_.back();
+  // Without a keyframe before there is nothing that similarity could be a share of.
+  const double similarity_to_last =
+      views_.size() < 2 ? 0
+                        : database_.similarity(query.features, views_[views_.size() - 2].keyframe);
+  std::vector<Candidate> candidates;
+  for (const PlaceCandidate& candidate :
+       database_.query(query.features, options_.candidates, [&](KeyframeId id) {
+         return query.frame.value() - view(id).frame.value() >= options_.min_frame_gap;
+       }))
+    candidates.push_back(
+        {&view(candidate.id), similarity_to_last > 0 ? candidate.score / similarity_to_last : 1});
+  return candidates;
+}
+
+/// The relative pose of the newest view and an older one by their features.
+std::optional<Loop> LoopCloser::verify(const View& match, bool free_scale,
+                                       LoopRecord& record) const {
+  const View& query = views_.back();
+  Random random(seed_, static_cast<std::uint64_t>(query.frame.value()) << 20 |
+                           static_cast<std::uint64_t>(match.keyframe.value()));
+  const LoopVerification verified =
+      verify_loop(describer_.camera(), query.for_verification(), match.for_verification(),
+                  options_.verifier, random, free_scale);
+  record.inliers = verified.inliers;
+  record.lines = verified.lines;
+  record.model = verified.model;
+  if (!verified.outcome) return std::nullopt;
+  record.T_match_query = verified.T_match_query;
+  return Loop{query.keyframe, match.keyframe, verified.T_match_query,
+              options_.information_scale * verified.information, verified.scale_match_query};
+}
+
+/// The loop to a candidate if it passes all tests but that of support; the record's stage is the
+/// test that decided.
+std::optional<Loop> LoopCloser::judge(const Candidate& candidate, const KnownMotions& known,
+                                      double median_depth_m, LoopRecord& record) const {
+  const KeyframeId match = candidate.match->keyframe, query = views_.back().keyframe;
+  record.stage = LoopStage::kRetrieval;
+  if (candidate.similarity < options_.min_similarity) return std::nullopt;
+
+  const bool free_scale = known.scale_differs && known.scale_differs(match, query);
+  const auto odometry = known.odometry ? known.odometry(match, query) : std::nullopt;
+  record.stage = LoopStage::kReach;
+  if (!free_scale && odometry &&
+      !within_reach(*odometry, farthest_depth(*candidate.match), median_depth_m, options_))
+    return std::nullopt;
+
+  record.stage = LoopStage::kGeometry;
+  const std::optional<Loop> loop = verify(*candidate.match, free_scale, record);
+  if (!loop) return std::nullopt;
+
+  record.stage = LoopStage::kDrift;
+  if (odometry && !within_drift(*loop, *odometry, median_depth_m, free_scale, options_))
+    return std::nullopt;
+
+  record.stage = LoopStage::kCovariance;
+  const auto predicted = known.map ? known.map(match, query) : std::nullopt;
+  if (predicted && !within_covariance(*loop, *predicted, median_depth_m, options_))
+    return std::nullopt;
+
+  record.stage = LoopStage::kSupport;
+  return loop;
+}
+
+void LoopCloser::accept(const Pending& pending, std::vector<Loop>& accepted) {
+  LoopRecord& record = records_[pending.record];
+  if (record.accepted()) return;
+  record.stage = LoopStage::kAccepted;
+  record.probability = loop_probability(record);
+  accepted.push_back(pending.loop);
+}
+
+/// The newest loop, which waits among pending_, and those that agree with it, if any does.
+std::vector<Loop> LoopCloser::support(const MotionBetween& odometry, double median_depth_m) {
+  std::vector<Loop> accepted;
+  const Pending& found = pending_.back();
+  for (const Pending& other : pending_) {
+    if (other.loop.query == found.loop.query || !odometry) continue;
+    const auto queries = odometry(other.loop.query, found.loop.query);
+    const auto matches = odometry(other.loop.match, found.loop.match);
+    if (!queries || !matches ||
+        !agree(other.loop, found.loop, *queries, *matches, median_depth_m, options_))
+      continue;
+    accept(other, accepted);
+    accept(found, accepted);
+  }
+  return accepted;
+}
+
+std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double median_depth_m) {
+  std::vector<Loop> accepted;
+  for (const Candidate& candidate : retrieve()) {
+    LoopRecord record;
+    record.query_frame = views_.back().frame;
+    record.match_frame = candidate.match->frame;
+    record.likeness = candidate.similarity;
+    const std::optional<Loop> loop = judge(candidate, known, median_depth_m, record);
+    record.probability = loop_probability(record);
+    records_.push_back(record);
+    if (record.stage == LoopStage::kRetrieval) break;  // the rest is less similar still
+    if (!loop) continue;
+    pending_.push_back({*loop, records_.size() - 1, views_.size()});
+    accepted = support(known.odometry, median_depth_m);
+    break;
+  }
+  while (!pending_.empty() &&
+         views_.size() - pending_.front().view >= static_cast<std::size_t>(options_.support_window))
+    pending_.pop_front();
+  return accepted;
+}
+
+std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
+                                                   std::size_t last_views) const {
+  std::vector<KeyframeId> tries;
+  for (std::size_t back = 1; back <= last_views && back <= views_.size(); ++back)
+    tries.push_back(views_[views_.size() - back].keyframe);
+  return relocalize(frame, std::move(tries));
+}
+
+std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
+                                                   std::vector<KeyframeId> tries) const {
+  if (views_.empty()) return std::nullopt;
+  const std::vector<Feature> features = describer_.features(frame);
+  for (const PlaceCandidate& c :
+       database_.query(features, options_.candidates, [](KeyframeId) { return true; }))
+    if (std::find(tries.begin(), tries.end(), c.id) == tries.end()) tries.push_back(c.id);
+  for (const KeyframeId id : tries) {
+    Random random(seed_, static_cast<std::uint64_t>(frame.id.value()) << 20 |
+                             static_cast<std::uint64_t>(id.value()));
+    const LoopVerification verified = verify_loop(
+        describer_.camera(), features, view(id).for_verification(), options_.verifier, random);
+    // No second loop stands beside this one: two views and a few depths are not enough.
+    if (verified.outcome && verified.model == LoopModel::kPoints3d2d)
+      return LocatedFrame{id, verified.T_match_query,
+                          options_.information_scale * verified.information};
+  }
+  return std::nullopt;
+}
+
+void LoopCloser::rescale(double factor, KeyframeId first_keyframe) {
+  for (View& view : views_)
+    if (view.keyframe >= first_keyframe) placegraph::rescale(view, factor);
+  // Loops measured in the old unit may not meet those of the new one.
+  pending_.clear();
+  for (LoopRecord& record : records_)
+    for (const View& view : views_)
+      if (view.keyframe >= first_keyframe && view.frame == record.match_frame)
+        record.T_match_query = record.T_match_query.scaled(factor);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,75 @@
+#pragma once
+#include <placegraph/frontend/internal/lines/line_feature.h>
+#include <placegraph/frontend/internal/places/place_database.h>
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/loop.h>
+#include <placegraph/graph/map.h>
+#include <placegraph/pipeline/internal/loops/keyframe_describer.h>
+#include <placegraph/pipeline/internal/loops/keyframe_motion.h>
+#include <placegraph/pipeline/internal/loops/located_frame.h>
+#include <placegraph/pipeline/loops/loop_options.h>
+
+#include <deque>
+
+namespace placegraph {
+
+/// Place recognition: keeps described keyframes, finds revisits by appearance, verifies them by
+/// geometry, and lets one into the graph only when a second, independent one agrees with it.
+class LoopCloser {
+ public:
+  LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed);
+  /// One that knows the keyframes of a map: `relocalize` tells where frames stand in it, as on the
+  /// way back.
+  LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed,
+             const Map& map);
+
+  using View = DescribedKeyframe;
+
+  /// Describes a keyframe. `T_previous_this`, if there is a predecessor in the same run of
+  /// tracking, gives depth to the features both see. `lines`: those that the odometry follows
+  /// there; their descriptors are made here.
+  void add_view(KeyframeId keyframe, const Frame& frame, const std::optional<SE3>& T_previous_this,
+                std::vector<LineFeature> lines = {});
+  /// Revisits that the newest view completes.
+  std::vector<Loop> find_loops(const KnownMotions& known, double median_depth_m);
+  /// Where a frame stands relative to a known keyframe. The last views are tried first: most losses
+  /// are short.
+  std::optional<LocatedFrame> relocalize(const Frame& frame, std::size_t last_views = 3) const;
+  /// The same with these keyframes tried first.
+  std::optional<LocatedFrame> relocalize(const Frame& frame, std::vector<KeyframeId> tries) const;
+
+  const std::vector<View>& views() const { return views_; }
+  const std::vector<LoopRecord>& records() const { return records_; }
+  /// Of a view, by the vocabulary as it stands; it is another one after every training.
+  const Appearance& appearance(KeyframeId keyframe) const { return database_.appearance(keyframe); }
+  std::size_t trained_views() const { return database_.trained_views(); }
+  /// The scale of the map became known: depths of all features grow with it.
+  void rescale(double factor, KeyframeId first_keyframe);
+
+ private:
+  struct Candidate {
+    const View* match;
+    double similarity;  // to the newest view, as a share of that to the keyframe before it
+  };
+  struct Pending {  // a loop that has passed all gates
+    Loop loop;
+    std::size_t record, view;
+  };
+  std::vector<Candidate> retrieve() const;
+  std::optional<Loop> verify(const View& match, bool free_scale, LoopRecord& record) const;
+  std::optional<Loop> judge(const Candidate& candidate, const KnownMotions& known,
+                            double median_depth_m, LoopRecord& record) const;
+  std::vector<Loop> support(const MotionBetween& odometry, double median_depth_m);
+  void accept(const Pending& pending, std::vector<Loop>& accepted);
+  const View& view(KeyframeId keyframe) const;
+
+  LoopOptions options_;
+  KeyframeDescriber describer_;
+  std::uint64_t seed_;
+  PlaceDatabase database_;
+  std::vector<View> views_;  // by ascending keyframe
+  std::vector<LoopRecord> records_;
+  std::deque<Pending> pending_;
+};
+
+}  // namespace placegraph

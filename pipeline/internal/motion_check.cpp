@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/time.h>
+#include <placegraph/graph/geometry/se3.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/io/internal/datasets/recorded_sequence.h>
+#include <placegraph/pipeline/internal/motion_check.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace placegraph {
+
+Turns turns_of(const Trajectory& trajectory) {
+  constexpr std::size_t kSteps = 50;  // longer than what a road shakes
+  Turns turns;
+  const std::size_t step = std::max<std::size_t>(1, trajectory.size() / kSteps);
+  const StampedPose* before = nullptr;
+  for (std::size_t i = 0; i < trajectory.size(); i += step) {
+    const StampedPose& pose = trajectory.poses[i];
+    if (!pose.T_world_body) continue;
+    if (before) {
+      const Eigen::Vector3d turn =
+          (SE3(*before->T_world_body).inverse() * SE3(*pose.T_world_body)).rotation().log();
+      turns.about_x_deg += rad_to_deg(std::abs(turn.x()));
+      turns.about_y_deg += rad_to_deg(std::abs(turn.y()));
+    }
+    before = &pose;
+  }
+  return turns;
+}
+
+std::optional<DataNote> odd_posture(const Camera& camera, const Turns& turns) {
+  constexpr double kClear = 3, kLeast_deg = 15;
+  const auto clearly = [](double more, double less) {
+    return more > kLeast_deg && more > kClear * less;
+  };
+  const std::string advice =
+      ": the ground is looked for below, and lengths are in doubt; turn the images upright (EXIF "
+      "orientation is not applied)";
+  if (clearly(turns.about_x_deg, turns.about_y_deg))
+    return DataNote{
+        fmt::format(
+            "the camera turns about the horizontal axis of its images ({:.0f} deg in all, {:.0f} "
+            "about the vertical one), as if it lay on its side",
+            turns.about_x_deg, turns.about_y_deg) +
+            advice,
+        true};
+  if (camera.height > camera.width && !clearly(turns.about_y_deg, turns.about_x_deg))
+    return DataNote{
+        "the images are higher than wide, and the camera's turns do not show whether it "
+        "stands upright" +
+            advice,
+        true};
+  return std::nullopt;
+}
+
+namespace {
+
+/// Keyframes that move along their optical axis, by their ids.
+std::set<KeyframeId> keyframes_that_go_ahead(const Map& map) {
+  constexpr double kAhead = 0.9;  // cosine
+  std::set<KeyframeId> ahead;
+  for (std::size_t i = 1; i < map.keyframes.size(); ++i) {
+    const Sim3 S_map_cam = map.S_map_keyframe(map.keyframes[i].id);
+    const Eigen::Vector3d way =
+        S_map_cam.translation() - map.S_map_keyframe(map.keyframes[i - 1].id).translation();
+    const Eigen::Vector3d axis = S_map_cam.rotation() * Eigen::Vector3d(0, 0, 1);
+    if (way.norm() > 0 && way.dot(axis) > kAhead * way.norm()) ahead.insert(map.keyframes[i].id);
+  }
+  return ahead;
+}
+
+/// The lowest fifth; -1 of fewer than thirty.
+double lowest_fifth(std::vector<double> values) {
+  constexpr std::size_t kFewest = 30;
+  if (values.size() < kFewest) return -1;
+  const auto fifth = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 5);
+  std::nth_element(values.begin(), fifth, values.end());
+  return *fifth;
+}
+
+}  // namespace
+
+NearestSides nearest_sides(const Map& map, double camera_height_m) {
+  constexpr int kViews = 4;
+  enum { kBelow, kAbove, kLeft, kRight };
+  std::array<std::vector<double>, 4> distances;
+  const std::set<KeyframeId> ahead = keyframes_that_go_ahead(map);
+  for (const PointLandmark& landmark : map.landmarks) {
+    const Eigen::Vector3d& p = landmark.point_cam;
+    if (landmark.observations < kViews || p.z() <= 0 || !ahead.contains(landmark.keyframe))
+      continue;
+    const double metres = map.S_map_keyframe(landmark.keyframe).scale() / camera_height_m;
+    const bool upright = std::abs(p.y()) > std::abs(p.x());
+    const int side = upright ? (p.y() > 0 ? kBelow : kAbove) : (p.x() > 0 ? kRight : kLeft);
+    distances[static_cast<std::size_t>(side)].push_back(metres *
+                                                        std::max(std::abs(p.x()), std::abs(p.y())));
+  }
+  NearestSides sides;
+  sides.below = lowest_fifth(distances[kBelow]);
+  for (const int side : {kAbove, kLeft, kRight}) {
+    const double nearest = lowest_fifth(distances[static_cast<std::size_t>(side)]);
+    if (nearest >= 0 && (sides.nearest_other < 0 || nearest < sides.nearest_other))
+      sides.nearest_other = nearest;
+  }
+  return sides;
+}
+
+std::optional<DataNote> odd_sides(const NearestSides& sides) {
+  constexpr double kOtherTooNear = 0.6, kBelowTooNear = 0.8;
+  if (sides.below < 0 || sides.nearest_other < 0 || sides.below > kBelowTooNear ||
+      sides.nearest_other > kOtherTooNear)
+    return std::nullopt;
+  return DataNote{fmt::format("what is below the camera comes as near as {:.2f} of its height, and "
+                              "another side as near as "
+                              "{:.2f}: the ground is elsewhere than below, as if the camera lay on "
+                              "its side or upside down; "
+                              "lengths are in doubt",
+                              sides.below, sides.nearest_other),
+                  true};
+}
+
+namespace {
+
+/// Whether stamps are those that recordings without times get: 10 Hz, to the nanosecond.
+bool are_counted(const Trajectory& trajectory) {
+  const auto step_ns = static_cast<std::int64_t>(1e9 / kDefaultRateHz);
+  return std::ranges::all_of(trajectory.poses,
+                             [&](const StampedPose& pose) { return pose.stamp_ns % step_ns == 0; });
+}
+
+}  // namespace
+
+std::optional<DataNote> odd_speed(const Trajectory& trajectory) {
+  constexpr double kFastest = 100;  // [m/s]
+  if (are_counted(trajectory)) return std::nullopt;
+  std::vector<double> speeds;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    const StampedPose &a = trajectory.poses[i - 1], &b = trajectory.poses[i];
+    if (!a.T_world_body || !b.T_world_body) continue;
+    speeds.push_back((b.T_world_body->translation() - a.T_world_body->translation()).norm() /
+                     seconds(a.stamp_ns, b.stamp_ns));
+  }
+  if (speeds.empty()) return std::nullopt;
+  const double speed = median_of(std::move(speeds));
+  if (!(speed > kFastest)) return std::nullopt;
+  return DataNote{
+      fmt::format(
+          "the camera moves at {:.3g} m/s: the baseline, the depth unit, the camera's height or "
+          "the times are of another unit than metres and seconds",
+          speed),
+      true};
+}
+
+}  // namespace placegraph

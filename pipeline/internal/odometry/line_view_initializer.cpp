@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/odometry/line_view_initializer.h>
+
+#include <algorithm>
+
+namespace placegraph {
+namespace {
+
+/// Some of `n` views, the first and the last among them, evenly spaced.
+std::vector<std::size_t> spread(std::size_t n, std::size_t most) {
+  const std::size_t count = std::min(n, most);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < count; ++i) chosen.push_back(i * (n - 1) / (count - 1));
+  return chosen;
+}
+
+/// Of a segment: its first keyframe has number 0.
+KeyframeId nth_keyframe(const LocalMap& map, std::size_t n) {
+  return KeyframeId(map.first().value() + static_cast<std::int64_t>(n));
+}
+
+}  // namespace
+
+LineViewInitializer::LineViewInitializer(const OdometryOptions& options,
+                                         const Calibration& calibration, std::uint64_t seed,
+                                         FeatureTracker& tracker, LogSink log)
+    : options_(options.lines.start),
+      camera_(calibration.camera),
+      seed_(seed),
+      tracker_(tracker),
+      log_(std::move(log)) {}
+
+void LineViewInitializer::restart(const SE3& T_odom_cam) {
+  T_odom_restart_ = T_odom_start_ = T_odom_cam;
+  views_.clear();
+}
+
+/// The frame is the first view.
+Initialization LineViewInitializer::begin(const Frame& frame) {
+  LineCue& lines = *tracker_.lines();
+  lines.wait(frame, T_odom_start_);
+  LineView seen = lines.seen();
+  if (static_cast<int>(seen.size()) < options_.min_lines) {
+    lines.reset();  // a dark or empty frame is nothing to begin with
+    return Initialization::waiting(Outcome::failure(
+        Outcome::Code::kTooFewData,
+        fmt::format("{} lines to follow, {} needed to begin", seen.size(), options_.min_lines)));
+  }
+  views_ = {{frame, std::move(seen)}};
+  Initialization result;
+  result.is_reference = true;
+  result.T_odom_reference = T_odom_start_;
+  return result;
+}
+
+Initialization LineViewInitializer::add(const Frame& frame, const std::optional<SE3>& T_known,
+                                        LocalMap& map, LocalMapping& mapping) {
+  constexpr std::size_t kKeyframes = 6, kLeastViews = 8, kMostViews = 60;
+  if (!started()) return begin(frame);
+  LineCue& lines = *tracker_.lines();
+  const LineCue before = lines;
+  lines.wait(frame, T_odom_start_);
+  views_.push_back({frame, lines.seen()});
+  if (!enough_in_common()) {
+    Initialization result = replace_reference(frame, T_known, map);
+    if (result.state == TrackingState::kLost) lines = before;
+    return result;
+  }
+  // While the camera stands still, a view more tells nothing more.
+  if (views_.size() > kMostViews) views_.erase(views_.begin() + 1);
+  const Initialization waits = Initialization::waiting(
+      Outcome::failure(Outcome::Code::kTooFewData, "waits for more views of the lines"));
+  if (views_.size() < kLeastViews) return waits;
+  const LineInitialization start = motion_of_views(static_cast<std::uint64_t>(frame.id.value()));
+  const std::vector<double> depths = depths_of(start);
+  if (!start.outcome || depths.empty()) {
+    log(log_, LogLevel::kDebug, "initialization waits: {}", start.outcome.reason);
+    return start.outcome ? waits : Initialization::waiting(start.outcome);
+  }
+  const auto scale = scale_of(median_of(depths), T_known, map, mapping);
+  if (!scale) {
+    const Outcome no_unit = no_unit_of_map();
+    log(log_, LogLevel::kDebug, "initialization waits: {}", no_unit.reason);
+    return Initialization::waiting(no_unit);
+  }
+  const std::vector<std::size_t> chosen = spread(views_.size(), kKeyframes);
+  if (!(*scale > 0) ||
+      !add_keyframes(chosen, start, *scale, *scale * median_of(depths), map, mapping))
+    return waits;
+  return accept(chosen, start, map, mapping);
+}
+
+bool LineViewInitializer::enough_in_common() const {
+  int common = 0;
+  for (const auto& [id, line] : views_.back().lines) common += views_.front().lines.contains(id);
+  return common >= options_.min_lines;
+}
+
+LineInitialization LineViewInitializer::motion_of_views(std::uint64_t frame) const {
+  std::vector<LineView> lines;
+  for (const View& view : views_) lines.push_back(view.lines);
+  Random random(seed_, frame);
+  return initialize_from_lines(camera_, lines, options_, random);
+}
+
+/// Of the lines placed in the first view's frame, as it sees them.
+std::vector<double> LineViewInitializer::depths_of(const LineInitialization& start) const {
+  std::vector<double> depths;
+  const LineView& first = views_.front().lines;
+  for (const auto& [id, line] : start.lines)
+    if (const auto seen = first.find(id); seen != first.end())
+      if (const auto z = depth_on_line(camera_, SE3(), line, seen->second.segment.middle());
+          z && *z > 0)
+        depths.push_back(*z);
+  return depths;
+}
+
+/// What the unit translation from the first to the last view is worth in the map; arbitrary until
+/// the floor shows it. Nothing: the map's unit will be told by a view that is recognized.
+std::optional<double> LineViewInitializer::scale_of(double median_depth,
+                                                    const std::optional<SE3>& T_known,
+                                                    const LocalMap& map,
+                                                    const LocalMapping& mapping) const {
+  if (map.scale() == Scale::kFromMap) {
+    if (T_known) return (T_known->translation() - T_odom_start_.translation()).norm();
+    if (!mapping.scale().uses_floor_lines() && !mapping.scale().uses_ground_plane())
+      return std::nullopt;
+  }
+  return LocalMap::kUnknownDepth / median_depth;
+}
+
+/// The chosen views become keyframes of the map, with their lines; none do, and the answer is
+/// false, if the bundle adjustment does not know how they lie to each other.
+bool LineViewInitializer::add_keyframes(const std::vector<std::size_t>& chosen,
+                                        const LineInitialization& start, double scale,
+                                        double median_depth, LocalMap& map, LocalMapping& mapping) {
+  constexpr int kRounds = 2;  // lines that do not fit are left out of the second
+  LineCue& lines = *tracker_.lines();
+  const LineCue before = lines;
+  const double depth_before = map.median_depth();
+  for (const std::size_t v : chosen) {
+    const KeyframeId id = map.add_keyframe(T_odom_start_ * start.T_ref_view[v].scaled(scale));
+    lines.observe_earlier(id, views_[v].lines, map.window());
+    lines.hold_course(id, median_depth, map.window());
+  }
+  const auto enough = [&] {
+    return static_cast<int>(map.window().lines().size()) >= options_.ransac.min_inliers;
+  };
+  for (int round = 0; round < kRounds && enough(); ++round) mapping.refine(tracker_, map);
+  if (enough() && motion_is_known(chosen, start, map)) return true;
+  map.discard(depth_before);
+  lines = before;  // lines that contradict a wrong start may still be good
+  return false;
+}
+
+bool LineViewInitializer::motion_is_known(const std::vector<std::size_t>& chosen,
+                                          const LineInitialization& start,
+                                          const LocalMap& map) const {
+  constexpr double kMostRotatedRad = 0.01;
+  constexpr double kLeastKnown = 0.02;  // of the ratio of two lengths (logarithm)
+  const SlidingWindow& window = map.window();
+  const KeyframeId middle = nth_keyframe(map, chosen.size() / 2);
+  // Rotations and translations that look alike are told apart by the directions, which the bundle
+  // adjustment must not contradict.
+  const SO3 R_odom_last = T_odom_start_.rotation() * start.T_ref_view[chosen.back()].rotation();
+  const double rotated_rad =
+      (R_odom_last.inverse() * window.pose(map.newest()).rotation()).log().norm();
+  return rotated_rad < kMostRotatedRad &&
+         sigma_log_length_ratio(window, map.first(), middle, map.newest()) < kLeastKnown;
+}
+
+Initialization LineViewInitializer::accept(const std::vector<std::size_t>& chosen,
+                                           const LineInitialization& start, LocalMap& map,
+                                           LocalMapping& mapping) {
+  if (mapping.scale().available()) {
+    for (std::size_t i = 0; i + 1 < chosen.size(); ++i)
+      mapping.scale().remember(nth_keyframe(map, i), views_[chosen[i]].frame);
+    const Frame& newest = views_.back().frame;
+    mapping.measure_scale({newest, newest.mask, nullptr}, tracker_, map);  // not announced yet
+    mapping.refine(tracker_, map);
+  }
+  Initialization begun;
+  begun.state = TrackingState::kTracking;
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    begun.keyframes.push_back({nth_keyframe(map, i), views_[chosen[i]].frame});
+  begun.posed = views_between(chosen, start, map);
+  const SE3 T_before_last =
+      map.window().pose(*map.before_newest()).inverse() * map.window().pose(map.newest());
+  const double steps = static_cast<double>(chosen.back() - chosen[chosen.size() - 2]);
+  begun.T_last_cur = SE3::exp(T_before_last.log() / steps);
+  begun.inliers = tracker_.lines()->followed(map.window());
+  tracker_.start_selection(begun.inliers);
+  views_.clear();
+  return begun;
+}
+
+/// Views that are no keyframes lie as they did to the keyframe before them.
+std::vector<PosedFrame> LineViewInitializer::views_between(const std::vector<std::size_t>& chosen,
+                                                           const LineInitialization& start,
+                                                           const LocalMap& map) const {
+  const double scale =
+      (map.window().pose(map.newest()).translation() - T_odom_start_.translation()).norm();
+  std::vector<PosedFrame> posed;
+  for (std::size_t i = 0; i + 1 < chosen.size(); ++i) {
+    const SE3& T_ref_before = start.T_ref_view[chosen[i]];
+    const SE3 T_odom_before = map.window().pose(nth_keyframe(map, i));
+    for (std::size_t v = chosen[i] + 1; v < chosen[i + 1]; ++v) {
+      const SE3 T = T_ref_before.inverse() * start.T_ref_view[v];
+      posed.emplace_back(views_[v].frame.id, T_odom_before * T.scaled(scale));
+    }
+  }
+  return posed;
+}
+
+/// Too few lines of the first view are left: this frame takes its place.
+Initialization LineViewInitializer::replace_reference(const Frame& frame,
+                                                      const std::optional<SE3>& T_known,
+                                                      const LocalMap& map) {
+  const Outcome outcome =
+      Outcome::failure(Outcome::Code::kTooFewData,
+                       "too few lines of the first view are left before others told the motion");
+  tracker_.lines()->reset();
+  views_.clear();
+  if (map.scale() == Scale::kFromMap && !T_known) {
+    Initialization lost = Initialization::waiting(outcome);
+    lost.state = TrackingState::kLost;
+    return lost;
+  }
+  T_odom_start_ = T_known.value_or(T_odom_restart_);
+  Initialization result = begin(frame);
+  if (result.outcome.reason.empty()) result.outcome = outcome;
+  if (!result.is_reference) T_odom_start_ = T_odom_restart_;
+  return result;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,93 @@
+#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/pipeline/internal/odometry/local_mapping.h>
+#include <placegraph/pipeline/internal/tracking/cue_list.h>
+
+namespace placegraph {
+namespace {
+
+MetricScale make_scale(const OdometryOptions& options, const Calibration& calibration,
+                       const LogSink& log) {
+  const Cues cues = parse_cues(options.cues);
+  MetricScale scale(log);
+  if (metric_from_start(cues, calibration) || !calibration.camera_height_m) return scale;
+  const double height_m = *calibration.camera_height_m;
+  if (options.ground.enabled && cues.plane)
+    scale.use_ground_plane(options.ground, calibration.camera, height_m);
+  else if (cues.lines && !cues.points)
+    scale.use_floor_lines(options.lines.floor, calibration.camera, height_m);
+  return scale;
+}
+
+}  // namespace
+
+LocalMapping::LocalMapping(const OdometryOptions& options, const Calibration& calibration,
+                           std::uint64_t seed, LogSink log, StageTimes& times)
+    : seed_(seed),
+      log_(std::move(log)),
+      times_(times),
+      masks_(times),
+      scale_(make_scale(options, calibration, log_)) {
+  const bool stereo = calibration.baseline_m > 0;
+  if (stereo && options.rectification.enabled)
+    rectifier_.emplace(options.rectification, calibration, options.points.tracker.sigma_px,
+                       options.stereo.sigma_disparity_px);
+  // Two images at once would show distortion as an error of their rectification.
+  if (calibration.baseline_m == 0 && parse_cues(options.cues).points)
+    lens_window_ = static_cast<std::size_t>(options.window.max_keyframes) + 1;
+}
+
+RectificationError LocalMapping::rectification() const {
+  return rectifier_ ? rectifier_->error() : RectificationError();
+}
+
+void LocalMapping::assume(const std::optional<Assumptions>& assumptions) {
+  masks_.trust(!assumptions || assumptions->street_surfaces);
+  scale_.trust_height(!assumptions || assumptions->ground_height);
+}
+
+std::optional<LocalMapping::Added> LocalMapping::add(const Frame& frame, const SE3& T_odom_cam,
+                                                     FrameTracker& tracker, LocalMap& map) {
+  Random random(seed_, static_cast<std::uint64_t>(frame.id.value()));
+  const KeyframeImages images = masks_.apply(frame);
+  const auto T_odom_keyframe = tracker.prepare_keyframe(images, T_odom_cam, map, random);
+  if (!T_odom_keyframe) return std::nullopt;
+  const KeyframeId id = map.add_keyframe(*T_odom_keyframe);
+  tracker.observe(images, rectification(), map, random);
+  Added added{{id, images.frame, images.labels}, {}, measure_scale(images, tracker, map)};
+  refine(tracker, map);
+  added.posed_again = tracker.finish_keyframe(added.rescale ? added.rescale->factor : 1, map);
+  return added;
+}
+
+std::optional<Rescale> LocalMapping::measure_scale(const KeyframeImages& images,
+                                                   FrameTracker& tracker, LocalMap& map) {
+  if (!scale_.available()) return std::nullopt;
+  const auto span = times_.measure("scale");
+  return scale_.measure(images, {tracker.lines(), tracker.manhattan()}, map);
+}
+
+void LocalMapping::refine(FrameTracker& tracker, LocalMap& map) {
+  const auto span = times_.measure("window");
+  const Outcome optimized = map.optimize();
+  if (!optimized) log(log_, LogLevel::kWarning, "window not optimized: {}", optimized.reason);
+  map.update_poses(tracker.prune(map), tracker.corrects_rotations());
+  calibrate(tracker, map);
+  const auto leaving = times_.measure("marginalization");
+  map.marginalize();
+  tracker.settle(map);
+}
+
+/// A single keyframe shows nothing of the cameras.
+void LocalMapping::calibrate(FrameTracker& tracker, LocalMap& map) {
+  SlidingWindow& window = map.window();
+  const std::size_t keyframes = window.keyframes().size();
+  if (rectifier_ && keyframes > 1) {
+    rectifier_->calibrate(window, tracker.lines());
+    const RectificationError error = rectifier_->error();
+    log(log_, LogLevel::kDebug, "rectification off by {:f} + {:f} x + {:f} y px", error.offset_px,
+        error.by_x_px, error.by_y_px);
+  }
+  if (lens_window_ && keyframes > 1 && keyframes >= *lens_window_) lens_.observe(window);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,125 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/internal/places/bounded_covariance.h>
+#include <placegraph/pipeline/internal/places/keyframe_chain.h>
+#include <placegraph/pipeline/internal/places/rescaling.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace placegraph {
+namespace {
+
+bool is_odometry(const std::optional<KeyframeLink>& link) {
+  return link && link->source == ConstraintSource::kOdometry;
+}
+
+Matrix7d covariance_of_link(const KeyframeLink& link) {
+  Matrix7d covariance = Matrix7d::Zero();
+  covariance.topLeftCorner<6, 6>() = bounded_covariance(link.information);
+  covariance(6, 6) = link.sigma_log_scale * link.sigma_log_scale;
+  return covariance;
+}
+
+KeyframeChain::Keyframe chained(const std::optional<KeyframeLink>& link, int run) {
+  const Matrix7d covariance = link ? covariance_of_link(*link) : Matrix7d(Matrix7d::Zero());
+  return {link, covariance, run, SE3(), 0};
+}
+
+}  // namespace
+
+KeyframeChain::KeyframeChain(const std::vector<PlaceHistory::Keyframe>& keyframes,
+                             std::vector<bool> scale_known)
+    : scale_known_(std::move(scale_known)) {
+  for (const auto& [id, part, run, link] : keyframes) {
+    require(run >= 0 && run < static_cast<int>(scale_known_.size()),
+            "KeyframeChain: keyframe " + to_string(id) + " is of an unknown run");
+    insert(id, link, run);
+  }
+  chain_up(kBeforeAll);
+}
+
+void KeyframeChain::add(KeyframeId id, const std::optional<KeyframeLink>& link, bool scale_known) {
+  const bool begins_run = !is_odometry(link) || !contains(link->from);
+  insert(id, link, begins_run ? static_cast<int>(scale_known_.size()) : at(link->from).run);
+  if (begins_run) scale_known_.push_back(scale_known);
+  chain_up(id);
+}
+
+void KeyframeChain::insert(KeyframeId id, const std::optional<KeyframeLink>& link, int run) {
+  const std::string subject = "KeyframeChain: keyframe " + to_string(id);
+  require(!contains(id), subject + " is there already");
+  require(!link || (link->from < id && contains(link->from)),
+          subject + " is linked to none before it");
+  require(!is_odometry(link) || at(link->from).run == run,
+          subject + " is linked by odometry to another run");
+  keyframes_[id] = chained(link, run);
+}
+
+/// Brings poses and path lengths up to date, from keyframe `first` on.
+void KeyframeChain::chain_up(KeyframeId first) {
+  for (auto at = keyframes_.lower_bound(first); at != keyframes_.end(); ++at) {
+    auto& [id, keyframe] = *at;
+    if (!is_odometry(keyframe.link)) continue;
+    const Keyframe& from = keyframes_.at(keyframe.link->from);
+    const SE3& T_from_this = keyframe.link->T_from_this;
+    keyframe.T_run_keyframe = from.T_run_keyframe * T_from_this;
+    keyframe.path_length = from.path_length + T_from_this.translation().norm();
+  }
+}
+
+void KeyframeChain::update_link(KeyframeId id, const SE3& T_from_this) {
+  auto& link = keyframes_.at(id).link;
+  require(link.has_value(),
+          "KeyframeChain::update_link: keyframe " + to_string(id) + " has no link");
+  link->T_from_this = T_from_this;
+  chain_up(id);
+}
+
+void KeyframeChain::inform_link(KeyframeId id, const Matrix6d& information,
+                                double sigma_log_scale) {
+  Keyframe& keyframe = keyframes_.at(id);
+  require(keyframe.link.has_value(),
+          "KeyframeChain::inform_link: keyframe " + to_string(id) + " has no link");
+  keyframe.link->information = information;
+  keyframe.link->sigma_log_scale = sigma_log_scale;
+  keyframe.link_covariance = covariance_of_link(*keyframe.link);
+}
+
+void KeyframeChain::rescale(KeyframeId first, double factor) {
+  const int run = at(first).run;
+  scale_known_[run] = true;
+  for (auto& [id, keyframe] : keyframes_) {
+    if (!keyframe.link) continue;
+    KeyframeLink& link = *keyframe.link;
+    const bool begins = at(link.from).run == run, ends = keyframe.run == run;
+    if (begins) link.T_from_this = link.T_from_this.scaled(factor);
+    if (ends) link.information = rescaled_information<6>(link.information, factor);
+    if (link.source != ConstraintSource::kOdometry)
+      link.scale *= (begins ? factor : 1) / (ends ? factor : 1);
+    else if (ends)
+      link.sigma_log_scale = 0;
+    keyframe.link_covariance = covariance_of_link(link);
+  }
+  chain_up(kBeforeAll);
+}
+
+bool KeyframeChain::has_odometry(KeyframeId id) const { return is_odometry(at(id).link); }
+
+SE3 KeyframeChain::T_a_b(KeyframeId a, KeyframeId b) const {
+  return at(a).T_run_keyframe.inverse() * at(b).T_run_keyframe;
+}
+
+std::optional<TrackedMotion> KeyframeChain::odometry(KeyframeId a, KeyframeId b) const {
+  const auto from = keyframes_.find(a), to = keyframes_.find(b);
+  if (from == keyframes_.end() || to == keyframes_.end() || from->second.run != to->second.run)
+    return std::nullopt;
+  return TrackedMotion{T_a_b(a, b), std::abs(to->second.path_length - from->second.path_length)};
+}
+
+bool KeyframeChain::all_scales_known() const {
+  return std::all_of(scale_known_.begin(), scale_known_.end(), [](bool known) { return known; });
+}
+
+}  // namespace placegraph

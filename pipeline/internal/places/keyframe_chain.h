@@ -1,0 +1,73 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/place_history.h>
+#include <placegraph/pipeline/internal/loops/keyframe_motion.h>
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// Before and after the ids of all keyframes.
+inline constexpr KeyframeId kBeforeAll = KeyframeId::lowest();
+inline constexpr KeyframeId kAfterAll = KeyframeId::highest();
+
+/// The keyframes in order, each linked to an earlier one by a measured motion. A keyframe whose
+/// link is not odometry, or that has none, begins a run of tracking. The lengths of one run have
+/// one scale, which is known (they are metres) or not.
+///
+/// Functions throw std::out_of_range for an unknown keyframe.
+class KeyframeChain {
+ public:
+  struct Keyframe {
+    std::optional<KeyframeLink> link;
+    Matrix7d link_covariance = Matrix7d::Zero();  ///< in its right tangent [t, rotation, log scale]
+    int run = 0;
+    SE3 T_run_keyframe;      ///< from the run's first keyframe, along the links
+    double path_length = 0;  ///< from the run's first keyframe, along the links
+  };
+
+  KeyframeChain() = default;
+  /// The chain of a saved map; `scale_known` is of every run. Throws ArgumentError for an unknown
+  /// run, and as add() does.
+  KeyframeChain(const std::vector<PlaceHistory::Keyframe>& keyframes,
+                std::vector<bool> scale_known);
+
+  /// Appends a keyframe; `scale_known` counts where it begins a run. Throws ArgumentError if the
+  /// id is in use, for a link to an unknown or a later keyframe, and for odometry between two runs.
+  void add(KeyframeId id, const std::optional<KeyframeLink>& link, bool scale_known = true);
+  /// Replaces the motion to keyframe `id`. Throws ArgumentError if it has no link; the next, too.
+  void update_link(KeyframeId id, const SE3& T_from_this);
+  /// Replaces the information of that motion, in its right tangent, and the standard deviation of
+  /// the change of scale along it.
+  void inform_link(KeyframeId id, const Matrix6d& information, double sigma_log_scale);
+  /// Multiplies all lengths of the run that begins with keyframe `first` by `factor`; its scale is
+  /// known then.
+  void rescale(KeyframeId first, double factor);
+
+  const std::map<KeyframeId, Keyframe>& keyframes() const { return keyframes_; }
+  const Keyframe& at(KeyframeId id) const { return keyframes_.at(id); }
+  bool contains(KeyframeId id) const { return keyframes_.count(id) != 0; }
+  /// Whether the keyframe does not begin a run.
+  bool has_odometry(KeyframeId id) const;
+  /// Motion along the links between two keyframes, which must be of one run.
+  SE3 T_a_b(KeyframeId a, KeyframeId b) const;
+  /// The same with the length of the path; nothing for keyframes of two runs or unknown ones.
+  std::optional<TrackedMotion> odometry(KeyframeId a, KeyframeId b) const;
+
+  const std::vector<bool>& scale_known() const { return scale_known_; }  ///< of every run
+  bool scale_known(KeyframeId keyframe) const { return scale_known_[at(keyframe).run]; }
+  bool all_scales_known() const;
+
+ private:
+  void insert(KeyframeId id, const std::optional<KeyframeLink>& link, int run);
+  void chain_up(KeyframeId first);
+
+  std::map<KeyframeId, Keyframe> keyframes_;
+  std::vector<bool> scale_known_;  // of every run
+};
+
+}  // namespace placegraph

@@ -1,0 +1,49 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/loop.h>
+#include <placegraph/pipeline/internal/places/place_optimizer.h>
+#include <placegraph/pipeline/internal/places/place_partition.h>
+#include <placegraph/pipeline/places/place_options.h>
+
+#include <vector>
+
+namespace placegraph {
+
+/// A measured motion between the anchors of two parts.
+struct PlaceEdge {
+  PlaceConstraint::Key key;
+  KeyframeId from_part, to_part;
+  Sim3 S_from_to;
+  Matrix7d covariance = Matrix7d::Zero();  ///< in the right tangent
+  ConstraintSource source = ConstraintSource::kOdometry;
+};
+
+/// Edges along the links of the keyframes from `since` on: one from anchor to anchor in each run of
+/// tracking, with the covariances of the links between them added up (or with what the partition
+/// knows of that motion), and one where a run hangs on an earlier one.
+std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartition& partition,
+                                  KeyframeId since);
+/// The edge of `loop`, which has this number, carried from its keyframes to the anchors of their
+/// parts.
+PlaceEdge loop_edge(const KeyframeChain& chain, const PlacePartition& partition, const Loop& loop,
+                    std::size_t number);
+/// The edge of a motion that another sensor has measured [m], which has this number; nothing where
+/// the scale of one of the two runs is not known.
+std::optional<PlaceEdge> motion_edge(const KeyframeChain& chain, const PlaceHistory::Motion& motion,
+                                     std::size_t number);
+
+/// The constraint between the places of the two parts: S_A_B = S_A_a S_a_b S_B_b^-1 with the
+/// covariances of all three. It is over SE(3) where the scales of all runs are known, else over
+/// Sim(3), and has no robust kernel.
+RelativePoseConstraint constraint_between_places(const PlacePartition& partition,
+                                                 const PlaceEdge& edge, bool all_scales_known);
+
+/// All constraints that hang on keyframes from `since` on, with their robust kernels; without a
+/// measurement where both ends are in one place.
+std::vector<PlaceConstraint> place_constraints(const KeyframeChain& chain,
+                                               const PlacePartition& partition,
+                                               const std::vector<Loop>& loops,
+                                               const std::vector<PlaceHistory::Motion>& motions,
+                                               const PlaceOptions& options, KeyframeId since);
+
+}  // namespace placegraph

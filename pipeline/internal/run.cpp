@@ -1,0 +1,310 @@
+#include <fmt/format.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/time.h>
+#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/internal/measurements/stamp_plausibility.h>
+#include <placegraph/graph/map_changes.h>
+#include <placegraph/graph/scene/scene_model.h>
+#include <placegraph/io/config/yaml_config.h>
+#include <placegraph/io/map/map_database.h>
+#include <placegraph/io/map/stored_map.h>
+#include <placegraph/io/sensors/odometry_file.h>
+#include <placegraph/pipeline/cues/frame_view.h>
+#include <placegraph/pipeline/internal/lens_correction.h>
+#include <placegraph/pipeline/run.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <future>
+#include <map>
+
+namespace placegraph {
+namespace {
+
+/// Throws FileError if a motion and the images have no time in common, or the images lie within a
+/// step or two of many; says so if the motion tells little.
+void check_common_time(const std::string& path, const MeasuredMotion& motion,
+                       const std::vector<std::int64_t>& stamps_ns, const LogSink& log) {
+  if (stamps_ns.size() < 2) return;
+  std::size_t told = 0, steps_in_common = 0;
+  for (std::size_t i = 1; i < stamps_ns.size(); ++i)
+    told += motion.between(stamps_ns[i - 1], stamps_ns[i]).has_value();
+  std::vector<std::int64_t> motion_ns = {motion.steps().front().from_ns};
+  for (const MotionStep& step : motion.steps()) {
+    motion_ns.push_back(step.to_ns);
+    steps_in_common += step.to_ns > stamps_ns.front() && step.from_ns < stamps_ns.back();
+  }
+  const std::size_t pairs = stamps_ns.size() - 1;
+  const bool within_few = steps_in_common <= 2 && motion.steps().size() > 2 && pairs > 2;
+  if (2 * told > pairs && !within_few) return;
+  const std::string times =
+      fmt::format("it is from {:.3f} to {:.3f} s, the images are from {:.3f} to {:.3f} s",
+                  seconds(0, motion_ns.front()), seconds(0, motion_ns.back()),
+                  seconds(0, stamps_ns.front()), seconds(0, stamps_ns.back()));
+  if (told > 0 && !within_few) {
+    placegraph::log(log, LogLevel::kWarning,
+                    "{}: tells the motion between {} of {} pairs of frames: {}", path, told, pairs,
+                    times);
+    return;
+  }
+  const std::string clock = other_clock(stamps_ns, motion_ns, "the odometry");
+  throw FileError(path, (told > 0 ? "has hardly a time in common with the images: "
+                                  : "has no time in common with the images: ") +
+                            times + (clock.empty() ? "" : "; " + clock));
+}
+
+/// Of the camera.
+MeasuredMotion read_motion(const Dataset& dataset, const MotionOptions& options,
+                           const LogSink& log) {
+  std::vector<std::int64_t> stamps_ns;
+  for (std::size_t i = 0; i < dataset.size(); ++i) stamps_ns.push_back(dataset.stamp_ns(i));
+  const auto& v = options.T_cam_body;
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  const SE3 T_cam_body(q.normalized().toRotationMatrix(), Eigen::Vector3d(v[0], v[1], v[2]));
+  const MeasuredMotion motion = read_odometry(options.file, options.noise, stamps_ns);
+  check_common_time(options.file, motion, stamps_ns, log);
+  return motion.seen_from(T_cam_body);
+}
+
+/// Reads frames in order, one ahead of its user if it may have a thread for that.
+class FrameReader {
+ public:
+  FrameReader(const Dataset& dataset, const LensCorrection& lens, Sensor sensor, std::size_t end,
+              bool ahead)
+      : dataset_(dataset), lens_(lens), sensor_(sensor), end_(end), ahead_(ahead) {}
+
+  Frame read(std::size_t index) {
+    Frame frame = next_.valid() ? next_.get() : load(index);
+    if (ahead_ && index + 1 < end_)
+      next_ = std::async(std::launch::async, [this, index] { return load(index + 1); });
+    return frame;
+  }
+
+ private:
+  Frame load(std::size_t index) const {
+    Frame frame = dataset_.frame(index, sensor_);
+    lens_.apply(frame);
+    return frame;
+  }
+
+  const Dataset& dataset_;
+  LensCorrection lens_;
+  Sensor sensor_;
+  std::size_t end_;
+  bool ahead_;
+  std::future<Frame> next_;
+};
+
+/// Whether the images proved to be distorted by more than `lens` takes out, which then does. The
+/// first finding leans towards no distortion, as tracks that contradict it were dropped: it is
+/// refined once.
+bool learn_lens(const LensDistortion& seen, int pass, const LensOptions& options,
+                LensCorrection& lens, const LogSink& log) {
+  if (pass > 1) return false;
+  LensOptions refined = options;
+  if (pass == 1) {
+    refined.min_sigmas *= 0.5;
+    refined.min_effect *= 0.25;
+  }
+  if (!is_distorted(seen, refined)) return false;
+  lens.add(seen.k1);
+  placegraph::log(log, LogLevel::kInfo,
+                  "images are distorted, k1 = {:f} +- {:f}: once more from the beginning without",
+                  lens.k1(), seen.sigma_k1);
+  return true;
+}
+
+}  // namespace
+
+const char* to_string(Sensor sensor) {
+  switch (sensor) {
+    case Sensor::kMono:
+      return "mono";
+    case Sensor::kStereo:
+      return "stereo";
+    case Sensor::kRgbd:
+      return "rgbd";
+  }
+  return "";
+}
+
+Sensor choose_sensor(const Dataset& dataset, SensorChoice choice) {
+  const auto offered = dataset.sensors();
+  if (choice == SensorChoice::kAuto) return offered.front();
+  const Sensor wanted = static_cast<Sensor>(static_cast<int>(choice) - 1);
+  std::string all;
+  for (const Sensor sensor : offered)
+    all += (all.empty() ? "" : ", ") + std::string(to_string(sensor));
+  require(
+      std::find(offered.begin(), offered.end(), wanted) != offered.end(),
+      dataset.name() + ": has not what " + to_string(wanted) + " needs; it can be run as " + all);
+  return wanted;
+}
+
+namespace {
+
+std::string without_numbers(std::string text) {
+  std::erase_if(text, [](unsigned char c) { return std::isdigit(c) || c == '.' || c == '-'; });
+  return text;
+}
+
+std::vector<UnposedFrames> unposed_frames(const Trajectory& optimized, const Map& map,
+                                          const std::map<FrameId, std::string>& reasons) {
+  std::map<std::string, UnposedFrames> kinds;
+  for (std::size_t i = 0; i < map.frames.size() && i < optimized.size(); ++i) {
+    const auto reason = reasons.find(map.frames[i].frame);
+    if (optimized.poses[i].T_world_body || reason == reasons.end()) continue;
+    UnposedFrames& kind = kinds[without_numbers(reason->second)];
+    if (kind.count++ == 0) kind.reason = reason->second;
+  }
+  std::vector<UnposedFrames> result;
+  for (auto& [text, kind] : kinds) result.push_back(std::move(kind));
+  std::ranges::stable_sort(result, std::ranges::greater(), &UnposedFrames::count);
+  return result;
+}
+
+/// A run over a sequence, and what it has written of itself.
+class SequenceRun {
+ public:
+  SequenceRun(const Dataset& dataset, const RunOptions& options, const RunInputs& inputs)
+      : dataset_(dataset), options_(options), inputs_(inputs) {
+    result_.sensor = choose_sensor(dataset, options.sensor);
+    result_.calibration = dataset.calibration(result_.sensor);
+    if (options.camera_height_m > 0) result_.calibration.camera_height_m = options.camera_height_m;
+    begin_ = options.first_frame;
+    require(begin_ < dataset.size(),
+            "first_frame: the sequence has " + std::to_string(dataset.size()) + " frames");
+    end_ = options.max_frames > 0 ? std::min(dataset.size(), begin_ + options.max_frames)
+                                  : dataset.size();
+  }
+
+  RunResult run() {
+    lens_ = LensCorrection(result_.calibration);
+    StoredMap stored;
+    if (inputs_.map_file && inputs_.map_file->resume) {
+      stored = read_map(inputs_.map_file->path);
+      if (stored.origin.lens_k1 != 0) lens_.add(stored.origin.lens_k1);
+      pass_ = stored.origin.lens_pass;
+      if (stored.finished) return as_saved(std::move(stored));
+      database_ = MapDatabase::open(inputs_.map_file->path);
+    }
+    while (!pass(stored)) {
+      ++pass_;
+      stored = StoredMap();
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// The map of a run that had come to its end already.
+  RunResult as_saved(StoredMap stored) {
+    result_.calibration = lens_.calibration();
+    result_.lens_k1 = lens_.k1();
+    result_.resumed_at = FrameId(begin_ + stored.map.frames.size());
+    result_.map = std::move(stored.map);
+    return std::move(result_);
+  }
+
+  MapOrigin origin() const {
+    MapOrigin origin;
+    origin.sequence = inputs_.map_file->sequence;
+    origin.sensor = result_.sensor;
+    origin.calibration = result_.calibration;
+    origin.options = dump_options(options_);
+    if (options_.slam.views.enabled) origin.view_options = dump_options(options_.slam.views.cues);
+    origin.lens_k1 = lens_.k1();
+    origin.lens_pass = pass_;
+    return origin;
+  }
+
+  /// Whether it came to the end; otherwise the images are to be corrected, and it begins anew.
+  bool pass(const StoredMap& stored) {
+    result_.calibration = lens_.calibration();
+    if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
+    Slam slam(options_.slam, result_.calibration, slam_inputs());
+    reasons_.clear();
+    const std::size_t first = go_on(stored, slam);
+    FrameReader reader(dataset_, lens_, result_.sensor, end_, options_.threads > 1);
+    for (std::size_t i = first; i < end_; ++i) {
+      Frame frame;
+      try {
+        const auto span = times_.measure("reading");
+        frame = reader.read(i);
+      } catch (const FileError& error) {
+        if (i == begin_) throw;
+        result_.broken_off = error.what();
+        break;
+      }
+      const FrameResult done = slam.add_frame(frame);
+      reasons_.emplace(frame.id, done.outcome ? "nothing joins it to the first part of the map"
+                                              : done.outcome.reason);
+      if (inputs_.observer) inputs_.observer(frame, done, slam.view());
+      if (inputs_.progress) inputs_.progress(i + 1 - begin_, end_ - begin_, done);
+      if (learn_lens(slam.lens(), pass_, options_.lens, lens_, inputs_.log)) return false;
+      if (inputs_.map_file && done.new_place) commit(slam, false);
+    }
+    result_.lens_k1 = lens_.k1();
+    result_.map = slam.finish();
+    result_.unposed = unposed_frames(result_.map.trajectory_optimized(), result_.map, reasons_);
+    if (inputs_.map_file) commit(slam, !result_.broken_off);
+    result_.environments = slam.environments();
+    result_.stages = times_.stages();
+    result_.stages.insert(result_.stages.end(), slam.stages().begin(), slam.stages().end());
+    return true;
+  }
+
+  SlamInputs slam_inputs() const {
+    SlamInputs inputs;
+    inputs.surfaces = inputs_.surfaces;
+    inputs.events = inputs_.events;
+    inputs.log = inputs_.log;
+    if (!options_.motion.file.empty())
+      inputs.motion = std::make_shared<const MeasuredMotion>(
+          read_motion(dataset_, options_.motion, inputs_.log));
+    return inputs;
+  }
+
+  /// Takes up what was saved; the index of the next frame.
+  std::size_t go_on(const StoredMap& stored, Slam& slam) {
+    if (stored.map.keyframes.empty()) return begin_;
+    const auto last = static_cast<std::size_t>(stored.map.keyframes.back().frame.value());
+    require(last >= begin_ && last < end_,
+            inputs_.map_file->path + ": its last keyframe is frame " + std::to_string(last) +
+                ", which is not of the sequence");
+    Frame frame = dataset_.frame(last, result_.sensor);
+    lens_.apply(frame);
+    slam.resume(stored.map, stored.history, frame);
+    result_.resumed_at = FrameId(last + 1);
+    return last + 1;
+  }
+
+  /// The file begins with the first place: what fails before leaves none.
+  void commit(Slam& slam, bool last) {
+    if (!database_) database_ = MapDatabase::create(inputs_.map_file->path, origin());
+    const auto span = times_.measure("map database");
+    const MapChanges changes = slam.take_changes();
+    last ? database_->finish(changes) : database_->commit(changes);
+  }
+
+  const Dataset& dataset_;
+  const RunOptions& options_;
+  const RunInputs& inputs_;
+  std::size_t begin_ = 0, end_ = 0;
+  LensCorrection lens_{Calibration()};
+  int pass_ = 0;
+  std::optional<MapDatabase> database_;
+  StageTimes times_;
+  std::map<FrameId, std::string> reasons_;  ///< of every frame, if it has no pose in the end
+  RunResult result_;
+};
+
+}  // namespace
+
+RunResult run_sequence(const Dataset& dataset, const RunOptions& options, const RunInputs& inputs) {
+  options.check();
+  return SequenceRun(dataset, options, inputs).run();
+}
+
+}  // namespace placegraph

@@ -1,0 +1,63 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/scale/floor_line_scale.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+
+FloorScale::FloorScale(const FloorScaleOptions& options, const Camera& camera,
+                       double camera_height_m)
+    : options_(options), camera_(camera), camera_height_m_(camera_height_m) {
+  options_.check();
+  require(camera_height_m > 0, "camera_height_m: must be positive");
+}
+
+void FloorScale::reset() {
+  heard_.clear();
+  recent_log_factors_.clear();
+  first_log_factors_.clear();
+}
+
+/// The unit once the last views agree on it: the median of three, and the middle one of any more.
+std::optional<GroundScale::Length> FloorScale::agreed(double log_factor, double sigma) {
+  constexpr std::size_t kViews = 3;
+  first_log_factors_.push_back(log_factor);
+  if (first_log_factors_.size() > kViews) first_log_factors_.pop_front();
+  if (first_log_factors_.size() < kViews) return std::nullopt;
+  const auto [least, most] =
+      std::minmax_element(first_log_factors_.begin(), first_log_factors_.end());
+  if (*most - *least > 2 * options_.max_sigma_at_first) return std::nullopt;
+  return GroundScale::Length{
+      std::exp(median_of({first_log_factors_.begin(), first_log_factors_.end()})), sigma};
+}
+
+std::optional<GroundScale::Length> FloorScale::measure(const SE3& T_odom_cam,
+                                                       const std::vector<PlacedLine>& lines,
+                                                       const std::vector<SharedDirection>& shared,
+                                                       bool unit_known) {
+  const FloorFromLines floor = floor_from_lines(camera_, T_odom_cam, lines, options_.floor, shared);
+  if (!floor.outcome) return std::nullopt;
+  const double log_factor = std::log(camera_height_m_ / floor.height);
+  double sigma = std::hypot(floor.sigma_height / floor.height, options_.sigma_relative);
+  if (!unit_known) {
+    if (sigma > options_.max_sigma_at_first) return std::nullopt;
+    return agreed(log_factor, sigma);
+  }
+  // Shelves hide the floor for a moment, but not for long.
+  constexpr std::size_t kMemory = 5;
+  double expected = 0;
+  if (recent_log_factors_.size() >= 3)
+    expected = median_of({recent_log_factors_.begin(), recent_log_factors_.end()});
+  recent_log_factors_.push_back(log_factor);
+  if (recent_log_factors_.size() > kMemory) recent_log_factors_.pop_front();
+  if (std::abs(log_factor - expected) > options_.max_log_jump) return std::nullopt;
+  int fresh = 0;
+  for (const LineId id : floor.on_floor) fresh += heard_.insert(id).second;
+  if (fresh == 0) return std::nullopt;
+  sigma *= std::sqrt(static_cast<double>(floor.on_floor.size()) / fresh);
+  return GroundScale::Length{std::exp(log_factor), sigma};
+}
+
+}  // namespace placegraph

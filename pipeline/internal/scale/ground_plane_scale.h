@@ -1,0 +1,52 @@
+#pragma once
+#include <placegraph/frontend/internal/planes/ground_plane.h>
+#include <placegraph/pipeline/cues/cue_options.h>
+#include <placegraph/pipeline/internal/cues/ground_mask.h>
+
+#include <deque>
+#include <optional>
+
+namespace placegraph {
+
+/// Metric scale from the ground: follows the plane under a camera of known height over pairs of
+/// views and says what a motion's true length is. The mean normal in the camera (mounting pitch and
+/// roll) is estimated, never given.
+class GroundScale {
+ public:
+  GroundScale(const GroundScaleOptions& options, const Camera& camera, double camera_height_m);
+
+  struct Length {
+    double factor = 1;  ///< true length = factor * |t| of the motion handed over
+    double sigma_relative = 1;
+  };
+  /// For a motion whose scale is unknown; nothing if the road says nothing. `sight` is of the new
+  /// view.
+  std::optional<Length> find(const Image& image_new, const Image& image_old, const SE3& T_old_new,
+                             const GroundSight& sight = {});
+  /// For a motion whose scale is roughly right.
+  std::optional<Length> follow(const Image& image_new, const Image& image_old, const SE3& T_old_new,
+                               const GroundSight& sight = {});
+  /// Whether a level floor may be the ground: its normal is about where the camera's mounting, as
+  /// far as it is known, lets it be.
+  bool may_be_ground(const Eigen::Vector3d& level) const;
+  /// Outline in the image of the ground that is looked at.
+  std::vector<Eigen::Vector2d> outline_px() const;
+  double min_baseline_m() const { return options_.min_baseline_heights * camera_height_m_; }
+  /// Mean ground plane in the camera frame, at the camera's height.
+  Plane plane_cam() const { return {normal_cam_, camera_height_m_}; }
+
+ private:
+  std::optional<Length> believe(const GroundPlaneResult& found);
+  double sigma_of_view_rad() const;
+  GroundPlanePrior prior(const GroundSight& sight) const;
+  void learn(const GroundPlaneResult& found);
+
+  GroundScaleOptions options_;
+  Camera camera_;
+  double camera_height_m_;
+  Eigen::Vector3d normal_cam_ = Eigen::Vector3d::UnitY();
+  double normal_variance_rad2_;
+  std::deque<double> recent_log_factors_;
+};
+
+}  // namespace placegraph

@@ -1,0 +1,221 @@
+#include <placegraph/frontend/internal/floor_plan/building_axes.h>
+#include <placegraph/frontend/internal/segments/segment_detector.h>
+#include <placegraph/frontend/internal/vanishing/scene_directions.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/scene/indoor_mapper.h>
+#include <placegraph/pipeline/internal/scene/indoor_plan.h>
+#include <placegraph/pipeline/internal/scene/map_keyframes.h>
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <set>
+
+namespace placegraph {
+namespace {
+
+/// Sights in the map's frame, by the poses of the map.
+struct SightsInMap {
+  std::vector<KeyframeId> keyframes;     // by sight
+  std::vector<SE3> T_map_cam;            // by sight
+  std::vector<SurfacePoint> points;      // by sight
+  std::vector<std::size_t> first_point;  // of the next sight
+};
+
+SightsInMap lay_out(const std::vector<SurfaceSight>& sights, const Map& map) {
+  SightsInMap result;
+  const std::set<KeyframeId> connected = connected_keyframes(map);
+  for (const SurfaceSight& sight : sights) {
+    if (!connected.count(sight.keyframe)) continue;
+    const SE3 T_map_cam = camera_pose(map, sight.keyframe);
+    const Eigen::Matrix3f R = T_map_cam.rotation().matrix().cast<float>();
+    const Eigen::Vector3f t = T_map_cam.translation().cast<float>();
+    for (const SurfacePoint& p : sight.points)
+      result.points.push_back({R * p.point + t, R * p.normal, p.sigma});
+    result.first_point.push_back(result.points.size());
+    result.T_map_cam.push_back(T_map_cam);
+    result.keyframes.push_back(sight.keyframe);
+  }
+  return result;
+}
+
+/// The mean of the directions that are up for the cameras, not normalized.
+Eigen::Vector3d up_of(const std::vector<SE3>& T_map_cam) {
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  for (const SE3& T : T_map_cam) up -= T.rotation().matrix().col(1);
+  return up;
+}
+
+PlacedSights to_walls(const SightsInMap& sights, const SE3& T_walls_map) {
+  PlacedSights placed;
+  placed.keyframes = sights.keyframes;
+  const Eigen::Matrix3f R = T_walls_map.rotation().matrix().cast<float>();
+  const Eigen::Vector3f t = T_walls_map.translation().cast<float>();
+  std::size_t i = 0;
+  for (std::size_t s = 0; s < sights.first_point.size(); ++s)
+    for (; i < sights.first_point[s]; ++i) {
+      const SurfacePoint& p = sights.points[i];
+      placed.points.push_back({R * p.point + t, R * p.normal, p.sigma, static_cast<int>(s)});
+    }
+  for (const SE3& T : sights.T_map_cam) placed.path.push_back(T_walls_map * T.translation());
+  return placed;
+}
+
+VoxelEvidence evidence_of(const PlacedSights& sights, double cell_m, double layer_m) {
+  Eigen::Vector3d low = sights.path.front(), high = sights.path.front();
+  for (const PlacedPoint& p : sights.points) {
+    low = low.cwiseMin(p.point.cast<double>());
+    high = high.cwiseMax(p.point.cast<double>());
+  }
+  constexpr double kHighest_m = 12;
+  low[2] = 0, high[2] = std::min(high[2], kHighest_m);
+  const Eigen::Vector3d rim(0.3, 0.3, 0);
+  VoxelEvidence voxels(low - rim, high + rim, cell_m, layer_m);
+  for (const PlacedPoint& p : sights.points)
+    voxels.add_ray(sights.path[p.sight], p.point.cast<double>(), 0.1 + 3 * p.sigma, true);
+  return voxels;
+}
+
+IndoorMap fuse_sights(const std::vector<SurfaceSight>& all, const Map& map,
+                      const IndoorMapperOptions& options) {
+  IndoorMap plan;
+  const SightsInMap in_map = lay_out(all, map);
+  if (in_map.points.empty()) {
+    plan.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no surface is seen");
+    return plan;
+  }
+  const BuildingAxes axes = find_building_axes(in_map.points, up_of(in_map.T_map_cam));
+  plan.outcome = axes.outcome;
+  if (!plan.outcome) return plan;
+  const PlanFrame frame(axes.T_walls_map);
+  plan.R_plan_map = frame.R_plan_map();
+  plan.floor_y = frame.floor_y();
+  plan.yaw_rad = frame.yaw_rad();
+
+  const PlacedSights sights = to_walls(in_map, axes.T_walls_map);
+  const VoxelEvidence voxels = evidence_of(sights, options.cell_m, options.layer_m);
+  constexpr double kShoulder_m = 0.45;
+  const std::vector<WallPiece> walls =
+      cut_at_path(find_walls(sights.points, voxels, options.walls), sights.path, kShoulder_m,
+                  options.walls.min_length_m);
+  if (walls.empty()) {
+    plan.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no wall is seen");
+    return plan;
+  }
+  const std::vector<DoorPiece> doors =
+      find_doors(walls, sights.points, voxels, sights.path, options.doors);
+  const RoomPartition rooms = partition_rooms(voxels, walls, doors, sights.path, options.rooms);
+  plan.walls = plan_walls(walls, frame, sights, map);
+  plan.rooms = plan_rooms(rooms, voxels, frame, sights, map);
+  plan.doors = plan_doors(doors, rooms, voxels, frame);
+  plan.cells = plan_cells(voxels);
+  return plan;
+}
+
+}  // namespace
+
+IndoorMapper::IndoorMapper(const IndoorMapperOptions& options, const Calibration& calibration)
+    : options_(options), calibration_(calibration) {
+  options_.check();
+  calibration_.check();
+}
+
+std::vector<SurfacePoint> IndoorMapper::points_of_one_eye(const Image& image) const {
+  const std::vector<LineSegment> segments = segments_of(detect_segments(image, {}));
+  Random random(0);
+  const SceneDirections scene = find_scene_directions(segments, calibration_.camera, {}, random);
+  if (scene.frames.empty()) return {};
+  const ManhattanFrame& frame = scene.frames[0];
+  const OrientationMap map = compute_orientation_map(segments, frame.axis, calibration_.camera,
+                                                     frame.R_cam_manhattan, options_.orientation);
+  return surface_points_on_floor(map, segments, frame.axis, calibration_.camera,
+                                 frame.R_cam_manhattan, *calibration_.camera_height_m,
+                                 options_.floor);
+}
+
+std::vector<SurfacePoint> IndoorMapper::swept_points(const Image& image,
+                                                     const std::vector<SweptView>& views) const {
+  const SweptDepth swept = sweep_planes(image, calibration_.camera, views, options_.sweep);
+  const Camera& camera = swept.camera;
+  const int shrunk = calibration_.camera.width / camera.width;
+  SurfacePointOptions points = options_.points;
+  points.step_px = std::max(1, points.step_px / shrunk);
+  points.radius_px = std::max(2, options_.swept_radius_px / shrunk);
+  std::vector<SurfacePoint> seen =
+      surface_points(swept.depth_m, swept.sigma_inverse, camera, SE3(), points);
+  // What is no part of a plane may be a false match, whose ray would be seen to pass through walls.
+  std::erase_if(seen, [&](const SurfacePoint& p) {
+    if (p.normal.squaredNorm() > 0.5F) return false;
+    const auto px = camera.project(p.point.cast<double>());
+    return !px || !swept.certain.at<std::uint8_t>(cvRound((*px)[1]), cvRound((*px)[0]));
+  });
+  return seen;
+}
+
+std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame,
+                                                  std::vector<SweptView> views) const {
+  if (calibration_.depth && !frame.depth.empty()) {
+    const DepthCamera& depth = *calibration_.depth;
+    // The patch tells its own noise; what a sensor's patches share is less than its pixels' noise.
+    return surface_points(frame.depth, depth.camera, depth.T_cam_depth, 0.2 * depth.sigma_at_1m,
+                          options_.points);
+  }
+  if (calibration_.baseline_m > 0 && !frame.right.empty())
+    views.push_back({frame.right, SE3(SO3(), {-calibration_.baseline_m, 0, 0})});
+  std::vector<SurfacePoint> swept;
+  if (!views.empty()) swept = swept_points(frame.image, views);
+  if (!swept.empty()) return swept;
+  if (calibration_.camera_height_m) return points_of_one_eye(frame.image);
+  return {};
+}
+
+void IndoorMapper::add(KeyframeId keyframe, const Frame& frame,
+                       const std::vector<SweptView>& views) {
+  add(SurfaceSight{keyframe, points_of(frame, views)});
+}
+
+void IndoorMapper::add(SurfaceSight sight) {
+  const auto same = std::find_if(sights_.begin(), sights_.end(), [&](const SurfaceSight& other) {
+    return other.keyframe == sight.keyframe;
+  });
+  if (same != sights_.end())
+    *same = std::move(sight);
+  else
+    sights_.push_back(std::move(sight));
+}
+
+IndoorMap IndoorMapper::fuse(const Map& map) const {
+  if (!map.metric) {
+    IndoorMap none;
+    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "the map's unit is not the metre");
+    return none;
+  }
+  IndoorMapperOptions options = options_;
+  if (!calibration_.depth) options.walls.band_m = options.swept_band_m;
+  return fuse_sights(sights_, map, options);
+}
+
+void label_places(const IndoorMap& plan, PlaceGraph& places) {
+  for (Place& place : places.places)
+    for (const IndoorRoom& room : plan.rooms)
+      if (std::count(room.places.begin(), room.places.end(), place.id) &&
+          !std::count(place.labels.begin(), place.labels.end(), room.label))
+        place.labels.push_back(room.label);
+}
+
+IndoorMap map_indoors(const Map& map, const Calibration& calibration,
+                      const std::function<Frame(const Keyframe&)>& frame_of,
+                      const IndoorMapperOptions& options) {
+  IndoorMapper mapper(options, calibration);
+  if (!map.metric) return mapper.fuse(map);  // says so
+  NearbyViews nearby(map, frame_of, options.views);
+  for (const Keyframe* keyframe :
+       keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_turn_deg))) {
+    std::vector<SweptView> views;
+    if (!calibration.depth) views = nearby.of(*keyframe);
+    mapper.add(keyframe->id, nearby.frame(*keyframe), views);
+  }
+  return mapper.fuse(map);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,144 @@
+#include <placegraph/frontend/internal/scene/moving_classes.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/scene/urban_mapper.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace placegraph {
+
+UrbanMapper::UrbanMapper(const UrbanMapperOptions& options, const Calibration& calibration,
+                         SceneModel urban, SceneModel surfaces)
+    : options_(options),
+      calibration_(calibration),
+      urban_(std::move(urban)),
+      surfaces_(std::move(surfaces)) {
+  options_.check();
+  calibration_.check();
+  require(urban_.kind == SceneModel::Kind::kUrban && surfaces_.kind == SceneModel::Kind::kSurfaces,
+          "urban mapper: a model of urban classes and one of surfaces are needed");
+  (void)moving_classes(options_.sight.moving, urban_);
+}
+
+void UrbanMapper::add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_cam) {
+  if (calibration_.baseline_m <= 0 || frame.right.empty()) return;
+  const Camera& camera = calibration_.camera;
+  const Image depth =
+      dense_stereo(frame.image, frame.right, camera.fx, calibration_.baseline_m, options_.stereo);
+  SemanticSight sight =
+      see_street(frame.colour.empty() ? frame.image : frame.colour, depth, camera,
+                 calibration_.baseline_m, calibration_.camera_height_m.value_or(0), urban_,
+                 surfaces_, options_.sight)
+          .sight;
+  sight.keyframe = keyframe;
+  if (options_.residuals) drop_seen_through(sight, depth, T_map_cam);
+  last_ = Last{keyframe, depth, T_map_cam};
+  add(std::move(sight));
+}
+
+/// What moved between two keyframes: seen in the one where the other sees farther.
+void UrbanMapper::drop_seen_through(SemanticSight& sight, const Image& depth_m,
+                                    const SE3& T_map_cam) {
+  if (!last_) return;
+  const SE3 T_last_cam = last_->T_map_cam.inverse() * T_map_cam;
+  const auto drop = [&](std::vector<SemanticPoint>& points, const Image& other,
+                        const SE3& T_other_cam) {
+    const std::vector<bool> gone = seen_through(points, T_other_cam, other, calibration_.camera,
+                                                calibration_.baseline_m, options_.seen_through);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (!gone[i]) points[kept++] = points[i];
+    points.resize(kept);
+  };
+  drop(sight.points, last_->depth_m, T_last_cam);
+  for (SemanticSight& other : sights_)
+    if (other.keyframe == last_->keyframe) drop(other.points, depth_m, T_last_cam.inverse());
+}
+
+void UrbanMapper::add(SemanticSight sight) {
+  const auto same = std::find_if(sights_.begin(), sights_.end(), [&](const SemanticSight& other) {
+    return other.keyframe == sight.keyframe;
+  });
+  if (same != sights_.end())
+    *same = std::move(sight);
+  else
+    sights_.push_back(std::move(sight));
+}
+
+SemanticMap UrbanMapper::fuse(const Map& map) const {
+  if (!map.metric) {
+    SemanticMap none;
+    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "the map's unit is not the metre");
+    return none;
+  }
+  return fuse(poses_of(map));
+}
+
+SemanticMap UrbanMapper::fuse(const KeyframePoses& T_map_cam, const Eigen::Vector3d& down) const {
+  SemanticMap none;
+  none.classes = urban_.classes;
+  if (calibration_.baseline_m <= 0) {
+    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "two eyes are needed");
+    return none;
+  }
+  std::vector<std::pair<const SemanticSight*, SE3>> placed;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const SemanticSight& sight : sights_)
+    if (const std::optional<SE3> T = T_map_cam(sight.keyframe)) {
+      placed.emplace_back(&sight, *T);
+      sum += T->rotation().matrix() * sight.down.cast<double>();
+    }
+  if (!down.isZero()) sum = down;
+  if (placed.empty() || sum.norm() < 1e-6) {
+    none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no keyframe of it has a pose");
+    return none;
+  }
+  // x stays level and as near to where it was as can be.
+  const Eigen::Vector3d y = sum.normalized();
+  Eigen::Vector3d x = Eigen::Vector3d::UnitX() - y[0] * y;
+  if (x.norm() < 0.1) x = Eigen::Vector3d::UnitZ().cross(y);
+  x.normalize();
+  Eigen::Matrix3d R_plan_map;
+  R_plan_map << x.transpose(), y.transpose(), x.cross(y).transpose();
+  SemanticGrid grid(options_.grid, urban_.classes, SO3(Eigen::Quaterniond(R_plan_map)));
+  for (const auto& [sight, T] : placed) grid.add(*sight, T);
+  return grid.map();
+}
+
+void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions& options,
+                   const std::function<Frame(const Keyframe&)>& frame_of,
+                   const std::function<void(std::size_t, std::size_t)>& progress) {
+  const auto chosen = keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_turn_deg));
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const KeyframeId id = chosen[i]->id;
+    mapper.add(id, frame_of(*chosen[i]), camera_pose(map, id));
+    if (progress) progress(i + 1, chosen.size());
+  }
+}
+
+std::vector<std::vector<float>> class_shares(const UrbanMapper& mapper, const Map& map) {
+  const std::size_t n = mapper.classes().size();
+  std::map<PlaceId, std::vector<float>> by_place;
+  for (const SemanticSight& sight : mapper.sights()) {
+    const Keyframe* keyframe = map.find_keyframe(sight.keyframe);
+    if (!keyframe) continue;
+    std::vector<float>& sum = by_place[keyframe->place];
+    sum.resize(n, 0);
+    for (const SemanticPoint& point : sight.points)
+      for (std::size_t c = 0; c < n; ++c) sum[c] += sight.shares[point.region * n + c];
+  }
+  std::vector<std::vector<float>> shares;
+  for (const Place& place : map.place_graph.places) {
+    std::vector<float> of = by_place[place.id];
+    float all = 0;
+    for (const float share : of) all += share;
+    if (!(all > 0)) of.clear();
+    for (float& share : of) share /= all;
+    shares.push_back(std::move(of));
+  }
+  return shares;
+}
+
+}  // namespace placegraph

@@ -1,0 +1,340 @@
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/graph/map_changes.h>
+#include <placegraph/graph/measurements/measured_motion.h>
+#include <placegraph/pipeline/cues/frame_view.h>
+#include <placegraph/pipeline/internal/local_map/lens_estimator.h>
+#include <placegraph/pipeline/internal/slam/event_feed.h>
+#include <placegraph/pipeline/internal/slam/map_feed.h>
+#include <placegraph/pipeline/internal/slam/track_recovery.h>
+#include <placegraph/pipeline/slam.h>
+
+#include <algorithm>
+
+namespace placegraph {
+
+/// What Slam keeps, and its steps.
+struct Slam::Impl {
+  Impl(const SlamOptions& o, const Calibration& c, const SlamInputs& inputs)
+      : options(o),
+        calibration(c),
+        log_sink(inputs.log),
+        odometry(o.odometry, c, o.seed, log_sink, times),
+        closer(o.loops, c, o.seed),
+        mapper(o.places, o.pose_graph),
+        recovery({o.max_lost_frames, o.odometry.turn.threshold_px / c.camera.fx}, log_sink),
+        environments(o.context.filter, c.camera),
+        feed(o.views.cues),
+        events(inputs.events) {
+    if (inputs.surfaces) use_surfaces(inputs.surfaces);
+    if (inputs.motion) use_motion(inputs.motion);
+  }
+
+  void use_motion(const std::shared_ptr<const MeasuredMotion>& motion_cam);
+  void use_surfaces(const std::shared_ptr<const SceneModel>& surfaces);
+
+  void check_frame(const Frame& frame) const;
+  FrameResult add_frame(const Frame& frame);
+  void place(const Frame& frame, const std::optional<LocatedFrame>& located,
+             const OdometryUpdate& update, FrameResult& result);
+  void record(KeyframeId keyframe, const SE3& T_keyframe_frame, FrameResult& result);
+  void rescale(double factor);
+  void add_keyframes(const OdometryUpdate& update, FrameResult& result);
+  void add_keyframe(const NewKeyframe& keyframe, FrameResult& result);
+  void refresh_links(KeyframeId newest);
+  void add_motion(KeyframeId keyframe);
+  void classify_environment(const NewKeyframe& keyframe);
+  void close_loops(FrameResult& result);
+  void optimized(const IncrementalStep& step);
+  void take_up(const Map& map, const PlaceHistory& history, const Frame& last);
+  KnownMap known() const { return {closer, mapper, recorder}; }
+  MapSources sources() { return {odometry, closer, mapper, recorder, environments}; }
+  /// Keyframes from here on are still being refined: their places are not merged.
+  KeyframeId first_open() const { return odometry.map().window_begin().value_or(kBeforeAll); }
+
+  SlamOptions options;
+  Calibration calibration;
+  LogSink log_sink;
+  StageTimes times;
+  Odometry odometry;
+  LoopCloser closer;
+  PlaceMapper mapper;
+  TrackRecovery recovery;
+  TrajectoryRecorder recorder;
+  EnvironmentMonitor environments;
+  MapFeed feed;
+  EventFeed events;
+  bool finished = false;
+};
+
+Slam::Slam(const SlamOptions& options, const Calibration& calibration, const SlamInputs& inputs) {
+  options.check();
+  calibration.check();
+  require(inputs.surfaces || !(options.semantics.enabled || options.context.enabled),
+          "Slam: semantics and context need a model of surfaces, see SlamInputs::surfaces");
+  impl_ = std::make_unique<Impl>(options, calibration, inputs);
+}
+Slam::~Slam() = default;
+Slam::Slam(Slam&&) noexcept = default;
+Slam& Slam::operator=(Slam&&) noexcept = default;
+
+const std::vector<EnvironmentSight>& Slam::environments() const {
+  return impl_->environments.observations();
+}
+
+FrameResult Slam::add_frame(const Frame& frame) { return impl_->add_frame(frame); }
+MapChanges Slam::take_changes() { return impl_->feed.take_changes(impl_->sources()); }
+void Slam::resume(const Map& map, const PlaceHistory& history, const Frame& last) {
+  impl_->take_up(map, history, last);
+}
+Map Slam::snapshot() const { return impl_->feed.snapshot(impl_->sources()); }
+LensDistortion Slam::lens() const { return impl_->odometry.lens().estimate(); }
+FrameView Slam::view() const { return impl_->odometry.view(); }
+const std::vector<StageTimes::Stage>& Slam::stages() const { return impl_->times.stages(); }
+
+Map Slam::finish() {
+  require(!impl_->finished, "Slam::finish: called twice");
+  impl_->optimized(impl_->mapper.finish());
+  impl_->finished = true;
+  return snapshot();
+}
+
+void Slam::Impl::use_motion(const std::shared_ptr<const MeasuredMotion>& motion_cam) {
+  recovery.use_motion(motion_cam);
+  odometry.set_motion(motion_cam);
+}
+
+void Slam::Impl::use_surfaces(const std::shared_ptr<const SceneModel>& surfaces) {
+  const SceneUseOptions& o = options.semantics;
+  odometry.set_scene(std::make_shared<const SceneEye>(surfaces, o.masks), o.enabled);
+}
+
+void Slam::Impl::check_frame(const Frame& frame) const {
+  require(!finished, "Slam::add_frame: after finish()");
+  const Camera& camera = calibration.camera;
+  require(frame.image.type() == CV_8UC1 && frame.image.cols == camera.width &&
+              frame.image.rows == camera.height,
+          "frame " + to_string(frame.id) + ": grey image of " + std::to_string(camera.width) + "x" +
+              std::to_string(camera.height) + " needed");
+  const auto fits = [&](const Image& image, int type, const Camera& of) {
+    return image.empty() ||
+           (image.type() == type && image.cols == of.width && image.rows == of.height);
+  };
+  require(fits(frame.right, CV_8UC1, camera) && fits(frame.mask, CV_8UC1, camera) &&
+              (!calibration.depth || fits(frame.depth, CV_32FC1, calibration.depth->camera)),
+          "frame " + to_string(frame.id) +
+              ": right eye, mask or depth image of another size or type than calibrated");
+  require(recorder.accepts(frame),
+          "frame " + to_string(frame.id) + ": ids and stamps must increase");
+}
+
+FrameResult Slam::Impl::add_frame(const Frame& frame) {
+  check_frame(frame);
+  recorder.begin(frame);
+
+  // 1. Visual odometry; where no track segment hangs on the map, with the place where the frame is.
+  const std::optional<LocatedFrame> expected = recovery.expect(frame, known(), odometry);
+  OdometryUpdate update = odometry.add_frame(
+      frame, expected ? std::optional(known().T_map_frame(*expected)) : std::nullopt);
+  const std::optional<LocatedFrame> located = recovery.locate(expected, update, known(), odometry);
+
+  // 2. Lost: relocalize, go on by a rotation or other sensors, or begin a new component of the map.
+  if (recovery.needed(update, known()))
+    update = recovery.restart(frame, located, update, known(), odometry);
+
+  // 3. New keyframes go into the place graph, and loops are sought.
+  FrameResult result;
+  result.frame = frame.id;
+  if (update.rescale) rescale(update.rescale->factor);
+  add_keyframes(update, result);
+
+  // 4. The frame's pose, relative to a keyframe and as it is known now.
+  place(frame, located, update, result);
+  recorder.finish(result.component == 0 ? result.T_map_cam : std::nullopt);
+  events.frame_done(result);
+  return result;
+}
+
+void Slam::Impl::place(const Frame& frame, const std::optional<LocatedFrame>& located,
+                       const OdometryUpdate& update, FrameResult& result) {
+  if (update.state == TrackingState::kTracking) {
+    recovery.tracked();
+    result.inliers = update.inliers;
+    const KeyframeId reference = update.keyframe.value();
+    record(reference, odometry.map().pose(reference).inverse() * update.T_odom_cam, result);
+  } else if (const auto at =
+                 recovery.pose_without_tracking(frame, located, update, known(), odometry)) {
+    record(at->match, at->T_match_query, result);
+  } else if (!recorder.newest_keyframe() && update.reference) {
+    recorder.begin_at_origin(update.rotation.has_value());
+    result.T_map_cam = update.T_odom_cam;
+  }
+  result.state = result.T_map_cam             ? TrackingState::kTracking
+                 : recorder.newest_keyframe() ? TrackingState::kLost
+                                              : TrackingState::kWaiting;
+  if (result.T_map_cam && odometry.awaits_scale()) {
+    // The map will tell the pose once it has its unit: a pose in another is worse than none.
+    result.T_map_cam.reset();
+    result.state = TrackingState::kWaiting;
+  }
+  if (result.T_map_cam && recorder.newest_has_keyframe())
+    result.outcome = Outcome::ok();
+  else if (update.outcome.reason.empty())
+    result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "waits for a second view");
+  else
+    result.outcome = update.outcome;
+}
+
+void Slam::Impl::record(KeyframeId keyframe, const SE3& T_keyframe_frame, FrameResult& result) {
+  recorder.record(keyframe, T_keyframe_frame, result.inliers);
+  result.T_map_cam = rigid_part(mapper.S_map_keyframe(keyframe) * Sim3(T_keyframe_frame));
+  result.component = mapper.component_of(keyframe);
+  recovery.stands_at(*result.T_map_cam);
+}
+
+void Slam::Impl::rescale(double factor) {
+  const KeyframeId first = odometry.map().first();
+  mapper.rescale(first, factor);
+  closer.rescale(factor, first);
+  recorder.rescale(first, factor);
+  recovery.rescale(factor);
+  feed.tell_again();
+  events.places_changed(mapper);
+}
+
+void Slam::Impl::add_keyframes(const OdometryUpdate& update, FrameResult& result) {
+  for (const NewKeyframe& keyframe : update.new_keyframes) add_keyframe(keyframe, result);
+  if (update.new_keyframes.empty()) return;
+  result.keyframe = true;
+  recorder.correct(update.posed_again, update.new_keyframes.front().id, odometry.map());
+}
+
+void Slam::Impl::add_keyframe(const NewKeyframe& keyframe, FrameResult& result) {
+  const LocalMap& map = odometry.map();
+  std::optional<PlaceMapper::Link> link;
+  std::optional<SE3> T_previous_this;
+  if (keyframe.id == map.first()) {
+    link = recovery.take_link(map, mapper);
+  } else {
+    const KeyframeId previous = *recorder.newest_keyframe();
+    T_previous_this = map.pose(previous).inverse() * map.pose(keyframe.id);
+    link = PlaceMapper::Link{previous, *T_previous_this};
+  }
+  const auto span = times.measure("place graph");
+  mapper.add_keyframe(keyframe.id, link, map.pose(keyframe.id), map.median_depth(), map.metric());
+  {
+    const auto inner = times.measure("constraints");
+    refresh_links(keyframe.id);
+  }
+  recorder.add_keyframe(keyframe);
+  if (recovery.motion()) add_motion(keyframe.id);
+  if (options.context.enabled) classify_environment(keyframe);
+  // Before loops are sought: the test of a loop by its covariance asks the optimizer for the new
+  // place.
+  events.keyframe_added(keyframe.id, keyframe.frame.id, mapper);
+  if (mapper.is_anchor(keyframe.id)) {
+    result.new_place = true;
+    optimized(mapper.optimize(first_open()));
+  }
+  {
+    const auto inner = times.measure("described features");
+    const bool newest = keyframe.frame.id == recorder.newest().frame;
+    closer.add_view(keyframe.id, keyframe.frame, T_previous_this,
+                    newest ? odometry.line_features() : std::vector<LineFeature>());
+  }
+  if (options.views.enabled) {
+    const auto inner = times.measure("views of keyframes");
+    feed.keep_view(keyframe.id, keyframe.frame);
+  }
+  if (options.loops.enabled) close_loops(result);
+}
+
+/// From anchor to anchor. What a monocular camera took its lengths from does not count again.
+void Slam::Impl::add_motion(KeyframeId keyframe) {
+  const auto previous = mapper.previous_anchor(keyframe);
+  if (!previous) return;
+  const auto motion =
+      recovery.motion()->between(recorder.stamp_ns_of(*previous), recorder.stamp_ns_of(keyframe));
+  if (!motion) return;
+  Matrix6d covariance = motion->covariance;
+  const Eigen::Vector3d t = motion->T_a_b.rotation().inverse() * motion->T_a_b.translation();
+  if (calibration.baseline_m <= 0 && !calibration.depth)
+    covariance.topLeftCorner<3, 3>() += t * t.transpose();
+  mapper.add_motion(*previous, keyframe, motion->T_a_b, covariance);
+}
+
+void Slam::Impl::classify_environment(const NewKeyframe& keyframe) {
+  const auto span = times.measure("environment");
+  const SurfaceShares* shares = keyframe.labels ? &keyframe.labels->shares : nullptr;
+  if (!environments.classify(keyframe.id, keyframe.frame, shares, odometry.points_cam(),
+                             odometry.map().metric()))
+    return;
+  const auto kind = environments.kind();
+  log(log_sink, LogLevel::kInfo, "frame {}: environment {}", keyframe.frame.id,
+      (kind ? environment_name(*kind) : std::string("unknown")));
+  if (!options.context.assume) return;
+  odometry.assume(kind ? std::optional(assumptions_of(*kind)) : std::nullopt);
+}
+
+/// The window goes on refining its last keyframes: their links follow. Information of the motion
+/// from an anchor to the next one comes from the window as a whole while it holds both.
+void Slam::Impl::refresh_links(KeyframeId newest) {
+  const LocalMap& map = odometry.map();
+  const KeyframeId oldest(newest.value() - options.odometry.window.max_keyframes - 2);
+  for (KeyframeId id = std::max(map.first(), oldest), next = id; id < newest; id = next) {
+    ++next;
+    mapper.update_link(next, map.pose(id).inverse() * map.pose(next));
+    const LocalMap::Link link = map.link(id);
+    mapper.inform_link(next, link.information, link.sigma_log_scale);
+  }
+  const auto begin = map.window_begin();
+  if (!begin) return;
+  for (KeyframeId id = ++KeyframeId(*begin); id <= newest; ++id) {
+    const auto previous = mapper.previous_anchor(id);
+    if (previous && *previous >= *begin)
+      mapper.inform_anchor(id, map.motion_information(*previous, id));
+  }
+}
+
+void Slam::Impl::close_loops(FrameResult& result) {
+  const KnownMotions motions{
+      [&](KeyframeId a, KeyframeId b) { return mapper.odometry(a, b); },
+      [&](KeyframeId a, KeyframeId b) { return mapper.predicted(a, b); },
+      [&](KeyframeId a, KeyframeId b) { return mapper.scale_unknown(a, b); }};
+  const auto loops = [&] {
+    const auto span = times.measure("loop closure");
+    return closer.find_loops(motions, odometry.map().median_depth());
+  }();
+  events.loops_decided(closer.records());
+  if (loops.empty()) return;
+  for (const Loop& loop : loops) mapper.add_loop(loop);
+  result.loops_accepted += static_cast<int>(loops.size());
+  optimized(mapper.optimize(first_open()));
+}
+
+void Slam::Impl::optimized(const IncrementalStep& step) {
+  if (!step.outcome)
+    log(log_sink, LogLevel::kWarning, "place graph not optimized: {}", step.outcome.reason);
+  events.places_changed(mapper);
+}
+
+void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Frame& last) {
+  require(recorder.empty() && !finished, "Slam::resume: after the first frame");
+  require(!map.keyframes.empty() && map.keyframes.back().frame == last.id,
+          "Slam::resume: the frame is not that of the last keyframe");
+  check_frame(last);
+  mapper = PlaceMapper(options.places, options.pose_graph, map.place_graph.places, history);
+  closer = LoopCloser(options.loops, calibration, options.seed, map);
+  recorder.take_up(map, last.id);
+  feed.take_up(map, closer);
+  events.take_up(mapper, closer.records());
+  optimized(mapper.optimize());
+  const KeyframeId newest = map.keyframes.back().id;
+  recovery.take_up(newest, history.median_depth_m, known());
+  odometry.go_on_from(++KeyframeId(newest), history.median_depth_m);
+  odometry.restart(recovery.T_map_last(), true);
+  FrameResult seen_again;
+  add_keyframes(odometry.add_frame(last, recovery.T_map_last()), seen_again);
+}
+
+}  // namespace placegraph

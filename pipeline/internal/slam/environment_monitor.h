@@ -1,0 +1,37 @@
+#pragma once
+#include <placegraph/frontend/internal/scene/environment.h>
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/graph/image/frame.h>
+#include <placegraph/graph/map.h>
+#include <placegraph/pipeline/slam/environment_sight.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace placegraph {
+
+/// Classifies the environment of keyframes in order of travel, and labels places by it.
+class EnvironmentMonitor {
+ public:
+  EnvironmentMonitor(const EnvironmentFilterOptions& options, const Camera& camera)
+      : filter_(options), camera_(camera) {}
+
+  /// Classifies the newest keyframe. `shares`: of its surfaces in the image; null: not labelled.
+  /// `points_cam`: landmarks in its camera's frame, in metres if `metric`. Returns whether the kind
+  /// is another one now.
+  bool classify(KeyframeId keyframe, const Frame& frame, const SurfaceShares* shares,
+                const std::vector<Eigen::Vector3d>& points_cam, bool metric);
+  /// The kind that holds now; nothing while it is unknown.
+  std::optional<Environment> kind() const { return filter_.kind(); }
+  const std::vector<EnvironmentSight>& observations() const { return observations_; }
+  /// Labels places by the kind that most of their keyframes had; not where that is unknown.
+  void label(std::vector<Place>& places) const;
+
+ private:
+  EnvironmentFilter filter_;
+  Camera camera_;
+  std::vector<EnvironmentSight> observations_;  // of keyframes, ascending
+};
+
+}  // namespace placegraph

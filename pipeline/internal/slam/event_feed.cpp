@@ -1,0 +1,77 @@
+#include <placegraph/pipeline/internal/slam/event_feed.h>
+
+#include <algorithm>
+
+namespace placegraph {
+
+EventFeed::Places EventFeed::places_of(const PlaceMapper& mapper) {
+  Places places;
+  for (const Place& place : mapper.places())
+    places[place.id] = {place.anchor_keyframe, place.T_map_place, place.component};
+  return places;
+}
+
+void EventFeed::take_up(const PlaceMapper& mapper, const std::vector<LoopRecord>& loops) {
+  if (!events_) return;
+  places_ = places_of(mapper);
+  records_ = loops.size();
+}
+
+void EventFeed::keyframe_added(KeyframeId keyframe, FrameId frame, const PlaceMapper& mapper) {
+  if (!events_) return;
+  events_->keyframe_added(
+      {keyframe, frame, mapper.place_of(keyframe), mapper.T_map_keyframe(keyframe)});
+}
+
+void EventFeed::places_changed(const PlaceMapper& mapper) {
+  if (!events_) return;
+  const Places now = places_of(mapper);
+  for (const auto& [id, place] : now)
+    if (!places_.count(id))
+      events_->place_added({id, place.anchor, place.T_map_place, place.component});
+  std::map<int, int> joined;
+  MapMoved moved;
+  for (const auto& [id, before] : places_) {
+    const auto place = now.find(id);
+    if (place == now.end()) {
+      const PlaceId kept = mapper.place_of(before.anchor);
+      events_->places_merged({kept, id});
+      if (const int into = now.at(kept).component; into != before.component)
+        joined.emplace(before.component, into);
+      continue;
+    }
+    if (place->second.component != before.component)
+      joined.emplace(before.component, place->second.component);
+    const SE3 T_before_now = before.T_map_place.inverse() * place->second.T_map_place;
+    const double translation = T_before_now.translation().norm(),
+                 rotation = T_before_now.rotation().log().norm();
+    if (translation == 0 && rotation == 0) continue;
+    ++moved.places;
+    moved.translation = std::max(moved.translation, translation);
+    moved.rotation_rad = std::max(moved.rotation_rad, rotation);
+  }
+  for (const auto& [component, into] : joined) events_->component_joined({component, into});
+  if (moved.places > 0) events_->map_moved(moved);
+  places_ = now;
+}
+
+void EventFeed::loops_decided(const std::vector<LoopRecord>& records) {
+  if (!events_) return;
+  for (auto record = waiting_.begin(); record != waiting_.end();) {
+    const bool accepted = records[*record].accepted();
+    if (accepted) events_->loop_accepted(records[*record]);
+    record = accepted ? waiting_.erase(record) : std::next(record);
+  }
+  for (; records_ < records.size(); ++records_) {
+    const LoopRecord& record = records[records_];
+    if (record.stage == LoopStage::kSupport) waiting_.insert(records_);
+    record.accepted() ? events_->loop_accepted(record) : events_->loop_refused(record);
+  }
+}
+
+void EventFeed::frame_done(const FrameResult& frame) {
+  if (!events_) return;
+  frame.T_map_cam ? events_->frame_posed(frame) : events_->frame_lost(frame);
+}
+
+}  // namespace placegraph

@@ -1,0 +1,110 @@
+#include <placegraph/pipeline/internal/slam/map_feed.h>
+
+#include <algorithm>
+
+namespace placegraph {
+
+void MapFeed::keep_view(KeyframeId keyframe, const Frame& frame) {
+  if (!views_in_colour_) views_in_colour_ = !frame.colour.empty();
+  if (*views_in_colour_ && frame.colour.empty()) return;
+  views_[keyframe] = describe_place(*views_in_colour_ ? frame.colour : frame.image, cues_, false);
+}
+
+void MapFeed::tell_again() { first_view_ = first_landmark_ = 0; }
+
+/// Without its place.
+Keyframe MapFeed::keyframe_of(const LoopCloser::View& view,
+                              const TrajectoryRecorder& recorder) const {
+  Keyframe keyframe;
+  keyframe.id = view.keyframe;
+  keyframe.frame = view.frame;
+  keyframe.stamp_ns = recorder.stamp_ns_of(view.keyframe);
+  keyframe.features = view.features;
+  if (const auto kept = views_.find(view.keyframe); kept != views_.end())
+    keyframe.view = kept->second;
+  return keyframe;
+}
+
+std::vector<PointLandmark> MapFeed::landmarks(const Odometry& odometry, std::size_t first) const {
+  const std::size_t earlier = std::min(first, earlier_landmarks_.size());
+  std::vector<PointLandmark> result(
+      earlier_landmarks_.begin() + static_cast<std::ptrdiff_t>(earlier), earlier_landmarks_.end());
+  for (PointLandmark landmark : odometry.map().landmarks(first - earlier)) {
+    landmark.id = LandmarkId(landmark.id.value() + first_landmark_id_);
+    result.push_back(landmark);
+  }
+  return result;
+}
+
+Map MapFeed::snapshot(const MapSources& sources) const {
+  Map map;
+  map.place_graph = sources.mapper.place_graph();
+  sources.environments.label(map.place_graph.places);
+  std::map<KeyframeId, std::pair<PlaceId, PlaceMember>> members;
+  for (Place& place : map.place_graph.places) {
+    place.appearance = sources.closer.appearance(place.anchor_keyframe);
+    for (const PlaceMember& member : place.members) members[member.keyframe] = {place.id, member};
+  }
+  for (const auto& view : sources.closer.views()) {
+    Keyframe& keyframe = map.keyframes.emplace_back(keyframe_of(view, sources.recorder));
+    const auto& [place, member] = members.at(view.keyframe);
+    keyframe.place = place;
+    keyframe.T_place_keyframe = member.T_place_keyframe;
+    keyframe.scale = member.scale;
+  }
+  map.landmarks = landmarks(sources.odometry, 0);
+  map.frames = sources.recorder.records();
+  map.loops = sources.closer.records();
+  map.metric = sources.mapper.metric();
+  map.trajectory_online = sources.recorder.online();
+  return map;
+}
+
+MapChanges MapFeed::take_changes(const MapSources& sources) {
+  constexpr std::size_t kLandmarksSavedTogether = 1000;
+  const LoopCloser& closer = sources.closer;
+  TrajectoryRecorder& recorder = sources.recorder;
+  MapChanges changes;
+  changes.places = sources.mapper.places();
+  sources.environments.label(changes.places);
+  const bool described_anew = closer.trained_views() != told_training_;
+  for (const Place& place : changes.places)
+    if (described_places_.insert(place.id).second || described_anew)
+      changes.appearances.emplace_back(place.id, closer.appearance(place.anchor_keyframe));
+  changes.constraints = sources.mapper.take_constraint_changes();
+  const auto& views = closer.views();
+  for (std::size_t i = first_view_; i < views.size(); ++i)
+    changes.keyframes.push_back(keyframe_of(views[i], recorder));
+  views_.clear();
+  changes.first_frame = recorder.first_changed();
+  const auto from = static_cast<std::ptrdiff_t>(changes.first_frame);
+  changes.frames.assign(recorder.records().begin() + from, recorder.records().end());
+  changes.online.assign(recorder.online().poses.begin() + from, recorder.online().poses.end());
+  changes.first_landmark = first_landmark_ / kLandmarksSavedTogether * kLandmarksSavedTogether;
+  changes.landmarks = landmarks(sources.odometry, changes.first_landmark);
+  changes.loops = closer.records();
+  changes.history = sources.mapper.history();
+  changes.history.median_depth_m = sources.odometry.map().median_depth();
+  changes.metric = sources.mapper.metric();
+
+  told_training_ = closer.trained_views();
+  first_view_ = views.empty() ? 0 : views.size() - 1;  // its successor gives depth to its features
+  first_landmark_ = earlier_landmarks_.size() + sources.odometry.map().settled_landmarks();
+  recorder.tell_all();
+  return changes;
+}
+
+void MapFeed::take_up(const Map& map, const LoopCloser& closer) {
+  for (const Keyframe& keyframe : map.keyframes)
+    if (!keyframe.view.empty() && !views_in_colour_)
+      views_in_colour_ = !keyframe.view.colour.empty();
+  for (const Place& place : map.place_graph.places) described_places_.insert(place.id);
+  earlier_landmarks_ = map.landmarks;
+  for (const PointLandmark& landmark : map.landmarks)
+    first_landmark_id_ = std::max(first_landmark_id_, landmark.id.value() + 1);
+  first_view_ = map.keyframes.size();
+  first_landmark_ = earlier_landmarks_.size();
+  told_training_ = closer.trained_views();
+}
+
+}  // namespace placegraph

@@ -1,0 +1,164 @@
+#include <placegraph/graph/internal/core/log_message.h>
+#include <placegraph/pipeline/internal/slam/track_recovery.h>
+
+#include <Eigen/Cholesky>
+
+namespace placegraph {
+
+SE3 KnownMap::T_map_frame(const LocatedFrame& located) const {
+  return rigid_part(mapper.S_map_keyframe(located.match) * Sim3(located.T_match_query));
+}
+
+void TrackRecovery::use_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
+  motion_ = std::move(motion_cam);
+}
+
+/// By other sensors since the last keyframe, if both are in metres.
+std::optional<LocatedFrame> TrackRecovery::by_motion(const Frame& frame,
+                                                     const KnownMap& known) const {
+  const auto last = known.recorder.newest_keyframe();
+  if (!motion_ || !last || known.mapper.scale_unknown(*last, *last)) return std::nullopt;
+  const auto since = motion_->between(known.recorder.stamp_ns_of(*last), frame.stamp_ns);
+  if (!since) return std::nullopt;
+  LocatedFrame located{*last, since->T_a_b};
+  located.information.topLeftCorner<6, 6>() = since->covariance.ldlt().solve(Matrix6d::Identity());
+  return located;
+}
+
+/// By the rotation of a monocular camera since the last keyframe, or since it was last located.
+std::optional<LocatedFrame> TrackRecovery::by_rotation(const OdometryUpdate& update,
+                                                       const KnownMap& known,
+                                                       double median_depth) const {
+  const auto last = known.recorder.newest_keyframe();
+  if (!update.rotation || !last) return std::nullopt;
+  const SE3 rotation(update.rotation->R_before_cam, {0, 0, 0});
+  LocatedFrame located{*last, SE3()};
+  if (anchor_) located = *anchor_;
+  Matrix6d covariance = Matrix6d::Zero();
+  if (anchor_) {
+    const Matrix6d back = SE3(update.rotation->R_before_cam.inverse(), {0, 0, 0}).adjoint();
+    const Matrix6d before = anchor_->information.topLeftCorner<6, 6>();
+    covariance = back * before.ldlt().solve(Matrix6d::Identity()) * back.transpose();
+  }
+  const double sigma = options_.rotation_rad * median_depth;
+  covariance.topLeftCorner<3, 3>().diagonal().array() += sigma * sigma;
+  covariance.bottomRightCorner<3, 3>() += update.rotation->covariance;
+  located.T_match_query = located.T_match_query * rotation;
+  located.information.setZero();
+  located.information.topLeftCorner<6, 6>() = covariance.ldlt().solve(Matrix6d::Identity());
+  return located;
+}
+
+std::optional<LocatedFrame> TrackRecovery::expect(const Frame& frame, const KnownMap& known,
+                                                  Odometry& odometry) {
+  continues_ = false;
+  if (anchor_) {
+    // A monocular camera that begins anew within the map waits for its second view; until then
+    // every frame is looked up.
+    const auto recognized = known.closer.relocalize(frame);
+    return recognized ? recognized : by_motion(frame, known);
+  }
+  if (lost_in_a_row_ < options_.max_lost_frames || odometry.started()) return std::nullopt;
+  // Nothing has been seen to begin with yet: each frame is where the other sensors say.
+  anchor_ = by_motion(frame, known);
+  if (anchor_) odometry.restart(known.T_map_frame(*anchor_), true);
+  return anchor_;
+}
+
+std::optional<LocatedFrame> TrackRecovery::locate(const std::optional<LocatedFrame>& expected,
+                                                  const OdometryUpdate& update,
+                                                  const KnownMap& known, const Odometry& odometry) {
+  if (!anchor_) return expected;
+  const std::optional<LocatedFrame> located =
+      expected ? expected : by_rotation(update, known, odometry.map().median_depth());
+  if (update.reference) anchor_ = located;
+  return located;
+}
+
+bool TrackRecovery::needed(const OdometryUpdate& update, const KnownMap& known) const {
+  if (update.state == TrackingState::kLost) return true;
+  const bool mapped = known.recorder.newest_keyframe().has_value();
+  return update.state == TrackingState::kWaiting && mapped && !anchor_;
+}
+
+OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedFrame> located,
+                                      const OdometryUpdate& update, const KnownMap& known,
+                                      Odometry& odometry) {
+  ++lost_in_a_row_;
+  if (!located) located = known.closer.relocalize(frame);
+  if (located) {
+    log(log_, LogLevel::kInfo, "frame {} relocalized at frame {}", frame.id,
+        known.recorder.frame_of(located->match));
+    anchor_ = located;
+    // The segment's odometry frame is the map frame of this moment.
+    const SE3 T_map_frame = known.T_map_frame(*located);
+    odometry.restart(T_map_frame, true);
+    return odometry.add_frame(frame, T_map_frame);
+  }
+  const double median_depth = odometry.map().median_depth();
+  if (!anchor_ && update.state == TrackingState::kLost)
+    if ((anchor_ = by_rotation(update, known, median_depth))) {
+      log(log_, LogLevel::kInfo, "frame {}: a turn on the spot", frame.id);
+      const double unit = known.mapper.S_map_keyframe(anchor_->match).scale();
+      odometry.restart(known.T_map_frame(*anchor_), false, unit * median_depth);
+      return odometry.add_frame(frame);
+    }
+  anchor_.reset();
+  if (lost_in_a_row_ != options_.max_lost_frames) return update;
+  if ((anchor_ = by_motion(frame, known))) {
+    log(log_, LogLevel::kInfo, "frame {}: carried on by measured motion", frame.id);
+    const SE3 T_map_frame = known.T_map_frame(*anchor_);
+    odometry.restart(T_map_frame, true);
+    const OdometryUpdate begun = odometry.add_frame(frame, T_map_frame);
+    if (!odometry.started()) anchor_.reset();
+    return begun;
+  }
+  log(log_, LogLevel::kInfo, "frame {}: a new component of the map begins", frame.id);
+  odometry.restart(T_map_last_);
+  return odometry.add_frame(frame);
+}
+
+std::optional<LocatedFrame> TrackRecovery::pose_without_tracking(
+    const Frame& frame, const std::optional<LocatedFrame>& located, const OdometryUpdate& update,
+    const KnownMap& known, const Odometry& odometry) {
+  const bool waits = update.state == TrackingState::kWaiting;
+  if (!anchor_ || !waits || (!located && lost_in_a_row_ == 0)) return by_motion(frame, known);
+  const LocatedFrame at = located ? *located : *anchor_;
+  if (motion_ && !odometry.started()) anchor_.reset();
+  if (located || update.reference) return at;
+  return std::nullopt;
+}
+
+void TrackRecovery::take_up(KeyframeId newest, double median_depth, const KnownMap& known) {
+  constexpr double kSigmaDepths = 1e-5, kSigmaRad = 1e-5;
+  const double sigma = kSigmaDepths * median_depth;
+  anchor_ = LocatedFrame{newest, SE3()};
+  anchor_->information.diagonal().head<3>().setConstant(1 / (sigma * sigma));
+  anchor_->information.diagonal().segment<3>(3).setConstant(1 / (kSigmaRad * kSigmaRad));
+  continues_ = true;
+  T_map_last_ = known.T_map_frame(*anchor_);
+}
+
+std::optional<PlaceMapper::Link> TrackRecovery::take_link(const LocalMap& map,
+                                                          const PlaceMapper& mapper) {
+  /// Of the scale that a segment takes from frames recognized in the map, in logarithms; and of one
+  /// that is guessed: what comes into view by a rotation is about as far away as what left.
+  constexpr double kSigmaLogScaleOfMap = 0.1, kSigmaLogScaleGuessed = 0.7;
+  if (!anchor_) return std::nullopt;
+  // The new segment is in the map's unit, the match perhaps in another.
+  const double sigma_log_scale = map.metric()                     ? 0
+                                 : map.scale() == Scale::kGuessed ? kSigmaLogScaleGuessed
+                                                                  : kSigmaLogScaleOfMap;
+  const bool same_segment = continues_ && map.metric();
+  const PlaceMapper::Link link{
+      anchor_->match,
+      anchor_->T_match_query,
+      anchor_->information.topLeftCorner<6, 6>(),
+      same_segment ? ConstraintSource::kOdometry : ConstraintSource::kOther,
+      sigma_log_scale,
+      same_segment ? 1 : 1 / mapper.S_map_keyframe(anchor_->match).scale()};
+  anchor_.reset();
+  return link;
+}
+
+}  // namespace placegraph

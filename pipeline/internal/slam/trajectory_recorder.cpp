@@ -1,0 +1,87 @@
+#include <placegraph/pipeline/internal/slam/trajectory_recorder.h>
+
+#include <algorithm>
+
+namespace placegraph {
+
+bool TrajectoryRecorder::accepts(const Frame& frame) const {
+  return empty() || (frame.stamp_ns > newest().stamp_ns && frame.id > newest().frame);
+}
+
+void TrajectoryRecorder::begin(const Frame& frame) {
+  records_.push_back({frame.id, frame.stamp_ns, std::nullopt, std::nullopt, 0});
+}
+
+void TrajectoryRecorder::record(KeyframeId keyframe, const SE3& T_keyframe_frame, int inliers) {
+  records_.back().keyframe = keyframe;
+  records_.back().T_keyframe_frame = T_keyframe_frame;
+  records_.back().inliers = inliers;
+}
+
+void TrajectoryRecorder::finish(const std::optional<SE3>& T_map_cam) {
+  StampedPose pose{newest().stamp_ns, std::nullopt};
+  if (T_map_cam) pose.T_world_body = T_map_cam->isometry();
+  online_.poses.push_back(pose);
+}
+
+/// To be changed; null for a frame that has none.
+FrameRecord* TrajectoryRecorder::record_of(FrameId frame) {
+  const auto record =
+      std::lower_bound(records_.begin(), records_.end(), frame,
+                       [](const FrameRecord& r, FrameId id) { return r.frame < id; });
+  if (record == records_.end() || record->frame != frame) return nullptr;
+  first_changed_ =
+      std::min(first_changed_, static_cast<std::size_t>(std::distance(records_.begin(), record)));
+  return &*record;
+}
+
+void TrajectoryRecorder::add_keyframe(const NewKeyframe& keyframe) {
+  frames_[keyframe.id] = keyframe.frame.id;
+  stamps_ns_[keyframe.id] = keyframe.frame.stamp_ns;
+  if (FrameRecord* record = record_of(keyframe.frame.id)) {
+    record->keyframe = keyframe.id;
+    record->T_keyframe_frame = SE3();
+  }
+}
+
+void TrajectoryRecorder::correct(const std::vector<PosedFrame>& posed, KeyframeId first_new,
+                                 const LocalMap& map) {
+  for (const auto& [frame, T_odom_cam] : posed)
+    if (FrameRecord* record = record_of(frame)) {
+      if (!record->keyframe || *record->keyframe < map.first()) record->keyframe = first_new;
+      record->T_keyframe_frame = map.pose(*record->keyframe).inverse() * T_odom_cam;
+    }
+}
+
+void TrajectoryRecorder::rescale(KeyframeId first_keyframe, double factor) {
+  for (FrameRecord& record : records_)
+    if (record.keyframe && *record.keyframe >= first_keyframe && record.T_keyframe_frame)
+      record.T_keyframe_frame =
+          SE3(record.T_keyframe_frame->rotation(), factor * record.T_keyframe_frame->translation());
+  first_changed_ = 0;
+}
+
+void TrajectoryRecorder::begin_at_origin(bool rotated) {
+  if (!rotated) {
+    for (const std::size_t origin : origins_) {
+      online_.poses[origin].T_world_body.reset();
+      first_changed_ = std::min(first_changed_, origin);
+    }
+    origins_.clear();
+  }
+  origins_.push_back(records_.size() - 1);
+}
+
+void TrajectoryRecorder::take_up(const Map& map, FrameId last_frame) {
+  for (const Keyframe& keyframe : map.keyframes) {
+    frames_[keyframe.id] = keyframe.frame;
+    stamps_ns_[keyframe.id] = keyframe.stamp_ns;
+  }
+  for (std::size_t i = 0; i < map.frames.size() && map.frames[i].frame <= last_frame; ++i) {
+    records_.push_back(map.frames[i]);
+    online_.poses.push_back(map.trajectory_online.poses.at(i));
+  }
+  tell_all();
+}
+
+}  // namespace placegraph

@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+#include <placegraph/frontend/internal/features/detector.h>
+#include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/pipeline/internal/stereo_check.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+/// Fewer matches than this tell nothing.
+constexpr int kFewest = 60;
+
+struct Pair {
+  std::vector<Feature> left, right;
+};
+
+std::vector<Pair> some_pairs(const Dataset& dataset) {
+  constexpr std::size_t kMostPairs = 4, kFramesAPair = 20;  // a small share of a run over them
+  DetectorOptions detector;
+  detector.max_features = 600;
+  const std::size_t count = std::clamp<std::size_t>(dataset.size() / kFramesAPair, 1, kMostPairs);
+  std::vector<Pair> pairs;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t index = (2 * k + 1) * dataset.size() / (2 * count);
+    try {
+      const Frame frame = dataset.frame(index, Sensor::kStereo);
+      pairs.push_back(
+          {detect_features(frame.image, detector), detect_features(frame.right, detector)});
+    } catch (const FileError&) {
+    }
+  }
+  return pairs;
+}
+
+bool agree(const RowOffsets& offsets) {
+  return offsets.outcome && offsets.inliers > 0.5 * offsets.matches;
+}
+
+/// How a right eye would have to be turned or shifted for its rows to be off so.
+std::string likely_cause(const RowOffsets& offsets, const Camera& camera) {
+  const double half_x = 0.5 * camera.width / camera.fx, half_y = 0.5 * camera.height / camera.fy;
+  const double shift = std::abs(offsets.rows[0]), roll = std::abs(offsets.rows[1]) * half_x,
+               zoom = std::abs(offsets.rows[2]) * half_y;
+  const double most = std::max({shift, roll, zoom});
+  if (most < 0.5 * offsets.rms_px) return "as if the eyes had other lenses or directions";
+  if (most == shift)
+    return fmt::format("as if the right eye's were {:.1f} rows too {}", shift,
+                       offsets.rows[0] > 0 ? "low" : "high");
+  if (most == roll)
+    return fmt::format("as if the right eye were rolled by {:.1f} degrees",
+                       rad_to_deg(std::atan(offsets.rows[1] / camera.fx)));
+  return fmt::format("as if the right eye's images were {:.1f} % {}",
+                     100 * std::abs(offsets.rows[2]) / camera.fy,
+                     offsets.rows[2] > 0 ? "larger" : "smaller");
+}
+
+}  // namespace
+
+RowOffsets look_at_rows(const Dataset& dataset) {
+  const Camera camera = dataset.calibration(Sensor::kStereo).camera;
+  const std::vector<Pair> pairs = some_pairs(dataset);
+  RowOffsets offsets;
+  // Two degrees of roll, or rather more where that explains nothing.
+  for (const double share : {0.02, 0.1}) {
+    std::vector<RowSample> samples;
+    for (const Pair& pair : pairs) {
+      const auto of_pair =
+          row_samples(camera, pair.left, pair.right, std::max(12.0, share * camera.width));
+      samples.insert(samples.end(), of_pair.begin(), of_pair.end());
+    }
+    Random random(0, 0);
+    offsets = fit_row_offsets(samples, random);
+    if (agree(offsets)) break;
+  }
+  return offsets;
+}
+
+std::optional<DataNote> odd_rows(const RowOffsets& offsets, const Camera& camera) {
+  constexpr double kMostRmsPx = 0.75, kMostBendPx = 1.5;
+  const std::string advice =
+      "; rectify the pair first, or give both raw cameras with their distortion and poses (EuRoC's "
+      "sensor.yaml): lengths are in doubt";
+  if (offsets.matches < kFewest) return std::nullopt;
+  if (!agree(offsets))
+    return DataNote{fmt::format("matches between the eyes do not agree on rows ({} of {}): not "
+                                "rectified, or not of the same moment",
+                                offsets.inliers, offsets.matches) +
+                        advice,
+                    true};
+  if (offsets.behind > 0.5 * offsets.inliers)
+    return DataNote{
+        fmt::format("{} of {} matches lie farther right in the right eye's images: are the eyes "
+                    "swapped?",
+                    offsets.behind, offsets.inliers),
+        true};
+  const double bend_px = std::abs(offsets.rows[2]) / camera.fy * 0.5 * camera.width;
+  if (offsets.rms_px < kMostRmsPx && bend_px < kMostBendPx) return std::nullopt;
+  return DataNote{fmt::format("matches between the eyes lie {:.1f} px off their rows (root mean "
+                              "square of {}), {}",
+                              offsets.rms_px, offsets.inliers, likely_cause(offsets, camera)) +
+                      advice,
+                  true};
+}
+
+}  // namespace placegraph

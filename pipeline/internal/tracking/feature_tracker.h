@@ -1,0 +1,75 @@
+#pragma once
+#include <placegraph/graph/core/ids.h>
+#include <placegraph/pipeline/internal/cues/keyframe_alignment.h>
+#include <placegraph/pipeline/internal/cues/plane_cue.h>
+#include <placegraph/pipeline/internal/cues/point_cue.h>
+#include <placegraph/pipeline/internal/tracking/cue_list.h>
+#include <placegraph/pipeline/internal/tracking/frame_tracker.h>
+#include <placegraph/pipeline/internal/tracking/intermediate_frames.h>
+#include <placegraph/pipeline/internal/tracking/keyframe_selector.h>
+#include <placegraph/pipeline/tracking/odometry_options.h>
+
+namespace placegraph {
+
+/// Tracks points, lines or both. Manhattan frames, planes in depth images and the intensities of
+/// surfaces support them, where they are among the cues.
+class FeatureTracker : public FrameTracker {
+ public:
+  /// `times`, which must outlive it, receives the CPU time of its stages.
+  FeatureTracker(const OdometryOptions& options, const Calibration& calibration, std::uint64_t seed,
+                 LogSink log, StageTimes& times);
+
+  const char* stage() const override { return "frame pose"; }
+  void see_first(const Frame& frame) override;
+  TrackedFrame track(const Frame& frame, const LocalMap& map, const MotionModel& motion,
+                     Random& random) override;
+  std::optional<SE3> prepare_keyframe(const KeyframeImages& images, const SE3& T_odom_cam,
+                                      const LocalMap& map, Random& random) override;
+  void observe(const KeyframeImages& images, const RectificationError& rectification, LocalMap& map,
+               Random& random) override;
+  std::vector<double> prune(LocalMap& map) override;
+  void settle(const LocalMap& map) override;
+  std::vector<PosedFrame> finish_keyframe(double scale, const LocalMap& map) override;
+  Outcome enough_to_begin(const LocalMap& map) const override;
+  void reset() override;
+  void assume(const std::optional<Assumptions>& assumptions) override;
+  bool corrects_rotations() const override { return manhattan_.has_value(); }
+  LineCue* lines() override { return lines_ ? &*lines_ : nullptr; }
+  const ManhattanCue* manhattan() const override;
+  std::vector<Eigen::Vector3d> points_odom(const LocalMap& map) const override;
+  FrameView view(const LocalMap& map, const SE3& T_odom_cam) const override;
+
+  PointCue& points() { return points_; }
+  /// The directions of the newest keyframe's edges go into the window, where Manhattan frames are
+  /// among the cues and believed.
+  void observe_directions(const Image& image, LocalMap& map);
+  /// What the camera has rotated since its tracks were seen at `px_before`; nothing if they say
+  /// that it moved, or if the camera measures depth.
+  std::optional<PureRotation> rotation_since(const std::map<LandmarkId, Eigen::Vector2d>& px_before,
+                                             Random& random) const;
+  /// The newest keyframe is one from which the next ones are selected.
+  void start_selection(int landmarks);
+
+ private:
+  std::optional<ManhattanCue::Heading> heading_of(const Frame& frame, const SE3& T_odom_cam,
+                                                  int inliers, const LocalMap& map) const;
+  bool keyframe_due(const SE3& T_odom_cam, int inliers, const LocalMap& map) const;
+  void observe_planes(const Frame& frame, LocalMap& map);
+
+  OdometryOptions options_;
+  Calibration calibration_;
+  Cues cues_;
+  std::uint64_t seed_;
+  LogSink log_;
+  StageTimes& times_;
+  PointCue points_;
+  std::optional<LineCue> lines_;
+  std::optional<ManhattanCue> manhattan_;
+  bool manhattan_trusted_ = true;  // Manhattan frames are assumed to be there
+  std::optional<PlaneLandmarks> planes_;
+  std::optional<KeyframeAlignment> surfaces_;
+  KeyframeSelector selector_;
+  IntermediateFrames intermediate_;
+};
+
+}  // namespace placegraph

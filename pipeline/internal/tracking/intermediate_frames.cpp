@@ -1,0 +1,44 @@
+#include <placegraph/pipeline/internal/tracking/intermediate_frames.h>
+
+#include <numeric>
+
+namespace placegraph {
+
+void IntermediateFrames::correct_drift(const std::map<LandmarkId, Eigen::Vector2d>& drift_px) {
+  const double steps = static_cast<double>(frames_.size()) + 1;
+  for (std::size_t k = 0; k < frames_.size(); ++k)
+    for (auto& [id, px] : frames_[k].landmark_px)
+      if (const auto drift = drift_px.find(id); drift != drift_px.end())
+        px += static_cast<double>(k + 1) / steps * drift->second;
+}
+
+std::vector<std::pair<FrameId, SE3>> IntermediateFrames::repose(const LocalMap& map,
+                                                                KeyframeId keyframe, double scale) {
+  constexpr int kIterations = 10;
+  constexpr double kSigmaPx = 1;  // of a track
+  const SlidingWindow& window = map.window();
+  std::vector<std::pair<FrameId, SE3>> posed;
+  for (const Tracked& frame : frames_) {
+    std::vector<Eigen::Vector3d> points;
+    std::vector<Eigen::Vector2d> px;
+    for (const auto& [id, pixel] : frame.landmark_px)
+      if (const auto point = window.landmark(id)) {
+        points.push_back(*point);
+        px.push_back(pixel);
+      }
+    if (static_cast<int>(points.size()) < options_.ransac.min_inliers) continue;
+    std::vector<int> all(points.size());
+    std::iota(all.begin(), all.end(), 0);
+    const SE3 T_odom_before = window.pose(keyframe) * frame.T_keyframe_cam.scaled(scale);
+    Matrix6d normal;
+    const SE3 by_points = refine_pose_3d2d(camera_, points, px, all, T_odom_before,
+                                           options_.threshold_px, kIterations, &normal);
+    const SE3 T_odom_cam =
+        with_heading(by_points, normal / (kSigmaPx * kSigmaPx), frame.heading, window);
+    if (T_odom_cam.matrix().allFinite()) posed.emplace_back(frame.frame, T_odom_cam);
+  }
+  frames_.clear();
+  return posed;
+}
+
+}  // namespace placegraph

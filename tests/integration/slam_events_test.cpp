@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/run.h>
+#include <placegraph/pipeline/slam_events.h>
+
+#include <regex>
+
+#include "tests/support/map_bits.h"
+#include "tests/support/scenes/street.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+
+constexpr int kFrames = 24, kDarkBegin = 12, kDarkEnd = 14;
+
+SlamOptions small_options() {
+  SlamOptions options;
+  options.odometry.points.tracker.max_tracks = 250;
+  options.loops.detector.max_features = 400;
+  return options;
+}
+
+/// The drive, dark for two frames, and then from its 6th frame on again.
+const std::vector<Frame>& frames() {
+  static const std::vector<Frame> frames = [] {
+    const StreetDataset drive(kFrames, kDarkBegin, kDarkEnd);
+    std::vector<Frame> all;
+    for (int i = 0; i < kFrames + 10; ++i) {
+      const int source = i < kFrames ? i : i - kFrames + 6;
+      Frame frame = drive.frame(static_cast<std::size_t>(source), Sensor::kStereo);
+      frame.id = FrameId(i);
+      frame.stamp_ns = 100'000'000LL * i;
+      all.push_back(frame);
+    }
+    return all;
+  }();
+  return frames;
+}
+
+Calibration calibration() { return StreetDataset(1).calibration(Sensor::kStereo); }
+
+/// A letter for each event, and what the events say.
+struct Listener final : SlamEvents {
+  std::string order;
+  std::vector<FrameResult> done;
+  std::vector<KeyframeAdded> keyframes;
+  std::set<PlaceId> places;
+  std::size_t accepted = 0, refused = 0;
+  void frame_posed(const FrameResult& frame) override { order += 'F', done.push_back(frame); }
+  void frame_lost(const FrameResult& frame) override { order += 'F', done.push_back(frame); }
+  void keyframe_added(const KeyframeAdded& keyframe) override {
+    order += 'K', keyframes.push_back(keyframe);
+  }
+  void loop_accepted(const LoopRecord&) override { order += 'L', ++accepted; }
+  void loop_refused(const LoopRecord&) override { order += 'L', ++refused; }
+  void place_added(const PlaceAdded& place) override {
+    order += 'P';
+    EXPECT_TRUE(places.insert(place.place).second);
+  }
+  void places_merged(const PlacesMerged& merged) override {
+    order += 'M';
+    EXPECT_TRUE(places.contains(merged.kept));
+    EXPECT_EQ(places.erase(merged.gone), 1u);
+  }
+  void component_joined(const ComponentJoined&) override { order += 'J'; }
+  void map_moved(const MapMoved& move) override {
+    order += 'V';
+    EXPECT_GT(move.places, 0);
+  }
+};
+
+TEST(SlamEventsOfARun, ComeInTheOrderThatIsSaidAndTellTheWholeMap) {
+  Listener heard;
+  Slam slam(small_options(), calibration(), {.events = &heard});
+  std::vector<FrameResult> results;
+  for (const Frame& frame : frames()) results.push_back(slam.add_frame(frame));
+  const Map map = slam.finish();
+
+  EXPECT_TRUE(std::regex_match(heard.order, std::regex("(V?(KP*M*J*V?L*P*M*J*V?)*F)*P*M*J*V?")))
+      << heard.order;
+  ASSERT_EQ(heard.done.size(), frames().size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    EXPECT_EQ(heard.done[i].frame, results[i].frame);
+    if (i >= kFrames) continue;
+    const bool dark = i >= kDarkBegin && i < kDarkEnd;
+    EXPECT_EQ(heard.done[i].T_map_cam.has_value(), !dark) << i;
+    EXPECT_EQ(static_cast<bool>(heard.done[i].outcome), !dark) << i;
+    EXPECT_EQ(heard.done[i].outcome.reason.empty(), !dark) << i;
+  }
+  ASSERT_EQ(heard.keyframes.size(), map.keyframes.size());
+  for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
+    EXPECT_EQ(heard.keyframes[i].keyframe, map.keyframes[i].id);
+    EXPECT_EQ(heard.keyframes[i].frame, map.keyframes[i].frame);
+  }
+  std::set<PlaceId> places;
+  for (const Place& place : map.place_graph.places) places.insert(place.id);
+  EXPECT_EQ(heard.places, places);
+  const auto accepted = std::ranges::count_if(map.loops, &LoopRecord::accepted);
+  EXPECT_EQ(heard.accepted, static_cast<std::size_t>(accepted));
+  EXPECT_GE(heard.accepted + heard.refused, map.loops.size());
+}
+
+TEST(SlamEventsOfARun, DoNotChangeIt) {
+  Listener heard;
+  Slam quiet(small_options(), calibration()),
+      watched(small_options(), calibration(), {.events = &heard});
+  for (int i = 0; i < 12; ++i) {
+    quiet.add_frame(frames()[static_cast<std::size_t>(i)]);
+    watched.add_frame(frames()[static_cast<std::size_t>(i)]);
+  }
+  EXPECT_TRUE(map_bits(quiet.finish()) == map_bits(watched.finish()));
+}
+
+TEST(SlamEventsOfARun, EndItIfTheyThrow) {
+  struct Thrower final : SlamEvents {
+    void keyframe_added(const KeyframeAdded&) override { throw std::runtime_error("enough"); }
+  } thrower;
+  Slam slam(small_options(), calibration(), {.events = &thrower});
+  EXPECT_THROW(slam.add_frame(frames().front()), std::runtime_error);
+}
+
+TEST(SnapshotOfARun, IsAValueThatOutlivesIt) {
+  std::string bits;
+  const Map map = [&] {
+    Slam slam(small_options(), calibration());
+    for (int i = 0; i < 8; ++i) slam.add_frame(frames()[static_cast<std::size_t>(i)]);
+    const Map snapshot = slam.snapshot();
+    bits = map_bits(snapshot);
+    // What comes after does not reach it.
+    for (int i = 8; i < 12; ++i) slam.add_frame(frames()[static_cast<std::size_t>(i)]);
+    slam.finish();
+    return snapshot;
+  }();
+  EXPECT_TRUE(map_bits(map) == bits);
+  EXPECT_EQ(map.frames.size(), 8u);
+}
+
+}  // namespace
+}  // namespace placegraph

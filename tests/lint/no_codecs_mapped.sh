@@ -1,0 +1,20 @@
+#!/bin/sh
+# no_codecs_mapped.sh FILE|FOLDER...: no program maps OpenCV's imgcodecs, videoio or ximgproc, nor what they
+# bring along, when it starts. Of a folder all programs below it are looked at.
+set -eu
+status=0
+count=0
+for program in $(for path in "$@"; do
+  [ -d "$path" ] || echo "$path"
+  [ ! -d "$path" ] || find "$path" -type f -perm -u+x ! -name '*.so*' ! -path '*/CMakeFiles/*'
+done | LC_ALL=C sort); do
+  libraries=$(ldd "$program" 2> /dev/null) || continue  # a script
+  count=$((count + 1))
+  if found=$(printf '%s\n' "$libraries" |
+    grep -E 'lib(opencv_(imgcodecs|videoio|ximgproc|highgui)|gdal|gstreamer[^ ]*|avcodec)[.-]'); then
+    printf '%s maps\n%s\n' "$program" "$found"
+    status=1
+  fi
+done
+[ $count -gt 0 ] || { echo "no_codecs_mapped: no program in $*"; exit 2; }
+exit $status

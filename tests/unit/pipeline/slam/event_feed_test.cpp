@@ -1,0 +1,181 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <placegraph/pipeline/internal/slam/event_feed.h>
+
+#include "tests/support/place_links.h"
+
+namespace placegraph {
+namespace {
+
+using namespace test;
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+/// What is told, a word and numbers each.
+struct Heard final : SlamEvents {
+  std::vector<std::string> said;
+  MapMoved move;
+  void say(const std::string& word, std::int64_t a, std::int64_t b) {
+    said.push_back(word + " " + std::to_string(a) + " " + std::to_string(b));
+  }
+  void frame_posed(const FrameResult& f) override { say("posed", f.frame.value(), f.inliers); }
+  void frame_lost(const FrameResult& f) override { say("lost", f.frame.value(), f.inliers); }
+  void keyframe_added(const KeyframeAdded& k) override {
+    say("keyframe", k.keyframe.value(), k.frame.value());
+  }
+  void loop_accepted(const LoopRecord& l) override {
+    say("accepted", l.query_frame.value(), l.match_frame.value());
+  }
+  void loop_refused(const LoopRecord& l) override {
+    say("refused", l.query_frame.value(), l.match_frame.value());
+  }
+  void place_added(const PlaceAdded& p) override {
+    say("place", p.place.value(), p.anchor.value());
+  }
+  void places_merged(const PlacesMerged& p) override {
+    say("merged", p.kept.value(), p.gone.value());
+  }
+  void component_joined(const ComponentJoined& c) override { say("joined", c.component, c.into); }
+  void map_moved(const MapMoved& m) override {
+    move = m;
+    said.push_back("moved");
+  }
+  /// What was told since the last call.
+  std::vector<std::string> news() { return std::exchange(said, {}); }
+};
+
+TEST(EventFeed, TellsPlacesOnceAndInTheOrderOfTheirIds) {
+  Heard heard;
+  EventFeed feed(&heard);
+  PlaceMapper mapper = square();
+  feed.places_changed(mapper);
+  EXPECT_THAT(heard.news(),
+              ElementsAre("place 0 0", "place 1 1", "place 2 2", "place 3 3", "place 4 4"));
+  feed.places_changed(mapper);
+  EXPECT_THAT(heard.news(), IsEmpty());
+}
+
+TEST(EventFeed, TellsTheLargestMoveOfAPlace) {
+  Heard heard;
+  EventFeed feed(&heard);
+  PlaceMapper mapper = square();
+  feed.places_changed(mapper);
+  const PlaceGraph before = mapper.place_graph();
+  mapper.add_loop(loop(4, 0, SE3(), 0.01, 0.001));
+  const PlaceGraph after = optimized(mapper);
+  heard.news();
+  feed.places_changed(mapper);
+  EXPECT_THAT(heard.news(), ElementsAre("moved"));
+  double translation = 0, rotation = 0;
+  int places = 0;
+  for (std::size_t i = 0; i < after.places.size(); ++i) {
+    const SE3 moved = before.places[i].T_map_place.inverse() * after.places[i].T_map_place;
+    translation = std::max(translation, moved.translation().norm());
+    rotation = std::max(rotation, moved.rotation().log().norm());
+    places += moved.translation().norm() > 0;
+  }
+  EXPECT_EQ(heard.move.places, places);
+  EXPECT_GT(places, 2);
+  EXPECT_NEAR(heard.move.translation, translation, 1e-12);
+  EXPECT_NEAR(heard.move.rotation_rad, rotation, 1e-12);
+  EXPECT_GT(translation, 0.1);
+}
+
+TEST(EventFeed, TellsThatPlacesAreOne) {
+  Heard heard;
+  EventFeed feed(&heard);
+  PlaceMapper mapper = square(true);
+  feed.places_changed(mapper);
+  heard.news();
+  mapper.add_loop(loop(4, 0, SE3(), 0.01, 0.001));
+  optimized(mapper);
+  feed.places_changed(mapper);
+  EXPECT_THAT(heard.news(), ElementsAre("merged 0 4", "moved"));
+}
+
+TEST(EventFeed, TellsThatASubMapHasJoinedAnother) {
+  Heard heard;
+  EventFeed feed(&heard);
+  PlaceMapper mapper({});
+  mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
+  mapper.add_keyframe(KeyframeId(1), link(0, kLong), {}, kDepth_m);
+  mapper.add_keyframe(KeyframeId(2), std::nullopt, {}, kDepth_m);
+  feed.places_changed(mapper);
+  EXPECT_THAT(heard.news(), ElementsAre("place 0 0", "place 1 1", "place 2 2"));
+  mapper.add_loop(loop(2, 0, kLong * kLong, 0.01, 0.001));
+  optimized(mapper);
+  feed.places_changed(mapper);
+  EXPECT_THAT(heard.news(), ElementsAre("joined 1 0", "moved"));
+}
+
+TEST(EventFeed, TellsThatASubMapHasJoinedAnotherWhereItsOnlyPlaceIsMerged) {
+  Heard heard;
+  EventFeed feed(&heard);
+  PlaceMapper mapper({});
+  mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
+  mapper.add_keyframe(KeyframeId(1), std::nullopt, {}, kDepth_m);
+  feed.places_changed(mapper);
+  heard.news();
+  mapper.add_loop(loop(1, 0, SE3(), 0.01, 0.001));
+  optimized(mapper);
+  feed.places_changed(mapper);
+  EXPECT_THAT(heard.news(), ElementsAre("merged 0 1", "joined 1 0"));
+}
+
+LoopRecord record(std::int64_t query, std::int64_t match, LoopStage stage) {
+  LoopRecord record;
+  record.query_frame = FrameId(query);
+  record.match_frame = FrameId(match);
+  record.stage = stage;
+  return record;
+}
+
+TEST(EventFeed, TellsALoopThatWaitedForSupportBeforeWhatIsNew) {
+  Heard heard;
+  EventFeed feed(&heard);
+  std::vector<LoopRecord> records = {record(30, 3, LoopStage::kSupport),
+                                     record(30, 9, LoopStage::kRetrieval)};
+  feed.loops_decided(records);
+  EXPECT_THAT(heard.news(), ElementsAre("refused 30 3", "refused 30 9"));
+  records[0].stage = LoopStage::kAccepted;
+  records.push_back(record(31, 4, LoopStage::kAccepted));
+  feed.loops_decided(records);
+  EXPECT_THAT(heard.news(), ElementsAre("accepted 30 3", "accepted 31 4"));
+  feed.loops_decided(records);
+  EXPECT_THAT(heard.news(), IsEmpty());
+}
+
+TEST(EventFeed, TellsWhatIsTakenUpNoMore) {
+  Heard heard;
+  EventFeed feed(&heard);
+  PlaceMapper mapper = square();
+  const std::vector<LoopRecord> records = {record(30, 3, LoopStage::kAccepted)};
+  feed.take_up(mapper, records);
+  feed.places_changed(mapper);
+  feed.loops_decided(records);
+  EXPECT_THAT(heard.news(), IsEmpty());
+}
+
+TEST(EventFeed, TellsFramesByWhetherTheyHaveAPose) {
+  Heard heard;
+  EventFeed feed(&heard);
+  FrameResult frame;
+  frame.frame = FrameId(7);
+  feed.frame_done(frame);
+  frame.T_map_cam = SE3();
+  feed.frame_done(frame);
+  EXPECT_THAT(heard.news(), ElementsAre("lost 7 0", "posed 7 0"));
+}
+
+TEST(EventFeed, IsSilentWithoutAListener) {
+  EventFeed feed(nullptr);
+  PlaceMapper mapper = square();
+  feed.take_up(mapper, {});
+  feed.keyframe_added(KeyframeId(0), FrameId(0), mapper);
+  feed.places_changed(mapper);
+  feed.loops_decided({record(1, 0, LoopStage::kAccepted)});
+  feed.frame_done({});
+}
+
+}  // namespace
+}  // namespace placegraph
