@@ -1,5 +1,9 @@
 # What the libraries link. The order matters: BLAS stands before Ceres, because the packaged Ceres
 # brings ATLAS, and the first library on the link line gets CHOLMOD's BLAS calls.
+# A project of which this one is a part links static libraries, and so their dependencies: it must see them.
+if(NOT PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
+endif()
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(PNG 1.6 REQUIRED)
@@ -7,6 +11,10 @@ find_package(JPEG REQUIRED)
 find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs calib3d features2d video videoio aruco line_descriptor ml ximgproc)
 set(BLA_VENDOR OpenBLAS)
 find_package(BLAS REQUIRED)
+get_target_property(blas BLAS::BLAS INTERFACE_LINK_LIBRARIES)
+if(NOT blas MATCHES openblas)
+  message(FATAL_ERROR "BLAS::BLAS was found before as ${blas}, and placegraph needs OpenBLAS: find BLAS with BLA_VENDOR=OpenBLAS")
+endif()
 find_package(OpenMP REQUIRED COMPONENTS CXX)  # faiss names its target without looking for it
 find_package(faiss REQUIRED)
 # It names the machine's libblas and liblapack by file; OpenBLAS is both.
@@ -18,7 +26,9 @@ find_package(Ceres 2.1 REQUIRED)
 find_package(GeographicLib REQUIRED)
 find_package(opengv REQUIRED)
 find_package(yaml-cpp REQUIRED)
-find_package(CLI11 REQUIRED)
+if(PLACEGRAPH_APPS)
+  find_package(CLI11 REQUIRED)
+endif()
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(SQLite3 REQUIRED)

@@ -19,7 +19,9 @@ else()
 endif()
 install(TARGETS ${installed} EXPORT placegraphTargets)
 install(EXPORT placegraphTargets NAMESPACE placegraph:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)
-install(TARGETS placegraph_cli)
+if(PLACEGRAPH_APPS)
+  install(TARGETS placegraph_cli)
+endif()
 install(TARGETS placegraph_opencv_plugin LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/placegraph)
 install(DIRECTORY configs/models DESTINATION ${CMAKE_INSTALL_DATADIR}/placegraph)
 foreach(folder graph frontend backend io eval pipeline)
@@ -28,10 +30,10 @@ foreach(folder graph frontend backend io eval pipeline)
 endforeach()
 install(FILES pipeline/placegraph.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/placegraph)
 set(PLACEGRAPH_PLUGIN_DIR ${CMAKE_INSTALL_LIBDIR}/placegraph)
-configure_package_config_file(cmake/placegraphConfig.cmake.in ${CMAKE_BINARY_DIR}/placegraphConfig.cmake
+configure_package_config_file(cmake/placegraphConfig.cmake.in ${PROJECT_BINARY_DIR}/placegraphConfig.cmake
   PATH_VARS PLACEGRAPH_PLUGIN_DIR
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)
-write_basic_package_version_file(${CMAKE_BINARY_DIR}/placegraphConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_BINARY_DIR}/placegraphConfig.cmake ${CMAKE_BINARY_DIR}/placegraphConfigVersion.cmake
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/placegraphConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/placegraphConfig.cmake ${PROJECT_BINARY_DIR}/placegraphConfigVersion.cmake
     cmake/FindCAMD.cmake cmake/FindCHOLMOD.cmake cmake/FindGeographicLib.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/placegraph)

@@ -1,6 +1,6 @@
 # Headers are included as <placegraph/folder/file.h>, in the source tree as after installation: the
 # build tree gets a folder `placegraph` whose entries point at the source folders.
-set(PLACEGRAPH_INCLUDE_DIR ${CMAKE_BINARY_DIR}/include)
+set(PLACEGRAPH_INCLUDE_DIR ${PROJECT_BINARY_DIR}/include)
 file(MAKE_DIRECTORY ${PLACEGRAPH_INCLUDE_DIR}/placegraph)
 foreach(folder graph frontend backend io eval pipeline)
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${PLACEGRAPH_INCLUDE_DIR}/placegraph/${folder} SYMBOLIC)
@@ -69,11 +69,11 @@ function(placegraph_unity target)
 endfunction()
 
 # placegraph_library(name SOURCES ... [PUBLIC targets] [PRIVATE targets]
-#                    [PRECOMPILE headers | PRECOMPILED_BY library])
+#                    [PRECOMPILE headers | PRECOMPILED_BY library] [INTERNAL])
 # makes the static library placegraph_<name>, alias placegraph::<name>. PRECOMPILED_BY takes the precompiled headers of another
-# library, whose options must be the same.
+# library, whose options must be the same. INTERNAL: it has no public header and is not installed.
 function(placegraph_library name)
-  cmake_parse_arguments(ARG "" "PRECOMPILED_BY" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
+  cmake_parse_arguments(ARG "INTERNAL" "PRECOMPILED_BY" "SOURCES;PUBLIC;PRIVATE;PRECOMPILE" ${ARGN})
   set(target placegraph_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(placegraph::${name} ALIAS ${target})
@@ -89,5 +89,7 @@ function(placegraph_library name)
   elseif(ARG_PRECOMPILED_BY)
     target_precompile_headers(${target} REUSE_FROM placegraph_${ARG_PRECOMPILED_BY})
   endif()
-  set_property(GLOBAL APPEND PROPERTY PLACEGRAPH_LIBRARIES ${target})
+  if(NOT ARG_INTERNAL)
+    set_property(GLOBAL APPEND PROPERTY PLACEGRAPH_LIBRARIES ${target})
+  endif()
 endfunction()

@@ -33,7 +33,9 @@ int main(int argc, char** argv) try {
   std::vector<LoopPrediction> predictions;
   for (std::size_t i = 0; i < dataset->size(); ++i) {
     views.push_back(describe(dataset->frame(i, Sensor::kMono).image));
-    LoopPrediction best{.query = FrameId(static_cast<std::int64_t>(i)), .score = -1};
+    LoopPrediction best;
+    best.query = FrameId(static_cast<std::int64_t>(i));
+    best.score = -1;
     for (std::size_t j = 0; j + static_cast<std::size_t>(revisit.min_age) <= i; ++j)
       if (const double likeness = views[i].dot(views[j]); likeness > best.score) {
         best.candidate = FrameId(static_cast<std::int64_t>(j));

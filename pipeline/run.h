@@ -67,15 +67,16 @@ using FrameObserver =
 /// What a run may be given beside the sequence and its options.
 struct RunInputs {
   /// A trained model that labels surfaces; needed if `semantics` or `context` are enabled.
-  std::shared_ptr<const SceneModel> surfaces;
+  std::shared_ptr<const SceneModel> surfaces = nullptr;
   /// Where the map is saved, or resumed from: the frames up to the last committed place are then
   /// taken from the file.
-  std::optional<MapFile> map_file;
-  RunProgress progress;    ///< empty: nobody is told
-  FrameObserver observer;  ///< empty: nobody is told
-  /// Receives events; not owned. If the run begins again without distortion, so do the events.
+  std::optional<MapFile> map_file = std::nullopt;
+  RunProgress progress = {};    ///< empty: nobody is told
+  FrameObserver observer = {};  ///< empty: nobody is told
+  /// Receives events; not owned. Each time the run begins (once more without distortion), run_began
+  /// is called.
   SlamEvents* events = nullptr;
-  LogSink log;  ///< where messages go; empty: nowhere
+  LogSink log = {};  ///< where messages go; empty: nowhere
 };
 
 /// Runs the system over every frame of a sequence, as fast as it can.

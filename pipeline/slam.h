@@ -35,12 +35,12 @@ struct SlamInputs {
   /// Motion of the (left) camera that other sensors measured (wheels, laser, inertial sensors), on
   /// the clock of the frames [ns]. It gives a monocular camera its scale, adds robust constraints
   /// to the place graph, and carries on where nothing is seen.
-  std::shared_ptr<const MeasuredMotion> motion;
+  std::shared_ptr<const MeasuredMotion> motion = nullptr;
   /// A trained model that labels surfaces; needed if `semantics` or `context` are enabled.
-  std::shared_ptr<const SceneModel> surfaces;
+  std::shared_ptr<const SceneModel> surfaces = nullptr;
   /// Receives events as they happen; not owned, must outlive the Slam object.
   SlamEvents* events = nullptr;
-  LogSink log;  ///< where messages go; empty: nowhere
+  LogSink log = {};  ///< where messages go; empty: nowhere
 };
 
 /// The whole system: frames in, place graph and trajectory out.
@@ -52,7 +52,8 @@ struct SlamInputs {
 /// Stereo if the calibration has a baseline, RGB-D if it has a depth camera, monocular otherwise; a
 /// monocular map is metric if the camera height is known or other sensors measure the motion.
 /// Objects share nothing: any number may live in one process. Same frames, options and libraries:
-/// same bits. Poses are T_map_cam of the (left) camera.
+/// same bits. Poses are T_map_cam of the (left) camera. An object that was moved from may only be
+/// destroyed or assigned to.
 class Slam {
  public:
   /// Prepares a run. Nothing is processed before the first frame.
@@ -69,17 +70,21 @@ class Slam {
   /// `map` and `history` are those of the saved run, `last` is the frame of its last keyframe,
   /// which is processed again: tracking begins there as after a loss. Records of later frames are
   /// dropped; add_frame goes on with the frame after `last`. Throws ArgumentError if map and
-  /// history contradict each other, the frame is another, or frames have been added already.
+  /// history contradict each other, the frame is another, or frames have been added already; the
+  /// object must then not be used any more.
   void resume(const Map& map, const PlaceHistory& history, const Frame& last);
   /// Processes one frame; returns its pose as it is known now, or why it has none.
   ///
+  /// The images are kept, not copied, for as long as tracking needs them: hand over a clone() of a
+  /// buffer that is written again or freed.
   /// Throws ArgumentError if an image has another size or type than the calibration says, if id or
   /// stamp do not increase, or after finish().
   FrameResult add_frame(const Frame& frame);
   /// Returns what the map has gained since the last call, for MapDatabase::commit.
   ///
-  /// The cost grows with what is new, not with the map. The appearance of keyframes is handed over:
-  /// later calls and snapshots do not hold it.
+  /// Frames, features and landmarks are told where they are new or have changed; the places, their
+  /// history and the loops each time. The appearance of keyframes is handed over: later calls and
+  /// snapshots do not hold it.
   MapChanges take_changes();
   /// A copy of map and trajectories as they stand; may be called between frames.
   Map snapshot() const;

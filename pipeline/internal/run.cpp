@@ -12,6 +12,7 @@
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/internal/lens_correction.h>
 #include <placegraph/pipeline/run.h>
+#include <placegraph/pipeline/slam_events.h>
 
 #include <algorithm>
 #include <cctype>
@@ -223,6 +224,7 @@ class SequenceRun {
   bool pass(const StoredMap& stored) {
     result_.calibration = lens_.calibration();
     if (database_ && stored.map.keyframes.empty()) database_->clear(origin());
+    if (inputs_.events) inputs_.events->run_began();
     Slam slam(options_.slam, result_.calibration, slam_inputs());
     reasons_.clear();
     const std::size_t first = go_on(stored, slam);

@@ -176,6 +176,9 @@ void Slam::Impl::place(const Frame& frame, const std::optional<LocatedFrame>& lo
     // The map will tell the pose once it has its unit: a pose in another is worse than none.
     result.T_map_cam.reset();
     result.state = TrackingState::kWaiting;
+    result.outcome =
+        Outcome::failure(Outcome::Code::kDegenerate, "waits for the map's unit of length");
+    return;
   }
   if (result.T_map_cam && recorder.newest_has_keyframe())
     result.outcome = Outcome::ok();
@@ -199,7 +202,7 @@ void Slam::Impl::rescale(double factor) {
   recorder.rescale(first, factor);
   recovery.rescale(factor);
   feed.tell_again();
-  events.places_changed(mapper);
+  events.places_changed(mapper, factor);
 }
 
 void Slam::Impl::add_keyframes(const OdometryUpdate& update, FrameResult& result) {
@@ -323,8 +326,9 @@ void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Fram
   require(!map.keyframes.empty() && map.keyframes.back().frame == last.id,
           "Slam::resume: the frame is not that of the last keyframe");
   check_frame(last);
-  mapper = PlaceMapper(options.places, options.pose_graph, map.place_graph.places, history);
+  PlaceMapper known_places(options.places, options.pose_graph, map.place_graph.places, history);
   closer = LoopCloser(options.loops, calibration, options.seed, map);
+  mapper = std::move(known_places);
   recorder.take_up(map, last.id);
   feed.take_up(map, closer);
   events.take_up(mapper, closer.records());

@@ -16,8 +16,8 @@ enum class TrackingState {
 
 /// What became of one frame.
 struct FrameResult {
-  /// Ok if the frame has a final pose. Otherwise why it has none (yet), or only one that a second
-  /// view must confirm.
+  /// Ok if the frame has a pose that needs no confirmation. Otherwise why it has none (yet), or
+  /// only one that a second view must confirm.
   Outcome outcome;
   FrameId frame;                                  ///< the id of the frame that was processed
   TrackingState state = TrackingState::kWaiting;  ///< kTracking exactly if T_map_cam is there

@@ -25,7 +25,8 @@ behind=$(g++ -std=c++20 -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNE
 compiled=$(for k in 1 2 3 4 5; do
   python3 - "$include" << 'PY'
 import resource, subprocess, sys
-subprocess.run(["g++", "-std=c++20", "-O2", "-DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1", f"-I{sys.argv[1]}", "-isystem", "/usr/include/eigen3",
+subprocess.run(["g++", "-std=c++20", "-O2", "-DEIGEN_MAX_ALIGN_BYTES=16",
+                "-DEIGEN_MALLOC_ALREADY_ALIGNED=1", f"-I{sys.argv[1]}", "-isystem", "/usr/include/eigen3",
                 "-c", "tests/install/optimize_only.cpp", "-o", "/dev/null"], check=True)
 usage = resource.getrusage(resource.RUSAGE_CHILDREN)
 print(usage.ru_utime + usage.ru_stime)

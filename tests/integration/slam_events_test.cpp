@@ -6,6 +6,7 @@
 
 #include "tests/support/map_bits.h"
 #include "tests/support/scenes/street.h"
+#include "tests/support/temporary_folder.h"
 
 namespace placegraph {
 namespace {
@@ -110,6 +111,54 @@ TEST(SlamEventsOfARun, DoNotChangeIt) {
     watched.add_frame(frames()[static_cast<std::size_t>(i)]);
   }
   EXPECT_TRUE(map_bits(quiet.finish()) == map_bits(watched.finish()));
+}
+
+TEST(SlamEventsOfARun, SayWhenTheUnitOfLengthIsKnown) {
+  struct Units final : SlamEvents {
+    void map_moved(const MapMoved& move) override { scaled += move.scale != 1; }
+    int scaled = 0;
+  } units;
+  const StreetDataset drive(kFrames);
+  const Calibration mono = drive.calibration(Sensor::kMono);
+  ASSERT_TRUE(mono.camera_height_m);
+  Slam slam(small_options(), mono, {.events = &units});
+  for (std::size_t i = 0; i < kFrames; ++i) slam.add_frame(drive.frame(i, Sensor::kMono));
+  EXPECT_TRUE(slam.finish().metric);
+  EXPECT_GE(units.scaled, 1);
+}
+
+TEST(SlamEventsOfARun, GoOnWhereASavedRunIsResumed) {
+  const TemporaryFolder folder;
+  const StreetDataset drive(16);
+  RunOptions options;
+  options.sensor = SensorChoice::kStereo;
+  options.slam = small_options();
+  RunInputs inputs;
+  inputs.map_file = {folder / "map.db", "street", false};
+  inputs.progress = [](std::size_t done, std::size_t, const FrameResult&) {
+    if (done == 12) throw std::runtime_error("interrupted");
+  };
+  EXPECT_THROW((void)run_sequence(drive, options, inputs), std::runtime_error);
+
+  struct Begun final : SlamEvents {
+    void run_began() override { ++begun; }
+    void frame_posed(const FrameResult& frame) override { posed.push_back(frame.frame); }
+    void place_added(const PlaceAdded& place) override { places.push_back(place.place); }
+    int begun = 0;
+    std::vector<FrameId> posed;
+    std::vector<PlaceId> places;
+  } events;
+  inputs.progress = {};
+  inputs.map_file->resume = true;
+  inputs.events = &events;
+  const RunResult run = run_sequence(drive, options, inputs);
+  ASSERT_TRUE(run.resumed_at);
+  EXPECT_EQ(events.begun, 1);
+  ASSERT_FALSE(events.posed.empty());
+  EXPECT_EQ(events.posed.front(), *run.resumed_at);
+  EXPECT_EQ(events.posed.back(), FrameId(15));
+  // Places of the saved map are known; new ones have numbers of their own.
+  EXPECT_LT(events.places.size(), run.map.place_graph.places.size());
 }
 
 TEST(SlamEventsOfARun, EndItIfTheyThrow) {

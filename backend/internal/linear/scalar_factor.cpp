@@ -1,26 +1,23 @@
 #include <placegraph/backend/internal/linear/scalar_factor.h>
-#include <placegraph/graph/core/error.h>
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
-#include <limits>
+#include <cstddef>
 
 namespace placegraph {
 
-using Sparse = Eigen::SparseMatrix<double>;
+using Sparse = Eigen::SparseMatrix<double, Eigen::ColMajor, std::ptrdiff_t>;
 
 struct ScalarFactor::Impl {
   const BlockPanels& panels;
   Sparse matrix;  // the lower part by scalars; its values are those of the panels, in their order
-  Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<int>> llt;
+  Eigen::SimplicialLLT<Sparse, Eigen::Lower, Eigen::NaturalOrdering<std::ptrdiff_t>> llt;
 
   explicit Impl(const BlockPanels& m) : panels(m) {
     const int size = panels.block_size, count = panels.pattern.count();
-    require(panels.values.size() < static_cast<std::size_t>(std::numeric_limits<int>::max()),
-            "ScalarFactor: the matrix is too large");
     matrix.resize(static_cast<Eigen::Index>(count) * size, static_cast<Eigen::Index>(count) * size);
     matrix.resizeNonZeros(static_cast<Eigen::Index>(panels.values.size()));
-    int next = 0;
+    std::ptrdiff_t next = 0;
     for (int j = 0; j < count; ++j)
       for (int c = 0; c < size; ++c) {
         matrix.outerIndexPtr()[j * size + c] = next;

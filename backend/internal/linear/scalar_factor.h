@@ -12,8 +12,7 @@ namespace placegraph {
 /// slower. The matrix stands in the order of elimination.
 class ScalarFactor {
  public:
-  /// `matrix` must outlive the factor and keep its pattern; its values may change. Throws
-  /// ArgumentError for a matrix of more entries than an int counts.
+  /// `matrix` must outlive the factor and keep its pattern; its values may change.
   explicit ScalarFactor(const BlockPanels& matrix);
   ~ScalarFactor();
 

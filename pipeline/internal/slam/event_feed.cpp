@@ -7,7 +7,7 @@ namespace placegraph {
 EventFeed::Places EventFeed::places_of(const PlaceMapper& mapper) {
   Places places;
   for (const Place& place : mapper.places())
-    places[place.id] = {place.anchor_keyframe, place.T_map_place, place.component};
+    places[place.id] = {place.anchor_keyframe, place.T_map_place, place.scale, place.component};
   return places;
 }
 
@@ -23,7 +23,7 @@ void EventFeed::keyframe_added(KeyframeId keyframe, FrameId frame, const PlaceMa
       {keyframe, frame, mapper.place_of(keyframe), mapper.T_map_keyframe(keyframe)});
 }
 
-void EventFeed::places_changed(const PlaceMapper& mapper) {
+void EventFeed::places_changed(const PlaceMapper& mapper, double scale) {
   if (!events_) return;
   const Places now = places_of(mapper);
   for (const auto& [id, place] : now)
@@ -31,6 +31,7 @@ void EventFeed::places_changed(const PlaceMapper& mapper) {
       events_->place_added({id, place.anchor, place.T_map_place, place.component});
   std::map<int, int> joined;
   MapMoved moved;
+  moved.scale = scale;
   for (const auto& [id, before] : places_) {
     const auto place = now.find(id);
     if (place == now.end()) {
@@ -45,18 +46,20 @@ void EventFeed::places_changed(const PlaceMapper& mapper) {
     const SE3 T_before_now = before.T_map_place.inverse() * place->second.T_map_place;
     const double translation = T_before_now.translation().norm(),
                  rotation = T_before_now.rotation().log().norm();
-    if (translation == 0 && rotation == 0) continue;
+    if (translation == 0 && rotation == 0 && before.scale == place->second.scale) continue;
     ++moved.places;
     moved.translation = std::max(moved.translation, translation);
     moved.rotation_rad = std::max(moved.rotation_rad, rotation);
   }
   for (const auto& [component, into] : joined) events_->component_joined({component, into});
-  if (moved.places > 0) events_->map_moved(moved);
+  if (moved.places > 0 || scale != 1) events_->map_moved(moved);
   places_ = now;
 }
 
 void EventFeed::loops_decided(const std::vector<LoopRecord>& records) {
   if (!events_) return;
+  constexpr std::size_t kMostWaiting = 1000;  // support comes within some keyframes or never
+  while (waiting_.size() > kMostWaiting) waiting_.erase(waiting_.begin());
   for (auto record = waiting_.begin(); record != waiting_.end();) {
     const bool accepted = records[*record].accepted();
     if (accepted) events_->loop_accepted(records[*record]);

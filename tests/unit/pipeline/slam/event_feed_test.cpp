@@ -81,6 +81,19 @@ TEST(EventFeed, TellsTheLargestMoveOfAPlace) {
   EXPECT_GT(translation, 0.1);
 }
 
+TEST(EventFeed, TellsThatTheUnitIsKnownWhereNoPlaceMoves) {
+  Heard heard;
+  EventFeed feed(&heard);
+  PlaceMapper mapper({});
+  mapper.add_keyframe(KeyframeId(0), std::nullopt, {}, kDepth_m);
+  feed.places_changed(mapper);
+  heard.news();
+  mapper.rescale(KeyframeId(0), 2.5);
+  feed.places_changed(mapper, 2.5);
+  EXPECT_THAT(heard.news(), ElementsAre("moved"));
+  EXPECT_EQ(heard.move.scale, 2.5);
+}
+
 TEST(EventFeed, TellsThatPlacesAreOne) {
   Heard heard;
   EventFeed feed(&heard);
