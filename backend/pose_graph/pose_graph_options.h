@@ -19,10 +19,10 @@ enum class PoseGraphStart {
   kCertified,  ///< semidefinite relaxation: the global minimum where the relaxation is tight
 };
 
-/// The robust cost that graduated non-convexity approaches.
-/// "auto", "file", "odometry", ...: the names of the options' values.
+/// Name of a start as in the options: "auto", "file", "odometry", "chordal" or "certified".
 const char* to_string(PoseGraphStart start);
 
+/// The robust cost that graduated non-convexity approaches.
 enum class GncSurrogate { kTruncated, kGemanMcClure };
 
 /// The schedule of graduated non-convexity (Yang et al. 2020).

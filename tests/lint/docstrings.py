@@ -67,7 +67,7 @@ def parsed(root, headers, include_folder):
         cindex.Config.set_library_file(LIBCLANG)
     source = "".join(f"#include <placegraph/{header}>\n" for header in headers)
     arguments = ["-std=c++20", "-xc++", "-I" + include_folder, "-isystem", "/usr/include/eigen3",
-                 "-isystem", "/usr/include/opencv4", "-DEIGEN_MAX_ALIGN_BYTES=16",
+                 "-isystem", "/usr/include/opencv4", "-DEIGEN_MAX_ALIGN_BYTES=16", "-DEIGEN_MALLOC_ALREADY_ALIGNED=1",
                  "-resource-dir", resources[-1]]
     unit = cindex.Index.create().parse(
         "all_public_headers.cpp", arguments, [("all_public_headers.cpp", source)],
