@@ -4,7 +4,7 @@
 # with them. Prints each violation as file:line.
 set -eu
 cd "$1"
-files=$(find . \( -name build -o -name .git -o -path ./graph/internal/image/plugin \) -prune -o -type f \
+files=$(find . \( -name build -o -name .git -o -path ./out -o -path ./tests/install -o -path ./graph/internal/image/plugin \) -prune -o -type f \
   \( -name '*.h' -o -name '*.cpp' -o -name '*.in' -o -name CMakeLists.txt -o -name '*.cmake' \) -print |
   grep -v '^\./cmake/dependencies\.cmake$' | LC_ALL=C sort)
 [ -n "$files" ] || { echo "$1: no sources"; exit 2; }
