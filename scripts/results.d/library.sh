@@ -1,5 +1,5 @@
 # What a program that embeds the library meets: headers, libraries at start, symbols, and the time it compiles.
-# The shared library is that of build/packages (scripts/test.d/packages_test).
+# The shared library is that of build/shared (scripts/test.d/packages_test).
 title="The library in a program: headers, start, symbols, compile time"
 heading "$title"
 command_line "cmake --install build/release --prefix PREFIX"
@@ -40,7 +40,7 @@ cells "headers of the project behind pipeline/slam.h" "<= 40" "$((behind - 1))" 
 cells "libraries mapped by placegraph at start" "" "$(ldd "$placegraph" | wc -l)" ""
 cells "placegraph --version [ms], median of 11" "<= 40" "${start% *}" "$(verdict "${start% *}" "<=" 40)"
 cells "placegraph --version [MB]" "<= 40" "${start#* }" "$(verdict "${start#* }" "<=" 40)"
-shared=$(find build/packages/shared/lib -name 'libplacegraph.so.*.*.*' 2> /dev/null | head -n 1)
+shared=$(find build/shared/lib -name 'libplacegraph.so.*.*.*' 2> /dev/null | head -n 1)
 if [ -n "$shared" ]; then
   cells "symbols that the shared library exports, of namespace placegraph" "" \
     "$(nm -DC --defined-only "$shared" | wc -l), $(nm -DC --defined-only "$shared" | grep -c ' placegraph::')" ""

@@ -134,7 +134,7 @@ void ManhattanCue::observe(KeyframeId keyframe, const Image& image,
   const std::vector<LineSegment> segments = known ? *known : detect(image);
   view_.clear();
   sight_.reset();
-  for (const LineSegment& segment : segments) view_.push_back({segment});
+  for (const LineSegment& segment : segments) view_.push_back({segment, {}, {}});
   bool seen = false;
   for (const ManhattanWorlds::Expected& world : worlds_.expected(window, keyframe)) {
     if (take(keyframe, segments, track(segments, world), window)) seen = true;
