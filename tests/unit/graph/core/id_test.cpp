@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/internal/core/id_format.h>
