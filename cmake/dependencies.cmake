@@ -1,9 +1,10 @@
-# What the libraries link. The order matters: BLAS stands before Ceres, because the packaged Ceres
-# brings ATLAS, and the first library on the link line gets CHOLMOD's BLAS calls.
 # A project of which this one is a part links static libraries, and so their dependencies: it must see them.
 if(NOT PROJECT_IS_TOP_LEVEL)
   set(CMAKE_FIND_PACKAGE_TARGETS_GLOBAL ON)
 endif()
+
+# What the libraries link. The order matters: BLAS stands before Ceres, because the packaged Ceres
+# brings ATLAS, and the first library on the link line gets CHOLMOD's BLAS calls.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(PNG 1.6 REQUIRED)
