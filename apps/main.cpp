@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
     add_explain_command(app);
     add_flow_command(app);
     add_georeference_command(app);
-    add_hover_command(app);
+    add_flight_command(app);
     add_inspect_command(app);
     add_lines_command(app);
     add_localize_command(app);

@@ -37,9 +37,9 @@ int main(int argc, char** argv) try {
     best.query = FrameId(static_cast<std::int64_t>(i));
     best.score = -1;
     for (std::size_t j = 0; j + static_cast<std::size_t>(revisit.min_age) <= i; ++j)
-      if (const double likeness = views[i].dot(views[j]); likeness > best.score) {
+      if (const double similarity = views[i].dot(views[j]); similarity > best.score) {
         best.candidate = FrameId(static_cast<std::int64_t>(j));
-        best.score = likeness;
+        best.score = similarity;
       }
     if (best.score > -1) predictions.push_back(best);
   }

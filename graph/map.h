@@ -38,7 +38,7 @@ struct LoopRecord {
   SE3 T_match_query;                        ///< of accepted ones, in the match's unit of length
   LoopModel model = LoopModel::kNone;       ///< by which the relative pose was found
   int lines = 0;                            ///< lines that agree with the relative pose
-  double likeness = 0;  ///< similarity of the images, relative to that of query and predecessor
+  double similarity = 0;  ///< similarity of the images, relative to that of query and predecessor
   /// Estimated probability that the two show one place, from all that the decision was based on:
   /// see docs/places.md.
   double probability = 0;

@@ -31,10 +31,10 @@ struct PlaceView {
   CueGrid coarse;  ///< the tiny image at half its columns, for the second of three comparisons
   /// Colour, coarse and gradients pooled to a few cells, each of unit length and rounded to
   /// integers: the first comparison, with tens of thousands of images, is a dot product.
-  std::vector<std::int16_t> glance;
+  std::vector<std::int16_t> thumbnail;
   std::vector<Feature> corners;  ///< for the cue that counts agreeing features
   /// Whether no descriptor was computed.
-  bool empty() const { return glance.empty(); }
+  bool empty() const { return thumbnail.empty(); }
 };
 
 }  // namespace placegraph

@@ -3,7 +3,7 @@
 #include <placegraph/io/datasets/dataset.h>
 #include <placegraph/pipeline/run_options.h>
 #include <placegraph/pipeline/slam.h>
-#include <placegraph/pipeline/slam/environment_sight.h>
+#include <placegraph/pipeline/slam/environment_observation.h>
 
 #include <functional>
 #include <string>
@@ -42,7 +42,7 @@ struct RunResult {
   /// are one. Frames before a resumed run are not counted.
   std::vector<UnposedFrames> unposed;
   /// What each keyframe shows of its environment; empty unless `context` is enabled.
-  std::vector<EnvironmentSight> environments;
+  std::vector<EnvironmentObservation> environments;
 };
 
 /// Where a run saves its map (io/map/map_database.h), after every new place and at the end.

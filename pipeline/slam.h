@@ -14,7 +14,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 class MeasuredMotion;
 class SlamEvents;
-struct EnvironmentSight;
+struct EnvironmentObservation;
 struct FrameView;
 struct MapChanges;
 struct PlaceHistory;
@@ -97,7 +97,7 @@ class Slam {
   /// run_sequence begins again with undistorted images where LensOptions call it proven.
   LensDistortion lens() const;
   /// One entry per keyframe of this run, in their order; empty unless `context` is enabled.
-  const std::vector<EnvironmentSight>& environments() const;
+  const std::vector<EnvironmentObservation>& environments() const;
   /// What the frontend sees in the last frame, in pixels; empty lists if that frame is lost.
   FrameView view() const;
   /// CPU time [s] that each stage has taken so far.

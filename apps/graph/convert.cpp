@@ -97,7 +97,7 @@ ConvertResult convert_graph(const ConvertArguments& arguments, Form to) {
   result.kind = ConvertResult::Kind::kGraph;
   result.constraints = graph.poses.constraints.size();
   result.priors = graph.priors.size();
-  result.sights = graph.sights.size();
+  result.observations = graph.observations.size();
   result.poses_alone = graph.has_poses_alone();
   write_g2o(arguments.out, graph);
   return result;
@@ -174,7 +174,7 @@ std::string to_text(const ConvertResult& result) {
                           result.poses_alone
                               ? ""
                               : fmt::format(", {} priors, {} landmarks seen {} times",
-                                            result.priors, result.landmarks, result.sights));
+                                            result.priors, result.landmarks, result.observations));
       break;
   }
   return fmt::format("{}: {}, written to {}\n", result.in, found, result.out);

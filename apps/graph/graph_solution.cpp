@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kStepsPerLine = 500;  ///< of progress
 
-PoseGraphReport optimize_growing(const PoseGraph& graph, const GraphTask& task, const LogSink& log,
+PoseGraphReport solve_incrementally(const PoseGraph& graph, const GraphTask& task, const LogSink& log,
                                  std::vector<double>& step_cpu_ms) {
   IncrementalOptions options;
   options.rotation_error = task.options.rotation_error;
@@ -34,18 +34,18 @@ PoseGraphReport optimize_growing(const PoseGraph& graph, const GraphTask& task, 
   report.iterations = replay.iterations;
   report.graph = std::move(replay.graph);
   if (report.outcome) report.free = find_free_directions(report.graph, options.rotation_error);
-  report.start_used = PoseGraphStart::kOdometry;
+  report.initialization_used = PoseGraphInitialization::kOdometry;
   return report;
 }
 
 PoseGraphReport optimize(PoseGraph graph, const GraphTask& task, const LogSink& log,
                          GraphSolution& solution) {
   PoseGraphReport report = task.incremental
-                               ? optimize_growing(graph, task, log, solution.step_cpu_ms)
+                               ? solve_incrementally(graph, task, log, solution.step_cpu_ms)
                                : optimize_pose_graph(std::move(graph), task.options, log);
   if (!report.outcome) throw NoAnswer(report.outcome.reason);
   solution.iterations += report.iterations;
-  solution.start = to_string(report.start_used);
+  solution.start = to_string(report.initialization_used);
   solution.loops_judged = solution.loops_judged && report.loops_judged;
   solution.refined_from_certified = report.refined_from_certified;
   return report;

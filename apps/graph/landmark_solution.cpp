@@ -60,13 +60,13 @@ Json describe(const LandmarkSolution& solution) {
   Json report;
   report["kind"] = graph.poses.kind() == PoseKind::kSE2 ? "SE2" : "SE3";
   report["engine"] = solution.engine;
-  report["start"] = to_string(PoseGraphStart::kFile);
+  report["start"] = to_string(PoseGraphInitialization::kFile);
   report["robust"] = "none";
   report["nodes"] = graph.poses.nodes.size();
   report["constraints"] = graph.poses.constraints.size();
   report["priors"] = graph.priors.size();
   report["landmarks"] = graph.points.size();
-  report["sights"] = graph.sights.size();
+  report["sights"] = graph.observations.size();
   report["components"] = solution.components;
   report["chi2_g2o_initial"] = or_null(solution.chi2_g2o_initial);
   report["chi2_log_initial"] = solution.chi2_log_initial;
@@ -91,7 +91,7 @@ std::string to_text(const LandmarkSolution& solution, const std::string& in,
       "{}: {}, {} nodes, {} constraints, {} priors, {} landmarks seen {} times, minimized "
       "in the {} convention\n",
       in, graph.poses.kind() == PoseKind::kSE2 ? "SE2" : "SE3", graph.poses.nodes.size(),
-      graph.poses.constraints.size(), graph.priors.size(), graph.points.size(), graph.sights.size(),
+      graph.poses.constraints.size(), graph.priors.size(), graph.points.size(), graph.observations.size(),
       cost);
   if (solution.chi2_g2o && solution.chi2_g2o_initial)
     text += fmt::format("  chi2 (g2o: half-angle quaternion) {:.6f} -> {:.6f}\n",

@@ -170,7 +170,7 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   options.engine =
       choice<PoseGraphEngine>("--engine", pose_graph_option("engine").choices, arguments.engine);
   options.start =
-      choice<PoseGraphStart>("--start", pose_graph_option("start").choices, arguments.start);
+      choice<PoseGraphInitialization>("--start", pose_graph_option("start").choices, arguments.start);
   options.robust.method = choice<RobustMethod>(
       "--robust", pose_graph_option("robust.method").choices, arguments.robust);
   options.check();
@@ -194,7 +194,7 @@ void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& 
   const PoseGraphOptions& options = task.options;
   require(options.robust.method == RobustMethod::kNone && !task.incremental && !task.split &&
               !task.certify &&
-              (options.start == PoseGraphStart::kAuto || options.start == PoseGraphStart::kFile) &&
+              (options.start == PoseGraphInitialization::kAuto || options.start == PoseGraphInitialization::kFile) &&
               arguments.plot.empty(),
           arguments.in +
               ": has priors or point landmarks, which --robust, --incremental, "

@@ -38,16 +38,16 @@ RunOptions run_options(const LinesTrackArguments& arguments) {
 LineTracksJudgement judge(const LineTracks& tracks, const Camera& camera, const Trajectory& truth) {
   LineTracksJudgement all;
   for (const auto& [id, track] : tracks) {
-    std::vector<LineSighting> sightings;
+    std::vector<LineMeasurement> observations;
     for (const TrackedLine& s : track) {
       const auto index = static_cast<std::size_t>(s.frame.value());
       if (index >= truth.poses.size() || !truth.poses[index].T_world_body) continue;
       const Eigen::Isometry3d& T = *truth.poses[index].T_world_body;
-      sightings.push_back(
+      observations.push_back(
           {SE3(SO3::from_matrix(T.linear()), Eigen::Vector3d(T.translation())), s.line.seen});
     }
-    const TrackConsistency judged = judge_line_track(camera, sightings);
-    (judged.judged ? all.judged : all.undecided) += sightings.size();
+    const TrackConsistency judged = judge_line_track(camera, observations);
+    (judged.judged ? all.judged : all.undecided) += observations.size();
     all.wrong += static_cast<std::size_t>(judged.wrong());
   }
   return all;
@@ -65,8 +65,8 @@ std::string tracks_text(const LineTracks& tracks) {
 
 void count_lengths(const LineTracks& tracks, LinesTrackResult& result) {
   std::vector<double> lengths, of_use;
-  for (const auto& [id, sightings] : tracks)
-    lengths.push_back(static_cast<double>(sightings.size()));
+  for (const auto& [id, observations] : tracks)
+    lengths.push_back(static_cast<double>(observations.size()));
   // Fewer than three views of a line say nothing of motion or place.
   std::copy_if(lengths.begin(), lengths.end(), std::back_inserter(of_use),
                [](double n) { return n >= 3; });

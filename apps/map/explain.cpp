@@ -26,7 +26,7 @@ using nlohmann::json;
 json json_of(const LoopRecord& loop) {
   return {{"query_frame", loop.query_frame}, {"match_frame", loop.match_frame},
           {"stage", to_string(loop.stage)},  {"probability", loop.probability},
-          {"likeness", loop.likeness},       {"model", to_string(loop.model)},
+          {"likeness", loop.similarity},       {"model", to_string(loop.model)},
           {"inliers", loop.inliers},         {"lines", loop.lines}};
 }
 
@@ -110,18 +110,18 @@ json seen_in(const StoredMap& stored, FrameId frame) {
 json assumed_by(const StoredMap& stored, const RunOptions& options, const Explanation& told) {
   const auto& calibration = stored.origin.calibration;
   const double height_m = calibration ? calibration->camera_height_m.value_or(0) : 0;
-  const bool one_eye = calibration && calibration->baseline_m == 0 && !calibration->depth;
-  json assumed = {{"sensor", one_eye ? "one eye" : "depths measured"},
+  const bool monocular = calibration && calibration->baseline_m == 0 && !calibration->depth;
+  json assumed = {{"sensor", monocular ? "one eye" : "depths measured"},
                   {"cues", options.slam.odometry.cues},
                   {"metric", stored.map.metric}};
-  if (one_eye && height_m > 0) assumed["ground_below_camera_m"] = height_m;
+  if (monocular && height_m > 0) assumed["ground_below_camera_m"] = height_m;
   const Place* place = told.posed ? stored.map.place_graph.find(*told.place) : nullptr;
   if (const auto kind = place ? environment_of(*place) : std::nullopt) {
     const Assumptions there = assumptions_of(*kind);
     assumed["environment"] = {{"kind", environment_name(*kind)},
                               {"heeded", options.slam.context.enabled},
                               {"ground_height", there.ground_height},
-                              {"manhattan_world", there.manhattan_world},
+                              {"manhattan_world", there.manhattan_frame_id},
                               {"street_surfaces", there.street_surfaces}};
   }
   return assumed;

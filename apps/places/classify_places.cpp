@@ -91,12 +91,12 @@ struct LabelledViews {
   std::vector<int> labels;
 };
 
-LabelledViews read_lesson(const ClassifyPlacesArguments& arguments,
+LabelledViews read_training_set(const ClassifyPlacesArguments& arguments,
                           const std::vector<std::string>& images,
                           const std::set<FrameId>& training) {
   const std::string label_path = (fs::path(arguments.folder) / "labels.txt").string();
   const std::map<FrameId, int> all_labels = read_labels(label_path);
-  LabelledViews lesson;
+  LabelledViews training_set;
   for (const FrameId image : training) {
     const auto label = all_labels.find(image);
     if (label == all_labels.end())
@@ -105,18 +105,18 @@ LabelledViews read_lesson(const ClassifyPlacesArguments& arguments,
     if (label->second >= kMostPlaces)
       throw FileError(label_path,
                       fmt::format("label {}: at most {} places", label->second, kMostPlaces));
-    lesson.labels.push_back(label->second);
-    lesson.views.push_back(
+    training_set.labels.push_back(label->second);
+    training_set.views.push_back(
         read_view(images[static_cast<std::size_t>(image.value())], arguments.cues));
   }
-  require_some_cue(arguments, lesson.views.front());
-  return lesson;
+  require_some_cue(arguments, training_set.views.front());
+  return training_set;
 }
 
-std::vector<ToldPlace> tell(const ClassifyPlacesArguments& arguments,
+std::vector<ClassifiedPlace> tell(const ClassifyPlacesArguments& arguments,
                             const std::vector<std::string>& images, const std::set<FrameId>& asked,
                             const PlaceClassifier& classifier, LabelFilter filter) {
-  std::vector<ToldPlace> told;
+  std::vector<ClassifiedPlace> told;
   for (const FrameId image : asked) {
     Eigen::VectorXd probabilities = classifier.classify(
         read_view(images[static_cast<std::size_t>(image.value())], arguments.cues));
@@ -142,15 +142,15 @@ ClassifyPlacesResult classify_places(const ClassifyPlacesArguments& arguments) {
   const std::vector<std::string> images =
       list_images(fs::is_directory(inside) ? inside.string() : arguments.folder);
   const Halves halves = halves_of(arguments, static_cast<int>(images.size()));
-  LabelledViews lesson = read_lesson(arguments, images, halves.training);
+  LabelledViews training_set = read_training_set(arguments, images, halves.training);
   const PlaceClassifier classifier =
-      PlaceClassifier::train(std::move(lesson.views), lesson.labels, options);
+      PlaceClassifier::train(std::move(training_set.views), training_set.labels, options);
   ClassifyPlacesResult result;
   result.out = arguments.out;
-  result.learned = lesson.labels.size();
-  result.told = tell(arguments, images, halves.asked, classifier, LabelFilter(lesson.labels));
+  result.learned = training_set.labels.size();
+  result.told = tell(arguments, images, halves.asked, classifier, LabelFilter(training_set.labels));
   std::string lines;
-  for (const ToldPlace& place : result.told) {
+  for (const ClassifiedPlace& place : result.told) {
     result.refused += place.label < 0;
     lines += fmt::format("{} {} {:.6f}\n", place.image, place.label, place.probability);
   }

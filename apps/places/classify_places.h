@@ -28,7 +28,7 @@ struct ClassifyPlacesArguments {
   bool force = false;                            ///< overwrite `out`
 };
 
-struct ToldPlace {
+struct ClassifiedPlace {
   FrameId image;
   int label = -1;  ///< -1 where it was refused
   double probability = 0;
@@ -37,7 +37,7 @@ struct ToldPlace {
 struct ClassifyPlacesResult {
   std::string out;
   std::size_t learned = 0;      ///< views
-  std::vector<ToldPlace> told;  ///< one an image that was asked for
+  std::vector<ClassifiedPlace> told;  ///< one an image that was asked for
   std::size_t refused = 0;      ///< of those
   std::vector<double> weights;  ///< of the cues
   double accuracy = 0;          ///< on left out parts of what was learned

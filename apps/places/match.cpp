@@ -89,13 +89,13 @@ Image compared_view(const std::string& path, bool colour) {
 
 /// Answers which stored views an image resembles (the views `among`, if any), and stores it.
 using LookUp =
-    std::function<std::vector<PlaceLikeness>(const Image&, const std::optional<ViewRange>& among)>;
+    std::function<std::vector<PlaceSimilarity>(const Image&, const std::optional<ViewRange>& among)>;
 
 LookUp by_cues(const PlaceRecognizerOptions& options) {
   auto recognizer = std::make_shared<PlaceRecognizer>(options);
   return [recognizer](const Image& image, const std::optional<ViewRange>& among) {
     PlaceView view = describe_place(image, recognizer->options().cues, among.has_value());
-    std::vector<PlaceLikeness> list;
+    std::vector<PlaceSimilarity> list;
     if (among) list = recognizer->query(view, among->first, among->last);
     recognizer->add(std::move(view));
     return list;
@@ -112,8 +112,8 @@ LookUp by_words(const MatchArguments& arguments, PlaceCode code) {
           fmt::format("{}: --codes {} needs a vocabulary of --kind {}", arguments.vocabulary,
                       arguments.codes, binary ? "binary" : "float"));
   constexpr std::uint64_t kSeed = 1;
-  const std::shared_ptr<CodeMemory> memory =
-      make_code_memory(code, arguments.options.codes, std::move(words), kSeed);
+  const std::shared_ptr<CodeDatabase> memory =
+      make_code_database(code, arguments.options.codes, std::move(words), kSeed);
   return [memory](const Image& image, const std::optional<ViewRange>& among) {
     return memory->look_up_and_add(image, among);
   };
@@ -125,8 +125,8 @@ class BestMatch {
   BestMatch(const SequenceFilterOptions& options, bool sequence)
       : filter_(options), sequence_(sequence) {}
 
-  std::optional<PlaceLikeness> of(const MatchQuery& query, const std::vector<PlaceLikeness>& list) {
-    std::optional<PlaceLikeness> answer;
+  std::optional<PlaceSimilarity> of(const MatchQuery& query, const std::vector<PlaceSimilarity>& list) {
+    std::optional<PlaceSimilarity> answer;
     if (!list.empty()) answer = list.front();
     if (!sequence_) return answer;
     if (query.image != before_ + 1) filter_.restart();
@@ -156,7 +156,7 @@ std::vector<LoopPrediction> matches_of(const MatchArguments& arguments,
   for (int i = 0; i < static_cast<int>(images.size()); ++i) {
     std::optional<ViewRange> among;
     if (query != queries.end() && query->image == i) among = {query->first, query->last};
-    const std::vector<PlaceLikeness> list =
+    const std::vector<PlaceSimilarity> list =
         look_up(compared_view(images[static_cast<std::size_t>(i)], colour), among);
     if (among) {
       if (const auto answer = best.of(*query, list))

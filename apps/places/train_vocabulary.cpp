@@ -1,7 +1,7 @@
 #include "apps/places/train_vocabulary.h"
 
 #include <fmt/format.h>
-#include <placegraph/frontend/internal/places/code_memory.h>
+#include <placegraph/frontend/internal/places/code_database.h>
 #include <placegraph/frontend/internal/places/float_vocabulary.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/internal/files/image_list.h>
@@ -27,7 +27,7 @@ namespace {
 
 /// Descriptors of all images, those of one beside each other.
 template <class Descriptors>
-struct WordLesson {
+struct WordTrainingSet {
   Descriptors descriptors;
   std::vector<int> end;  ///< of each image's descriptors
 };
@@ -79,21 +79,21 @@ std::vector<float> idf_of(const std::vector<int>& end, int words, const WordOf& 
 
 WordTree train_binary(const TrainVocabularyArguments& arguments,
                       const std::vector<std::string>& images, std::size_t share) {
-  WordLesson<std::vector<BinaryDescriptor>> lesson;
+  WordTrainingSet<std::vector<BinaryDescriptor>> training_set;
   Progress progress("describing", static_cast<std::int64_t>(images.size()), "images");
   CornerAgreementOptions options = PlaceCodeOptions{}.corners;
   options.max_corners = std::min(options.max_corners, static_cast<int>(share));
   for (std::size_t i = 0; i < images.size(); ++i) {
     for (const Feature& corner : corners_of_view(read_image(images[i]).grey, options))
-      lesson.descriptors.push_back(corner.descriptor);
-    lesson.end.push_back(static_cast<int>(lesson.descriptors.size()));
+      training_set.descriptors.push_back(corner.descriptor);
+    training_set.end.push_back(static_cast<int>(training_set.descriptors.size()));
     progress.update(static_cast<std::int64_t>(i) + 1);
   }
-  if (lesson.descriptors.empty()) throw NoAnswer("no image has a corner to learn words from");
+  if (training_set.descriptors.empty()) throw NoAnswer("no image has a corner to learn words from");
   Random random(arguments.seed);
-  Vocabulary vocabulary = Vocabulary::train(lesson.descriptors, tree_of(arguments.words), random);
-  vocabulary.set_idf(idf_of(lesson.end, vocabulary.words(), [&](int i) {
-    return vocabulary.word(lesson.descriptors[static_cast<std::size_t>(i)]);
+  Vocabulary vocabulary = Vocabulary::train(training_set.descriptors, tree_of(arguments.words), random);
+  vocabulary.set_idf(idf_of(training_set.end, vocabulary.words(), [&](int i) {
+    return vocabulary.word(training_set.descriptors[static_cast<std::size_t>(i)]);
   }));
   return vocabulary.tree();
 }
@@ -102,7 +102,7 @@ WordTree train_binary(const TrainVocabularyArguments& arguments,
 WordTree train_float(const TrainVocabularyArguments& arguments,
                      const std::vector<std::string>& images, std::size_t share) {
   std::vector<FloatDescriptors> parts;
-  WordLesson<FloatDescriptors> lesson;
+  WordTrainingSet<FloatDescriptors> training_set;
   Progress progress("describing", static_cast<std::int64_t>(images.size()), "images");
   FloatFeatureOptions options = PlaceCodeOptions{}.features;
   options.max_features = std::min(options.max_features, static_cast<int>((share + 1) / 2));
@@ -117,21 +117,21 @@ WordTree train_float(const TrainVocabularyArguments& arguments,
     for (Eigen::Index k = 0; k < thinned.rows(); ++k) thinned.row(k) = dense.row(k * stride);
     rows += static_cast<int>(thinned.rows());
     parts.push_back(std::move(thinned));
-    lesson.end.push_back(rows);
+    training_set.end.push_back(rows);
     progress.update(static_cast<std::int64_t>(i) + 1);
   }
-  lesson.descriptors.resize(rows, kSiftNumbers);
+  training_set.descriptors.resize(rows, kSiftNumbers);
   Eigen::Index row = 0;
   for (const FloatDescriptors& part : parts) {
-    lesson.descriptors.middleRows(row, part.rows()) = part;
+    training_set.descriptors.middleRows(row, part.rows()) = part;
     row += part.rows();
   }
   if (rows == 0) throw NoAnswer("no image has anything to learn words from");
   Random random(arguments.seed);
   FloatVocabulary vocabulary =
-      FloatVocabulary::train(lesson.descriptors, tree_of(arguments.words), random);
-  vocabulary.set_idf(idf_of(lesson.end, vocabulary.words(),
-                            [&](int i) { return vocabulary.word(lesson.descriptors.row(i)); }));
+      FloatVocabulary::train(training_set.descriptors, tree_of(arguments.words), random);
+  vocabulary.set_idf(idf_of(training_set.end, vocabulary.words(),
+                            [&](int i) { return vocabulary.word(training_set.descriptors.row(i)); }));
   return vocabulary.tree();
 }
 

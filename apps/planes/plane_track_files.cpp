@@ -55,7 +55,7 @@ ordered_json track_json(const PlaneTrack& track, std::size_t frame) {
   json["H_frame_template"] = numbers(track.H_cur_ref);
   json["covariance_px2"] = numbers(track.covariance);
   json["similarity"] = track.similarity;
-  json["likeness"] = track.likeness;
+  json["likeness"] = track.robust_similarity;
   json["visible_share"] = track.visible_share;
   json["inlier_share"] = track.inlier_share;
   if (track.normal_outcome.code != Outcome::Code::kNotAttempted)

@@ -153,8 +153,8 @@ TrackPlaneResult track_plane(const TrackPlaneArguments& arguments) {
   result.in = arguments.in;
   result.tracks = track_all(tracker, source);
   result.cpu_ms_per_frame = watch.cpu_ms() / static_cast<double>(result.tracks.size());
-  result.least_likeness = tracker.least_likeness();
-  result.least_likeness_found = tracker.least_likeness_found();
+  result.least_similarity = tracker.least_similarity();
+  result.least_similarity_found = tracker.least_similarity_found();
   if (result.tracked() == 0)
     throw NoAnswer(fmt::format("{}: the template is in none of {} frames: {}", arguments.in,
                                result.tracks.size(), result.tracks.front().outcome.reason));
@@ -184,8 +184,8 @@ std::string to_json(const TrackPlaneResult& result) {
   json["frames"] = result.tracks.size();
   json["tracked"] = result.tracked();
   json["lost"] = result.tracks.size() - result.tracked();
-  json["least_likeness"] = result.least_likeness;
-  json["least_likeness_found_again"] = result.least_likeness_found;
+  json["least_likeness"] = result.least_similarity;
+  json["least_likeness_found_again"] = result.least_similarity_found;
   json["cpu_ms_per_frame"] = result.cpu_ms_per_frame;
   json["tracks"] = ordered_json::array();
   for (std::size_t i = 0; i < result.tracks.size(); ++i)

@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/slam/environment_sight.h>
+#include <placegraph/pipeline/slam/environment_observation.h>
 #include "apps/results/environment_files.h"
 
 #include <fmt/format.h>
@@ -8,18 +8,18 @@
 
 namespace placegraph::apps {
 
-std::string environment_csv(const std::vector<EnvironmentSight>& sights) {
+std::string environment_csv(const std::vector<EnvironmentObservation>& observations) {
   std::string csv = "frame";
   for (const char* name : evidence_names()) csv += fmt::format(",{}", name);
   for (int k = 0; k < kEnvironmentCount; ++k)
     csv += fmt::format(",p_{}", environment_name(static_cast<Environment>(k)));
   csv += ",kind\n";
-  for (const EnvironmentSight& sight : sights) {
-    csv += to_string(sight.frame);
-    for (const double value : sight.evidence.values)
+  for (const EnvironmentObservation& observation : observations) {
+    csv += to_string(observation.frame);
+    for (const double value : observation.evidence.values)
       csv += std::isfinite(value) ? fmt::format(",{:.4g}", value) : ",";
-    for (const double p : sight.probabilities) csv += fmt::format(",{:.3f}", p);
-    csv += "," + (sight.kind ? environment_name(*sight.kind) : std::string("unknown")) + "\n";
+    for (const double p : observation.probabilities) csv += fmt::format(",{:.3f}", p);
+    csv += "," + (observation.kind ? environment_name(*observation.kind) : std::string("unknown")) + "\n";
   }
   return csv;
 }

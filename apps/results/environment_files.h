@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/pipeline/slam/environment_sight.h>
+#include <placegraph/pipeline/slam/environment_observation.h>
 #include <placegraph/pipeline/slam.h>
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,7 +10,7 @@ namespace placegraph::apps {
 
 /// A line a keyframe: its frame, all evidence (empty where it was not looked at), the probability
 /// of each kind by this view alone, and the kind that was taken ("unknown" if none).
-std::string environment_csv(const std::vector<EnvironmentSight>& sights);
+std::string environment_csv(const std::vector<EnvironmentObservation>& observations);
 
 /// Places of each kind, and those without one.
 nlohmann::json describe_environments(const PlaceGraph& graph);

@@ -100,7 +100,7 @@ std::string loops_csv(const Map& map) {
   for (const LoopRecord& loop : map.loops)
     csv << loop.query_frame << ',' << loop.match_frame << ',' << loop.inliers << ','
         << (loop.accepted() ? 1 : 0) << ',' << to_string(loop.stage) << ',' << to_string(loop.model)
-        << ',' << loop.lines << ',' << loop.likeness << ',' << loop.probability << '\n';
+        << ',' << loop.lines << ',' << loop.similarity << ',' << loop.probability << '\n';
   return csv.str();
 }
 

@@ -97,7 +97,7 @@ Georeference read_georeference(const std::string& folder, const Map& map) {
 void check_urban_models(const UrbanMapperOptions& options, const UrbanModelPaths& models) {
   const SceneModel urban = load_scene_model(SceneModel::Kind::kUrban, models.urban);
   (void)load_scene_model(SceneModel::Kind::kSurfaces, models.surfaces);
-  (void)moving_classes(options.sight.moving, urban);
+  (void)moving_classes(options.observation.moving, urban);
 }
 
 UrbanMapper urban_mapper_of(const Map& map, const Calibration& calibration, const Dataset& dataset,
@@ -152,7 +152,7 @@ json describe_semantic_map(const SemanticMap& semantic, const UrbanMapper& mappe
     summary["reason"] = semantic.outcome.reason;
     return summary;
   }
-  summary["keyframes"] = mapper.sights().size();
+  summary["keyframes"] = mapper.observations().size();
   summary["cells"] = std::count_if(semantic.cells.begin(), semantic.cells.end(),
                                    [](const SemanticCell& cell) { return cell.label >= 0; });
   const fs::path truth_path = fs::path(sequence) / "scene.ply";

@@ -9,13 +9,13 @@
 namespace placegraph::apps {
 namespace {
 
-struct HoverCommand {
-  HoverArguments arguments;
+struct FlightCommand {
+  FlightArguments arguments;
   bool json = false, profile = false;
 };
 
-void hover_and_print(const HoverCommand& command) {
-  const HoverResult result = hover(command.arguments);
+void fly_and_print(const FlightCommand& command) {
+  const FlightResult result = hover(command.arguments);
   print(command.json ? to_json(result) : to_text(result));
   if (command.profile && !command.json) print(stages_text(result));
   if (result.no_answer) throw NoAnswer(*result.no_answer);
@@ -23,9 +23,9 @@ void hover_and_print(const HoverCommand& command) {
 
 }  // namespace
 
-void add_hover_command(CLI::App& app) {
-  auto hover_command = std::make_shared<HoverCommand>();
-  HoverArguments& a = hover_command->arguments;
+void add_flight_command(CLI::App& app) {
+  auto flight_command = std::make_shared<FlightCommand>();
+  FlightArguments& a = flight_command->arguments;
   CLI::App* command = app.add_subcommand(
       "hover", "Where a flying robot was, by flow, inertial sensor and markers.");
   command->footer("placegraph hover out/flight --out out/hover");
@@ -62,10 +62,10 @@ void add_hover_command(CLI::App& app) {
   command->add_option("--config", a.config, "YAML file with options; see docs/hover.md");
   command->add_option("--set", a.settings, "one option, key=value; may be repeated")
       ->allow_extra_args(false);
-  command->add_flag("--json", hover_command->json, "print result.json");
-  command->add_flag("--profile", hover_command->profile, "print the CPU time of every stage");
+  command->add_flag("--json", flight_command->json, "print result.json");
+  command->add_flag("--profile", flight_command->profile, "print the CPU time of every stage");
   command->add_flag("--force", a.force, "write into a folder that is not empty");
-  command->callback([hover_command] { hover_and_print(*hover_command); });
+  command->callback([flight_command] { fly_and_print(*flight_command); });
 }
 
 }  // namespace placegraph::apps

@@ -51,7 +51,7 @@ std::string config(const ConfigArguments& arguments) {
   require(arguments.of == "run" || arguments.of == "hover",
           "--of: '" + arguments.of + "' is none of run, hover");
   std::string text =
-      arguments.of == "hover" ? text_of<HoverOptions>(arguments) : text_of<RunOptions>(arguments);
+      arguments.of == "hover" ? text_of<FlightOptions>(arguments) : text_of<RunOptions>(arguments);
   if (!arguments.out.empty()) write_file(arguments.out, text);
   return text;
 }

@@ -39,8 +39,8 @@ TimeSpan parse_span(const std::string& text) {
   throw ArgumentError("--blind: '" + text + "' is not of the form FROM:TO in seconds");
 }
 
-HoverRunOptions hover_options(const HoverArguments& arguments, const ImuNoise& noise) {
-  HoverRunOptions options;
+FlightRunOptions flight_options(const FlightArguments& arguments, const ImuNoise& noise) {
+  FlightRunOptions options;
   PositionFilterOptions& filter = options.hover.filter;
   filter.gyro_noise = noise.gyro;
   filter.accel_noise = noise.accel;
@@ -65,12 +65,12 @@ HoverRunOptions hover_options(const HoverArguments& arguments, const ImuNoise& n
   return options;
 }
 
-Flight open_flight(const HoverArguments& arguments) {
+Flight open_flight(const FlightArguments& arguments) {
   require(is_euroc(arguments.flight),
           arguments.flight + ": is no folder with mav0/cam0/data.csv (EuRoC's layout)");
   Flight flight{open_euroc_body(arguments.flight), {}, {}, {}, {}, {}};
   flight.imu = read_imu(flight.body.mav_folder + "/imu0");
-  flight.options = hover_options(arguments, flight.imu.noise);
+  flight.options = flight_options(arguments, flight.imu.noise);
   const std::string beside = (fs::path(arguments.flight) / "markers.yaml").string();
   if (!arguments.no_markers)
     flight.layout = read_marker_layout(arguments.markers.empty() ? beside : arguments.markers);

@@ -9,7 +9,7 @@
 
 namespace placegraph::apps {
 
-struct HoverArguments {
+struct FlightArguments {
   std::string flight, out;            ///< folder in EuRoC's layout, and that of the results
   std::string markers;                ///< layout of the markers; empty: markers.yaml in `flight`
   std::string true_markers;           ///< layout that mapped markers are judged by; empty: none
@@ -26,7 +26,7 @@ struct HoverArguments {
 struct Flight {
   EurocBody body;
   ImuRecording imu;
-  HoverRunOptions options;
+  FlightRunOptions options;
   MarkerLayout layout, true_layout;
   std::vector<BodyState> truth;  ///< empty: there is none
 };
@@ -36,9 +36,9 @@ TimeSpan parse_span(const std::string& text);
 
 /// The options that the arguments ask for; the noise of the inertial sensor is the default of the
 /// filter's. Throws ArgumentError.
-HoverRunOptions hover_options(const HoverArguments& arguments, const ImuNoise& noise);
+FlightRunOptions flight_options(const FlightArguments& arguments, const ImuNoise& noise);
 
 /// Reads all but the images. Throws ArgumentError, FileError.
-Flight open_flight(const HoverArguments& arguments);
+Flight open_flight(const FlightArguments& arguments);
 
 }  // namespace placegraph::apps

@@ -16,10 +16,10 @@ using nlohmann::json;
 namespace {
 
 /// Times between believed markers, from one second on.
-std::vector<double> outages_of(const HoverRun& run) {
+std::vector<double> outages_of(const FlightRun& run) {
   std::vector<double> outages;
   std::int64_t last_ns = -1;
-  for (const HoverFrame& frame : run.frames) {
+  for (const FlightFrame& frame : run.frames) {
     if (!frame.markers) continue;
     const double gap_s = 1e-9 * static_cast<double>(frame.stamp_ns - last_ns);
     if (last_ns >= 0 && gap_s >= 1) outages.push_back(gap_s);
@@ -30,9 +30,9 @@ std::vector<double> outages_of(const HoverRun& run) {
 
 }  // namespace
 
-std::vector<BodyState> answers_of(const HoverRun& run) {
+std::vector<BodyState> answers_of(const FlightRun& run) {
   std::vector<BodyState> states;
-  for (const HoverFrame& frame : run.frames)
+  for (const FlightFrame& frame : run.frames)
     if (frame.outcome) states.push_back(frame.state);
   return states;
 }
@@ -54,7 +54,7 @@ json describe_error(const std::vector<BodyState>& truth, const std::vector<BodyS
           {"anees_attitude", number(error.anees_attitude)}};
 }
 
-json describe_smoother(const std::vector<BodyState>& truth, const HoverRun& run,
+json describe_smoother(const std::vector<BodyState>& truth, const FlightRun& run,
                        const std::vector<BodyState>& smoothed) {
   json smoother = describe_error(truth, smoothed);
   std::vector<BodyState> filtered = answers_of(run);
@@ -68,9 +68,9 @@ json describe_smoother(const std::vector<BodyState>& truth, const HoverRun& run,
   return smoother;
 }
 
-json describe_drift(const std::vector<BodyState>& truth, const HoverRun& run) {
+json describe_drift(const std::vector<BodyState>& truth, const FlightRun& run) {
   std::vector<BodyState> since;
-  for (const HoverFrame& frame : run.frames) {
+  for (const FlightFrame& frame : run.frames) {
     if (frame.markers) since.clear();
     if (frame.outcome) since.push_back(frame.state);
   }
@@ -82,12 +82,12 @@ json describe_drift(const std::vector<BodyState>& truth, const HoverRun& run) {
           {"percent", 100 * error.end_error_m / error.way_m}};
 }
 
-json describe_flight(const HoverRun& run, std::int64_t first_ns) {
+json describe_flight(const FlightRun& run, std::int64_t first_ns) {
   json lost = json::array(), stages = json::array();
   int with_flow = 0, with_markers = 0;
   std::optional<double> start_s;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
-    const HoverFrame& frame = run.frames[i];
+    const FlightFrame& frame = run.frames[i];
     if (!frame.outcome) lost.push_back(i);
     if (frame.outcome && !start_s) start_s = 1e-9 * static_cast<double>(frame.stamp_ns - first_ns);
     with_flow += static_cast<bool>(frame.flow);
@@ -110,11 +110,11 @@ json describe_flight(const HoverRun& run, std::int64_t first_ns) {
           {"stages", stages}};
 }
 
-std::string frames_csv(const HoverRun& run) {
+std::string frames_csv(const FlightRun& run) {
   std::string text =
       "stamp_ns,answered,flow,flow_points,flow_chi2,markers,markers_seen,sigma_x_m,sigma_y_m,sigma_"
       "z_m,why\n";
-  for (const HoverFrame& frame : run.frames) {
+  for (const FlightFrame& frame : run.frames) {
     const Eigen::Vector3d sigma = frame.state.covariance.diagonal().head<3>().cwiseSqrt();
     text += fmt::format("{},{:d},{:d},{},{:.3f},{:d},{},{:.5f},{:.5f},{:.5f},{}\n", frame.stamp_ns,
                         static_cast<bool>(frame.outcome), static_cast<bool>(frame.flow),

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "apps/run/flight_report.h"
-#include "apps/run/hover_map_report.h"
+#include "apps/run/flight_map_report.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"
@@ -20,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-Trajectory trajectory_of(const HoverRun& run) {
+Trajectory trajectory_of(const FlightRun& run) {
   Trajectory trajectory;
-  for (const HoverFrame& frame : run.frames) {
+  for (const FlightFrame& frame : run.frames) {
     trajectory.poses.push_back({frame.state.stamp_ns, std::nullopt});
     if (!frame.outcome) trajectory.poses.back().stamp_ns = frame.stamp_ns;
     if (frame.outcome) trajectory.poses.back().T_world_body = frame.state.T_world_body.isometry();
@@ -32,13 +32,13 @@ Trajectory trajectory_of(const HoverRun& run) {
 
 /// What came of it.
 struct Flown {
-  HoverRun run;
+  FlightRun run;
   std::vector<BodyState> smoothed;
   std::optional<MarkerMap> map;
   json summary;
 };
 
-Flown fly(const HoverArguments& arguments, const Flight& flight) {
+Flown fly(const FlightArguments& arguments, const Flight& flight) {
   const EurocBody& body = flight.body;
   Flown flown;
   const Stopwatch watch;
@@ -46,7 +46,7 @@ Flown fly(const HoverArguments& arguments, const Flight& flight) {
     Progress progress("hovering " + body.images->name(),
                       static_cast<std::int64_t>(body.images->size()));
     flown.run =
-        run_hover(*body.images, flight.imu, body.T_body_cam, flight.layout, flight.options,
+        run_flight(*body.images, flight.imu, body.T_body_cam, flight.layout, flight.options,
                   [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
   }
   json& summary = flown.summary;
@@ -62,13 +62,13 @@ Flown fly(const HoverArguments& arguments, const Flight& flight) {
   }
   if (arguments.smooth) {
     const Stopwatch smoothing;
-    flown.smoothed = smooth_hover(flown.run, flight.imu, body.T_body_cam, flight.options.hover);
+    flown.smoothed = smooth_flight(flown.run, flight.imu, body.T_body_cam, flight.options.hover);
     summary["smoother_cpu_ms_per_frame"] = smoothing.cpu_ms() / frames;
     if (!flight.truth.empty())
       summary["smoother"] = describe_smoother(flight.truth, flown.run, flown.smoothed);
   }
   if (arguments.map_markers) {
-    flown.map = map_hover_markers(*body.images, flown.run, body.T_body_cam, flight.layout,
+    flown.map = map_flight_markers(*body.images, flown.run, body.T_body_cam, flight.layout,
                                   flight.options.hover);
     summary["marker_map"] = describe_marker_map(*flown.map, flight.layout, flight.true_layout);
   }
@@ -91,13 +91,13 @@ void write_results(const std::string& folder, const Flown& flown, const MarkerLa
 
 }  // namespace
 
-HoverResult hover(const HoverArguments& arguments) {
+FlightResult hover(const FlightArguments& arguments) {
   require_free_folder(arguments.out, arguments.force);
   const Flight flight = open_flight(arguments);
   const OutputFolder folder(arguments.out);
   const Flown flown = fly(arguments, flight);
   write_results(arguments.out, flown, flight.layout);
-  HoverResult result{arguments.out, flown.summary, {}};
+  FlightResult result{arguments.out, flown.summary, {}};
   if (answers_of(flown.run).empty())
     result.no_answer = arguments.flight + ": no image could be told a state (" +
                        flown.run.frames.back().outcome.reason + ")";
@@ -107,7 +107,7 @@ HoverResult hover(const HoverArguments& arguments) {
   return result;
 }
 
-std::string to_text(const HoverResult& result) {
+std::string to_text(const FlightResult& result) {
   const json& summary = result.summary;
   std::string text =
       fmt::format("{}: {} of {} frames answered, {} with flow, {} with markers\n",
@@ -128,9 +128,9 @@ std::string to_text(const HoverResult& result) {
                             result.out);
 }
 
-std::string to_json(const HoverResult& result) { return result.summary.dump(1) + "\n"; }
+std::string to_json(const FlightResult& result) { return result.summary.dump(1) + "\n"; }
 
-std::string stages_text(const HoverResult& result) {
+std::string stages_text(const FlightResult& result) {
   const double frames = result.summary["frames"].get<double>();
   std::string text = fmt::format("{:<16} {:>9} {:>13}\n", "stage", "calls", "CPU ms/frame");
   for (const json& stage : result.summary["stages"])

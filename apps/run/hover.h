@@ -7,7 +7,7 @@
 
 namespace placegraph::apps {
 
-struct HoverResult {
+struct FlightResult {
   std::string out;                       ///< the folder of the results
   nlohmann::json summary;                ///< what result.json in it says
   std::optional<std::string> no_answer;  ///< no image has a state, or no marker a place: why
@@ -15,13 +15,13 @@ struct HoverResult {
 
 /// `placegraph hover`: where a flying robot was; writes the results into their folder. Progress
 /// goes to stderr. Throws ArgumentError, FileError.
-HoverResult hover(const HoverArguments& arguments);
+FlightResult hover(const FlightArguments& arguments);
 
 /// What was found in a few lines.
-std::string to_text(const HoverResult& result);
+std::string to_text(const FlightResult& result);
 /// result.json.
-std::string to_json(const HoverResult& result);
+std::string to_json(const FlightResult& result);
 /// The table of the processor's time in each stage.
-std::string stages_text(const HoverResult& result);
+std::string stages_text(const FlightResult& result);
 
 }  // namespace placegraph::apps

@@ -14,7 +14,7 @@ std::vector<DataNote> notes_of(const Dataset& dataset, const RunOptions& options
   std::vector<DataNote> notes = dataset.notes();
   if (choose_sensor(dataset, options.sensor) == Sensor::kStereo)
     if (const auto note =
-            odd_rows(look_at_rows(dataset), dataset.calibration(Sensor::kStereo).camera))
+            odd_rows(check_rows(dataset), dataset.calibration(Sensor::kStereo).camera))
       notes.push_back(*note);
   if (options.camera_height_m > 0)
     if (const auto note = odd_camera_height(options.camera_height_m)) notes.push_back(*note);
@@ -29,7 +29,7 @@ std::vector<DataNote> notes_of_motion(const RunResult& run, const Trajectory& op
     const NearestSides sides = nearest_sides(run.map, *run.calibration.camera_height_m);
     auto note = odd_sides(sides);
     if (!note && !sides.are_upright())
-      note = odd_posture(run.calibration.camera, turns_of(optimized));
+      note = odd_posture(run.calibration.camera, rotations_of(optimized));
     if (note) notes.push_back(*note);
   }
   return notes;

@@ -37,7 +37,7 @@ MapSemanticResult map_semantic(const MapSemanticArguments& a) {
                      earth ? std::optional(earth->origin) : std::nullopt);
   MapSemanticResult result{a.map, a.out, {}};
   result.summary = {
-      {"keyframes", mapper.sights().size()},
+      {"keyframes", mapper.observations().size()},
       {"cells", std::count_if(semantic.cells.begin(), semantic.cells.end(),
                               [](const SemanticCell& cell) { return cell.label >= 0; })}};
   if (!earth)  // true scenes are not on the earth

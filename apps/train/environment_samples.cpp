@@ -58,7 +58,7 @@ std::vector<Eigen::Vector3d> corner_points(const Frame& frame, const Camera& cam
   return points;
 }
 
-EnvironmentEvidence evidence_of(const Frame& frame, const Camera& camera, const SceneEye& eye,
+EnvironmentEvidence evidence_of(const Frame& frame, const Camera& camera, const SurfaceLabeller& eye,
                                 bool with_depth) {
   EnvironmentEvidence evidence;
   evidence.see(eye.look(frame, false).shares);
@@ -104,7 +104,7 @@ std::optional<Frame> handheld_view(const SyntheticWorld& world, const nlohmann::
 
 /// `count` of such views, the kinds of rooms in turn.
 void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int count,
-                  const SceneEye& eye, std::vector<EnvironmentSample>& samples) {
+                  const SurfaceLabeller& eye, std::vector<EnvironmentSample>& samples) {
   std::vector<std::vector<const nlohmann::json*>> rooms(kEnvironmentCount);
   for (const nlohmann::json& room : plan.at("rooms"))
     if (const auto kind = kind_of_name(room.at("name").get<std::string>()))
@@ -125,7 +125,7 @@ void add_handheld(const SyntheticWorld& world, const nlohmann::json& plan, int c
 }  // namespace
 
 std::vector<EnvironmentSample> samples_of_world(const std::string& name, std::uint64_t seed,
-                                                int frames, const SceneEye& eye) {
+                                                int frames, const SurfaceLabeller& eye) {
   std::vector<EnvironmentSample> samples;
   SyntheticOptions options;
   options.world = name;
@@ -148,7 +148,7 @@ std::vector<EnvironmentSample> samples_of_world(const std::string& name, std::ui
   return samples;
 }
 
-std::vector<EnvironmentSample> samples_of_pictures(const std::string& data, const SceneEye& eye) {
+std::vector<EnvironmentSample> samples_of_pictures(const std::string& data, const SurfaceLabeller& eye) {
   std::vector<EnvironmentSample> samples;
   constexpr double kStreetShare = 0.12, kRoadShare = 0.03;
   const LabelledSet set = read_labelled_set(data);

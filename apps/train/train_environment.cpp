@@ -55,11 +55,11 @@ std::string lines_of(const char* set, const EnvironmentScore& score) {
 
 TrainEnvironmentResult train_environment(const TrainEnvironmentArguments& arguments) {
   require_free(arguments.out, arguments.force);
-  const SceneEye eye(std::make_shared<const SceneModel>(
+  const SurfaceLabeller eye(std::make_shared<const SceneModel>(
                          load_scene_model(SceneModel::Kind::kSurfaces, arguments.model)),
                      {});
   const std::vector<std::string> worlds{"town-loop", "corridor-loop", "warehouse"};
-  EnvironmentSamples lesson, test;
+  EnvironmentSamples training_set, test;
   Progress progress("rendering",
                     static_cast<std::int64_t>(worlds.size() *
                                               (arguments.seeds.size() + arguments.left_out.size())),
@@ -67,7 +67,7 @@ TrainEnvironmentResult train_environment(const TrainEnvironmentArguments& argume
   std::int64_t done = 0;
   for (const std::string& world : worlds) {
     for (const std::uint64_t seed : arguments.seeds) {
-      append(samples_of_world(world, seed, arguments.frames, eye), lesson);
+      append(samples_of_world(world, seed, arguments.frames, eye), training_set);
       progress.update(++done);
     }
     for (const std::uint64_t seed : arguments.left_out) {
@@ -75,21 +75,21 @@ TrainEnvironmentResult train_environment(const TrainEnvironmentArguments& argume
       progress.update(++done);
     }
   }
-  if (!arguments.data.empty()) append(samples_of_pictures(arguments.data, eye), lesson);
-  const EnvironmentModel model = train_environments(lesson, arguments.penalty);
+  if (!arguments.data.empty()) append(samples_of_pictures(arguments.data, eye), training_set);
+  const EnvironmentModel model = train_environments(training_set, arguments.penalty);
   write_file(arguments.out, to_text(model));
-  return {arguments.out, score_of(model, lesson), score_of(model, test)};
+  return {arguments.out, score_of(model, training_set), score_of(model, test)};
 }
 
 std::string to_json(const TrainEnvironmentResult& result) {
   const nlohmann::ordered_json report = {{"out", result.out},
-                                         {"lesson", described(result.lesson)},
+                                         {"lesson", described(result.training_set)},
                                          {"left_out", described(result.left_out)}};
   return report.dump(2) + "\n";
 }
 
 std::string to_text(const TrainEnvironmentResult& result) {
-  return lines_of("lesson", result.lesson) + lines_of("left_out", result.left_out);
+  return lines_of("lesson", result.training_set) + lines_of("left_out", result.left_out);
 }
 
 }  // namespace placegraph::apps

@@ -26,7 +26,7 @@ struct EnvironmentScore {
 
 struct TrainEnvironmentResult {
   std::string out;
-  EnvironmentScore lesson, left_out;
+  EnvironmentScore training_set, left_out;
 };
 
 /// `placegraph train environment`: learns what kind of surroundings a view shows and writes the

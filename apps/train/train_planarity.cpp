@@ -20,7 +20,7 @@ namespace {
 
 using synthetic::LabelledCloud;
 
-struct CloudLesson {
+struct CloudTrainingSet {
   std::vector<PlanaritySample> samples;
   int clouds = 0;
 };
@@ -28,10 +28,10 @@ struct CloudLesson {
 /// Segments whose points are nearly all of one plane, and those that are mostly something else;
 /// what is in between teaches nothing.
 void add_samples(const LabelledCloud& labelled, const CloudPlanesOptions& options,
-                 CloudLesson& lesson) {
+                 CloudTrainingSet& training_set) {
   constexpr double kPlane = 0.9, kNoPlane = 0.6;
   const JudgedSegments judged = segments_to_judge(labelled.cloud, options);
-  ++lesson.clouds;
+  ++training_set.clouds;
   for (std::size_t k = 0; k < judged.segments.size(); ++k) {
     std::map<int, int> share;
     for (const int c : judged.segments[k].cells)
@@ -42,13 +42,13 @@ void add_samples(const LabelledCloud& labelled, const CloudPlanesOptions& option
       if (label > 0) most = std::max(most, count);
     const double purity = most / judged.segments[k].sums.count();
     if (purity < kPlane && purity > kNoPlane) continue;
-    lesson.samples.push_back({judged.features[k], purity >= kPlane});
+    training_set.samples.push_back({judged.features[k], purity >= kPlane});
   }
 }
 
 /// Frames of a rendered world with the noise of a depth camera or of stereo.
 void add_clouds_of_world(const std::string& name, const TrainPlanarityArguments& arguments,
-                         Random& random, CloudLesson& lesson) {
+                         Random& random, CloudTrainingSet& training_set) {
   SyntheticOptions world_options;
   world_options.world = name;
   world_options.seed = arguments.seed;
@@ -68,15 +68,15 @@ void add_clouds_of_world(const std::string& name, const TrainPlanarityArguments&
       labelled.labels.push_back(seen.planes.at<std::uint16_t>(y, x));
       if (p.allFinite()) p *= std::max(0.1, 1 + random.normal(0, share * p.z()));
     }
-    add_samples(labelled, {}, lesson);
+    add_samples(labelled, {}, training_set);
   }
 }
 
-PlanarityScore score_of(const PlanarityModel& model, const CloudLesson& lesson) {
+PlanarityScore score_of(const PlanarityModel& model, const CloudTrainingSet& training_set) {
   PlanarityScore score;
-  score.clouds = lesson.clouds;
-  score.segments = static_cast<int>(lesson.samples.size());
-  for (const PlanaritySample& sample : lesson.samples) {
+  score.clouds = training_set.clouds;
+  score.segments = static_cast<int>(training_set.samples.size());
+  for (const PlanaritySample& sample : training_set.samples) {
     const bool kept = model.probability(sample.features) >= CloudPlanesOptions{}.min_probability;
     score.right += kept == sample.planar;
     (sample.planar ? score.planes : score.others) += 1;
@@ -94,19 +94,19 @@ TrainPlanarityResult train_planarity(const TrainPlanarityArguments& arguments) {
   require_free(arguments.out, arguments.force);
   // Every fourth cloud is left out of training and judged.
   constexpr int kFold = 4;
-  CloudLesson lesson, test;
+  CloudTrainingSet training_set, test;
   Progress progress("taking clouds", arguments.clouds, "clouds");
   for (int i = 0; i < arguments.clouds; ++i) {
     Random random(arguments.seed, static_cast<std::uint64_t>(i) + 1);
-    add_samples(synthetic::random_cloud(random), {}, i % kFold == 0 ? test : lesson);
+    add_samples(synthetic::random_cloud(random), {}, i % kFold == 0 ? test : training_set);
     progress.update(i + 1);
   }
   Random random(arguments.seed);
   for (const std::string& world : arguments.worlds)
-    add_clouds_of_world(world, arguments, random, lesson);
-  const PlanarityModel model = placegraph::train_planarity(lesson.samples, arguments.rounds);
+    add_clouds_of_world(world, arguments, random, training_set);
+  const PlanarityModel model = placegraph::train_planarity(training_set.samples, arguments.rounds);
   write_file(arguments.out, to_text(model));
-  return {arguments.out, score_of(model, lesson), score_of(model, test)};
+  return {arguments.out, score_of(model, training_set), score_of(model, test)};
 }
 
 std::string to_json(const TrainPlanarityResult& result) {

@@ -187,9 +187,9 @@ TrainSceneResult train_scene(const TrainSceneArguments& a, SceneModel::Kind kind
   SceneModel model = blank_model(kind, set.classes, old);
   model.origin = origin_of(a, pictures.learned.size(), old);
   const Stopwatch watch;
-  const std::vector<LessonPicture> lesson =
-      lesson_pictures(set, pictures.learned, model, a.options);
-  std::vector<SceneExample> examples = make_examples(lesson, model, a.options);
+  const std::vector<TrainingPicture> training_set =
+      training_pictures(set, pictures.learned, model, a.options);
+  std::vector<SceneExample> examples = make_examples(training_set, model, a.options);
   model = train_scene_model(
       std::move(model), std::move(examples), a.options.training, a.options.threads,
       [&](const std::string& doing) {
@@ -198,7 +198,7 @@ TrainSceneResult train_scene(const TrainSceneArguments& a, SceneModel::Kind kind
       old);
   write_scene_model(a.out, model);
   TrainSceneResult result{a.out,
-                          lesson.size(),
+                          training_set.size(),
                           watch.wall_ms() / 1e3,
                           model.classes,
                           model.smoothness,

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/train/lesson_pictures.h"
+#include "apps/train/training_pictures.h"
 
 namespace placegraph::apps {
 
@@ -19,7 +19,7 @@ struct TrainSceneArguments {
   std::string update;     ///< a model to add these data to; empty: none
   bool ablation = false;  ///< each part of the model is judged too
   bool force = false;     ///< overwrite files
-  LessonOptions options;
+  TrainingPictureOptions options;
 };
 
 /// A part more of the model than the one before, judged.

@@ -12,7 +12,7 @@ Image draw_markers(const Image& grey, const std::vector<DrawnMarker>& markers,
   cv::cvtColor(grey, drawing, cv::COLOR_GRAY2BGR);
   const cv::Scalar outline(0, 200, 255), axes[3] = {{0, 0, 255}, {0, 200, 0}, {255, 80, 0}};
   for (const DrawnMarker& marker : markers) {
-    const SquareCorners& corners = marker.sighting.corners_px;
+    const SquareCorners& corners = marker.observation.corners_px;
     for (int k = 0; k < 4; ++k)
       cv::line(drawing, sixteenths(corners[k]), sixteenths(corners[(k + 1) % 4]), outline, 1,
                cv::LINE_AA, kShift);
@@ -29,7 +29,7 @@ Image draw_markers(const Image& grey, const std::vector<DrawnMarker>& markers,
       }
     }
     const Eigen::Vector2d middle = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
-    cv::putText(drawing, std::to_string(marker.sighting.id),
+    cv::putText(drawing, std::to_string(marker.observation.id),
                 {cvRound(middle.x()) + 4, cvRound(middle.y()) - 4}, cv::FONT_HERSHEY_SIMPLEX, 0.5,
                 outline, 1, cv::LINE_AA);
   }

@@ -9,7 +9,7 @@ namespace placegraph::apps {
 /// A marker to draw: its outline, its number, and its axes (x red, y green, z blue) if its pose is
 /// known.
 struct DrawnMarker {
-  MarkerSighting sighting;
+  MarkerObservation observation;
   std::optional<SE3> T_cam_marker;
   double side_m = 0;
 };

@@ -32,7 +32,7 @@ CueSetting cue_setting(const FlowArguments& arguments) {
   require(arguments.gyro.empty() || arguments.dt_s > 0, "--gyro: needs --dt");
   require(arguments.dt_s == 0 || (arguments.dt_s >= 1e-6 && arguments.dt_s <= 1e4),
           "--dt: between 1e-6 and 1e4 s");
-  require(std::isfinite(arguments.turn_sigma), "--turn-sigma: is not finite");
+  require(std::isfinite(arguments.rotation_sigma), "--turn-sigma: is not finite");
   CueSetting setting;
   setting.camera = read_calib(arguments.calib);
   if (arguments.dt_s > 0) setting.dt_s = arguments.dt_s;
@@ -46,7 +46,7 @@ CueSetting cue_setting(const FlowArguments& arguments) {
   if (!arguments.turn.empty()) turn = vector_of("--turn", arguments.turn);
   if (turn)
     setting.turn = {SO3::exp(*turn),
-                    arguments.turn_sigma * arguments.turn_sigma * Eigen::Matrix3d::Identity()};
+                    arguments.rotation_sigma * arguments.rotation_sigma * Eigen::Matrix3d::Identity()};
   return setting;
 }
 

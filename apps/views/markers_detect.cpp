@@ -45,12 +45,12 @@ double side_of(const MarkersDetectArguments& arguments, const MarkerLayout& layo
 }
 
 /// Where the camera is in the layout, by what is seen of it.
-MarkerAnswer camera_in(const MarkerLayout& layout, const Camera& camera, const Image& grey,
+MarkerPoseEstimate camera_in(const MarkerLayout& layout, const Camera& camera, const Image& grey,
                        MarkerView& view) {
   if (!layout.beacons_world.empty()) view.beacons = detect_beacons(grey);
   if (!layout.markers.empty() || !layout.beacons_world.empty())
     return MarkerFilter({}, layout, camera, SE3()).observe(view);
-  MarkerAnswer answer;
+  MarkerPoseEstimate answer;
   answer.outcome = Outcome::failure(Outcome::Code::kTooFewData,
                                     "the layout gives no marker or beacon its place");
   return answer;
@@ -59,12 +59,12 @@ MarkerAnswer camera_in(const MarkerLayout& layout, const Camera& camera, const I
 ordered_json marker_json(const DetectedMarker& marker, double shift_px) {
   ordered_json corners = ordered_json::array(), sigmas = ordered_json::array();
   for (int k = 0; k < 4; ++k) {
-    const Eigen::Vector2d& px = marker.sighting.corners_px[k];
+    const Eigen::Vector2d& px = marker.observation.corners_px[k];
     corners.push_back({px.x() + shift_px, px.y() + shift_px});
-    const Eigen::Vector2d sigma = marker.sighting.corner_covariance(k).diagonal().cwiseSqrt();
+    const Eigen::Vector2d sigma = marker.observation.corner_covariance(k).diagonal().cwiseSqrt();
     sigmas.push_back({sigma.x(), sigma.y()});
   }
-  ordered_json json = {{"id", marker.sighting.id},
+  ordered_json json = {{"id", marker.observation.id},
                        {"corners_px", corners},
                        {"corner_sigma_px", sigmas},
                        {"side_m", nullptr},
@@ -79,8 +79,8 @@ ordered_json marker_json(const DetectedMarker& marker, double shift_px) {
 }
 
 std::string marker_lines(const DetectedMarker& marker, double shift_px) {
-  std::string text = fmt::format("  {:4d} ", marker.sighting.id);
-  for (const Eigen::Vector2d& px : marker.sighting.corners_px)
+  std::string text = fmt::format("  {:4d} ", marker.observation.id);
+  for (const Eigen::Vector2d& px : marker.observation.corners_px)
     text += fmt::format(" ({:.2f}, {:.2f})", px.x() + shift_px, px.y() + shift_px);
   text += " px\n";
   for (const MarkerPose& pose : marker.poses.poses) {
@@ -97,7 +97,7 @@ void write_drawing(const std::string& path, const Image& grey,
                    const std::vector<DetectedMarker>& markers, const Camera& camera) {
   std::vector<DrawnMarker> drawn;
   for (const DetectedMarker& marker : markers) {
-    drawn.push_back({marker.sighting, std::nullopt, marker.side_m});
+    drawn.push_back({marker.observation, std::nullopt, marker.side_m});
     if (marker.poses.outcome) drawn.back().T_cam_marker = marker.poses.poses[0].T_cam_marker;
   }
   write_png(path, draw_markers(grey, drawn, camera));
@@ -131,9 +131,9 @@ MarkersDetectResult markers_detect(const MarkersDetectArguments& arguments) {
   MarkerView view;
   view.stamp_ns = 1;
   view.markers = detector.detect(grey, &camera);
-  for (const MarkerSighting& sighting : view.markers) {
-    DetectedMarker found{sighting, side_of(arguments, layout, sighting.id), {}};
-    if (found.side_m > 0) found.poses = estimate_marker_poses(sighting, found.side_m, camera);
+  for (const MarkerObservation& observation : view.markers) {
+    DetectedMarker found{observation, side_of(arguments, layout, observation.id), {}};
+    if (found.side_m > 0) found.poses = estimate_marker_poses(observation, found.side_m, camera);
     result.markers.push_back(std::move(found));
   }
   if (!arguments.layout.empty()) result.camera = camera_in(layout, camera, grey, view);
@@ -151,7 +151,7 @@ std::string to_text(const MarkersDetectResult& result) {
   for (const DetectedMarker& marker : result.markers)
     text += marker_lines(marker, result.shift_px());
   if (result.camera && result.camera->outcome) {
-    const Eigen::Vector3d& t = result.camera->sighting.T_world_body.translation();
+    const Eigen::Vector3d& t = result.camera->observation.T_world_body.translation();
     text += fmt::format("  camera at {:.4f} {:.4f} {:.4f} m in the layout's world\n", t.x(), t.y(),
                         t.z());
   } else if (result.camera) {
@@ -171,7 +171,7 @@ std::string to_json(const MarkersDetectResult& result) {
     json["T_world_cam"] = nullptr;
     json["outcome"] = to_string(result.camera->outcome.code);
     if (result.camera->outcome) {
-      const PoseSighting& pose = result.camera->sighting;
+      const PoseMeasurement& pose = result.camera->observation;
       json["T_world_cam"] = rows_json(pose.T_world_body.matrix());
       json["covariance"] = rows_json(pose.covariance);
     }

@@ -27,7 +27,7 @@ struct MarkersDetectArguments {
 
 /// A marker and what it is known to be.
 struct DetectedMarker {
-  MarkerSighting sighting;  ///< its pixels counted from the first pixel's centre
+  MarkerObservation observation;  ///< its pixels counted from the first pixel's centre
   double side_m = 0;        ///< 0: not known
   MarkerPoses poses;        ///< both that explain it, where the side is known
 };
@@ -35,7 +35,7 @@ struct DetectedMarker {
 struct MarkersDetectResult {
   std::string image, dictionary, origin;
   std::vector<DetectedMarker> markers;
-  std::optional<MarkerAnswer> camera;  ///< where it is in the layout, if there is one
+  std::optional<MarkerPoseEstimate> camera;  ///< where it is in the layout, if there is one
   double cpu_ms = 0;
 
   /// What `origin` adds to pixels that are counted from the first pixel's centre.

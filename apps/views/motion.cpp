@@ -31,11 +31,11 @@ int distinct_matches(const MatchFile& file) {
 }
 
 /// By matches of pixels, where enough of them differ.
-MotionAnswer motion_by_pixels(const MotionArguments& arguments, const Camera& camera,
+MotionEstimate motion_by_pixels(const MotionArguments& arguments, const Camera& camera,
                               Random& random) {
   const MatchFile file = read_matches(arguments.in);
   const int distinct = distinct_matches(file);
-  MotionAnswer answer;
+  MotionEstimate answer;
   if (distinct < kFewestDistinct)
     answer.outcome =
         Outcome::failure(Outcome::Code::kTooFewData,
@@ -50,17 +50,17 @@ MotionAnswer motion_by_pixels(const MotionArguments& arguments, const Camera& ca
   return answer;
 }
 
-MotionAnswer answer_of(const MotionArguments& arguments, const std::optional<Camera>& camera,
+MotionEstimate answer_of(const MotionArguments& arguments, const std::optional<Camera>& camera,
                        Random& random) {
   if (arguments.model == "3d3d") {
     const PointPairFile file = read_point_pairs(arguments.in);
-    MotionAnswer answer = motion_by_clouds(arguments.options, file, random);
+    MotionEstimate answer = motion_by_clouds(arguments.options, file, random);
     answer.matches = static_cast<int>(file.points_a.size());
     return answer;
   }
   if (arguments.model == "3d2d") {
     const SeenPointFile file = read_seen_points(arguments.in);
-    MotionAnswer answer = motion_by_seen_points(arguments.options, *camera, file, random);
+    MotionEstimate answer = motion_by_seen_points(arguments.options, *camera, file, random);
     answer.matches = static_cast<int>(file.px.size());
     return answer;
   }
@@ -89,7 +89,7 @@ MotionResult motion(const MotionArguments& arguments) {
   const Stopwatch watch;
   MotionResult result{arguments.in, answer_of(arguments, camera, random), 0, {}};
   result.cpu_ms = watch.cpu_ms();
-  MotionAnswer& answer = result.answer;
+  MotionEstimate& answer = result.answer;
   if (answer.model.empty()) answer.model = arguments.model;
   if (!answer.outcome) result.no_answer = arguments.in + ": " + answer.outcome.reason;
   if (!arguments.out.empty()) write_file(arguments.out, to_json(result));
@@ -98,7 +98,7 @@ MotionResult motion(const MotionArguments& arguments) {
 
 std::string to_text(const MotionResult& result) {
   constexpr double kDeg = 180 / std::numbers::pi;
-  const MotionAnswer& answer = result.answer;
+  const MotionEstimate& answer = result.answer;
   std::string text = fmt::format("{}: {}, {} of {} matches\n", result.in, answer.model,
                                  answer.inliers.size(), answer.matches);
   if (answer.R_ref_cur) {
@@ -128,7 +128,7 @@ std::string to_text(const MotionResult& result) {
 }
 
 std::string to_json(const MotionResult& result) {
-  const MotionAnswer& answer = result.answer;
+  const MotionEstimate& answer = result.answer;
   ordered_json json;
   json["in"] = result.in;
   json["matches"] = answer.matches;

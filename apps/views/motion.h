@@ -19,7 +19,7 @@ struct MotionArguments {
 
 struct MotionResult {
   std::string in;
-  MotionAnswer answer;
+  MotionEstimate answer;
   double cpu_ms = 0;
   std::optional<std::string> no_answer;  ///< why there is no motion; `answer` is evidence then
 };

@@ -59,7 +59,7 @@ const std::vector<std::string>& motion_model_names() {
   return names;
 }
 
-MotionAnswer motion_by_two_views(const std::string& name, const MotionModelOptions& asked,
+MotionEstimate motion_by_two_views(const std::string& name, const MotionModelOptions& asked,
                                  const Camera& camera, const MatchFile& file, Random& random) {
   RelativePoseOptions options;
   const auto& names = relative_pose_model_names();
@@ -67,7 +67,7 @@ MotionAnswer motion_by_two_views(const std::string& name, const MotionModelOptio
   adopt(asked, options.two_view);
   adopt(asked, options.rotation);
   const RelativePose found = estimate_relative_pose(camera, file.px_a, file.px_b, options, random);
-  MotionAnswer answer;
+  MotionEstimate answer;
   answer.outcome = found.outcome;
   answer.model = names[static_cast<std::size_t>(found.model)];
   answer.T_ref_cur = found.T_ref_cur;
@@ -81,14 +81,14 @@ MotionAnswer motion_by_two_views(const std::string& name, const MotionModelOptio
   return answer;
 }
 
-MotionAnswer motion_by_gravity(const MotionModelOptions& asked, const Camera& camera,
+MotionEstimate motion_by_gravity(const MotionModelOptions& asked, const Camera& camera,
                                const MatchFile& file, Random& random) {
   const Verticals down = verticals_of(asked.gravity);
   GravityPoseOptions options;
   adopt(asked, options);
   const GravityPoseResult found =
       estimate_pose_with_gravity(camera, file.px_a, file.px_b, down.ref, down.cur, options, random);
-  MotionAnswer answer;
+  MotionEstimate answer;
   answer.outcome = found.outcome;
   if (found.outcome) answer.T_ref_cur = found.T_ref_cur;
   if (found.outcome || found.outcome.code == Outcome::Code::kDegenerate)
@@ -99,7 +99,7 @@ MotionAnswer motion_by_gravity(const MotionModelOptions& asked, const Camera& ca
   return answer;
 }
 
-MotionAnswer motion_by_circle(const MotionModelOptions& asked, const Camera& camera,
+MotionEstimate motion_by_circle(const MotionModelOptions& asked, const Camera& camera,
                               const MatchFile& file) {
   CircularMotionOptions options;
   if (asked.threshold_px) options.threshold_px = *asked.threshold_px;
@@ -111,7 +111,7 @@ MotionAnswer motion_by_circle(const MotionModelOptions& asked, const Camera& cam
                                        .toRotationMatrix());
   const CircularMotionResult found =
       estimate_circular_motion(camera, file.px_a, file.px_b, R_level_cam, options);
-  MotionAnswer answer;
+  MotionEstimate answer;
   answer.outcome = found.outcome;
   if (found.outcome) {
     answer.T_ref_cur = found.T_ref_cur;
@@ -127,12 +127,12 @@ MotionAnswer motion_by_circle(const MotionModelOptions& asked, const Camera& cam
   return answer;
 }
 
-MotionAnswer motion_by_seen_points(const MotionModelOptions& asked, const Camera& camera,
+MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Camera& camera,
                                    const SeenPointFile& file, Random& random) {
   Pose3d2dOptions options;
   adopt(asked, options);
   const Pose3d2dResult found = estimate_pose_3d2d(camera, file.points, file.px, options, random);
-  MotionAnswer answer;
+  MotionEstimate answer;
   answer.outcome = found.outcome;
   if (found.outcome) {
     answer.T_ref_cur = found.T_ref_cam;
@@ -145,7 +145,7 @@ MotionAnswer motion_by_seen_points(const MotionModelOptions& asked, const Camera
   return answer;
 }
 
-MotionAnswer motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
+MotionEstimate motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
                               Random& random) {
   require(asked.noise_m > 0, "--noise: must be positive");
   require(!asked.threshold_px, "--threshold: is of pixels, and 3d3d has none");
@@ -159,7 +159,7 @@ MotionAnswer motion_by_clouds(const MotionModelOptions& asked, const PointPairFi
   };
   const Pose3d3dResult found =
       estimate_pose_3d3d(cloud(file.points_a), cloud(file.points_b), options, random);
-  MotionAnswer answer;
+  MotionEstimate answer;
   answer.outcome = found.outcome;
   if (found.outcome) {
     answer.T_ref_cur = found.T_ref_cur;

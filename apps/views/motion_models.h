@@ -23,7 +23,7 @@ struct MotionModelOptions {
 };
 
 /// What every model tells of the motion between two views.
-struct MotionAnswer {
+struct MotionEstimate {
   Outcome outcome;
   std::string model;  ///< that explains the views; empty: the one that was asked for
   int matches = 0;    ///< that were read
@@ -39,19 +39,19 @@ struct MotionAnswer {
 
 /// The motion of a camera by the model `name`: auto, essential, homography or rotation. Throws
 /// ArgumentError for options out of range, as all of these do.
-MotionAnswer motion_by_two_views(const std::string& name, const MotionModelOptions& asked,
+MotionEstimate motion_by_two_views(const std::string& name, const MotionModelOptions& asked,
                                  const Camera& camera, const MatchFile& file, Random& random);
 /// By three points and both verticals. Throws ArgumentError if `gravity` is of another form.
-MotionAnswer motion_by_gravity(const MotionModelOptions& asked, const Camera& camera,
+MotionEstimate motion_by_gravity(const MotionModelOptions& asked, const Camera& camera,
                                const MatchFile& file, Random& random);
 /// Of a car, on a circle, its camera levelled by `gravity` where that is given.
-MotionAnswer motion_by_circle(const MotionModelOptions& asked, const Camera& camera,
+MotionEstimate motion_by_circle(const MotionModelOptions& asked, const Camera& camera,
                               const MatchFile& file);
 /// By points of known place [m]: the pose of the camera that sees them.
-MotionAnswer motion_by_seen_points(const MotionModelOptions& asked, const Camera& camera,
+MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Camera& camera,
                                    const SeenPointFile& file, Random& random);
 /// By points of known place [m] in both views.
-MotionAnswer motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
+MotionEstimate motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
                               Random& random);
 
 }  // namespace placegraph::apps

@@ -24,8 +24,8 @@ class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
   /// Intrinsics (distortion is ignored), both ends, their standard deviation, and c [m].
   LineReprojectionFactor(const Camera& camera, const Eigen::Vector2d& start_px,
                          const Eigen::Vector2d& end_px, double sigma_px,
-                         const Eigen::Vector3d& eye_cam = Eigen::Vector3d::Zero())
-      : inverse_sigma_(1.0 / sigma_px), hat_eye_(hat(eye_cam)) {
+                         const Eigen::Vector3d& second_in_cam = Eigen::Vector3d::Zero())
+      : inverse_sigma_(1.0 / sigma_px), hat_second_(hat(second_in_cam)) {
     K_line_ << camera.fy, 0, 0,  //
         0, camera.fx, 0,         //
         -camera.fy * camera.cx, -camera.fx * camera.cy, camera.fx * camera.fy;
@@ -41,7 +41,7 @@ class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
   /// The residual at `T_map_cam` with derivatives at `T_map_cam_lin`.
   bool compute(const SE3& T_map_cam, const Line3& line_map, const SE3& T_map_cam_lin, Residual& r,
                Jacobians* J) const {
-    const Eigen::Vector3d l = K_line_ * in_eye(transform_to(T_map_cam, line_map));
+    const Eigen::Vector3d l = K_line_ * in_second(transform_to(T_map_cam, line_map));
     const double length = l.head<2>().norm();
     if (length > kMinLength * l.norm())
       r = ends_ * l * (inverse_sigma_ / length);
@@ -51,7 +51,7 @@ class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
     Eigen::Matrix<double, 6, 6> J_pose;
     Eigen::Matrix<double, 6, 4> J_line;
     const Eigen::Vector3d l_lin =
-        K_line_ * in_eye(transform_to(T_map_cam_lin, line_map, &J_pose, &J_line));
+        K_line_ * in_second(transform_to(T_map_cam_lin, line_map, &J_pose, &J_line));
     const double length_lin = l_lin.head<2>().norm();
     Eigen::Matrix<double, 2, 3> J_l = Eigen::Matrix<double, 2, 3>::Zero();
     if (length > kMinLength * l.norm() && length_lin > kMinLength * l_lin.norm()) {
@@ -60,18 +60,18 @@ class LineReprojectionFactor final : public SizedFactor<2, SE3, Line3> {
             (inverse_sigma_ / length_lin);
     }
     const Eigen::Matrix<double, 2, 3> J_m = J_l * K_line_;
-    std::get<0>(*J).noalias() = J_m * (J_pose.topRows<3>() - hat_eye_ * J_pose.bottomRows<3>());
-    std::get<1>(*J).noalias() = J_m * (J_line.topRows<3>() - hat_eye_ * J_line.bottomRows<3>());
+    std::get<0>(*J).noalias() = J_m * (J_pose.topRows<3>() - hat_second_ * J_pose.bottomRows<3>());
+    std::get<1>(*J).noalias() = J_m * (J_line.topRows<3>() - hat_second_ * J_line.bottomRows<3>());
     return true;
   }
 
  private:
   static constexpr double kMinLength = 1e-9;
-  Eigen::Vector3d in_eye(const Line3::Coordinates& L_cam) const {
-    return L_cam.head<3>() - hat_eye_ * L_cam.tail<3>();
+  Eigen::Vector3d in_second(const Line3::Coordinates& L_cam) const {
+    return L_cam.head<3>() - hat_second_ * L_cam.tail<3>();
   }
   double inverse_sigma_;
-  Eigen::Matrix3d hat_eye_;
+  Eigen::Matrix3d hat_second_;
   Eigen::Matrix3d K_line_;
   Eigen::Matrix<double, 2, 3> ends_;
 };

@@ -12,14 +12,14 @@ namespace [[gnu::visibility("default")]] placegraph {
 /// In the plane the third component is left out (zero). A similarity measures in its own unit of
 /// length: d e / d rho_point is divided by its scale.
 template <class Group>
-struct SightLinearization {
+struct PointLinearization {
   Eigen::Vector3d e = Eigen::Vector3d::Zero();  ///< the error, in the node's frame
   /// Derivatives of the error by the tangents of the node and of the point.
   Eigen::Matrix<double, 3, Group::kDof> J_node = Eigen::Matrix<double, 3, Group::kDof>::Zero(),
                                         J_point = Eigen::Matrix<double, 3, Group::kDof>::Zero();
 
   /// Linearizes at a pose and a point; `p_node` is the measured position in the node's frame.
-  SightLinearization(const Group& T_world_node, const Eigen::Vector3d& p_world,
+  PointLinearization(const Group& T_world_node, const Eigen::Vector3d& p_world,
                      const Eigen::Vector3d& p_node) {
     constexpr int dim = Group::kDof == 3 ? 2 : 3;
     const Eigen::Matrix<double, dim, 1> seen =
@@ -43,7 +43,7 @@ struct SightLinearization {
 };
 
 /// A measured position of a point in a node's frame: r = W e, W^T W = information.
-/// e and its derivatives are those of SightLinearization.
+/// e and its derivatives are those of PointLinearization.
 template <class Group>
 class PointInNodeFactor final
     : public SizedFactor<(Group::kDof == 3 ? 2 : 3), Group, Eigen::Vector3d> {
@@ -59,7 +59,7 @@ class PointInNodeFactor final
   /// The residual and its Jacobians as above; always true.
   bool compute(const Group& T_world_node, const Eigen::Vector3d& p_world,
                typename Base::Residual& r, typename Base::Jacobians* J) const override {
-    const SightLinearization<Group> at(T_world_node, p_world, p_node_);
+    const PointLinearization<Group> at(T_world_node, p_world, p_node_);
     r.noalias() = W_ * at.e.template head<kDim>();
     if (!J) return true;
     std::get<0>(*J).noalias() = W_ * at.J_node.template topRows<kDim>();

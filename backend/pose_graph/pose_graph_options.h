@@ -11,7 +11,7 @@ enum class PoseGraphEngine { kNative, kCeres };
 enum class StepRule { kDogleg, kGaussNewton, kLevenbergMarquardt };
 
 /// The poses from which the descent begins.
-enum class PoseGraphStart {
+enum class PoseGraphInitialization {
   kAuto,       ///< the cheapest start whose minimum can be trusted
   kFile,       ///< the poses as they are
   kOdometry,   ///< measurements chained along a spanning tree, odometry first
@@ -20,7 +20,7 @@ enum class PoseGraphStart {
 };
 
 /// Name of a start as in the options: "auto", "file", "odometry", "chordal" or "certified".
-const char* to_string(PoseGraphStart start);
+const char* to_string(PoseGraphInitialization start);
 
 /// The robust cost that graduated non-convexity approaches.
 enum class GncSurrogate { kTruncated, kGemanMcClure };
@@ -47,7 +47,7 @@ struct LoopSupportOptions {
 void visit(OptionVisitor& field, LoopSupportOptions& options);
 
 /// How loops are accepted and tested, from the best supported ones on (kAuto, kGnc and kPcm).
-struct LoopGrowthOptions {
+struct LoopSetGrowthOptions {
   /// The gate of a loop's squared error is this many times the chi-squared quantile of Gaussian
   /// noise: measured loops have longer tails.
   double margin = 1.5;
@@ -60,7 +60,7 @@ struct LoopGrowthOptions {
   int max_rounds = 20;  ///< of testing every loop, at most
   void check() const;
 };
-void visit(OptionVisitor& field, LoopGrowthOptions& options);
+void visit(OptionVisitor& field, LoopSetGrowthOptions& options);
 
 /// What is done against false loops. Odometry and measured positions are always trusted.
 enum class RobustMethod {
@@ -80,7 +80,7 @@ struct RobustOptions {
   double gate_probability = 0.999;
   GncOptions gnc = {};         ///< of kGnc, kPcm and kAuto
   LoopSupportOptions support;  ///< of kGnc, kPcm and kAuto
-  LoopGrowthOptions growth;    ///< of kGnc, kPcm and kAuto
+  LoopSetGrowthOptions growth;    ///< of kGnc, kPcm and kAuto
   void check() const;
 };
 void visit(OptionVisitor& field, RobustOptions& options);
@@ -92,7 +92,7 @@ struct PoseGraphOptions {
   StepRule step_rule = StepRule::kDogleg;              ///< of the native engine
   /// With a robust method kAuto means the poses as they are (with kGnc those of the odometry),
   /// because false loops spoil the other starts.
-  PoseGraphStart start = PoseGraphStart::kAuto;
+  PoseGraphInitialization start = PoseGraphInitialization::kAuto;
   int max_iterations = 200;         ///< steps of one descent at most; kAuto may make several
   double relative_decrease = 1e-9;  ///< stop when the cost falls by less than this share
   RobustOptions robust = {};        ///< what is done against false loops

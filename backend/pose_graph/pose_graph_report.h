@@ -33,8 +33,8 @@ struct PoseGraphReport {
   double chi2_initial = 0;
   double chi2_final = 0;                              ///< the same at the optimized poses
   int iterations = 0;                                 ///< steps of all descents together
-  PoseGraphStart start_used = PoseGraphStart::kFile;  ///< of the descent that was kept; not kAuto
-  bool refined_from_certified = false;                ///< whether start_used is kCertified
+  PoseGraphInitialization initialization_used = PoseGraphInitialization::kFile;  ///< of the descent that was kept; not kAuto
+  bool refined_from_certified = false;                ///< whether initialization_used is kCertified
   std::vector<double> chi2_by_constraint;  ///< at the optimized poses, by graph.constraints
   /// Constraints that RobustOptions left out as false, in the order of graph.constraints. The sums
   /// above include them all the same.

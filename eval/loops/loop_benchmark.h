@@ -41,7 +41,7 @@ struct LoopBenchmark {
   static constexpr std::array<int, 3> kRanks = {1, 5, 10};  ///< the ranks of `recall_at`
   PrecisionRecall curve;  ///< over the best candidate of every query
   /// All candidates that count, not the best alone; in the order of the queries.
-  std::vector<ScoredAnswer> candidates;
+  std::vector<ScoredPrediction> candidates;
   std::vector<JudgedQuery> queries;  ///< ascending; all that the truth lists, and all answered ones
 };
 

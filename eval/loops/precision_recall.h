@@ -5,7 +5,7 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// One answer of a detector: how sure it is, and whether it is right.
-struct ScoredAnswer {
+struct ScoredPrediction {
   double score = 0;      ///< larger is surer; finite
   bool correct = false;  ///< whether it is right
 };
@@ -32,6 +32,6 @@ struct PrecisionRecall {
 /// Answers of equal score enter together, so that their order plays no part. `positives` is the
 /// number of right answers that exist. Throws ArgumentError if more answers than that are correct,
 /// or a score is not finite. The curve is empty without answers.
-PrecisionRecall precision_recall(std::vector<ScoredAnswer> answers, int positives);
+PrecisionRecall precision_recall(std::vector<ScoredPrediction> answers, int positives);
 
 }  // namespace placegraph

@@ -51,7 +51,7 @@ struct PlaneSweepOptions {
 void visit(OptionVisitor& field, PlaneSweepOptions& options);
 
 /// Surface points from a single image of a camera of known height that sees the floor.
-struct FloorSightOptions {
+struct SkirtingLineOptions {
   double max_range_m = 6;          ///< farther surfaces are not used
   int step_px = 8;                 ///< distance of neighbouring points in the image
   double sigma_boundary_px = 1.5;  ///< standard deviation of the row where floor and wall meet
@@ -60,12 +60,12 @@ struct FloorSightOptions {
   double skirting_m = 0.15;
   void check() const { check_ranges(*this); }
 };
-void visit(OptionVisitor& field, FloorSightOptions& options);
+void visit(OptionVisitor& field, SkirtingLineOptions& options);
 
 /// Walls from surface points: upright planes along two orthogonal axes of the building.
 struct WallFinderOptions {
   double max_sigma_m = 0.12;  ///< largest standard deviation of a point that is used
-  double max_turn_deg = 15;   ///< largest angle between the normals of a point and its wall
+  double max_rotation_deg = 15;   ///< largest angle between the normals of a point and its wall
   double band_m = 0.05;       ///< half the thickness of what counts as one plane
   double min_height_m = 0.8;  ///< least height that is seen of a wall, in all its parts together
   double min_share = 0.6;     ///< least share of wall in the height that is seen or seen through

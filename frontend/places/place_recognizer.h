@@ -18,7 +18,7 @@ class DenseIndex;
 PlaceView describe_place(const Image& image, const PlaceCueOptions& options, bool query);
 
 /// How similar a stored image is to a query.
-struct PlaceLikeness {
+struct PlaceSimilarity {
   int view = 0;      ///< index of the stored image
   double score = 0;  ///< larger is more similar; comparable over queries, but no probability
 };
@@ -46,7 +46,7 @@ class PlaceRecognizer {
   ///
   /// The range is cut to the views that exist; the list is empty if there are none. `query` is a
   /// describe_place with `query` set, by the same cues (ArgumentError otherwise).
-  std::vector<PlaceLikeness> query(const PlaceView& query, int first, int last) const;
+  std::vector<PlaceSimilarity> query(const PlaceView& query, int first, int last) const;
   /// A stored view. Throws std::out_of_range for an index that no view has.
   const PlaceView& view(int index) const { return views_.at(static_cast<std::size_t>(index)); }
   /// Number of stored views.
@@ -55,8 +55,8 @@ class PlaceRecognizer {
   const PlaceRecognizerOptions& options() const { return options_; }
 
  private:
-  std::vector<int> glance(const PlaceView& query, int first, int last) const;
-  std::vector<int> glance_along_graph(const PlaceView& query, int first, int last) const;
+  std::vector<int> thumbnail(const PlaceView& query, int first, int last) const;
+  std::vector<int> thumbnails_along_graph(const PlaceView& query, int first, int last) const;
   void grow_graph();
 
   PlaceRecognizerOptions options_;

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/frontend/places/place_similarity.h>
 #include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/core/options.h>
 
@@ -24,13 +24,13 @@ class SequenceFilter {
   /// `list` holds views of first..last (ArgumentError otherwise); views that are not listed count
   /// as the least similar listed one. Sorted by score, best first. An empty list ends the sequence,
   /// and nothing is returned.
-  std::vector<PlaceLikeness> update(const std::vector<PlaceLikeness>& list, int first, int last);
+  std::vector<PlaceSimilarity> update(const std::vector<PlaceSimilarity>& list, int first, int last);
   /// Confidence of an answer of `update`, comparable over images.
   ///
   /// The weighted mean of its score and of the similarity that `list`, as it was given to `update`
   /// and sorted best first, has for that view: a path goes on for a while where its street has been
   /// left. Which view is the best is not changed by that.
-  double confidence(const PlaceLikeness& answer, const std::vector<PlaceLikeness>& list) const;
+  double confidence(const PlaceSimilarity& answer, const std::vector<PlaceSimilarity>& list) const;
   /// Forgets the past: the next image begins a new sequence.
   void restart() { states_.clear(); }
 

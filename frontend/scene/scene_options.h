@@ -48,7 +48,7 @@ struct LabellerOptions {
 void visit(OptionVisitor& field, LabellerOptions& options);
 
 /// What a stereo keyframe contributes to the semantic map of a street.
-struct UrbanSightOptions {
+struct StreetLabellingOptions {
   int step_px = 6;          ///< distance of neighbouring points in the image
   double max_range_m = 40;  ///< farther points are not used
   /// Largest distance of a disparity from its superpixel's plane, in standard deviations.
@@ -59,7 +59,7 @@ struct UrbanSightOptions {
   LabellerOptions labeller;       ///< the labels of superpixels
   void check() const;
 };
-void visit(OptionVisitor& field, UrbanSightOptions& options);
+void visit(OptionVisitor& field, StreetLabellingOptions& options);
 
 /// Which pixels labels of surfaces keep out of tracking, place cues and the ground plane.
 ///

@@ -25,7 +25,7 @@ struct GraphPoint {
 /// The observation of a point from a node:
 /// error = T_world_node^-1 * position_world - position_node. In the plane the third components are
 /// left out.
-struct PointSight {
+struct PointObservation {
   NodeId node, point;                                         ///< ids of the two
   Eigen::Vector3d position_node = Eigen::Vector3d::Zero();    ///< measured, in the node's frame
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< of the error
@@ -36,10 +36,10 @@ struct LandmarkGraph {
   PoseGraph poses;                          ///< nodes and constraints between them
   std::vector<PosePriorConstraint> priors;  ///< measured poses of nodes
   std::vector<GraphPoint> points;           ///< landmarks
-  std::vector<PointSight> sights;           ///< observations of landmarks from nodes
+  std::vector<PointObservation> observations;           ///< observations of landmarks from nodes
 
   /// Whether it is a pose graph and no more.
-  bool has_poses_alone() const { return priors.empty() && points.empty() && sights.empty(); }
+  bool has_poses_alone() const { return priors.empty() && points.empty() && observations.empty(); }
   /// Throws ArgumentError naming the first entry that is invalid.
   /// Invalid is what PoseGraph::check refuses, and for priors, points and observations: unknown
   /// nodes and points, an id that is there twice, values that are not finite, information that is

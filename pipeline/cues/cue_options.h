@@ -8,7 +8,7 @@
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// Metric scale of a monocular camera of known height from the ground plane ahead of it.
-struct GroundScaleOptions {
+struct GroundPlaneScaleOptions {
   GroundPlaneOptions plane;  ///< direct alignment of the ground in two keyframes
   bool enabled = true;       ///< use the ground plane where the camera height is known
   /// Relative standard deviation of a single scale, added to that of the alignment: the road is
@@ -27,10 +27,10 @@ struct GroundScaleOptions {
   double min_baseline_heights = 0.6;
   void check() const;
 };
-void visit(OptionVisitor& field, GroundScaleOptions& options);
+void visit(OptionVisitor& field, GroundPlaneScaleOptions& options);
 
 /// Metric scale of a monocular camera of known height from lines on the floor.
-struct FloorScaleOptions {
+struct FloorLineScaleOptions {
   FloorFromLinesOptions floor;   ///< which lines lie on the floor
   double sigma_relative = 0.01;  ///< of a single height: the floor is uneven, the camera bobs
   /// Largest distance of a scale from the median of the last five (in logarithm); scales farther
@@ -40,7 +40,7 @@ struct FloorScaleOptions {
   double max_sigma_at_first = 0.04;
   void check() const;
 };
-void visit(OptionVisitor& field, FloorScaleOptions& options);
+void visit(OptionVisitor& field, FloorLineScaleOptions& options);
 
 /// Line landmarks: edges that are tracked, triangulated and kept in the sliding window.
 struct LineCueOptions {
@@ -49,14 +49,14 @@ struct LineCueOptions {
   LineTriangulationOptions triangulation;  ///< when the line in space is known well enough
   PoseFromLinesOptions pose;               ///< the pose of a frame from known lines
   LineInitializerOptions start;  ///< the first keyframes of a monocular camera without points
-  FloorScaleOptions floor;       ///< metric scale where points are not among the cues
+  FloorLineScaleOptions floor;       ///< metric scale where points are not among the cues
   double sigma_floor_px = 0.15;  ///< least deviation across a line: lens, rolling shutter, blur
   /// The error of an edge persists while it is tracked: so many observations in the window count as
   /// one independent one (their variances are multiplied by this number).
-  double alike_sightings = 16;
-  /// Replaces triangulation.min_turn_deg where vanishing directions give the rotation and fewer
+  double similar_observations = 16;
+  /// Replaces triangulation.min_rotation_deg where vanishing directions give the rotation and fewer
   /// than 15 lines are known: a line is then of use much sooner.
-  double min_turn_steered_deg = 0.4;
+  double min_rotation_steered_deg = 0.4;
   /// Frames to look ahead: an edge that leaves the image sooner at the present motion is tracked
   /// only if there are few others.
   int stay_frames = 10;
@@ -82,7 +82,7 @@ struct PointCueOptions {
 /// How Manhattan frames are kept in the sliding window.
 ///
 /// A Manhattan frame is three orthogonal directions that many edges of the scene share.
-struct ManhattanWorldOptions {
+struct ManhattanFrameOptions {
   /// Standard deviation of the directions in one keyframe beyond the noise of its lines: the scene
   /// is not quite rectangular, lines are assigned to wrong axes, the lens is distorted.
   double sigma_floor_deg = 0.1;
@@ -95,17 +95,17 @@ struct ManhattanWorldOptions {
   /// less than about three of these are one.
   double sigma_drift_deg = 1;
   int persistence = 3;  ///< keyframes of the window that must show a new Manhattan frame
-  int max_worlds = 4;   ///< most frames remembered; the one unseen for longest is forgotten
+  int max_frames = 4;   ///< most frames remembered; the one unseen for longest is forgotten
   void check() const { check_ranges(*this); }
 };
-void visit(OptionVisitor& field, ManhattanWorldOptions& options);
+void visit(OptionVisitor& field, ManhattanFrameOptions& options);
 
 /// Rotation from the directions of Manhattan frames.
 struct ManhattanCueOptions {
   /// How straight edges are found.
   SegmentDetectorOptions segments{.min_length_px = 20, .merging = {}, .refinement = {}};
   SceneDirectionOptions directions;  ///< how vanishing points and Manhattan frames are found
-  ManhattanWorldOptions worlds;      ///< how Manhattan frames are kept in the window
+  ManhattanFrameOptions worlds;      ///< how Manhattan frames are kept in the window
   int max_width_px = 800;            ///< wider images are halved before edges are looked for
   double max_sigma_deg = 1;  ///< largest standard deviation about any axis of a frame that is used
   /// A frame between keyframes also takes its rotation from Manhattan frames if its pose has fewer
@@ -133,7 +133,7 @@ struct PlaneLandmarkOptions {
 void visit(OptionVisitor& field, PlaneLandmarkOptions& options);
 
 /// Motion by direct alignment of the grey values of planes.
-struct SurfaceCueOptions {
+struct DirectCueOptions {
   DominantSurfaceOptions surface;  ///< the ground under a vehicle or robot
   /// How further planes are fitted to inverse depths.
   InverseDepthPlaneOptions planes{.ransac = {.max_iterations = 100, .min_inliers = 30}};
@@ -152,6 +152,6 @@ struct SurfaceCueOptions {
   double max_disagreement = 5;
   void check() const;
 };
-void visit(OptionVisitor& field, SurfaceCueOptions& options);
+void visit(OptionVisitor& field, DirectCueOptions& options);
 
 }  // namespace placegraph

@@ -13,9 +13,9 @@
 
 namespace placegraph {
 
-Turns turns_of(const Trajectory& trajectory) {
+Rotations rotations_of(const Trajectory& trajectory) {
   constexpr std::size_t kSteps = 50;  // longer than what a road shakes
-  Turns turns;
+  Rotations rotations;
   const std::size_t step = std::max<std::size_t>(1, trajectory.size() / kSteps);
   const StampedPose* before = nullptr;
   for (std::size_t i = 0; i < trajectory.size(); i += step) {
@@ -24,15 +24,15 @@ Turns turns_of(const Trajectory& trajectory) {
     if (before) {
       const Eigen::Vector3d turn =
           (SE3(*before->T_world_body).inverse() * SE3(*pose.T_world_body)).rotation().log();
-      turns.about_x_deg += rad_to_deg(std::abs(turn.x()));
-      turns.about_y_deg += rad_to_deg(std::abs(turn.y()));
+      rotations.about_x_deg += rad_to_deg(std::abs(turn.x()));
+      rotations.about_y_deg += rad_to_deg(std::abs(turn.y()));
     }
     before = &pose;
   }
-  return turns;
+  return rotations;
 }
 
-std::optional<DataNote> odd_posture(const Camera& camera, const Turns& turns) {
+std::optional<DataNote> odd_posture(const Camera& camera, const Rotations& rotations) {
   constexpr double kClear = 3, kLeast_deg = 15;
   const auto clearly = [](double more, double less) {
     return more > kLeast_deg && more > kClear * less;
@@ -40,15 +40,15 @@ std::optional<DataNote> odd_posture(const Camera& camera, const Turns& turns) {
   const std::string advice =
       ": the ground is looked for below, and lengths are in doubt; turn the images upright (EXIF "
       "orientation is not applied)";
-  if (clearly(turns.about_x_deg, turns.about_y_deg))
+  if (clearly(rotations.about_x_deg, rotations.about_y_deg))
     return DataNote{
         fmt::format(
             "the camera turns about the horizontal axis of its images ({:.0f} deg in all, {:.0f} "
             "about the vertical one), as if it lay on its side",
-            turns.about_x_deg, turns.about_y_deg) +
+            rotations.about_x_deg, rotations.about_y_deg) +
             advice,
         true};
-  if (camera.height > camera.width && !clearly(turns.about_y_deg, turns.about_x_deg))
+  if (camera.height > camera.width && !clearly(rotations.about_y_deg, rotations.about_x_deg))
     return DataNote{
         "the images are higher than wide, and the camera's turns do not show whether it "
         "stands upright" +

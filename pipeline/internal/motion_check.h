@@ -10,17 +10,17 @@ namespace placegraph {
 
 /// What a camera on a vehicle turned about, over a trajectory of it: sums over steps of a fiftieth
 /// of the way [deg].
-struct Turns {
+struct Rotations {
   double about_x_deg = 0;  ///< of the image: pitch of an upright camera
   double about_y_deg = 0;  ///< heading of an upright camera
 };
-Turns turns_of(const Trajectory& trajectory);
+Rotations rotations_of(const Trajectory& trajectory);
 
 /// Whether a camera whose height gives the scale may lie on its side, so that what is below in its
 /// images is no ground and lengths are in doubt: it turns about its x axis as vehicles turn about
 /// the vertical, or its images are higher than wide and it does not turn about its y axis clearly.
 /// EXIF orientation is not applied, so images of a phone may be so.
-std::optional<DataNote> odd_posture(const Camera& camera, const Turns& turns);
+std::optional<DataNote> odd_posture(const Camera& camera, const Rotations& rotations);
 
 /// How near landmarks come on each side of the way, in camera heights: the lowest fifth of their
 /// distances across it, of landmarks ahead of keyframes that move along their optical axis.

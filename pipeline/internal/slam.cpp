@@ -78,7 +78,7 @@ Slam::~Slam() = default;
 Slam::Slam(Slam&&) noexcept = default;
 Slam& Slam::operator=(Slam&&) noexcept = default;
 
-const std::vector<EnvironmentSight>& Slam::environments() const {
+const std::vector<EnvironmentObservation>& Slam::environments() const {
   return impl_->environments.observations();
 }
 
@@ -106,7 +106,7 @@ void Slam::Impl::use_motion(const std::shared_ptr<const MeasuredMotion>& motion_
 
 void Slam::Impl::use_surfaces(const std::shared_ptr<const SceneModel>& surfaces) {
   const SceneUseOptions& o = options.semantics;
-  odometry.set_scene(std::make_shared<const SceneEye>(surfaces, o.masks), o.enabled);
+  odometry.set_scene(std::make_shared<const SurfaceLabeller>(surfaces, o.masks), o.enabled);
 }
 
 void Slam::Impl::check_frame(const Frame& frame) const {
@@ -171,11 +171,11 @@ void Slam::Impl::place(const Frame& frame, const std::optional<LocatedFrame>& lo
   }
   result.state = result.T_map_cam             ? TrackingState::kTracking
                  : recorder.newest_keyframe() ? TrackingState::kLost
-                                              : TrackingState::kWaiting;
+                                              : TrackingState::kInitializing;
   if (result.T_map_cam && odometry.awaits_scale()) {
     // The map will tell the pose once it has its unit: a pose in another is worse than none.
     result.T_map_cam.reset();
-    result.state = TrackingState::kWaiting;
+    result.state = TrackingState::kInitializing;
     result.outcome =
         Outcome::failure(Outcome::Code::kDegenerate, "waits for the map's unit of length");
     return;

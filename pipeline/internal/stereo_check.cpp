@@ -59,7 +59,7 @@ std::string likely_cause(const RowOffsets& offsets, const Camera& camera) {
 
 }  // namespace
 
-RowOffsets look_at_rows(const Dataset& dataset) {
+RowOffsets check_rows(const Dataset& dataset) {
   const Camera camera = dataset.calibration(Sensor::kStereo).camera;
   const std::vector<Pair> pairs = some_pairs(dataset);
   RowOffsets offsets;

@@ -7,7 +7,7 @@ namespace placegraph {
 /// How well the rows of two eyes correspond, by features of one pair in twenty, four at most,
 /// spread over a sequence that can be run as stereo. Unreadable images are passed over: whoever
 /// runs it says so.
-RowOffsets look_at_rows(const Dataset& dataset);
+RowOffsets check_rows(const Dataset& dataset);
 
 /// What is odd about it, with what to try; nothing for a rectified pair, and where there are too
 /// few matches to tell. All of it doubts the scale.

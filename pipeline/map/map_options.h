@@ -25,7 +25,7 @@ struct MapLearnerOptions {
   /// A place ends where the similarity of an image to the place's first one falls below this share
   /// of its similarity to the image before. Both are taken beyond what any two images have in
   /// common.
-  double alike = 0.5;
+  double similar = 0.5;
   void check() const;
 };
 void visit(OptionVisitor& field, MapLearnerOptions& options);

@@ -9,7 +9,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// Whether a frame could be posed.
 enum class TrackingState {
-  kWaiting,   ///< no pose yet: the map has not begun, or waits for its metric scale
+  kInitializing,   ///< no pose yet: the map has not begun, or waits for its metric scale
   kTracking,  ///< posed
   kLost       ///< no pose, though there is a map
 };
@@ -20,7 +20,7 @@ struct FrameResult {
   /// only one that a second view must confirm.
   Outcome outcome;
   FrameId frame;                                  ///< the id of the frame that was processed
-  TrackingState state = TrackingState::kWaiting;  ///< kTracking exactly if T_map_cam is there
+  TrackingState state = TrackingState::kInitializing;  ///< kTracking exactly if T_map_cam is there
   /// Pose of the (left) camera in the coordinate frame of `component`, as known when the frame was
   /// done; nothing while unknown.
   std::optional<SE3> T_map_cam;

@@ -1,6 +1,6 @@
 # What a run decides of loop candidates: probabilities against the truth, and what lines and two
 # views bring. The coefficients of the probabilities were fitted to two rounds of a block, the
-# corridor and the warehouse of seed 7 and the street of alike blocks (tests/bench/loop_odds_study); judged on others.
+# corridor and the warehouse of seed 7 and the street of alike blocks (tests/bench/loop_probability_study); judged on others.
 title="Loop decisions"
 heading "$title"
 command_line "placegraph synth corridor-loop --out WORLD --seed 1 --difficulty standard    # warehouse likewise"

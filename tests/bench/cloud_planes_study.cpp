@@ -175,11 +175,11 @@ void study(const std::vector<Sample>& samples, const std::string& data, double s
       all.noise += check.noise, all.extra_pieces += check.extra_pieces;
       for (const PlaneCheckMatch& match : check.matches) {
         if (verbose && match.found == 0 && method == CloudPlanesMethod::kCuts) {
-          std::map<int, int> parts;
+          std::map<int, int> segments;
           for (std::size_t i = 0; i < sample.truth.size(); ++i)
-            if (sample.truth[i] == match.truth) ++parts[result.labels[i]];
+            if (sample.truth[i] == match.truth) ++segments[result.labels[i]];
           std::string text;
-          for (const auto& [label, n] : parts)
+          for (const auto& [label, n] : segments)
             text +=
                 fmt::format(" {}:{}/{}", label, n, label > 0 ? result.planes[label - 1].points : 0);
           fmt::print(stderr, "{} missed {} of {} points:{}\n", sample.name, match.truth,

@@ -8,16 +8,16 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/support/scenes/hover_sights.h"
+#include "tests/support/scenes/flight_measurements.h"
 
 namespace placegraph {
 namespace {
 
 constexpr double kDuration_s = 120, kMarkersUntil_s = 3;
 
-std::vector<BodyState> answers(const std::vector<HoverFrame>& frames) {
+std::vector<BodyState> answers(const std::vector<FlightFrame>& frames) {
   std::vector<BodyState> states;
-  for (const HoverFrame& frame : frames)
+  for (const FlightFrame& frame : frames)
     if (frame.outcome) states.push_back(frame.state);
   return states;
 }
@@ -33,7 +33,7 @@ void study(int flights) {
     synthetic::TourRequest request;
     request.seed = static_cast<std::uint64_t>(seed);
     request.duration_s = kDuration_s;
-    const synthetic::Tour tour = synthetic::make_hover(request);
+    const synthetic::Tour tour = synthetic::make_flight_world(request);
     const auto& truth = tour.hover->flight.truth;
     const auto fly = [&](double until_s) {
       return body_state_error(

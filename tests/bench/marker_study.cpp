@@ -37,14 +37,14 @@ struct Report {
 void study_apriltag_sim(const std::string& folder, Report& report) {
   const SimulatedTags truth = read_apriltag_sim(folder);
   const auto found = MarkerDetector({}, "apriltag_36h11").detect(truth.image);
-  double corner_px = 0, way_percent = 0, turn_deg = 0;
+  double corner_px = 0, way_percent = 0, rotation_deg = 0;
   report.markdown +=
       "| tag | corners, worst [px] | position [% of range] | attitude [deg] | its rival's chi2 "
       "|\n|---|---|---|---|---|\n";
-  for (const MarkerSighting& sighting : found) {
-    const SimulatedTag& tag = truth.tags.at(sighting.id);
-    const double px = worst_corner_px(sighting.corners_px, tag.corners_px);
-    const MarkerPoses poses = estimate_marker_poses(sighting, tag.side_m, truth.camera);
+  for (const MarkerObservation& observation : found) {
+    const SimulatedTag& tag = truth.tags.at(observation.id);
+    const double px = worst_corner_px(observation.corners_px, tag.corners_px);
+    const MarkerPoses poses = estimate_marker_poses(observation, tag.side_m, truth.camera);
     if (!poses.outcome) continue;
     const SE3& T = poses.poses[0].T_cam_marker;
     const double range = tag.T_cam_marker.translation().norm();
@@ -52,17 +52,17 @@ void study_apriltag_sim(const std::string& folder, Report& report) {
     const double turn = angle_deg(T, tag.T_cam_marker);
     corner_px = std::max(corner_px, px);
     way_percent = std::max(way_percent, way);
-    turn_deg = std::max(turn_deg, turn);
-    report.markdown += fmt::format("| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} |\n", sighting.id, px,
+    rotation_deg = std::max(rotation_deg, turn);
+    report.markdown += fmt::format("| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} |\n", observation.id, px,
                                    way, turn, poses.margin());
   }
   report.target("apriltag_sim, tags found", static_cast<double>(found.size()));
   report.target("apriltag_sim, corners [px]", corner_px);
   report.target("apriltag_sim, position [%]", way_percent);
-  report.target("apriltag_sim, attitude [deg]", turn_deg);
+  report.target("apriltag_sim, attitude [deg]", rotation_deg);
   const MarkerDetector detector({}, "apriltag_36h11");
   std::vector<ExpectedSquare> near;
-  for (const MarkerSighting& sighting : found) near.push_back({sighting.corners_px});
+  for (const MarkerObservation& observation : found) near.push_back({observation.corners_px});
   constexpr int kTimes = 50;
   double begin = cpu_ms();
   for (int i = 0; i < kTimes; ++i) (void)detector.detect(truth.image);
@@ -91,7 +91,7 @@ struct Tally {
 /// The pose that exact corners could be taken for beside the true one, if there is one.
 std::optional<SE3> rival(const MarkerScene& scene, const SE3& T_world_cam) {
   const PlacedMarker& placed = scene.layout.markers[0];
-  MarkerSighting exact;
+  MarkerObservation exact;
   exact.covariance *= 0.01;
   for (int k = 0; k < 4; ++k)
     exact.corners_px[k] = *scene.camera.project(T_world_cam.inverse() * placed.T_world_marker *
@@ -108,14 +108,14 @@ void judge(const MarkerScene& scene, const SE3& T_world_cam, const Image& image,
   MarkerView view;
   view.stamp_ns = stamp_ns;
   view.markers = detector.detect(image);
-  view.turn_body = turn;
+  view.rotation_body = turn;
   if (view.markers.size() != 1) return;
   ++tally.seen;
   const PlacedMarker& placed = scene.layout.markers[0];
-  const auto& sighting = view.markers[0];
+  const auto& observation = view.markers[0];
   Eigen::Matrix<double, 8, 1> error;
   for (int k = 0; k < 4; ++k)
-    error.segment<2>(2 * k) = sighting.corners_px[k] -
+    error.segment<2>(2 * k) = observation.corners_px[k] -
                               *scene.camera.project(T_world_cam.inverse() * placed.T_world_marker *
                                                     placed.corners_marker()[k]);
   for (int k = 0; k < 4; ++k) {
@@ -123,18 +123,18 @@ void judge(const MarkerScene& scene, const SE3& T_world_cam, const Image& image,
     tally.worst_px = std::max(tally.worst_px, px);
     tally.corner_px.push_back(px);
   }
-  tally.corner_nees += error.dot(sighting.covariance.ldlt().solve(error)) / 8;
-  const MarkerAnswer answer = filter.observe(view);
+  tally.corner_nees += error.dot(observation.covariance.ldlt().solve(error)) / 8;
+  const MarkerPoseEstimate answer = filter.observe(view);
   if (!answer.outcome) {
     ++tally.undecided;
     return;
   }
   ++tally.answers;
-  const Vector6d d = (answer.sighting.T_world_body.inverse() * T_world_cam).log();
-  tally.pose_nees += d.dot(answer.sighting.covariance.ldlt().solve(d)) / 6;
+  const Vector6d d = (answer.observation.T_world_body.inverse() * T_world_cam).log();
+  tally.pose_nees += d.dot(answer.observation.covariance.ldlt().solve(d)) / 6;
   const auto other = rival(scene, T_world_cam);
-  if (other && angle_deg(answer.sighting.T_world_body, *other) <
-                   angle_deg(answer.sighting.T_world_body, T_world_cam)) {
+  if (other && angle_deg(answer.observation.T_world_body, *other) <
+                   angle_deg(answer.observation.T_world_body, T_world_cam)) {
     ++tally.wrong;
   }
 }

@@ -53,14 +53,14 @@ std::size_t bytes_of(const PlaceView& view) {
   std::size_t bytes = bytes_of(view.tiny.front()) + bytes_of(view.gradients.front()) +
                       bytes_of(view.colour) + bytes_of(view.coarse);
   bytes += bytes_of(view.gabor);
-  return bytes + 2 * view.glance.size() * sizeof(std::int16_t) +
+  return bytes + 2 * view.thumbnail.size() * sizeof(std::int16_t) +
          view.corners.size() * sizeof(Feature);
 }
 
 // A view like this one, not the same: a graph of copies would be no graph.
 PlaceView another(PlaceView view, std::uint64_t number) {
   Random random(7, number);
-  for (std::int16_t& value : view.glance)
+  for (std::int16_t& value : view.thumbnail)
     value = static_cast<std::int16_t>(value + random.normal(0, 100));
   return view;
 }
@@ -105,11 +105,11 @@ void robustness(const std::string& folder) {
       double most = -2;
       std::size_t best = 0;
       for (std::size_t k = 0; k < stored.size(); ++k) {
-        const double likeness =
-            search ? grid_likeness(query, stored[k], cues).tiny
+        const double similarity =
+            search ? grid_similarity(query, stored[k], cues).tiny
                    : best_alignment(query.tiny.front(), stored[k].tiny.front(), {});
-        if (likeness > most) {
-          most = likeness;
+        if (similarity > most) {
+          most = similarity;
           best = k;
         }
       }
@@ -143,7 +143,7 @@ void study(const std::string& folder, const std::vector<int>& sizes, const std::
     while (recognizer.size() < size)
       recognizer.add(another(views[static_cast<std::size_t>(recognizer.size()) % views.size()],
                              static_cast<std::uint64_t>(recognizer.size())));
-    std::vector<PlaceLikeness> list;
+    std::vector<PlaceSimilarity> list;
     const double query =
         cost_ms(count, [&](std::size_t i) { list = recognizer.query(views[i], 0, size - 1); });
     // The views that come next, which the graph takes in; the size is the next one's begin.

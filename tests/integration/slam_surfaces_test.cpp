@@ -34,7 +34,7 @@ double error_share(const RunResult& run) {
   return result.ape.error_m.rmse / result.path_m;
 }
 
-TEST(SlamBySurfaces, PosesEveryFrameByTheGroundWithTwoEyes) {
+TEST(SlamBySurfaces, PosesEveryFrameByTheGroundWithStereo) {
   const RunResult run = run_sequence(drive(), run_by("plane", SensorChoice::kStereo));
   EXPECT_EQ(run.map.trajectory_online.posed(), drive().size());
   EXPECT_TRUE(run.map.metric);
@@ -44,7 +44,7 @@ TEST(SlamBySurfaces, PosesEveryFrameByTheGroundWithTwoEyes) {
     EXPECT_GT(c.information.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
 }
 
-TEST(SlamBySurfaces, PosesEveryFrameByTheGroundWithOneEyeOfKnownHeight) {
+TEST(SlamBySurfaces, PosesEveryFrameByTheGroundWithMonocularOfKnownHeight) {
   RunOptions options = run_by("plane", SensorChoice::kMono);
   options.camera_height_m = kStreetHeight_m;
   const RunResult run = run_sequence(drive(), options);
@@ -67,7 +67,7 @@ TEST(SlamBySurfaces, SeveralPlanesDoNoHarmBesidePoints) {
   EXPECT_LT(error_share(with), error_share(without) + 0.002);
 }
 
-TEST(SlamBySurfaces, OneEyeNeedsItsHeight) {
+TEST(SlamBySurfaces, MonocularNeedsItsHeight) {
   EXPECT_THROW((void)run_sequence(drive(), run_by("plane", SensorChoice::kMono)), ArgumentError);
 }
 

@@ -12,15 +12,15 @@ namespace {
 
 using namespace test;
 
-constexpr double kTurnRad = 0.035;  // of a frame
+constexpr double kRotationRad = 0.035;  // of a frame
 
 /// `before` frames ahead, then turning on the spot for `turning`, then on along the street. Frames
 /// in [dark_begin, dark_end) are black.
-StreetDataset way(int before, int turning, int after, int dark_begin = 0, int dark_end = 0) {
-  return StreetDataset(before + turning + after, dark_begin, dark_end, false, [=](int i) {
-    const int way = std::min(i, before) + std::max(0, i - before - turning);
-    const int turn = std::clamp(i - before, 0, turning);
-    return pose({0, kTurnRad * turn, 0}, {0, -kStreetHeight_m, 0.25 * way});
+StreetDataset way(int before, int rotating, int after, int dark_begin = 0, int dark_end = 0) {
+  return StreetDataset(before + rotating + after, dark_begin, dark_end, false, [=](int i) {
+    const int way = std::min(i, before) + std::max(0, i - before - rotating);
+    const int turn = std::clamp(i - before, 0, rotating);
+    return pose({0, kRotationRad * turn, 0}, {0, -kStreetHeight_m, 0.25 * way});
   });
 }
 
@@ -39,7 +39,7 @@ EvaluationResult judge(const StreetDataset& dataset, const RunResult& run) {
 }
 
 /// From the first frame to the last, against the truth.
-double turn_error_deg(const StreetDataset& dataset, const Trajectory& trajectory) {
+double rotation_error_deg(const StreetDataset& dataset, const Trajectory& trajectory) {
   const auto turn = [](const Trajectory& t) {
     return SE3(*t.poses.front().T_world_body).rotation().inverse() *
            SE3(*t.poses.back().T_world_body).rotation();
@@ -52,7 +52,7 @@ TEST(SlamThatTurnsOnTheSpot, KeepsItsPlaceInTheMapThoughAllItKnewLeavesTheView) 
   const RunResult run = run_mono(dataset);
   const Trajectory optimized = run.map.trajectory_optimized();
   ASSERT_EQ(optimized.posed(), dataset.size());
-  EXPECT_LT(turn_error_deg(dataset, optimized), 0.5);
+  EXPECT_LT(rotation_error_deg(dataset, optimized), 0.5);
   for (const Place& place : run.map.place_graph.places) EXPECT_EQ(place.component, 0);
   // Where the unit of length is, after the turn, is a guess.
   const EvaluationResult result = judge(dataset, run);
@@ -65,7 +65,7 @@ TEST(SlamThatTurnsOnTheSpot, KnowsHowItStoodBeforeItsFirstSecondView) {
   const RunResult run = run_mono(dataset);
   const Trajectory optimized = run.map.trajectory_optimized();
   ASSERT_EQ(optimized.posed(), dataset.size());
-  EXPECT_LT(turn_error_deg(dataset, optimized), 0.5);
+  EXPECT_LT(rotation_error_deg(dataset, optimized), 0.5);
   const EvaluationResult result = judge(dataset, run);
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
   EXPECT_LT(result.ape.error_m.rmse, 0.02 * result.path_m);

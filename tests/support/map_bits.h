@@ -56,7 +56,7 @@ inline std::string map_bits(const Map& map) {
   for (const LoopRecord& loop : map.loops) {
     put(loop.query_frame), put(loop.match_frame), put(loop.inliers), put(loop.stage);
     put_pose(loop.T_match_query);
-    put(loop.lines), put(loop.likeness), put(loop.probability);
+    put(loop.lines), put(loop.similarity), put(loop.probability);
   }
   return bits;
 }

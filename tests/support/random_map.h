@@ -50,7 +50,7 @@ inline PlaceView random_view(Random& random) {
   view.colour = random_grid(random, 2, 2, 8);
   view.gabor = random_grid(random, 3, 2, 5);
   view.coarse = random_grid(random, 3, 2, 3);
-  for (int i = 0; i < 12; ++i) view.glance.push_back(static_cast<std::int16_t>(random.index(99)));
+  for (int i = 0; i < 12; ++i) view.thumbnail.push_back(static_cast<std::int16_t>(random.index(99)));
   view.corners = random_features(random, 5);
   for (Feature& corner : view.corners) corner.point_cam.reset();
   return view;
@@ -67,7 +67,7 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   stored.origin.options = "seed: 7\n";
   stored.origin.lens_k1 = random.normal();
   stored.history.median_depth_m = 4;
-  stored.history.unit_measured = {true, !scaled};
+  stored.history.scale_measured = {true, !scaled};
   Map& map = stored.map;
   map.metric = !scaled;
   std::int64_t id = 0;
@@ -101,10 +101,10 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
       stored.history.keyframes.push_back(link);
       map.keyframes.push_back(std::move(keyframe));
     }
-    PlaceHistory::Part part{
+    PlaceHistory::Segment segment{
         anchor, PlaceId(p), Sim3(random_pose(random)), random_information<7>(random), {}};
-    if (p % 2 == 1) part.motion_covariance = random_information<6>(random);
-    stored.history.parts.push_back(part);
+    if (p % 2 == 1) segment.motion_covariance = random_information<6>(random);
+    stored.history.segments.push_back(segment);
     stored.history.places.push_back({PlaceId(p), random.uniform(1, 2), KeyframeId(id - 1)});
     map.place_graph.places.push_back(std::move(place));
   }
@@ -144,9 +144,9 @@ inline StoredMap random_map(Random& random, int places = 4, bool scaled = false)
   stored.history.judged_loops = 1;
   stored.history.merged.push_back(
       {KeyframeId(0), {{KeyframeId(0), random_information<7>(random)}}});
-  stored.history.parted.insert({KeyframeId(0), KeyframeId(id - 1)});
+  stored.history.separated.insert({KeyframeId(0), KeyframeId(id - 1)});
   if (places > 1)
-    stored.history.motions.push_back({KeyframeId(0), stored.history.parts[1].anchor,
+    stored.history.motions.push_back({KeyframeId(0), stored.history.segments[1].anchor,
                                       random_pose(random), random_information<6>(random)});
   return stored;
 }

@@ -54,8 +54,8 @@ inline SegmentJudgement judge_segment_matches(const std::set<std::pair<int, int>
     hit += any;
   }
   for (const auto& match : found) right += truth.contains(match);
-  const auto share = [](int part, std::size_t whole) {
-    return whole ? part / static_cast<double>(whole) : 0.0;
+  const auto share = [](int segment, std::size_t whole) {
+    return whole ? segment / static_cast<double>(whole) : 0.0;
   };
   return {share(right, found.size()), share(hit, groups.size()), share(right, truth.size())};
 }

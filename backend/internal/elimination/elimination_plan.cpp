@@ -51,9 +51,9 @@ std::vector<int> order_late_last(int variables, const VariableSets& sets,
     begin.push_back(static_cast<int>(joined.size()));
   }
   std::vector<int> turn(vertices, 0);
-  const int first_turn = vertices > variables ? 1 : 0;
+  const int first_rotation = vertices > variables ? 1 : 0;
   const bool all_late = std::find(late.begin(), late.end(), 0) == late.end();
-  for (int v = 0; v < variables; ++v) turn[v] = first_turn + (late[v] && !all_late ? 1 : 0);
+  for (int v = 0; v < variables; ++v) turn[v] = first_rotation + (late[v] && !all_late ? 1 : 0);
   double control[CAMD_CONTROL];
   camd_defaults(control);
   control[CAMD_DENSE] = -1;  // no vertex is left out: one of a set joins as many as the set has

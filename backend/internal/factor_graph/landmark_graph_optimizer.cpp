@@ -33,8 +33,8 @@ DisjointSets connected(const LandmarkGraph& graph, const VariableIndex& index) {
   for (const Constraint& constraint : graph.poses.constraints)
     if (const auto* edge = std::get_if<RelativePoseConstraint>(&constraint))
       sets.join(index.node(edge->from), index.node(edge->to));
-  for (const PointSight& sight : graph.sights)
-    sets.join(index.node(sight.node), index.point(sight.point));
+  for (const PointObservation& observation : graph.observations)
+    sets.join(index.node(observation.node), index.point(observation.point));
   return sets;
 }
 
@@ -62,7 +62,7 @@ std::vector<char> held_variables(const LandmarkGraph& graph, const VariableIndex
 }
 
 template <class Group>
-void add_priors_and_sights(const LandmarkGraph& graph, const VariableIndex& index,
+void add_priors_and_observations(const LandmarkGraph& graph, const VariableIndex& index,
                            RotationError rotation_error, FactorGraph& factors) {
   constexpr int dim = Group::kDof == 3 ? 2 : 3;
   for (const PosePriorConstraint& prior : graph.priors)
@@ -70,11 +70,11 @@ void add_priors_and_sights(const LandmarkGraph& graph, const VariableIndex& inde
                                        whitening<typename Group::Jacobian>(prior.information),
                                        rotation_error),
                 {index.node(prior.node)});
-  for (const PointSight& sight : graph.sights)
-    factors.add(PointInNodeFactor<Group>(sight.position_node,
+  for (const PointObservation& observation : graph.observations)
+    factors.add(PointInNodeFactor<Group>(observation.position_node,
                                          whitening<Eigen::Matrix<double, dim, dim>>(
-                                             sight.information.topLeftCorner<dim, dim>())),
-                {index.node(sight.node), index.point(sight.point)});
+                                             observation.information.topLeftCorner<dim, dim>())),
+                {index.node(observation.node), index.point(observation.point)});
 }
 
 }  // namespace
@@ -87,9 +87,9 @@ FactorGraph to_factor_graph(const LandmarkGraph& graph, RotationError rotation_e
   const std::vector<char> held = held_variables(graph, index);
   for (std::size_t i = 0; i < held.size(); ++i) factors.variables[i].held = held[i];
   if (graph.poses.kind() == PoseKind::kSE2)
-    add_priors_and_sights<SE2>(graph, index, rotation_error, factors);
+    add_priors_and_observations<SE2>(graph, index, rotation_error, factors);
   else if (graph.poses.kind() == PoseKind::kSE3)
-    add_priors_and_sights<SE3>(graph, index, rotation_error, factors);
+    add_priors_and_observations<SE3>(graph, index, rotation_error, factors);
   return factors;
 }
 

@@ -20,12 +20,12 @@ struct MarginalPrior {
   std::vector<SE3> T_map_cam_lin;        ///< first estimates: fixed once a keyframe is in the prior
   std::vector<PlaneId> planes;           ///< ascending; three columns each, after the keyframes'
   std::vector<Plane3> plane_lin;         ///< first estimates
-  std::vector<ManhattanFrameId> worlds;  ///< ascending; three columns each, after the planes'
-  std::vector<SO3> R_map_world_lin;      ///< first estimates
+  std::vector<ManhattanFrameId> manhattan_frames;  ///< ascending; three columns each, after the planes'
+  std::vector<SO3> R_map_manhattan_lin;      ///< first estimates
   Eigen::MatrixXd J;                     ///< rank x (6 K + 3 P + 3 W)
   Eigen::VectorXd e;
 
-  bool empty() const { return keyframes.empty() && planes.empty() && worlds.empty(); }
+  bool empty() const { return keyframes.empty() && planes.empty() && manhattan_frames.empty(); }
   auto keyframe_columns(std::size_t k) const {
     return J.middleCols<6>(6 * static_cast<Eigen::Index>(k));
   }
@@ -33,14 +33,14 @@ struct MarginalPrior {
     return J.middleCols<3>(6 * static_cast<Eigen::Index>(keyframes.size()) +
                            3 * static_cast<Eigen::Index>(k));
   }
-  auto world_columns(std::size_t k) const {
+  auto manhattan_columns(std::size_t k) const {
     return J.middleCols<3>(6 * static_cast<Eigen::Index>(keyframes.size()) +
                            3 * static_cast<Eigen::Index>(planes.size() + k));
   }
 };
 
 /// The prior as a factor on the blocks T_map_cam of `prior.keyframes`, then those of
-/// `prior.planes`, then R_map_world of `prior.worlds`; `prior` must outlive it.
+/// `prior.planes`, then R_map_manhattan of `prior.worlds`; `prior` must outlive it.
 class MarginalPriorFactor final : public ceres::CostFunction {
  public:
   explicit MarginalPriorFactor(const MarginalPrior& prior) : prior_(prior) {
@@ -49,7 +49,7 @@ class MarginalPriorFactor final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->insert(mutable_parameter_block_sizes()->end(),
                                             prior.planes.size(), VariableBlock<Plane3>::kSize);
     mutable_parameter_block_sizes()->insert(mutable_parameter_block_sizes()->end(),
-                                            prior.worlds.size(), VariableBlock<SO3>::kSize);
+                                            prior.manhattan_frames.size(), VariableBlock<SO3>::kSize);
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,
@@ -77,10 +77,10 @@ class MarginalPriorFactor final : public ceres::CostFunction {
       add(plane_map, prior_.plane_columns(k), plane_map.minus(prior_.plane_lin[k]),
           SO3::right_jacobian_inverse);
     }
-    for (std::size_t k = 0; k < prior_.worlds.size(); ++k, ++block) {
-      const SO3 R_map_world = VariableBlock<SO3>::load(parameters[block]);
-      add(R_map_world, prior_.world_columns(k),
-          VariableBlock<SO3>::minus(R_map_world, prior_.R_map_world_lin[k]),
+    for (std::size_t k = 0; k < prior_.manhattan_frames.size(); ++k, ++block) {
+      const SO3 R_map_manhattan = VariableBlock<SO3>::load(parameters[block]);
+      add(R_map_manhattan, prior_.manhattan_columns(k),
+          VariableBlock<SO3>::minus(R_map_manhattan, prior_.R_map_manhattan_lin[k]),
           SO3::right_jacobian_inverse);
     }
     return true;

@@ -9,7 +9,7 @@ namespace placegraph {
 
 /// A fix as an observation of its node in the world's frame.
 struct AntennaObservation {
-  CarriedFix fix;
+  InterpolatedFix fix;
   Eigen::Vector3d position_world = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();
 };

@@ -17,7 +17,7 @@ template <class Group>
 class AntennaPositionFactor final
     : public ceres::SizedCostFunction<3, VariableBlock<Group>::kSize, 4> {
  public:
-  AntennaPositionFactor(const CarriedFix& fix, const Eigen::Vector3d& position_world,
+  AntennaPositionFactor(const InterpolatedFix& fix, const Eigen::Vector3d& position_world,
                         const Eigen::Matrix3d& whitening)
       : fix_(fix), position_world_(position_world), W_(whitening) {}
 
@@ -52,7 +52,7 @@ class AntennaPositionFactor final
   }
 
  private:
-  CarriedFix fix_;
+  InterpolatedFix fix_;
   Eigen::Vector3d position_world_;
   Eigen::Matrix3d W_;
 };

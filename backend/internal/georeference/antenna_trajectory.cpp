@@ -67,17 +67,17 @@ std::pair<int, int> AntennaTrack::neighbours(std::int64_t stamp_ns) const {
   return {std::max(next - 1, 0), std::min(next, last)};
 }
 
-std::vector<std::optional<CarriedFix>> AntennaTrack::carry(
+std::vector<std::optional<InterpolatedFix>> AntennaTrack::carry(
     const std::vector<std::int64_t>& stamps_ns, const Eigen::Vector3d& lever_arm,
     double max_gap_s) const {
-  std::vector<std::optional<CarriedFix>> carried(stamps_ns.size());
+  std::vector<std::optional<InterpolatedFix>> interpolated(stamps_ns.size());
   for (std::size_t i = 0; i < stamps_ns.size(); ++i) {
     const std::int64_t stamp = stamps_ns[i];
     const std::optional<SE3> T_map_body = interpolate(motion_, stamp, max_gap_s);
     if (!T_map_body) continue;
     const auto [before, after] = neighbours(stamp);
     const bool first = stamp - visits_[before].stamp_ns <= visits_[after].stamp_ns - stamp;
-    CarriedFix fix;
+    InterpolatedFix fix;
     fix.node = visits_[first ? before : after].node;
     const SE3 T_node_map = T_map_node_[fix.node].inverse();
     const SE3 T_node_body = T_node_map * *T_map_body;
@@ -91,9 +91,9 @@ std::vector<std::optional<CarriedFix>> AntennaTrack::carry(
       const double seconds = 1e-9 * static_cast<double>(kHalfStep_ns) * (earlier && later ? 2 : 1);
       fix.v = (unit / seconds) * (T_node_map * (b * lever_arm) - T_node_map * (a * lever_arm));
     }
-    carried[i] = fix;
+    interpolated[i] = fix;
   }
-  return carried;
+  return interpolated;
 }
 
 Trajectory AntennaTrack::moved(const PoseGraph& optimized) const {

@@ -16,7 +16,7 @@ namespace placegraph {
 ///
 /// with [A | t] the motion from the node to the vehicle at that time. So a fix need not coincide
 /// with a node, none is used twice and none is blended with its neighbour.
-struct CarriedFix {
+struct InterpolatedFix {
   int node = 0;  ///< position in PoseGraph::nodes
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
@@ -38,7 +38,7 @@ class AntennaTrack {
   /// Carries fixes taken at `stamps_ns` to the nodes visited nearest in time. Between neighbours of
   /// the motion at most `max_gap_s` apart: translation linear, rotation geodesic. Nothing for a fix
   /// outside of the motion or in a longer gap. `lever_arm` serves the velocity.
-  std::vector<std::optional<CarriedFix>> carry(const std::vector<std::int64_t>& stamps_ns,
+  std::vector<std::optional<InterpolatedFix>> carry(const std::vector<std::int64_t>& stamps_ns,
                                                const Eigen::Vector3d& lever_arm,
                                                double max_gap_s) const;
 

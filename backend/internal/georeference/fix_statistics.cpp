@@ -45,7 +45,7 @@ std::vector<GpsDropout> find_dropouts(const std::vector<NodeVisit>& visits,
   return dropouts;
 }
 
-std::optional<FixScatter> scatter_of(const std::vector<FixResidual>& residuals, double max_gap_s) {
+std::optional<FixDispersion> dispersion_of(const std::vector<FixResidual>& residuals, double max_gap_s) {
   std::vector<double> horizontal, vertical;
   for (std::size_t i = 1; i < residuals.size(); ++i) {
     const FixResidual &a = residuals[i - 1], &b = residuals[i];
@@ -56,7 +56,7 @@ std::optional<FixScatter> scatter_of(const std::vector<FixResidual>& residuals, 
     vertical.push_back(std::abs(d[2]));
   }
   if (vertical.size() < kLeastPairs) return std::nullopt;
-  return FixScatter{std::max(1.0, median_of(horizontal) / kMedianOfNormal),
+  return FixDispersion{std::max(1.0, median_of(horizontal) / kMedianOfNormal),
                     std::max(1.0, median_of(vertical) / kMedianOfNormal)};
 }
 

@@ -27,10 +27,10 @@ struct FixResidual {
 /// By which factor fixes scatter more than they state (1 if they do not), from differences of
 /// successive residuals at most `max_gap_s` apart: what a map that does not fit leaves cancels in
 /// them, and the median passes over gross errors. Nothing below twenty pairs.
-struct FixScatter {
+struct FixDispersion {
   double horizontal = 1, vertical = 1;
 };
-std::optional<FixScatter> scatter_of(const std::vector<FixResidual>& residuals, double max_gap_s);
+std::optional<FixDispersion> dispersion_of(const std::vector<FixResidual>& residuals, double max_gap_s);
 
 /// Information of a fix in (east, north, up) [1/m^2] from its standard deviations [m].
 Eigen::Matrix3d fix_information(double horizontal_m, double vertical_m);

@@ -46,8 +46,8 @@ class Georeferencer {
     result_.outcome = align();
     if (!result_.outcome) return std::move(result_);
     bound_odometry();
-    scatter_of_fixes();
-    scatter_of_odometry();
+    dispersion_of_fixes();
+    variance_components_of_odometry();
     if (options_.estimate_delay && !options_.estimate_clock_offset) undo_delay();
     calibrate();
     if (result_.outcome.code == Outcome::Code::kDegenerate) return std::move(result_);
@@ -67,10 +67,10 @@ class Georeferencer {
   Outcome align();
   GpsAlignment align_component(int component, const std::vector<int>& component_of, Random& random);
   void place(const std::vector<std::optional<Sim3>>& T_enu_map, const std::vector<int>& component);
-  void scatter_of_fixes();
+  void dispersion_of_fixes();
   void bound_odometry();
   void scale_odometry_by(double translation, double rotation);
-  void scatter_of_odometry();
+  void variance_components_of_odometry();
   void undo_delay();
   void take_further(double delay_s);
   void calibrate();
@@ -118,13 +118,13 @@ void Georeferencer::carry(const AntennaTrack& track) {
   std::vector<std::int64_t> stamps_ns = stamps_ns_;
   const auto offset_ns = static_cast<std::int64_t>(std::llround(1e9 * calibration_[3]));
   for (std::int64_t& stamp : stamps_ns) stamp += offset_ns;
-  const auto carried = track.carry(stamps_ns, calibration_.head<3>(), options_.max_gap_s);
+  const auto interpolated = track.carry(stamps_ns, calibration_.head<3>(), options_.max_gap_s);
   fix_of_.clear();
   observations_.clear();
-  for (std::size_t i = 0; i < carried.size(); ++i) {
-    if (!carried[i]) continue;
+  for (std::size_t i = 0; i < interpolated.size(); ++i) {
+    if (!interpolated[i]) continue;
     const int fix = static_cast<int>(i);
-    AntennaObservation seen{*carried[i], positions_enu_[i], information(fix)};
+    AntennaObservation seen{*interpolated[i], positions_enu_[i], information(fix)};
     seen.fix.t -= seen.fix.v * calibration_[3];
     if (!graph_.nodes.empty())  // the lever arm is in metres
       seen.fix.A /= scale_of(graph_.nodes[seen.fix.node].T_world_node);
@@ -179,7 +179,7 @@ GpsAlignment Georeferencer::align_component(int component, const std::vector<int
       kind == PoseKind::kSim3 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(calibration_.head<3>());
   std::vector<PositionPair> pairs;
   for (std::size_t i = 0; i < observations_.size(); ++i) {
-    const CarriedFix& fix = observations_[i].fix;
+    const InterpolatedFix& fix = observations_[i].fix;
     if (component_of[fix.node] != component) continue;
     const Pose& T_map_node = in_.graph.nodes[fix.node].T_world_node;
     const Eigen::Vector3d p_node = scale_of(T_map_node) * fix.antenna(arm, calibration_[3]);
@@ -213,7 +213,7 @@ void Georeferencer::place(const std::vector<std::optional<Sim3>>& T_enu_map,
 }
 
 /// Optimizes with Huber's kernel until the scatter of the fixes stays the same.
-void Georeferencer::scatter_of_fixes() {
+void Georeferencer::dispersion_of_fixes() {
   for (int round = 0; round < 5; ++round) {
     solve({RobustKernel::Kind::kHuber, kHuberWidth});
     if (!options_.estimate_accuracy) return;
@@ -224,7 +224,7 @@ void Georeferencer::scatter_of_fixes() {
       if (round == 0 || e.dot(observations_[i].information * e) <= kGrossChi2)
         residuals.push_back({stamps_ns_[fix_of_[i]], e, accuracy_m_[fix_of_[i]]});
     }
-    const auto scatter = scatter_of(residuals, options_.max_gap_s);
+    const auto scatter = dispersion_of(residuals, options_.max_gap_s);
     if (!scatter) return;
     const double h = scatter->horizontal, v = scatter->vertical;
     const double change = std::max(std::abs(std::log(h / result_.accuracy_factor_horizontal)),
@@ -260,7 +260,7 @@ void Georeferencer::bound_odometry() {
 /// Believes what the edges claim of themselves unless the fixes contradict it; then takes the
 /// scatter that the fixes show. None is taken for so good that the fixes could not tell it from a
 /// rigid map.
-void Georeferencer::scatter_of_odometry() {
+void Georeferencer::variance_components_of_odometry() {
   if (!options_.estimate_odometry) return;
   constexpr int kRounds = 15;
   constexpr double kContradicted = 3, kSettled = 0.05, kRigid = 0.1;
@@ -269,8 +269,8 @@ void Georeferencer::scatter_of_odometry() {
                        std::sqrt(static_cast<double>(observations_.size())) /
                        result_.T_enu_map.scale();
   for (int round = 0; round < kRounds; ++round) {
-    const OdometryScatter found = odometry_scatter(result_.graph);
-    const auto change = [&](const ScatterFactor& now, double factor, double claimed) {
+    const VarianceComponents found = odometry_variance_components(result_.graph);
+    const auto change = [&](const DispersionFactor& now, double factor, double claimed) {
       if (factor == 1 && std::abs(now.deviations) < kContradicted) return 1.0;
       return std::max(now.factor, std::min(1.0, rigid / claimed) / factor);
     };
@@ -308,7 +308,7 @@ void Georeferencer::undo_delay() {
   scale_odometry_by(1 / result_.odometry_factor_translation, 1 / result_.odometry_factor_rotation);
   bound_odometry();
   solve({RobustKernel::Kind::kHuber, kHuberWidth});
-  scatter_of_odometry();
+  variance_components_of_odometry();
 }
 
 void Georeferencer::take_further(double delay_s) {
@@ -350,7 +350,7 @@ void Georeferencer::solve(const RobustKernel& kernel) {
         graph_.nodes[seen.fix.node].id, seen.position_world,
         seen.fix.antenna(calibration_.head<3>(), calibration_[3]), seen.information, kernel});
   PoseGraphOptions options = options_.solver;
-  options.start = PoseGraphStart::kFile;  // the alignment; other starts know nothing of fixes
+  options.start = PoseGraphInitialization::kFile;  // the alignment; other starts know nothing of fixes
   const PoseGraphReport report = optimize_pose_graph(graph, options, log_);
   result_.outcome = report.outcome;
   result_.iterations += report.iterations;

@@ -22,8 +22,8 @@ struct Component {
     squares += e.dot(factor.solve(e));
     redundancy += static_cast<double>(e.size()) - factor.solve(remaining).trace();
   }
-  ScatterFactor factor() const {
-    ScatterFactor result;
+  DispersionFactor factor() const {
+    DispersionFactor result;
     result.redundancy = redundancy;
     if (!(redundancy >= kLeastRedundancy)) return result;
     const double ratio = squares / redundancy, spread = 2 / (9 * redundancy);
@@ -46,10 +46,10 @@ std::vector<int> judged(const PoseGraph& graph) {
 }
 
 template <class Group>
-OdometryScatter scatter(const PoseGraph& graph) {
-  constexpr int dim = Group::kDof == 3 ? 2 : 3, turns = Group::kDof - dim;
+VarianceComponents scatter(const PoseGraph& graph) {
+  constexpr int dim = Group::kDof == 3 ? 2 : 3, rotations = Group::kDof - dim;
   const PoseMarginals marginals(graph);
-  OdometryScatter result;
+  VarianceComponents result;
   if (!marginals.outcome()) return result;
   const auto covariances = marginals.constraint_covariances();
   const auto index = graph.index_by_id();
@@ -66,8 +66,8 @@ OdometryScatter scatter(const PoseGraph& graph) {
         covariance_of(typename Group::Jacobian(edge.information));
     translation.add(claimed.template topLeftCorner<dim, dim>(),
                     covariances[i].topLeftCorner(dim, dim), e.template head<dim>());
-    rotation.add(claimed.template bottomRightCorner<turns, turns>(),
-                 covariances[i].bottomRightCorner(turns, turns), e.template tail<turns>());
+    rotation.add(claimed.template bottomRightCorner<rotations, rotations>(),
+                 covariances[i].bottomRightCorner(rotations, rotations), e.template tail<rotations>());
   }
   result.translation = translation.factor();
   result.rotation = rotation.factor();
@@ -76,7 +76,7 @@ OdometryScatter scatter(const PoseGraph& graph) {
 
 template <class Group>
 ClaimedDrift drift(const PoseGraph& map) {
-  constexpr int dim = Group::kDof == 3 ? 2 : 3, turns = dim == 2 ? 1 : 3;
+  constexpr int dim = Group::kDof == 3 ? 2 : 3, rotations = dim == 2 ? 1 : 3;
   typename Group::Point mean = Group::Point::Zero();
   double squares = 0;
   for (const PoseNode& node : map.nodes) {
@@ -92,14 +92,14 @@ ClaimedDrift drift(const PoseGraph& map) {
     const typename Group::Jacobian claimed =
         covariance_of(typename Group::Jacobian(edge.information));
     translation += claimed.template topLeftCorner<dim, dim>().trace();
-    rotation += claimed.template block<turns, turns>(dim, dim).trace();
+    rotation += claimed.template block<rotations, rotations>(dim, dim).trace();
   }
   return {std::sqrt(translation), radius * std::sqrt(rotation)};
 }
 
 }  // namespace
 
-OdometryScatter odometry_scatter(const PoseGraph& solved) {
+VarianceComponents odometry_variance_components(const PoseGraph& solved) {
   switch (solved.kind()) {
     case PoseKind::kSE2:
       return scatter<SE2>(solved);

@@ -4,7 +4,7 @@
 namespace placegraph {
 
 /// How much more (or less) the relative poses of a graph scatter than they claim.
-struct ScatterFactor {
+struct DispersionFactor {
   double factor = 1;  ///< on the standard deviation
   /// How many components other measurements check, as if each were checked in full or not at all.
   double redundancy = 0;
@@ -12,8 +12,8 @@ struct ScatterFactor {
   /// approximation of chi-squared; negative if they scatter less.
   double deviations = 0;
 };
-struct OdometryScatter {
-  ScatterFactor translation, rotation;
+struct VarianceComponents {
+  DispersionFactor translation, rotation;
 };
 
 /// Estimates variance components (Foerstner 1979; Koch 1999, "Parameter estimation and hypothesis
@@ -26,7 +26,7 @@ struct OdometryScatter {
 /// leaves to it. Unbiased where the claims hold; where they do not, scale_odometry() with it, solve
 /// and repeat. Factors are 1 where nothing is checked (redundancy below a half) or the graph has
 /// open directions. Without odometry edges all relative poses count.
-OdometryScatter odometry_scatter(const PoseGraph& solved);
+VarianceComponents odometry_variance_components(const PoseGraph& solved);
 
 /// How far the odometry of a map would carry it by what it claims, roughly [map's unit]: the root
 /// of the summed variances of its translations, and of its rotations times the map's radius.

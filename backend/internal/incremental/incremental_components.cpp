@@ -5,21 +5,21 @@
 
 namespace placegraph {
 
-int GrowingComponents::add_node(bool fixed) {
+int IncrementalComponents::add_node(bool fixed) {
   const int node = static_cast<int>(nodes_.size());
   nodes_.push_back({static_cast<int>(components_.size()), fixed, true});
   components_.push_back({{node}, node, fixed ? 1 : 0, fixed ? -1 : node});
   return node;
 }
 
-void GrowingComponents::set_held(int node, bool held) {
+void IncrementalComponents::set_held(int node, bool held) {
   if (nodes_[node].held == held) return;
   nodes_[node].held = held;
   changed_.push_back(node);
 }
 
 /// Holds the first node of a component without anchors and lets it go in one that has some.
-void GrowingComponents::settle(Component& component) {
+void IncrementalComponents::settle(Component& component) {
   const int hold = component.anchors > 0 || component.nodes.empty() ? -1 : component.first;
   if (component.held == hold) return;
   if (component.held >= 0) set_held(component.held, nodes_[component.held].fixed);
@@ -27,7 +27,7 @@ void GrowingComponents::settle(Component& component) {
   component.held = hold;
 }
 
-std::vector<int> GrowingComponents::join(int a, int b) {
+std::vector<int> IncrementalComponents::join(int a, int b) {
   int stays = nodes_[a].component, moves = nodes_[b].component;
   const auto before = [&](int x, int y) {
     const bool x_tied = components_[x].anchors > 0, y_tied = components_[y].anchors > 0;
@@ -55,7 +55,7 @@ std::vector<int> GrowingComponents::join(int a, int b) {
   return moved;
 }
 
-void GrowingComponents::split(const std::vector<int>& part) {
+void IncrementalComponents::split(const std::vector<int>& part) {
   const int old = nodes_[part.front()].component;
   int created = static_cast<int>(components_.size());
   if (free_components_.empty()) {
@@ -81,13 +81,13 @@ void GrowingComponents::split(const std::vector<int>& part) {
   settle(taken);
 }
 
-void GrowingComponents::anchor(int node, int count) {
+void IncrementalComponents::anchor(int node, int count) {
   nodes_[node].positions += count;
   Component& component = components_[nodes_[node].component];
   component.anchors += count;
   settle(component);
 }
 
-std::vector<int> GrowingComponents::take_changed() { return std::exchange(changed_, {}); }
+std::vector<int> IncrementalComponents::take_changed() { return std::exchange(changed_, {}); }
 
 }  // namespace placegraph

@@ -6,7 +6,7 @@ namespace placegraph {
 /// Which nodes of a growing graph hang together, and which are held: the fixed ones, and the first
 /// node of a component that neither a fixed node nor a measured position ties to the world (its
 /// anchors).
-class GrowingComponents {
+class IncrementalComponents {
  public:
   /// Returns the node's number, which counts from 0.
   int add_node(bool fixed);

@@ -63,8 +63,8 @@ class IncrementalEngineOf final : public IncrementalEngine {
   void solve_from_scratch(IncrementalStep& step);
 
   IncrementalOptions options_;
-  GrowingGraph<Group> graph_;
-  typename GrowingGraph<Group>::Tree& tree_;
+  IncrementalGraph<Group> graph_;
+  typename IncrementalGraph<Group>::Tree& tree_;
   double begin_ = 1;  ///< share of the allowed excess at which iterations begin
   /// Steps since the tree's damping was raised, and after how many it is lowered again.
   int steps_damped_ = 0, patience_ = 1;

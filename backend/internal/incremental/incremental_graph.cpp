@@ -23,13 +23,13 @@ int take_place(List& list, std::vector<int>& free) {
 }  // namespace
 
 template <class Group>
-int GrowingGraph<Group>::find(NodeId node_id) const {
+int IncrementalGraph<Group>::find(NodeId node_id) const {
   const auto found = index_.find(node_id);
   return found == index_.end() ? -1 : found->second;
 }
 
 template <class Group>
-void GrowingGraph<Group>::add_node(const PoseNode& node) {
+void IncrementalGraph<Group>::add_node(const PoseNode& node) {
   index_.emplace(node.id, static_cast<int>(nodes_.size()));
   ids_.push_back(node.id);
   fixed_.push_back(node.fixed);
@@ -40,7 +40,7 @@ void GrowingGraph<Group>::add_node(const PoseNode& node) {
 }
 
 template <class Group>
-void GrowingGraph<Group>::add_constraints(const std::vector<Constraint>& constraints,
+void IncrementalGraph<Group>::add_constraints(const std::vector<Constraint>& constraints,
                                           bool poses_hold) {
   // Odometry first, and nothing depends on the order in which the rest is given.
   std::vector<std::tuple<int, int, int, int>> order;
@@ -63,7 +63,7 @@ void GrowingGraph<Group>::add_constraints(const std::vector<Constraint>& constra
 }
 
 template <class Group>
-void GrowingGraph<Group>::attach(int number, double weight) {
+void IncrementalGraph<Group>::attach(int number, double weight) {
   if (const auto* relative = std::get_if<RelativePoseConstraint>(&constraints_[number]))
     add_edge(*relative, number, weight);
   else
@@ -73,7 +73,7 @@ void GrowingGraph<Group>::attach(int number, double weight) {
 /// Takes a constraint out of everything but the list of constraints: dead ones cost neither time
 /// nor memory beside their record.
 template <class Group>
-void GrowingGraph<Group>::detach(int number) {
+void IncrementalGraph<Group>::detach(int number) {
   const int place = std::exchange(place_[number], -1);
   const auto mark = [&](int node) {
     if (!std::exchange(nodes_[node].gradient_stale, true)) gradient_stale_.push_back(node);
@@ -103,7 +103,7 @@ void GrowingGraph<Group>::detach(int number) {
 }
 
 template <class Group>
-void GrowingGraph<Group>::add_edge(const RelativePoseConstraint& constraint, int number,
+void IncrementalGraph<Group>::add_edge(const RelativePoseConstraint& constraint, int number,
                                    double weight) {
   const int e = take_place(edges_, free_edges_);
   place_[number] = e;
@@ -126,7 +126,7 @@ void GrowingGraph<Group>::add_edge(const RelativePoseConstraint& constraint, int
 }
 
 template <class Group>
-void GrowingGraph<Group>::add_position(const PositionConstraint& constraint, int number,
+void IncrementalGraph<Group>::add_position(const PositionConstraint& constraint, int number,
                                        double weight) {
   const int p = take_place(positions_, free_positions_);
   place_[number] = p;
@@ -145,7 +145,7 @@ void GrowingGraph<Group>::add_position(const PositionConstraint& constraint, int
 }
 
 template <class Group>
-void GrowingGraph<Group>::revise(const ConstraintRevision& revision) {
+void IncrementalGraph<Group>::revise(const ConstraintRevision& revision) {
   constraints_[revision.constraint] = revision.measured;
   const int place = place_[revision.constraint];
   if (place < 0) return;
@@ -169,7 +169,7 @@ void GrowingGraph<Group>::revise(const ConstraintRevision& revision) {
 }
 
 template <class Group>
-void GrowingGraph<Group>::set_weight(const ConstraintWeight& weight) {
+void IncrementalGraph<Group>::set_weight(const ConstraintWeight& weight) {
   const int place = place_[weight.constraint];
   if (place < 0) {
     if (weight.weight > 0) attach(weight.constraint, weight.weight);
@@ -187,7 +187,7 @@ void GrowingGraph<Group>::set_weight(const ConstraintWeight& weight) {
 }
 
 template <class Group>
-void GrowingGraph<Group>::join(const Edge& edge) {
+void IncrementalGraph<Group>::join(const Edge& edge) {
   const int from = edge.edge.from, to = edge.edge.to;
   if (components_.together(from, to)) return;
   const std::vector<int> moved = components_.join(from, to);
@@ -203,7 +203,7 @@ void GrowingGraph<Group>::join(const Edge& edge) {
 
 /// An edge of two nodes is gone: makes two components of one unless another way joins them.
 template <class Group>
-void GrowingGraph<Group>::split(int from, int to) {
+void IncrementalGraph<Group>::split(int from, int to) {
   std::vector<char> seen(nodes_.size(), false);
   std::vector<int> reached = {to};
   seen[to] = true;
@@ -220,14 +220,14 @@ void GrowingGraph<Group>::split(int from, int to) {
 }
 
 template <class Group>
-void GrowingGraph<Group>::apply_held() {
+void IncrementalGraph<Group>::apply_held() {
   for (const int node : components_.take_changed()) tree_.set_active(node, !components_.held(node));
 }
 
 // Its terms at the present poses.
 
 template <class Group>
-void GrowingGraph<Group>::evaluate(int e) {
+void IncrementalGraph<Group>::evaluate(int e) {
   Edge& edge = edges_[e];
   const int from = edge.edge.from, to = edge.edge.to;
   edge.evaluate(nodes_[from].T_world_node, nodes_[to].T_world_node, rotation_error_);
@@ -237,7 +237,7 @@ void GrowingGraph<Group>::evaluate(int e) {
 }
 
 template <class Group>
-void GrowingGraph<Group>::linearize(int e) {
+void IncrementalGraph<Group>::linearize(int e) {
   Edge& edge = edges_[e];
   const auto blocks = edge.linearize(nodes_[edge.edge.from].T_world_node,
                                      nodes_[edge.edge.to].T_world_node, rotation_error_);
@@ -245,7 +245,7 @@ void GrowingGraph<Group>::linearize(int e) {
 }
 
 template <class Group>
-void GrowingGraph<Group>::evaluate_position(int p) {
+void IncrementalGraph<Group>::evaluate_position(int p) {
   Position& position = positions_[p];
   const int node = position.position.node;
   const auto H = position.evaluate(nodes_[node].T_world_node);
@@ -255,7 +255,7 @@ void GrowingGraph<Group>::evaluate_position(int p) {
 
 /// Edges and positions of the nodes, which have moved.
 template <class Group>
-void GrowingGraph<Group>::evaluate_around(const std::vector<int>& nodes) {
+void IncrementalGraph<Group>::evaluate_around(const std::vector<int>& nodes) {
   visited_.clear();
   for (const int node : nodes) {
     for (const int e : nodes_[node].edges)
@@ -270,7 +270,7 @@ void GrowingGraph<Group>::evaluate_around(const std::vector<int>& nodes) {
 
 /// Moves nodes by their steps in the tree.
 template <class Group>
-void GrowingGraph<Group>::move(const std::vector<int>& nodes) {
+void IncrementalGraph<Group>::move(const std::vector<int>& nodes) {
   for (const int node : nodes) {
     Node& n = nodes_[node];
     n.T_before = n.T_world_node;
@@ -280,13 +280,13 @@ void GrowingGraph<Group>::move(const std::vector<int>& nodes) {
 }
 
 template <class Group>
-void GrowingGraph<Group>::move_back(const std::vector<int>& nodes) {
+void IncrementalGraph<Group>::move_back(const std::vector<int>& nodes) {
   for (const int node : nodes) nodes_[node].T_world_node = nodes_[node].T_before;
   evaluate_around(nodes);
 }
 
 template <class Group>
-void GrowingGraph<Group>::set_poses(const std::vector<Group>& T_world_nodes) {
+void IncrementalGraph<Group>::set_poses(const std::vector<Group>& T_world_nodes) {
   std::vector<int> all;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     nodes_[n].T_world_node = T_world_nodes[n];
@@ -296,7 +296,7 @@ void GrowingGraph<Group>::set_poses(const std::vector<Group>& T_world_nodes) {
 }
 
 template <class Group>
-void GrowingGraph<Group>::set_gradients() {
+void IncrementalGraph<Group>::set_gradients() {
   for (const int node : gradient_stale_) {
     Tangent g = Tangent::Zero();
     for (const int e : nodes_[node].edges)
@@ -309,7 +309,7 @@ void GrowingGraph<Group>::set_gradients() {
 }
 
 template <class Group>
-int GrowingGraph<Group>::relinearize(const std::vector<int>& edges, double change) {
+int IncrementalGraph<Group>::relinearize(const std::vector<int>& edges, double change) {
   int count = 0;
   for (const int e : edges) {
     if (edges_[e].change <= change) continue;
@@ -320,7 +320,7 @@ int GrowingGraph<Group>::relinearize(const std::vector<int>& edges, double chang
 }
 
 template <class Group>
-int GrowingGraph<Group>::relinearize_all(double change) {
+int IncrementalGraph<Group>::relinearize_all(double change) {
   std::vector<int> all;
   for (std::size_t e = 0; e < edges_.size(); ++e)
     if (edges_[e].term >= 0) all.push_back(static_cast<int>(e));
@@ -328,7 +328,7 @@ int GrowingGraph<Group>::relinearize_all(double change) {
 }
 
 template <class Group>
-double GrowingGraph<Group>::cost() const {
+double IncrementalGraph<Group>::cost() const {
   double cost = 0;
   for (const double of_edge : edge_costs_) cost += of_edge;
   for (const Position& position : positions_) cost += position.cost;
@@ -336,7 +336,7 @@ double GrowingGraph<Group>::cost() const {
 }
 
 template <class Group>
-PackedGraph<Group> GrowingGraph<Group>::packed() const {
+PackedGraph<Group> IncrementalGraph<Group>::packed() const {
   PackedGraph<Group> graph;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     graph.poses.push_back(nodes_[n].T_world_node);
@@ -353,7 +353,7 @@ PackedGraph<Group> GrowingGraph<Group>::packed() const {
 }
 
 template <class Group>
-PoseGraph GrowingGraph<Group>::graph() const {
+PoseGraph IncrementalGraph<Group>::graph() const {
   PoseGraph graph;
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     graph.nodes.push_back({ids_[n], nodes_[n].T_world_node, fixed_[n] != 0});
@@ -374,8 +374,8 @@ PoseGraph GrowingGraph<Group>::graph() const {
   return graph;
 }
 
-template class GrowingGraph<SE2>;
-template class GrowingGraph<SE3>;
-template class GrowingGraph<Sim3>;
+template class IncrementalGraph<SE2>;
+template class IncrementalGraph<SE3>;
+template class IncrementalGraph<Sim3>;
 
 }  // namespace placegraph

@@ -13,10 +13,10 @@ namespace placegraph {
 /// elimination tree that these are written into. Constraints of weight zero are taken out of
 /// everything but the list of constraints. All that comes in has been checked by the caller.
 template <class Group>
-class GrowingGraph {
+class IncrementalGraph {
  public:
   using Tree = EliminationTree<Group::kDof>;
-  explicit GrowingGraph(RotationError rotation_error) : rotation_error_(rotation_error) {}
+  explicit IncrementalGraph(RotationError rotation_error) : rotation_error_(rotation_error) {}
 
   void add_node(const PoseNode& node);
   /// `poses_hold`: constraints that join components move neither.
@@ -87,7 +87,7 @@ class GrowingGraph {
   std::vector<Constraint> constraints_;
   std::vector<int> place_;  ///< of every constraint in edges_ or positions_; -1: of weight 0
   std::vector<Node> nodes_;
-  GrowingComponents components_;
+  IncrementalComponents components_;
   std::vector<Edge> edges_;
   std::vector<double> edge_costs_;  ///< of every edge, close together
   std::vector<Position> positions_;

@@ -96,7 +96,7 @@ std::optional<PositionFilter::Innovation> PositionFilter::innovation(
     const BodyState& state, const ImuSample& imu, const Measurement& measurement) const {
   Innovation result;
   const Matrix3d R = state.T_world_body.rotation().matrix();
-  if (const auto* pose = std::get_if<PoseSighting>(&measurement)) {
+  if (const auto* pose = std::get_if<PoseMeasurement>(&measurement)) {
     result.residual = (state.T_world_body.inverse() * pose->T_world_body).log();
     result.H = MatrixXd::Zero(6, 15);
     result.H.block<3, 3>(0, kPosition) = R.transpose();
@@ -104,7 +104,7 @@ std::optional<PositionFilter::Innovation> PositionFilter::innovation(
     result.R = pose->covariance;
     return result;
   }
-  const auto* flow = std::get_if<FlowSighting>(&measurement);
+  const auto* flow = std::get_if<FlowMeasurement>(&measurement);
   if (!flow) return std::nullopt;
   // The camera's velocity over its height, for the time between the images.
   const double dt = seconds(flow->from_ns, flow->to_ns);
@@ -134,9 +134,9 @@ std::optional<PositionFilter::Innovation> PositionFilter::innovation(
   result.H.block<3, 3>(0, kAttitude) += by_height * up_by_attitude.transpose();
   result.H.col(kVelocity + 2) -= by_height * 0.5 * dt;
   result.R = flow->covariance;
-  if (flow->J_turn) {
+  if (flow->J_rotation) {
     // What the gyro's noise and bias did to the turn they did to the attitude, with the other sign.
-    const Matrix3d J = *flow->J_turn * R_cam_body;
+    const Matrix3d J = *flow->J_rotation * R_cam_body;
     // The turn as it is with what is known of the bias by now.
     result.residual -= dt * J * (state.gyro_bias - flow->gyro_bias);
     const double variance = options_.gyro_noise * options_.gyro_noise * dt;
@@ -257,36 +257,36 @@ Outcome PositionFilter::add(const ImuSample& sample) {
   return Outcome::ok();
 }
 
-Outcome PositionFilter::add(const PoseSighting& sighting) {
-  if (!sighting.T_world_body.translation().allFinite() || !positive_definite(sighting.covariance))
+Outcome PositionFilter::add(const PoseMeasurement& observation) {
+  if (!observation.T_world_body.translation().allFinite() || !positive_definite(observation.covariance))
     return Outcome::failure(Code::kInconsistent, "the pose or its covariance is unusable");
-  return insert(sighting.stamp_ns, sighting);
+  return insert(observation.stamp_ns, observation);
 }
 
-Outcome PositionFilter::add(const FlowSighting& sighting) {
-  if (!sighting.over_distance.allFinite() || !positive_definite(sighting.covariance) ||
-      sighting.to_ns <= sighting.from_ns)
+Outcome PositionFilter::add(const FlowMeasurement& observation) {
+  if (!observation.over_distance.allFinite() || !positive_definite(observation.covariance) ||
+      observation.to_ns <= observation.from_ns)
     return Outcome::failure(Code::kInconsistent, "the flow or its covariance is unusable");
-  return insert(sighting.from_ns + (sighting.to_ns - sighting.from_ns) / 2, sighting);
+  return insert(observation.from_ns + (observation.to_ns - observation.from_ns) / 2, observation);
 }
 
-std::optional<double> PositionFilter::deviation2(const PoseSighting& sighting) const {
-  const Answer expected = at(sighting.stamp_ns);
+std::optional<double> PositionFilter::deviation2(const PoseMeasurement& observation) const {
+  const StateEstimate expected = at(observation.stamp_ns);
   if (!expected.outcome) return std::nullopt;
-  const auto found = innovation(expected.state, {}, sighting);
+  const auto found = innovation(expected.state, {}, observation);
   const MatrixXd S = found->H * expected.state.covariance * found->H.transpose() + found->R;
   return found->residual.dot(S.ldlt().solve(found->residual));
 }
 
 BodyExpectation PositionFilter::expectation(std::int64_t stamp_ns) const {
   BodyExpectation expected;
-  if (const Answer answer = at(stamp_ns); answer.outcome) expected.state = answer.state;
-  expected.deviation2 = [this](const PoseSighting& sighting) { return deviation2(sighting); };
+  if (const StateEstimate answer = at(stamp_ns); answer.outcome) expected.state = answer.state;
+  expected.deviation2 = [this](const PoseMeasurement& observation) { return deviation2(observation); };
   return expected;
 }
 
-PositionFilter::Answer PositionFilter::at(std::int64_t stamp_ns) const {
-  Answer answer;
+PositionFilter::StateEstimate PositionFilter::at(std::int64_t stamp_ns) const {
+  StateEstimate answer;
   if (events_.empty()) {
     answer.outcome = not_started();
     return answer;
@@ -302,11 +302,11 @@ PositionFilter::Answer PositionFilter::at(std::int64_t stamp_ns) const {
   answer.state = predict(last, stamp_ns, last.imu);
   // The last sample is held: what changes after it is not known, the same way all the time.
   const double ahead = std::max(0.0, seconds(last.imu.stamp_ns, stamp_ns));
-  Eigen::Matrix<double, 15, 3> unknown_turn = Eigen::Matrix<double, 15, 3>::Zero();
-  Eigen::Matrix<double, 15, 3> unknown_push = unknown_turn;
-  unknown_turn.block<3, 3>(kAttitude, 0)
+  Eigen::Matrix<double, 15, 3> unknown_rotation = Eigen::Matrix<double, 15, 3>::Zero();
+  Eigen::Matrix<double, 15, 3> unknown_push = unknown_rotation;
+  unknown_rotation.block<3, 3>(kAttitude, 0)
       .diagonal()
-      .setConstant(0.5 * ahead * ahead * options_.ahead_turn_rad_s2);
+      .setConstant(0.5 * ahead * ahead * options_.ahead_rotation_rad_s2);
   unknown_push.block<3, 3>(kVelocity, 0)
       .diagonal()
       .setConstant(0.5 * ahead * ahead * options_.ahead_push_m_s3);
@@ -314,7 +314,7 @@ PositionFilter::Answer PositionFilter::at(std::int64_t stamp_ns) const {
       .diagonal()
       .setConstant(ahead * ahead * ahead / 6 * options_.ahead_push_m_s3);
   answer.state.covariance +=
-      unknown_turn * unknown_turn.transpose() + unknown_push * unknown_push.transpose();
+      unknown_rotation * unknown_rotation.transpose() + unknown_push * unknown_push.transpose();
   if (seconds(last.imu.stamp_ns, stamp_ns) > options_.max_prediction_s) {
     answer.outcome = Outcome::failure(
         Code::kTooFewData, "the last inertial sample is " +

@@ -36,13 +36,13 @@ class PositionFilter {
   Outcome add(const ImuSample& sample);
   /// Outcomes of measurements: inconsistent (outside the gate, not finite), not attempted (before
   /// `start`), too few data (older than the history, or newer than the inertial samples reach).
-  Outcome add(const PoseSighting& sighting);
-  Outcome add(const FlowSighting& sighting);
+  Outcome add(const PoseMeasurement& observation);
+  Outcome add(const FlowMeasurement& observation);
   /// Squared deviation of a pose from what the filter expects at its time, in units of both
   /// covariances (chi^2, six degrees of freedom): tells the two poses of a planar marker apart.
-  std::optional<double> deviation2(const PoseSighting& sighting) const;
+  std::optional<double> deviation2(const PoseMeasurement& observation) const;
 
-  struct Answer {
+  struct StateEstimate {
     Outcome outcome;
     BodyState state;
   };
@@ -50,13 +50,13 @@ class PositionFilter {
   /// sample; what the body may do after that is in the covariance. Outcomes: not attempted, too few
   /// data (out of reach of the inertial samples, before the history), degenerate (the position is
   /// not known to `max_position_sigma_m`).
-  Answer at(std::int64_t stamp_ns) const;
+  StateEstimate at(std::int64_t stamp_ns) const;
   /// `at` and `deviation2` for an estimator that does not know this filter, such as MarkerFilter.
   /// The filter must outlive it.
   BodyExpectation expectation(std::int64_t stamp_ns) const;
 
  private:
-  using Measurement = std::variant<std::monostate, ImuSample, PoseSighting, FlowSighting>;
+  using Measurement = std::variant<std::monostate, ImuSample, PoseMeasurement, FlowMeasurement>;
   struct Event {
     std::int64_t stamp_ns = 0;
     Measurement measurement;

@@ -16,7 +16,7 @@ void ImuPreintegration::add(const Vector3d& gyro_rad_s, const Vector3d& accel_m_
   const Matrix3d R = (rotation_ * SO3::exp(0.5 * turn)).matrix();
   const Vector3d accel = R * force;
   const Matrix3d by_attitude = -R * hat(force);
-  const Matrix3d turned_back = SO3::exp(-turn).matrix();
+  const Matrix3d rotated_back = SO3::exp(-turn).matrix();
   const Matrix3d half_back = SO3::exp(-0.5 * turn).matrix();
   const Matrix3d by_gyro = -dt * SO3::right_jacobian(turn);
   const Matrix3d half_by_gyro = -0.5 * dt * SO3::right_jacobian(0.5 * turn);
@@ -25,7 +25,7 @@ void ImuPreintegration::add(const Vector3d& gyro_rad_s, const Vector3d& accel_m_
   F.block<3, 3>(kPosition, kVelocity) = dt * Matrix3d::Identity();
   F.block<3, 3>(kPosition, kAttitude) = 0.5 * dt * dt * by_attitude * half_back;
   F.block<3, 3>(kVelocity, kAttitude) = dt * by_attitude * half_back;
-  F.block<3, 3>(kAttitude, kAttitude) = turned_back;
+  F.block<3, 3>(kAttitude, kAttitude) = rotated_back;
   Eigen::Matrix<double, 9, 6> B = Eigen::Matrix<double, 9, 6>::Zero();
   B.block<3, 3>(kPosition, 0) = 0.5 * dt * dt * by_attitude * half_by_gyro;
   B.block<3, 3>(kVelocity, 0) = dt * by_attitude * half_by_gyro;

@@ -56,12 +56,12 @@ StateError inertial_error(const ImuPreintegration& motion, const BodyState& firs
   J.block<3, 3>(kVelocity, kVelocity) = -to_first;
   J.block<3, 3>(kVelocity, kAttitude) = hat(faster);
   J.block<6, 6>(kPosition, kGyroBias) = -motion.by_bias().topRows<6>();
-  const Matrix3d turn_inverse = SO3::right_jacobian_inverse(turn);
-  J.block<3, 3>(kAttitude, kAttitude) = -turn_inverse * R_first_second.matrix().transpose();
+  const Matrix3d rotation_inverse = SO3::right_jacobian_inverse(turn);
+  J.block<3, 3>(kAttitude, kAttitude) = -rotation_inverse * R_first_second.matrix().transpose();
   // A bias moves the rotation at its right end; the logarithm sees that from the other side.
   const Vector3d off =
       motion.by_bias().bottomRows<3>().leftCols<3>() * (first.gyro_bias - motion.gyro_bias());
-  J.block<3, 3>(kAttitude, kGyroBias) = -turn_inverse * SO3::exp(-turn).matrix() *
+  J.block<3, 3>(kAttitude, kGyroBias) = -rotation_inverse * SO3::exp(-turn).matrix() *
                                         SO3::right_jacobian(off) *
                                         motion.by_bias().bottomRows<3>().leftCols<3>();
   J.block<3, 3>(kGyroBias, kGyroBias) = -Matrix3d::Identity();
@@ -70,7 +70,7 @@ StateError inertial_error(const ImuPreintegration& motion, const BodyState& firs
   K = MatrixXd::Zero(15, 15);
   K.block<3, 3>(kPosition, kPosition) = to_first;
   K.block<3, 3>(kVelocity, kVelocity) = to_first;
-  K.block<3, 3>(kAttitude, kAttitude) = turn_inverse;
+  K.block<3, 3>(kAttitude, kAttitude) = rotation_inverse;
   K.block<6, 6>(kGyroBias, kGyroBias).setIdentity();
 
   MatrixXd covariance = MatrixXd::Zero(15, 15);
@@ -87,23 +87,23 @@ StateError inertial_error(const ImuPreintegration& motion, const BodyState& firs
   return error;
 }
 
-StateError pose_error(const PoseSighting& sighting, const BodyState& state) {
-  const Matrix3d to_seen = sighting.T_world_body.rotation().matrix().transpose();
+StateError pose_error(const PoseMeasurement& observation, const BodyState& state) {
+  const Matrix3d to_seen = observation.T_world_body.rotation().matrix().transpose();
   const Vector3d way =
-      to_seen * (state.T_world_body.translation() - sighting.T_world_body.translation());
+      to_seen * (state.T_world_body.translation() - observation.T_world_body.translation());
   const Vector3d turn =
-      (sighting.T_world_body.rotation().inverse() * state.T_world_body.rotation()).log();
+      (observation.T_world_body.rotation().inverse() * state.T_world_body.rotation()).log();
   StateError error;
   error.r.resize(6);
   error.r << way, turn;
   error.J_first = MatrixXd::Zero(6, 15);
   error.J_first.block<3, 3>(0, kPosition) = to_seen;
   error.J_first.block<3, 3>(3, kAttitude) = SO3::right_jacobian_inverse(turn);
-  error.information = symmetric_inverse(sighting.covariance);
+  error.information = symmetric_inverse(observation.covariance);
   return error;
 }
 
-std::optional<StateError> flow_error(const FlowSighting& sighting, const SE3& T_body_cam,
+std::optional<StateError> flow_error(const FlowMeasurement& observation, const SE3& T_body_cam,
                                      double floor_z_m, const BodyState& first,
                                      const BodyState& second) {
   const Vector3d arm = T_body_cam.translation();
@@ -117,7 +117,7 @@ std::optional<StateError> flow_error(const FlowSighting& sighting, const SE3& T_
   const Vector3d way = R_first.transpose() * (end - begin);
   const Vector3d flow = R_cam_body * way / height;
   StateError error;
-  error.r = flow - sighting.over_distance;
+  error.r = flow - observation.over_distance;
   error.J_first = MatrixXd::Zero(3, 15);
   error.J_second = MatrixXd::Zero(3, 15);
   const Matrix3d to_flow = R_cam_body / height;
@@ -129,19 +129,19 @@ std::optional<StateError> flow_error(const FlowSighting& sighting, const SE3& T_
   const Vector3d by_height = -flow / height;
   error.J_first.col(kPosition + 2) += by_height;
   error.J_first.block<3, 3>(0, kAttitude) += by_height * (-R_first * hat(arm)).row(2);
-  if (sighting.J_turn) {
+  if (observation.J_rotation) {
     const SO3 R_body_cam = T_body_cam.rotation();
     const SO3 R_states = R_body_cam.inverse() * first.T_world_body.rotation().inverse() *
                          second.T_world_body.rotation() * R_body_cam;
-    const Vector3d wrong = (R_states.inverse() * sighting.R_from_to).log();
-    error.r += *sighting.J_turn * wrong;
-    error.J_first.block<3, 3>(0, kAttitude) += *sighting.J_turn *
+    const Vector3d wrong = (R_states.inverse() * observation.R_from_to).log();
+    error.r += *observation.J_rotation * wrong;
+    error.J_first.block<3, 3>(0, kAttitude) += *observation.J_rotation *
                                                SO3::right_jacobian_inverse(wrong) *
-                                               sighting.R_from_to.matrix().transpose() * R_cam_body;
+                                               observation.R_from_to.matrix().transpose() * R_cam_body;
     error.J_second.block<3, 3>(0, kAttitude) -=
-        *sighting.J_turn * SO3::right_jacobian_inverse(Vector3d(-wrong)) * R_cam_body;
+        *observation.J_rotation * SO3::right_jacobian_inverse(Vector3d(-wrong)) * R_cam_body;
   }
-  error.information = symmetric_inverse(sighting.covariance);
+  error.information = symmetric_inverse(observation.covariance);
   return error;
 }
 

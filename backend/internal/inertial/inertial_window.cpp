@@ -182,11 +182,11 @@ InertialWindow::Chain InertialWindow::linearize(std::size_t from, std::size_t to
   }
   for (std::size_t k = from; k < to; ++k) {
     const State& state = states_[k];
-    for (const PoseSighting& seen : state.poses) chain.add(pose_error(seen, state.value), k - from);
+    for (const PoseMeasurement& seen : state.poses) chain.add(pose_error(seen, state.value), k - from);
     if (k == from) continue;
     const BodyState& before = states_[k - 1].value;
     chain.add(inertial_error(*state.motion, before, state.value), k - 1 - from);
-    for (const FlowSighting& flow : state.flows)
+    for (const FlowMeasurement& flow : state.flows)
       if (const auto error = flow_error(flow, T_body_cam_, floor_z_m_, before, state.value))
         chain.add(*error, k - 1 - from);
   }
@@ -194,7 +194,7 @@ InertialWindow::Chain InertialWindow::linearize(std::size_t from, std::size_t to
 }
 
 /// Whether an error of states `index` and the next, or of `index` alone, is inside the gate.
-bool InertialWindow::believed(const StateError& error, std::size_t index) const {
+bool InertialWindow::is_within_gate(const StateError& error, std::size_t index) const {
   const Chain chain = linearize(0, states_.size());
   const bool alone = error.J_second.size() == 0;
   MatrixXd J(error.r.size(), 30), covariance = MatrixXd::Zero(30, 30);
@@ -215,16 +215,16 @@ bool InertialWindow::believed(const StateError& error, std::size_t index) const 
   return chi2 <= chi_squared_quantile(options_.gate, static_cast<int>(error.r.size()));
 }
 
-Outcome InertialWindow::add(const PoseSighting& sighting) {
+Outcome InertialWindow::add(const PoseMeasurement& observation) {
   if (states_.empty()) return window_not_started();
-  if (!sighting.T_world_body.translation().allFinite() || !positive_definite(sighting.covariance))
+  if (!observation.T_world_body.translation().allFinite() || !positive_definite(observation.covariance))
     return Outcome::failure(Code::kInconsistent, "the pose or its covariance is unusable");
   std::size_t index = 0;
-  const Outcome reached = reach(sighting.stamp_ns, index);
+  const Outcome reached = reach(observation.stamp_ns, index);
   if (!reached) return reached;
-  const bool accepted = believed(pose_error(sighting, states_[index].value), index);
+  const bool accepted = is_within_gate(pose_error(observation, states_[index].value), index);
   if (accepted) {
-    states_[index].poses.push_back(sighting);
+    states_[index].poses.push_back(observation);
     improve(1);
   }
   forget();
@@ -232,23 +232,23 @@ Outcome InertialWindow::add(const PoseSighting& sighting) {
                   : Outcome::failure(Code::kInconsistent, "the measurement is outside the gate");
 }
 
-Outcome InertialWindow::add(const FlowSighting& sighting) {
+Outcome InertialWindow::add(const FlowMeasurement& observation) {
   if (states_.empty()) return window_not_started();
-  if (!sighting.over_distance.allFinite() || !positive_definite(sighting.covariance) ||
-      sighting.to_ns <= sighting.from_ns)
+  if (!observation.over_distance.allFinite() || !positive_definite(observation.covariance) ||
+      observation.to_ns <= observation.from_ns)
     return Outcome::failure(Code::kInconsistent, "the flow or its covariance is unusable");
   std::size_t from = 0, to = 0;
-  for (const auto& [stamp, index] : {std::pair{sighting.from_ns, &from}, {sighting.to_ns, &to}}) {
+  for (const auto& [stamp, index] : {std::pair{observation.from_ns, &from}, {observation.to_ns, &to}}) {
     const Outcome reached = reach(stamp, *index);
     if (!reached) return reached;
   }
   if (to != from + 1)
     return Outcome::failure(Code::kTooFewData, "there are states between the flow's two images");
   const auto error =
-      flow_error(sighting, T_body_cam_, floor_z_m_, states_[from].value, states_[to].value);
-  const bool accepted = error && believed(*error, from);
+      flow_error(observation, T_body_cam_, floor_z_m_, states_[from].value, states_[to].value);
+  const bool accepted = error && is_within_gate(*error, from);
   if (accepted) {
-    states_[to].flows.push_back(sighting);
+    states_[to].flows.push_back(observation);
     improve(1);
   }
   forget();
@@ -261,7 +261,7 @@ void InertialWindow::forget() {
   while (static_cast<int>(states_.size()) > options_.max_states) {
     Chain chain = linearize(0, 2);
     // What is of the second state alone stays with it.
-    for (const PoseSighting& seen : states_[1].poses) {
+    for (const PoseMeasurement& seen : states_[1].poses) {
       const StateError error = pose_error(seen, states_[1].value);
       chain.diagonal[1] -= error.J_first.transpose() * error.information * error.J_first;
       chain.gradient[1] -= error.J_first.transpose() * error.information * error.r;
@@ -291,8 +291,8 @@ void InertialWindow::improve(int iterations) {
   }
 }
 
-InertialWindow::Answer InertialWindow::solve() {
-  Answer answer;
+InertialWindow::StateEstimate InertialWindow::solve() {
+  StateEstimate answer;
   if (states_.empty()) {
     answer.outcome = window_not_started();
     return answer;

@@ -30,24 +30,24 @@ class InertialWindow {
   /// A measurement makes the states at its times, if they are newer than the newest. Outcomes:
   /// inconsistent (outside the gate, not finite), not attempted (before `start`), too few data
   /// (older than the window or between its states; no inertial samples reach to it).
-  Outcome add(const PoseSighting& sighting);
-  Outcome add(const FlowSighting& sighting);
+  Outcome add(const PoseMeasurement& observation);
+  Outcome add(const FlowMeasurement& observation);
 
   /// The states of the window, oldest first, at the minimum. The oldest ones know most of what came
   /// after them. Outcomes: not attempted.
-  struct Answer {
+  struct StateEstimate {
     Outcome outcome;
     std::vector<BodyState> states;
   };
-  Answer solve();
+  StateEstimate solve();
 
  private:
   struct State {
     BodyState value;
     /// From the state before; of the first not used.
     std::optional<ImuPreintegration> motion;
-    std::vector<PoseSighting> poses;
-    std::vector<FlowSighting> flows;  ///< from the state before
+    std::vector<PoseMeasurement> poses;
+    std::vector<FlowMeasurement> flows;  ///< from the state before
   };
   struct Chain;
 
@@ -56,7 +56,7 @@ class InertialWindow {
   Chain linearize(std::size_t from, std::size_t to) const;
   void improve(int iterations);
   void forget();
-  bool believed(const StateError& error, std::size_t index) const;
+  bool is_within_gate(const StateError& error, std::size_t index) const;
 
   InertialWindowOptions options_;
   SE3 T_body_cam_;

@@ -6,7 +6,7 @@ namespace placegraph {
 /// What is proven of an estimate. Only the isotropic chordal problem is certified: that its global
 /// minimum is near, not that the graph's own cost, which differs from it by the directions of the
 /// information, kernels and measured positions, has no lower minimum. Fixed nodes are tied to each
-/// other (tied_problem).
+/// other (held_node_constraints).
 struct ChordalIsotropicCertificate {
   static constexpr const char* kProblem = "chordal_isotropic";
   /// relative_gap is at most CertificateOptions::max_relative_gap, and no pose is turned by more

@@ -34,7 +34,7 @@ constexpr int kShortDescent = 15;  ///< steps to a minimum that is near
 /// Rotations and translations of the point of rank d into the poses, every component moved as a
 /// whole to where its first anchor stands; anchors keep their poses.
 template <class Group>
-void set_poses(const Eigen::MatrixXd& X, const Anchors& anchors, PackedGraph<Group>& graph) {
+void set_poses(const Eigen::MatrixXd& X, const ComponentAnchors& anchors, PackedGraph<Group>& graph) {
   constexpr int dim = kSpaceDim<Group>;
   using Rotation = std::decay_t<decltype(graph.poses[0].rotation())>;
   const auto rotation = [&](std::size_t i) {
@@ -113,10 +113,10 @@ void take_rounded(const ChordalRelaxation<dim>& relaxation, const Eigen::MatrixX
 
 /// The staircase from X, a minimum of rank d; X becomes the lowest minimum of rank d.
 template <int dim>
-CertifiedStartReport climb(const ChordalRelaxation<dim>& relaxation, int nodes, double max_effort,
+CertifiedInitializationReport climb(const ChordalRelaxation<dim>& relaxation, int nodes, double max_effort,
                            Eigen::MatrixXd& X) {
   Climber<dim> climber(relaxation, max_effort);
-  CertifiedStartReport report;
+  CertifiedInitializationReport report;
   report.rank = dim;
   report.cost = climber.minimize(X, kDescentShare, {}).cost;
   double lifted_cost = report.cost;
@@ -168,18 +168,18 @@ bool proves_itself(const ChordalRelaxation<dim>& relaxation, int nodes, const Ei
 }  // namespace
 
 template <class Group>
-CertifiedStartReport certified_start(PackedGraph<Group>& graph, RotationError rotation_error,
+CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>& graph, RotationError rotation_error,
                                      double max_effort) {
   constexpr int dim = kSpaceDim<Group>;
-  const Anchors anchors = find_anchors(graph);
-  const IsotropicProblem<dim> problem = tied_problem(graph, anchors, rotation_error);
+  const ComponentAnchors anchors = find_anchors(graph);
+  const IsotropicProblem<dim> problem = held_node_constraints(graph, anchors, rotation_error);
   if (problem.edges.empty()) {
     align_to_positions(graph);
     return {.tight = true};
   }
   const ChordalRelaxation<dim> relaxation(problem);
   Eigen::MatrixXd X = relaxation.point(graph.poses);
-  const CertifiedStartReport report = climb(relaxation, problem.nodes, max_effort, X);
+  const CertifiedInitializationReport report = climb(relaxation, problem.nodes, max_effort, X);
   set_poses(relaxation.round(X), anchors, graph);
   align_to_positions(graph);
   return report;
@@ -188,7 +188,7 @@ CertifiedStartReport certified_start(PackedGraph<Group>& graph, RotationError ro
 template <class Group>
 bool certified_as_they_are(const PackedGraph<Group>& graph, RotationError rotation_error) {
   constexpr int dim = kSpaceDim<Group>;
-  const IsotropicProblem<dim> problem = tied_problem(graph, find_anchors(graph), rotation_error);
+  const IsotropicProblem<dim> problem = held_node_constraints(graph, find_anchors(graph), rotation_error);
   if (problem.edges.empty()) return true;
   const ChordalRelaxation<dim> relaxation(problem);
   // With the translations best for the rotations, the multipliers are far nearer to critical.
@@ -200,7 +200,7 @@ bool certified_as_they_are(const PackedGraph<Group>& graph, RotationError rotati
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                                                        \
-  template CertifiedStartReport certified_start(PackedGraph<Group>&, RotationError, double); \
+  template CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>&, RotationError, double); \
   template bool certified_as_they_are(const PackedGraph<Group>&, RotationError);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)

@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-struct CertifiedStartReport {
+struct CertifiedInitializationReport {
   double cost = 0;         ///< of the isotropic chordal problem at the poses that were set
   double lower_bound = 0;  ///< of that problem, as far as it was proven
   double relative_gap = 0;
@@ -26,14 +26,14 @@ struct CertifiedStartReport {
 /// operations), and nothing is lifted or searched for when that is spent: where the relaxation is
 /// not tight the staircase climbs for long and gains little.
 template <class Group>
-CertifiedStartReport certified_start(PackedGraph<Group>& graph,
+CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>& graph,
                                      RotationError rotation_error = RotationError::kLog,
                                      double max_effort = 3000);
 
 /// Whether the poses are, or lie by a minimum of the isotropic chordal problem that is, its global
 /// minimum to a gap of 1e-5: looked for at the poses themselves, which costs one factorization and
 /// is enough where the information is isotropic, and then at the end of a short descent from them
-/// if that turns no pose by more than 0.3 rad. Far cheaper than certified_start; false says nothing
+/// if that turns no pose by more than 0.3 rad. Far cheaper than certified_initialization_of; false says nothing
 /// but that this did not prove it.
 template <class Group>
 bool certified_as_they_are(const PackedGraph<Group>& graph,

@@ -4,12 +4,12 @@
 namespace placegraph {
 
 template <class Group>
-Anchors find_anchors(const PackedGraph<Group>& graph) {
+ComponentAnchors find_anchors(const PackedGraph<Group>& graph) {
   const int nodes = static_cast<int>(graph.poses.size());
   DisjointSets sets(graph.poses.size());
   for (const auto& edge : graph.edges)
     if (edge.weight != 0) sets.join(edge.from, edge.to);
-  Anchors anchors;
+  ComponentAnchors anchors;
   anchors.component = sets.numbers();
   anchors.anchor = graph.held;
   for (int i = 0; i < nodes; ++i)
@@ -28,8 +28,8 @@ Anchors find_anchors(const PackedGraph<Group>& graph) {
   return anchors;
 }
 
-template Anchors find_anchors(const PackedGraph<SE2>&);
-template Anchors find_anchors(const PackedGraph<SE3>&);
-template Anchors find_anchors(const PackedGraph<Sim3>&);
+template ComponentAnchors find_anchors(const PackedGraph<SE2>&);
+template ComponentAnchors find_anchors(const PackedGraph<SE3>&);
+template ComponentAnchors find_anchors(const PackedGraph<Sim3>&);
 
 }  // namespace placegraph

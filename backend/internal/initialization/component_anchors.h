@@ -5,7 +5,7 @@ namespace placegraph {
 
 /// What ties the connected components of a graph (over edges whose weight is not zero) to the
 /// world.
-struct Anchors {
+struct ComponentAnchors {
   std::vector<int> component;  ///< of every node, numbered from 0 in node order
   int components = 0;
   std::vector<int> roots;  ///< the first node of every component
@@ -17,6 +17,6 @@ struct Anchors {
 };
 
 template <class Group>
-Anchors find_anchors(const PackedGraph<Group>& graph);
+ComponentAnchors find_anchors(const PackedGraph<Group>& graph);
 
 }  // namespace placegraph

@@ -9,7 +9,7 @@ namespace {
 constexpr double kStiffness = 1e3;  // in the heaviest edge's weights
 
 template <class Group>
-void tie_held_nodes(const PackedGraph<Group>& graph, const Anchors& anchors,
+void constrain_held_nodes(const PackedGraph<Group>& graph, const ComponentAnchors& anchors,
                     IsotropicProblem<kSpaceDim<Group>>& problem) {
   double rotation_weight = 0, translation_weight = 0;
   for (const auto& edge : problem.edges) {
@@ -35,8 +35,8 @@ void tie_held_nodes(const PackedGraph<Group>& graph, const Anchors& anchors,
 }  // namespace
 
 template <class Group>
-IsotropicProblem<kSpaceDim<Group>> tied_problem(const PackedGraph<Group>& graph,
-                                                const Anchors& anchors,
+IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group>& graph,
+                                                const ComponentAnchors& anchors,
                                                 RotationError rotation_error) {
   Eigen::VectorXd log_scale;
   if constexpr (Group::kDof == 7) {
@@ -45,13 +45,13 @@ IsotropicProblem<kSpaceDim<Group>> tied_problem(const PackedGraph<Group>& graph,
       log_scale[i] = std::log(graph.poses[static_cast<std::size_t>(i)].scale());
   }
   auto problem = isotropic_problem(graph, rotation_error, log_scale);
-  tie_held_nodes(graph, anchors, problem);
+  constrain_held_nodes(graph, anchors, problem);
   return problem;
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                                                 \
-  template IsotropicProblem<kSpaceDim<Group>> tied_problem(const PackedGraph<Group>&, \
-                                                           const Anchors&, RotationError);
+  template IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group>&, \
+                                                           const ComponentAnchors&, RotationError);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)
 PLACEGRAPH_INSTANTIATE(Sim3)

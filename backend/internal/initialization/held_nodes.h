@@ -9,8 +9,8 @@ namespace placegraph {
 /// all held nodes in place the ties cost nothing: a bound of this problem is one of the problem
 /// with its nodes held.
 template <class Group>
-IsotropicProblem<kSpaceDim<Group>> tied_problem(const PackedGraph<Group>& graph,
-                                                const Anchors& anchors,
+IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group>& graph,
+                                                const ComponentAnchors& anchors,
                                                 RotationError rotation_error);
 
 }  // namespace placegraph

@@ -62,7 +62,7 @@ std::vector<std::vector<Constraint>> constraints_by_step(const PackedGraph<Group
 }  // namespace
 
 template <class Group>
-bool replayed_start(PackedGraph<Group>& graph, RotationError rotation_error,
+bool incremental_initialization_of(PackedGraph<Group>& graph, RotationError rotation_error,
                     double most_factorizations) {
   const std::size_t nodes = graph.poses.size();
   const std::size_t part = (nodes + kParts - 1) / kParts;
@@ -89,8 +89,8 @@ bool replayed_start(PackedGraph<Group>& graph, RotationError rotation_error,
   return true;
 }
 
-template bool replayed_start(PackedGraph<SE2>&, RotationError, double);
-template bool replayed_start(PackedGraph<SE3>&, RotationError, double);
-template bool replayed_start(PackedGraph<Sim3>&, RotationError, double);
+template bool incremental_initialization_of(PackedGraph<SE2>&, RotationError, double);
+template bool incremental_initialization_of(PackedGraph<SE3>&, RotationError, double);
+template bool incremental_initialization_of(PackedGraph<Sim3>&, RotationError, double);
 
 }  // namespace placegraph

@@ -11,7 +11,7 @@ namespace placegraph {
 /// `most_factorizations` times as many nodes as there are, or the minimum of some part cannot be
 /// computed.
 template <class Group>
-bool replayed_start(PackedGraph<Group>& graph, RotationError rotation_error,
+bool incremental_initialization_of(PackedGraph<Group>& graph, RotationError rotation_error,
                     double most_factorizations);
 
 }  // namespace placegraph

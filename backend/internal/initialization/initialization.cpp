@@ -130,7 +130,7 @@ bool chordal_rotations(PackedGraph<Group>& graph, const IsotropicProblem<dim>& p
 
 /// A translation part of T_world_node * lever_arm that does not depend on the node's position.
 template <class Group>
-typename Group::Point turned_arm(const Group& pose, const Eigen::Vector3d& lever_arm) {
+typename Group::Point rotated_arm(const Group& pose, const Eigen::Vector3d& lever_arm) {
   const typename Group::Point arm = lever_arm.head<kSpaceDim<Group>>();
   return pose * arm - pose.translation();
 }
@@ -147,7 +147,7 @@ double position_weight(const typename PackedGraph<Group>::Position& position) {
 template <class Group, int dim = kSpaceDim<Group>>
 bool chordal_translations(PackedGraph<Group>& graph, const IsotropicProblem<dim>& problem,
                           const Unknowns& unknowns, const BlockOrdering& ordering,
-                          const Anchors& anchors) {
+                          const ComponentAnchors& anchors) {
   LeastSquares<1> system(unknowns, ordering, dim);
   const LeastSquares<1>::Matrix one = LeastSquares<1>::Matrix::Identity();
   const auto anchored = [&](int node) -> Eigen::Matrix<double, 1, dim> {
@@ -159,7 +159,7 @@ bool chordal_translations(PackedGraph<Group>& graph, const IsotropicProblem<dim>
   for (const auto& position : graph.positions) {
     if (anchors.floating[anchors.component[position.node]]) continue;
     const typename Group::Point target = position.position_world.template head<dim>() -
-                                         turned_arm(graph.poses[position.node], position.lever_arm);
+                                         rotated_arm(graph.poses[position.node], position.lever_arm);
     system.add(position.node, position_weight<Group>(position), target.transpose());
   }
   const std::optional<Eigen::MatrixXd> translations = system.solve();
@@ -243,12 +243,12 @@ class Alignment {
 
 template <class Group>
 void align_to_positions(PackedGraph<Group>& graph) {
-  const Anchors anchors = find_anchors(graph);
+  const ComponentAnchors anchors = find_anchors(graph);
   std::vector<Alignment<Group>> alignments(anchors.components);
   for (const auto& position : graph.positions) {
     const Group& pose = graph.poses[position.node];
     alignments[anchors.component[position.node]].add(
-        pose.translation() + turned_arm(pose, position.lever_arm),
+        pose.translation() + rotated_arm(pose, position.lever_arm),
         position.position_world.template head<kSpaceDim<Group>>(),
         position_weight<Group>(position));
   }
@@ -261,8 +261,8 @@ void align_to_positions(PackedGraph<Group>& graph) {
 }
 
 template <class Group>
-void spanning_tree_start(PackedGraph<Group>& graph) {
-  const Anchors anchors = find_anchors(graph);
+void spanning_tree_initialization(PackedGraph<Group>& graph) {
+  const ComponentAnchors anchors = find_anchors(graph);
   struct Step {
     int edge, to;
   };
@@ -304,8 +304,8 @@ void spanning_tree_start(PackedGraph<Group>& graph) {
 }
 
 template <class Group>
-void chordal_start(PackedGraph<Group>& graph, RotationError rotation_error) {
-  const Anchors anchors = find_anchors(graph);
+void chordal_initialization(PackedGraph<Group>& graph, RotationError rotation_error) {
+  const ComponentAnchors anchors = find_anchors(graph);
   const Unknowns unknowns(anchors.anchor, graph.edges);
   const BlockOrdering ordering = order_blocks(unknowns.count, Group::kDof, unknowns.pairs);
   Eigen::VectorXd log_scale;
@@ -319,7 +319,7 @@ void chordal_start(PackedGraph<Group>& graph, RotationError rotation_error) {
   const auto problem = isotropic_problem(graph, rotation_error, log_scale);
   if (!chordal_rotations(graph, problem, unknowns, ordering) ||
       !chordal_translations(graph, problem, unknowns, ordering, anchors)) {
-    spanning_tree_start(graph);  // weights so far apart that the systems are singular to rounding
+    spanning_tree_initialization(graph);  // weights so far apart that the systems are singular to rounding
     return;
   }
   align_to_positions(graph);
@@ -333,8 +333,8 @@ Eigen::VectorXd log_scales(const PackedGraph<Sim3>& graph) {
 
 #define PLACEGRAPH_INSTANTIATE(Group)                     \
   template void align_to_positions(PackedGraph<Group>&);  \
-  template void spanning_tree_start(PackedGraph<Group>&); \
-  template void chordal_start(PackedGraph<Group>&, RotationError);
+  template void spanning_tree_initialization(PackedGraph<Group>&); \
+  template void chordal_initialization(PackedGraph<Group>&, RotationError);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)
 PLACEGRAPH_INSTANTIATE(Sim3)

@@ -12,7 +12,7 @@ namespace placegraph {
 /// Every pose by the measurements along a breadth-first spanning tree from the held nodes; other
 /// edges than odometry are used only where odometry leads no further.
 template <class Group>
-void spanning_tree_start(PackedGraph<Group>& graph);
+void spanning_tree_initialization(PackedGraph<Group>& graph);
 
 /// The chordal start (Carlone et al. 2015, section IV-B; Martinec & Pajdla 2007): with the weights
 /// of the isotropic problem,
@@ -25,7 +25,7 @@ void spanning_tree_start(PackedGraph<Group>& graph);
 ///
 /// Exact where the measurements agree. Three linear systems of one pattern and one ordering.
 template <class Group>
-void chordal_start(PackedGraph<Group>& graph, RotationError rotation_error = RotationError::kLog);
+void chordal_initialization(PackedGraph<Group>& graph, RotationError rotation_error = RotationError::kLog);
 
 /// Moves every component that has measured positions and no held node as a whole (Sim(3): scaled
 /// too) so that sum w |T_world_node lever_arm - position|^2 becomes least.

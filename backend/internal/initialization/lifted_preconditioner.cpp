@@ -63,7 +63,7 @@ void LiftedPreconditioner<dim>::assemble() {
   matrix_.set_zero();
   const int size = angles_ + rank_;
   // Tangent vectors turned by the edge's measurement, and applied to its translation.
-  Eigen::MatrixXd turned(rank_ * dim, angles_), seen(rank_ * dim, angles_), shifted(rank_, angles_);
+  Eigen::MatrixXd rotated(rank_ * dim, angles_), seen(rank_ * dim, angles_), shifted(rank_, angles_);
   Eigen::MatrixXd from(size, size), to(size, size), cross(size, size);
   const auto add = [&](int i, int j, const Eigen::MatrixXd& block) {
     const BlockCholesky::Slot slot = matrix_.slot(i, j);
@@ -80,7 +80,7 @@ void LiftedPreconditioner<dim>::assemble() {
     for (int a = 0; a < angles_; ++a) {
       const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, dim>> E(basis_.col(a).data(),
                                                                            rank_, dim);
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, dim>>(turned.col(a).data(), rank_, dim)
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, dim>>(rotated.col(a).data(), rank_, dim)
           .noalias() = E * edge.R;
       Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, dim>>(seen.col(a).data(), rank_, dim)
           .noalias() = G * E;
@@ -95,7 +95,7 @@ void LiftedPreconditioner<dim>::assemble() {
     to.setZero();
     to.diagonal().head(angles_).setConstant(kappa);
     to.diagonal().tail(rank_).setConstant(tau);
-    cross.topLeftCorner(angles_, angles_).noalias() = -kappa * turned.transpose() * seen;
+    cross.topLeftCorner(angles_, angles_).noalias() = -kappa * rotated.transpose() * seen;
     cross.topRightCorner(angles_, rank_).noalias() = -tau * shifted.transpose() * G;
     cross.bottomLeftCorner(rank_, angles_).setZero();
     cross.bottomRightCorner(rank_, rank_) = -tau * G;

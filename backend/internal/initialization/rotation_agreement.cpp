@@ -15,9 +15,9 @@ double cosine_of(const SO3& R) { return 2 * R.quaternion().w() * R.quaternion().
 template <class Group>
 bool rotations_agree(const std::vector<Group>& a, const std::vector<Group>& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const auto turn_a = a[0].rotation().inverse() * a[i].rotation();
-    const auto turn_b = b[0].rotation().inverse() * b[i].rotation();
-    if (!(cosine_of(turn_a.inverse() * turn_b) > kCosineOfSame)) return false;
+    const auto rotation_a = a[0].rotation().inverse() * a[i].rotation();
+    const auto rotation_b = b[0].rotation().inverse() * b[i].rotation();
+    if (!(cosine_of(rotation_a.inverse() * rotation_b) > kCosineOfSame)) return false;
   }
   return true;
 }

@@ -144,7 +144,7 @@ class Candidates {
   Candidates(PackedGraph<Group>& graph, LocalSolver<Group>& solver)
       : graph_(graph), solver_(solver) {}
 
-  void descend(std::vector<Group> poses, PoseGraphStart start) {
+  void descend(std::vector<Group> poses, PoseGraphInitialization start) {
     starts_.push_back(poses);
     graph_.poses = std::move(poses);
     LocalSolution solution =
@@ -158,7 +158,7 @@ class Candidates {
     poses_ = graph_.poses;
   }
   /// Unless a descent from about there has been made.
-  void descend_if_new(const std::vector<Group>& poses, PoseGraphStart start) {
+  void descend_if_new(const std::vector<Group>& poses, PoseGraphInitialization start) {
     for (const std::vector<Group>& earlier : starts_)
       if (rotations_agree(earlier, poses)) return;
     descend(poses, start);
@@ -167,10 +167,10 @@ class Candidates {
   const LocalSolution& best() const { return best_.solution; }
   const std::vector<Group>& poses() const { return poses_; }
   /// Leaves the lowest minimum in the graph.
-  StartSolution take() {
+  InitializedSolution take() {
     graph_.poses = std::move(poses_);
     best_.solution.iterations = iterations_;
-    best_.refined_from_certified = best_.used == PoseGraphStart::kCertified;
+    best_.refined_from_certified = best_.used == PoseGraphInitialization::kCertified;
     return std::move(best_);
   }
 
@@ -179,7 +179,7 @@ class Candidates {
   LocalSolver<Group>& solver_;
   std::vector<std::vector<Group>> starts_;
   std::vector<Group> poses_;
-  StartSolution best_;
+  InitializedSolution best_;
   int iterations_ = 0;
 };
 
@@ -196,13 +196,13 @@ bool rotations_are_near(const PackedGraph<Group>& graph) {
 }
 
 template <class Group>
-StartSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotation_error,
+InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotation_error,
                                   LocalSolver<Group>& solver) {
   const std::vector<Group> file = graph.poses;
   std::vector<Group> chordal;
   bool file_first = rotations_are_near(graph);
   const auto make_chordal = [&] {
-    chordal_start(graph, rotation_error);
+    chordal_initialization(graph, rotation_error);
     chordal = graph.poses;
   };
   if (!file_first) {
@@ -213,7 +213,7 @@ StartSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotat
   }
   Candidates<Group> candidates(graph, solver);
   candidates.descend(file_first ? file : chordal,
-                     file_first ? PoseGraphStart::kFile : PoseGraphStart::kChordal);
+                     file_first ? PoseGraphInitialization::kFile : PoseGraphInitialization::kChordal);
   if (candidates.best().outcome &&
       (windings_are_settled(graph) || certified_as_they_are(graph, rotation_error)))
     return candidates.take();
@@ -221,53 +221,53 @@ StartSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotat
   if (chordal.empty()) make_chordal();
   const double descent = std::max(1, candidates.iterations());
   const bool tight =
-      certified_start(graph, rotation_error,
+      certified_initialization_of(graph, rotation_error,
                       std::max(kCertifiedDescents * descent, kLeastCertifiedIterations))
           .tight;
   if (tight && candidates.best().outcome && rotations_agree(graph.poses, candidates.poses()))
     return candidates.take();
-  candidates.descend(std::vector<Group>(graph.poses), PoseGraphStart::kCertified);
+  candidates.descend(std::vector<Group>(graph.poses), PoseGraphInitialization::kCertified);
   if (tight) return candidates.take();
   candidates.descend(file_first ? chordal : file,
-                     file_first ? PoseGraphStart::kChordal : PoseGraphStart::kFile);
-  spanning_tree_start(graph);
-  candidates.descend_if_new(std::vector<Group>(graph.poses), PoseGraphStart::kOdometry);
-  if (replayed_start(graph, rotation_error, kReplayDescents * descent))
-    candidates.descend(std::vector<Group>(graph.poses), PoseGraphStart::kOdometry);
+                     file_first ? PoseGraphInitialization::kChordal : PoseGraphInitialization::kFile);
+  spanning_tree_initialization(graph);
+  candidates.descend_if_new(std::vector<Group>(graph.poses), PoseGraphInitialization::kOdometry);
+  if (incremental_initialization_of(graph, rotation_error, kReplayDescents * descent))
+    candidates.descend(std::vector<Group>(graph.poses), PoseGraphInitialization::kOdometry);
   return candidates.take();
 }
 
 }  // namespace
 
-const char* to_string(PoseGraphStart start) {
+const char* to_string(PoseGraphInitialization start) {
   switch (start) {
-    case PoseGraphStart::kAuto:
+    case PoseGraphInitialization::kAuto:
       return "auto";
-    case PoseGraphStart::kFile:
+    case PoseGraphInitialization::kFile:
       return "file";
-    case PoseGraphStart::kOdometry:
+    case PoseGraphInitialization::kOdometry:
       return "odometry";
-    case PoseGraphStart::kChordal:
+    case PoseGraphInitialization::kChordal:
       return "chordal";
-    case PoseGraphStart::kCertified:
+    case PoseGraphInitialization::kCertified:
       return "certified";
   }
   return "";
 }
 
 template <class Group>
-void set_start(PackedGraph<Group>& graph, PoseGraphStart start, RotationError rotation_error) {
+void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start, RotationError rotation_error) {
   switch (start) {
-    case PoseGraphStart::kAuto:
-    case PoseGraphStart::kFile:
+    case PoseGraphInitialization::kAuto:
+    case PoseGraphInitialization::kFile:
       return;
-    case PoseGraphStart::kOdometry:
-      return spanning_tree_start(graph);
-    case PoseGraphStart::kChordal:
-      return chordal_start(graph, rotation_error);
-    case PoseGraphStart::kCertified:
-      chordal_start(graph, rotation_error);
-      (void)certified_start(graph, rotation_error);
+    case PoseGraphInitialization::kOdometry:
+      return spanning_tree_initialization(graph);
+    case PoseGraphInitialization::kChordal:
+      return chordal_initialization(graph, rotation_error);
+    case PoseGraphInitialization::kCertified:
+      chordal_initialization(graph, rotation_error);
+      (void)certified_initialization_of(graph, rotation_error);
       return;
   }
 }
@@ -305,18 +305,18 @@ bool windings_are_settled(const PackedGraph<Group>& graph) {
 }
 
 template <class Group>
-StartSolution solve_from_start(PackedGraph<Group>& graph, PoseGraphStart start,
+InitializedSolution solve_from_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start,
                                RotationError rotation_error, LocalSolver<Group>& solver) {
-  if (start == PoseGraphStart::kAuto) return solve_automatically(graph, rotation_error, solver);
-  set_start(graph, start, rotation_error);
-  const bool certified = start == PoseGraphStart::kCertified;
+  if (start == PoseGraphInitialization::kAuto) return solve_automatically(graph, rotation_error, solver);
+  set_initialization(graph, start, rotation_error);
+  const bool certified = start == PoseGraphInitialization::kCertified;
   return {certified ? descend_to_the_end(graph, solver) : solver.solve(graph), start, certified};
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                                                         \
-  template void set_start(PackedGraph<Group>&, PoseGraphStart, RotationError);                \
+  template void set_initialization(PackedGraph<Group>&, PoseGraphInitialization, RotationError);                \
   template bool windings_are_settled(const PackedGraph<Group>&);                              \
-  template StartSolution solve_from_start(PackedGraph<Group>&, PoseGraphStart, RotationError, \
+  template InitializedSolution solve_from_initialization(PackedGraph<Group>&, PoseGraphInitialization, RotationError, \
                                           LocalSolver<Group>&);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)

@@ -30,34 +30,34 @@ double sum(const std::vector<double>& values) {
 
 /// Where a robust method begins. False loops spoil starts that are made from loops; of the others
 /// graduated non-convexity needs one that is worth something, whatever the poses are.
-PoseGraphStart robust_start(const PoseGraphOptions& options) {
-  if (options.start != PoseGraphStart::kAuto) return options.start;
-  return options.robust.method == RobustMethod::kGnc ? PoseGraphStart::kOdometry
-                                                     : PoseGraphStart::kFile;
+PoseGraphInitialization robust_initialization(const PoseGraphOptions& options) {
+  if (options.start != PoseGraphInitialization::kAuto) return options.start;
+  return options.robust.method == RobustMethod::kGnc ? PoseGraphInitialization::kOdometry
+                                                     : PoseGraphInitialization::kFile;
 }
 
 /// From the chosen start to the minimum; fills what the report says of the way there.
 template <class Group>
 void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
               const PoseGraphOptions& options, PoseGraphReport& report) {
-  StartSolution found;
+  InitializedSolution found;
   if (options.robust.method == RobustMethod::kNone) {
     LocalSolver<Group> solver(local);
-    found = solve_from_start(graph, options.start, options.rotation_error, solver);
+    found = solve_from_initialization(graph, options.start, options.rotation_error, solver);
   } else {
-    found.used = robust_start(options);
-    set_start(graph, found.used, options.rotation_error);
+    found.used = robust_initialization(options);
+    set_initialization(graph, found.used, options.rotation_error);
     RobustSolution robust =
-        solve_robustly(graph, local, options.robust, options.start == PoseGraphStart::kAuto);
+        solve_robustly(graph, local, options.robust, options.start == PoseGraphInitialization::kAuto);
     found.solution = std::move(robust.local);
-    found.refined_from_certified = found.used == PoseGraphStart::kCertified;
+    found.refined_from_certified = found.used == PoseGraphInitialization::kCertified;
     report.rejected = std::move(robust.rejected);
     report.loops_judged = robust.judged;
   }
   if (!found.solution.regular) report.free = find_free_directions(graph, options.rotation_error);
   report.outcome = found.solution.outcome;
   report.iterations = found.solution.iterations;
-  report.start_used = found.used;
+  report.initialization_used = found.used;
   report.refined_from_certified = found.refined_from_certified;
 }
 
@@ -80,7 +80,7 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
   report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
   report.chi2_final = sum(report.chi2_by_constraint);
   log(log_sink, LogLevel::kInfo, "pose graph: chi2 {:f} -> {:f} in {} iterations, start {}",
-      report.chi2_initial, report.chi2_final, report.iterations, to_string(report.start_used));
+      report.chi2_initial, report.chi2_final, report.iterations, to_string(report.initialization_used));
   return report;
 }
 

@@ -25,9 +25,9 @@ void visit(OptionVisitor& field, LoopSupportOptions& o) {
         "that two loops are both true, for them to support each other", {0.01, 0.9999});
 }
 
-void LoopGrowthOptions::check() const { check_ranges(*this); }
+void LoopSetGrowthOptions::check() const { check_ranges(*this); }
 
-void visit(OptionVisitor& field, LoopGrowthOptions& o) {
+void visit(OptionVisitor& field, LoopSetGrowthOptions& o) {
   field("margin", o.margin,
         "of the gate over the chi-squared quantile: real noise has longer tails", {0.1, 1000});
   field("tail", o.tail, "times the largest error of true loops that another one may have",

@@ -45,7 +45,7 @@ bool beyond_doubt(const PackedGraph<Group>& graph, double ring_scale, const Robu
 
 /// Lays the poses along the odometry, where it alone reaches them all.
 template <class Group>
-void start_from_odometry(PackedGraph<Group>& graph, const OdometryChain<Group>& chain) {
+void initialize_from_odometry(PackedGraph<Group>& graph, const OdometryChain<Group>& chain) {
   const auto held = std::find(graph.held.begin(), graph.held.end(), 1) - graph.held.begin();
   if (chain.runs() != 1 || !graph.positions.empty() ||
       std::count(graph.held.begin(), graph.held.end(), 1) != 1)
@@ -58,17 +58,17 @@ void start_from_odometry(PackedGraph<Group>& graph, const OdometryChain<Group>& 
 /// Where the plain descent begins: at the poses as they are, or where these are rough at the
 /// chordal ones if they cost less.
 template <class Group>
-void start_plain(PackedGraph<Group>& graph, RotationError rotation_error) {
+void initialize_plain(PackedGraph<Group>& graph, RotationError rotation_error) {
   constexpr double kRough = 0.5;  // [rad]
-  constexpr int dim = Group::kDof == 3 ? 2 : 3, turns = dim == 2 ? 1 : 3;
+  constexpr int dim = Group::kDof == 3 ? 2 : 3, rotations = dim == 2 ? 1 : 3;
   const bool rough = std::any_of(graph.edges.begin(), graph.edges.end(), [&](const auto& edge) {
     const typename Group::Tangent e =
         (edge.T_to_from * (graph.poses[edge.from].inverse() * graph.poses[edge.to])).log();
-    return e.template segment<turns>(dim).norm() > kRough;
+    return e.template segment<rotations>(dim).norm() > kRough;
   });
   if (!rough || !graph.positions.empty()) return;
   PackedGraph<Group> chordal = graph;
-  set_start(chordal, PoseGraphStart::kChordal, rotation_error);
+  set_initialization(chordal, PoseGraphInitialization::kChordal, rotation_error);
   const auto cost = [&](const PackedGraph<Group>& at) {
     const std::vector<double> chi2 = chi2_by_edge(at, rotation_error);
     return std::accumulate(chi2.begin(), chi2.end(), 0.0);
@@ -91,7 +91,7 @@ RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>&
     constexpr int kSteps = 20;
     LocalSolverOptions short_solver = solver;
     short_solver.max_iterations = std::min(solver.max_iterations, kSteps);
-    if (free_start) start_plain(plain, solver.rotation_error);
+    if (free_start) initialize_plain(plain, solver.rotation_error);
     result.local = LocalSolver<Group>(short_solver).solve(plain);
     if (loops == 0 || (result.local.outcome &&
                        beyond_doubt(plain, support.noise_scale, options, solver.rotation_error))) {
@@ -99,9 +99,9 @@ RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>&
       return result;
     }
   }
-  start_from_odometry(graph, chain);
-  const LoopGrowth growth =
-      grow_loops(graph, support, options.gate_probability, solver, options.growth, options.gnc);
+  initialize_from_odometry(graph, chain);
+  const LoopSetGrowth growth =
+      extend_loop_set(graph, support, options.gate_probability, solver, options.growth, options.gnc);
   result.noise_scale = growth.noise_scale;
   const bool all = std::all_of(graph.edges.begin(), graph.edges.end(),
                                [](const auto& edge) { return edge.weight > 0; });
@@ -159,15 +159,15 @@ RobustSolution solve_rejecting(PackedGraph<Group>& graph, const LocalSolverOptio
     const double gate = options.growth.margin * quantile * support.noise_scale;
     LoopSupport sets = support;
     sets.clusters = consistent_loops(graph, chain, gate);
-    start_from_odometry(graph, chain);
-    const LoopGrowth growth =
-        grow_loops(graph, sets, options.gate_probability, solver, options.growth, options.gnc);
+    initialize_from_odometry(graph, chain);
+    const LoopSetGrowth growth =
+        extend_loop_set(graph, sets, options.gate_probability, solver, options.growth, options.gnc);
     result.local = growth.local;
     result.noise_scale = growth.noise_scale;
   } else {
     const double gate = options.growth.margin * quantile * support.noise_scale;
     (void)graduated_non_convexity(graph, gate, solver, options.gnc);
-    const LoopGrowth settled =
+    const LoopSetGrowth settled =
         settle_loops(graph, support, options.gate_probability, solver, options.growth, options.gnc);
     result.local = settled.local;
     result.noise_scale = settled.noise_scale;

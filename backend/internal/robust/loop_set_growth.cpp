@@ -42,7 +42,7 @@ template <class Group>
 class Growth {
  public:
   Growth(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
-         const LocalSolverOptions& solver, const LoopGrowthOptions& options, const GncOptions& gnc)
+         const LocalSolverOptions& solver, const LoopSetGrowthOptions& options, const GncOptions& gnc)
       : graph_(graph),
         clusters_(support.clusters),
         rough_(roughly(solver)),
@@ -174,10 +174,10 @@ class Growth {
 namespace {
 
 template <class Group>
-LoopGrowth finish(Growth<Group>& growth, PackedGraph<Group>& graph,
+LoopSetGrowth finish(Growth<Group>& growth, PackedGraph<Group>& graph,
                   const LocalSolverOptions& solver) {
   growth.settle();
-  LoopGrowth result;
+  LoopSetGrowth result;
   result.local = SubsetSolver<Group>(solver).solve(graph);
   result.noise_scale = growth.noise_scale();
   return result;
@@ -186,8 +186,8 @@ LoopGrowth finish(Growth<Group>& growth, PackedGraph<Group>& graph,
 }  // namespace
 
 template <class Group>
-LoopGrowth grow_loops(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
-                      const LocalSolverOptions& solver, const LoopGrowthOptions& options,
+LoopSetGrowth extend_loop_set(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
+                      const LocalSolverOptions& solver, const LoopSetGrowthOptions& options,
                       const GncOptions& gnc) {
   options.check();
   Growth<Group> growth(graph, support, probability, solver, options, gnc);
@@ -196,8 +196,8 @@ LoopGrowth grow_loops(PackedGraph<Group>& graph, const LoopSupport& support, dou
 }
 
 template <class Group>
-LoopGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
-                        const LocalSolverOptions& solver, const LoopGrowthOptions& options,
+LoopSetGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
+                        const LocalSolverOptions& solver, const LoopSetGrowthOptions& options,
                         const GncOptions& gnc) {
   options.check();
   Growth<Group> growth(graph, support, probability, solver, options, gnc);
@@ -205,11 +205,11 @@ LoopGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support, d
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                                                   \
-  template LoopGrowth grow_loops(PackedGraph<Group>&, const LoopSupport&, double,       \
-                                 const LocalSolverOptions&, const LoopGrowthOptions&,   \
+  template LoopSetGrowth extend_loop_set(PackedGraph<Group>&, const LoopSupport&, double,       \
+                                 const LocalSolverOptions&, const LoopSetGrowthOptions&,   \
                                  const GncOptions&);                                    \
-  template LoopGrowth settle_loops(PackedGraph<Group>&, const LoopSupport&, double,     \
-                                   const LocalSolverOptions&, const LoopGrowthOptions&, \
+  template LoopSetGrowth settle_loops(PackedGraph<Group>&, const LoopSupport&, double,     \
+                                   const LocalSolverOptions&, const LoopSetGrowthOptions&, \
                                    const GncOptions&);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)

@@ -5,7 +5,7 @@
 
 namespace placegraph {
 
-struct LoopGrowth {
+struct LoopSetGrowth {
   LocalSolution local;
   double noise_scale = 1;  ///< variance of the noise in units of what the information claims
 };
@@ -24,14 +24,14 @@ struct LoopGrowth {
 /// of the solution later. `probability` is the share of true loops within it, were noise Gaussian.
 /// A loop that alone ties a part of the graph to the rest is kept.
 template <class Group>
-[[nodiscard]] LoopGrowth grow_loops(PackedGraph<Group>& graph, const LoopSupport& support,
+[[nodiscard]] LoopSetGrowth extend_loop_set(PackedGraph<Group>& graph, const LoopSupport& support,
                                     double probability, const LocalSolverOptions& solver,
-                                    const LoopGrowthOptions& options, const GncOptions& gnc);
+                                    const LoopSetGrowthOptions& options, const GncOptions& gnc);
 
 /// Step 3 alone, from the poses and the weights that `graph` has.
 template <class Group>
-[[nodiscard]] LoopGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support,
+[[nodiscard]] LoopSetGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support,
                                       double probability, const LocalSolverOptions& solver,
-                                      const LoopGrowthOptions& options, const GncOptions& gnc);
+                                      const LoopSetGrowthOptions& options, const GncOptions& gnc);
 
 }  // namespace placegraph

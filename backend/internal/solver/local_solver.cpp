@@ -62,12 +62,12 @@ double robust_cost(const PackedGraph<Group>& graph, RotationError rotation_error
   const std::vector<double> positions = chi2_by_position(graph);
   for (std::size_t i = 0; i < positions.size(); ++i)
     cost += graph.positions[i].weight * graph.positions[i].kernel.evaluate(positions[i]).rho;
-  for (const auto& sight : graph.sights) {
+  for (const auto& observation : graph.observations) {
     const Eigen::Vector3d e =
-        SightLinearization<Group>(graph.poses[sight.node], point_of(graph.poses[sight.point]),
-                                  sight.p_node)
+        PointLinearization<Group>(graph.poses[observation.node], point_of(graph.poses[observation.point]),
+                                  observation.p_node)
             .e;
-    cost += e.dot(sight.information * e);
+    cost += e.dot(observation.information * e);
   }
   return cost;
 }

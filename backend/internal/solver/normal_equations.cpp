@@ -34,8 +34,8 @@ std::vector<std::pair<int, int>> NormalEquations<Group>::pairs(
     const int from = block_of(edge.from), to = block_of(edge.to);
     if (edge.weight != 0 && from >= 0 && to >= 0) pairs.emplace_back(from, to);
   }
-  for (const auto& sight : graph.sights) {
-    const int node = block_of(sight.node), point = block_of(sight.point);
+  for (const auto& observation : graph.observations) {
+    const int node = block_of(observation.node), point = block_of(observation.point);
     if (node >= 0 && point >= 0) pairs.emplace_back(node, point);
   }
   return pairs;
@@ -56,16 +56,16 @@ NormalEquations<Group>::NormalEquations(const PackedGraph<Group>& graph)
     in_pattern_.push_back(edge.weight != 0);
     coupling_.push_back(edge.weight != 0 && from >= 0 && to >= 0 ? matrix_.slot(from, to) : Slot{});
   }
-  for (const auto& sight : graph.sights) {
-    const int node = block_of(sight.node), point = block_of(sight.point);
-    sight_coupling_.push_back(node >= 0 && point >= 0 ? matrix_.slot(node, point) : Slot{});
+  for (const auto& observation : graph.observations) {
+    const int node = block_of(observation.node), point = block_of(observation.point);
+    observation_coupling_.push_back(node >= 0 && point >= 0 ? matrix_.slot(node, point) : Slot{});
   }
 }
 
 template <class Group>
 bool NormalEquations<Group>::fits(const PackedGraph<Group>& graph) const {
   if (graph.poses.size() != block_of_node_.size() || graph.edges.size() != in_pattern_.size() ||
-      graph.sights.size() != sight_coupling_.size())
+      graph.observations.size() != observation_coupling_.size())
     return false;
   for (std::size_t node = 0; node < graph.held.size(); ++node)
     if ((graph.held[node] != 0) != (block_of_node_[node] < 0)) return false;
@@ -117,7 +117,7 @@ double NormalEquations<Group>::linearize(const PackedGraph<Group>& graph,
       add(coupling_[i], H_to_from.transpose());
   }
   add_positions(graph, cost);
-  add_sights(graph, cost);
+  add_observations(graph, cost);
   return cost;
 }
 
@@ -140,33 +140,33 @@ void NormalEquations<Group>::add_positions(const PackedGraph<Group>& graph, doub
 }
 
 template <class Group>
-void NormalEquations<Group>::add_sights(const PackedGraph<Group>& graph, double& cost) {
+void NormalEquations<Group>::add_observations(const PackedGraph<Group>& graph, double& cost) {
   using Matrix = typename Group::Jacobian;
-  constexpr int turns = kDof == 3 ? 1 : kDof - 3;  // and the scale
-  for (std::size_t i = 0; i < graph.sights.size(); ++i) {
-    const auto& sight = graph.sights[i];
-    const SightLinearization<Group> at(graph.poses[sight.node], point_of(graph.poses[sight.point]),
-                                       sight.p_node);
-    const Eigen::Vector3d weighted_e = sight.information * at.e;
+  constexpr int rotations = kDof == 3 ? 1 : kDof - 3;  // and the scale
+  for (std::size_t i = 0; i < graph.observations.size(); ++i) {
+    const auto& observation = graph.observations[i];
+    const PointLinearization<Group> at(graph.poses[observation.node], point_of(graph.poses[observation.point]),
+                                       observation.p_node);
+    const Eigen::Vector3d weighted_e = observation.information * at.e;
     cost += at.e.dot(weighted_e);
-    const int node = block_of(sight.node), point = block_of(sight.point);
+    const int node = block_of(observation.node), point = block_of(observation.point);
     const auto add_own = [&](int block, const auto& J) {
       if (block < 0) return;
-      add(diagonal_[block], Matrix(J.transpose() * sight.information * J));
+      add(diagonal_[block], Matrix(J.transpose() * observation.information * J));
       gradient_.template segment<kDof>(block * kDof) += J.transpose() * weighted_e;
     };
     add_own(node, at.J_node);
     add_own(point, at.J_point);
     if (point < 0) continue;
     Matrix stays = Matrix::Zero();
-    stays.diagonal().template tail<turns>().setConstant(sight.information.trace());
+    stays.diagonal().template tail<rotations>().setConstant(observation.information.trace());
     add(diagonal_[point], stays);
     if (node < 0) continue;
-    const Matrix H_point_node = at.J_point.transpose() * sight.information * at.J_node;
-    if (sight_coupling_[i].transposed)
-      add(sight_coupling_[i], H_point_node);
+    const Matrix H_point_node = at.J_point.transpose() * observation.information * at.J_node;
+    if (observation_coupling_[i].transposed)
+      add(observation_coupling_[i], H_point_node);
     else
-      add(sight_coupling_[i], Matrix(H_point_node.transpose()));
+      add(observation_coupling_[i], Matrix(H_point_node.transpose()));
   }
 }
 

@@ -42,14 +42,14 @@ class NormalEquations {
   std::vector<std::pair<int, int>> pairs(const PackedGraph<Group>& graph) const;
   /// Both add to H, g and the cost.
   void add_positions(const PackedGraph<Group>& graph, double& cost);
-  void add_sights(const PackedGraph<Group>& graph, double& cost);
+  void add_observations(const PackedGraph<Group>& graph, double& cost);
 
   std::vector<int> block_of_node_;
   std::vector<char> in_pattern_;  // of every edge
   BlockCholesky matrix_;
   std::vector<Slot> diagonal_;  // by blocks
   std::vector<Slot> coupling_;  // by edges; empty slot where there is none
-  std::vector<Slot> sight_coupling_;
+  std::vector<Slot> observation_coupling_;
   Eigen::VectorXd gradient_;
 };
 

@@ -25,7 +25,7 @@ struct PackedGraph {
     RobustKernel kernel;
     double weight = 1;
   };
-  struct Sight {
+  struct Observation {
     int node, point;  ///< positions in `poses`
     Eigen::Vector3d p_node;
     Eigen::Matrix3d information;
@@ -38,7 +38,7 @@ struct PackedGraph {
   std::vector<char> held;
   std::vector<Edge> edges;
   std::vector<Position> positions;
-  std::vector<Sight> sights;
+  std::vector<Observation> observations;
 };
 
 /// `graph` must have passed PoseGraph::check and be of the kind of `Group`.

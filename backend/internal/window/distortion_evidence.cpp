@@ -58,7 +58,7 @@ class LensEquations {
 
   /// The poses eliminated; directions that nothing measures (where the window lies, a single eye's
   /// unit) carry nothing.
-  LensEvidence evidence() const {
+  DistortionEvidence evidence() const {
     constexpr double kNothing = 1e-9;  // of the largest
     const Eigen::Index poses = H_.cols() - 1;
     const Eigen::VectorXd unit =
@@ -71,7 +71,7 @@ class LensEquations {
     const Eigen::VectorXd h =
         eigen.eigenvectors().transpose() * unit.cwiseProduct(H_.col(poses).head(poses));
     const Eigen::VectorXd b = eigen.eigenvectors().transpose() * unit.cwiseProduct(b_.head(poses));
-    LensEvidence result;
+    DistortionEvidence result;
     result.gradient = b_[poses] - h.dot(inverse.cwiseProduct(b));
     result.information = H_(poses, poses) - h.dot(inverse.cwiseProduct(h));
     return result;
@@ -104,7 +104,7 @@ class LensEquations {
 
 }  // namespace
 
-LensEvidence lens_evidence(const WindowState& state) {
+DistortionEvidence lens_evidence(const WindowState& state) {
   constexpr std::size_t kViews = 3;  // two views of a point agree on nearly any lens
   LensEquations equations(state);
   int residuals = 0;
@@ -115,7 +115,7 @@ LensEvidence lens_evidence(const WindowState& state) {
     residuals += static_cast<int>(2 * observations.size());
   }
   if (residuals == 0) return {};
-  LensEvidence result = equations.evidence();
+  DistortionEvidence result = equations.evidence();
   result.residuals = residuals;
   return result;
 }

@@ -11,13 +11,13 @@ struct WindowState;
 ///   px = c + f (1 + k1 r^2) [X/Z, Y/Z],   r^2 = (X^2 + Y^2) / Z^2
 ///
 /// Windows that share no observation are independent of each other.
-struct LensEvidence {
+struct DistortionEvidence {
   double gradient = 0;
   double information = 0;
   int residuals = 0;  ///< of points seen from three keyframes at least, two per pixel
 };
 
 /// What the points of the window, at its estimate and without its prior, say of the lens.
-LensEvidence lens_evidence(const WindowState& state);
+DistortionEvidence lens_evidence(const WindowState& state);
 
 }  // namespace placegraph

@@ -25,10 +25,10 @@ Eigen::MatrixXd common_motion_of(const MarginalPrior& prior) {
     transform_to(SE3(), prior.plane_lin[k], &J_plane);
     J.noalias() -= prior.plane_columns(k) * J_plane * T_map_first.adjoint();
   }
-  for (std::size_t k = 0; k < prior.worlds.size(); ++k)
+  for (std::size_t k = 0; k < prior.manhattan_frames.size(); ++k)
     J.rightCols<3>().noalias() +=
-        prior.world_columns(k) *
-        (prior.R_map_world_lin[k].inverse() * T_map_first.rotation()).matrix();
+        prior.manhattan_columns(k) *
+        (prior.R_map_manhattan_lin[k].inverse() * T_map_first.rotation()).matrix();
   return J;
 }
 

@@ -31,8 +31,8 @@ void insert_observation(std::vector<Observation>& list, const Observation& o,
   list.insert(at, o);
 }
 
-void require_sound(const LineObservation::SecondEye& eye, const std::string& name) {
-  require(eye.eye_cam.allFinite() && eye.eye_cam.norm() > 0 && eye.start_px.allFinite() &&
+void require_sound(const LineObservation::SecondCamera& eye, const std::string& name) {
+  require(eye.second_in_cam.allFinite() && eye.second_in_cam.norm() > 0 && eye.start_px.allFinite() &&
               eye.end_px.allFinite() && positive(eye.sigma_px),
           name + ": a second eye must lie elsewhere, be finite and its sigma_px positive");
 }
@@ -149,9 +149,9 @@ void SlidingWindow::add_plane_point(const PlanePoint& point) {
   landmark.on_plane = point;
 }
 
-void SlidingWindow::add_world(ManhattanFrameId id, const SO3& R_map_world) {
-  require(R_map_world.matrix().allFinite(), name_of("world", id) + " is not finite");
-  insert(change().worlds, id, R_map_world, "world");
+void SlidingWindow::add_manhattan_frame(ManhattanFrameId id, const SO3& R_map_manhattan) {
+  require(R_map_manhattan.matrix().allFinite(), name_of("world", id) + " is not finite");
+  insert(change().manhattan_frames, id, R_map_manhattan, "world");
 }
 
 void SlidingWindow::add(const WindowFactor& factor) {
@@ -225,8 +225,8 @@ void SlidingWindow::revise_inverse_depth(KeyframeId keyframe, LandmarkId landmar
                       to_string(keyframe));
 }
 
-void SlidingWindow::revise_second_eye(KeyframeId keyframe, LineId line,
-                                      const LineObservation::SecondEye& second) {
+void SlidingWindow::revise_second_camera(KeyframeId keyframe, LineId line,
+                                      const LineObservation::SecondCamera& second) {
   const std::string in_keyframe = " in keyframe " + to_string(keyframe);
   require_sound(second, name_of("line", line) + in_keyframe);
   for (LineObservation& o : find(change().lines, line, "line").observations)
@@ -245,9 +245,9 @@ void SlidingWindow::keep(const WindowVariable& variable, bool kept) {
     change().kept.erase(variable);
 }
 
-void SlidingWindow::hold_world(std::optional<ManhattanFrameId> id) {
-  if (id) require_variable(*state_, world_variable(*id));
-  change().held_world = id;
+void SlidingWindow::hold_manhattan_frame(std::optional<ManhattanFrameId> id) {
+  if (id) require_variable(*state_, manhattan_variable(*id));
+  change().held_manhattan_frame = id;
 }
 
 WindowSummary SlidingWindow::optimize() { return optimize_window(change()); }
@@ -264,7 +264,7 @@ std::vector<KeyframeId> SlidingWindow::keyframes() const { return ids_of(state_-
 std::vector<LandmarkId> SlidingWindow::landmarks() const { return ids_of(state_->landmarks); }
 std::vector<LineId> SlidingWindow::lines() const { return ids_of(state_->lines); }
 std::vector<PlaneId> SlidingWindow::planes() const { return ids_of(state_->planes); }
-std::vector<ManhattanFrameId> SlidingWindow::worlds() const { return ids_of(state_->worlds); }
+std::vector<ManhattanFrameId> SlidingWindow::manhattan_frames() const { return ids_of(state_->manhattan_frames); }
 
 SE3 SlidingWindow::pose(KeyframeId keyframe) const {
   return find(state_->keyframes, keyframe, "keyframe");
@@ -286,8 +286,8 @@ std::optional<Plane3> SlidingWindow::plane(PlaneId id) const {
   return value_if_there(state_->planes, id);
 }
 
-std::optional<SO3> SlidingWindow::world(ManhattanFrameId id) const {
-  return value_if_there(state_->worlds, id);
+std::optional<SO3> SlidingWindow::manhattan_frame(ManhattanFrameId id) const {
+  return value_if_there(state_->manhattan_frames, id);
 }
 
 const std::vector<WindowObservation>& SlidingWindow::observations(LandmarkId landmark) const {

@@ -54,7 +54,7 @@ class SlidingWindow {
   void add_plane_point(const PlanePoint& point);
   /// A world leaves the window with the last keyframe that saw it, unless it is kept: then the
   /// prior goes on to hold it to the keyframes, as far as their motion is known.
-  void add_world(ManhattanFrameId id, const SO3& R_map_world);
+  void add_manhattan_frame(ManhattanFrameId id, const SO3& R_map_manhattan);
   /// A measurement of any kind between keyframes, planes and worlds. A full-rank prior of the
   /// keyframe that is held takes the place of holding it. What leaves no direction of a keyframe
   /// open is enough to determine it without landmarks.
@@ -73,16 +73,16 @@ class SlidingWindow {
   /// calibration.
   void revise_inverse_depth(KeyframeId keyframe, LandmarkId landmark, double inverse_depth);
   /// What a second eye saw is known better now, as after its calibration. It must be there.
-  void revise_second_eye(KeyframeId keyframe, LineId line,
-                         const LineObservation::SecondEye& second);
+  void revise_second_camera(KeyframeId keyframe, LineId line,
+                         const LineObservation::SecondCamera& second);
 
   /// What is kept is not marginalized, however old it is: a keyframe as an anchor to which later
   /// ones shall have a relative covariance (its place in max_keyframes it takes all the same), a
   /// plane or a world that may be seen again.
   void keep(const WindowVariable& variable, bool kept = true);
   /// Where the window lies as a whole is chosen anew after each optimization: turned about its
-  /// oldest keyframe so that this world stays at its R_map_world. Nothing: as it comes out.
-  void hold_world(std::optional<ManhattanFrameId> id);
+  /// oldest keyframe so that this world stays at its R_map_manhattan. Nothing: as it comes out.
+  void hold_manhattan_frame(std::optional<ManhattanFrameId> id);
 
   [[nodiscard]] WindowSummary optimize();
   /// Marginalizes the oldest keyframes until at most max_keyframes are left: landmarks and lines
@@ -98,12 +98,12 @@ class SlidingWindow {
   std::vector<LandmarkId> landmarks() const;     ///< ascending
   std::vector<LineId> lines() const;             ///< ascending
   std::vector<PlaneId> planes() const;           ///< ascending
-  std::vector<ManhattanFrameId> worlds() const;  ///< ascending
+  std::vector<ManhattanFrameId> manhattan_frames() const;  ///< ascending
   SE3 pose(KeyframeId keyframe) const;           ///< T_map_cam
   std::optional<Eigen::Vector3d> landmark(LandmarkId id) const;
   std::optional<Line3> line(LineId id) const;
   std::optional<Plane3> plane(PlaneId id) const;
-  std::optional<SO3> world(ManhattanFrameId id) const;  ///< R_map_world
+  std::optional<SO3> manhattan_frame(ManhattanFrameId id) const;  ///< R_map_manhattan
   const std::vector<WindowObservation>& observations(LandmarkId landmark) const;
   const std::vector<LineObservation>& line_observations(LineId line) const;
   /// Those of one type together, and these in the order in which they came.

@@ -19,7 +19,7 @@ WindowBlocks::WindowBlocks(const WindowState& state)
     }
   };
   place(WindowVariable::Kind::kKeyframe, VariableBlock<SE3>::kSize);
-  place(WindowVariable::Kind::kWorld, VariableBlock<SO3>::kSize);
+  place(WindowVariable::Kind::kManhattanFrame, VariableBlock<SO3>::kSize);
   first_line_ = size;
   size += VariableBlock<Line3>::kSize * state.lines.size();
   place(WindowVariable::Kind::kPlane, VariableBlock<Plane3>::kSize);

@@ -22,8 +22,8 @@ std::optional<Variable> first_estimate(const MarginalPrior& prior, const WindowV
   switch (variable.kind) {
     case WindowVariable::Kind::kPlane:
       return first_estimate(prior.planes, prior.plane_lin, variable.plane());
-    case WindowVariable::Kind::kWorld:
-      return first_estimate(prior.worlds, prior.R_map_world_lin, variable.world());
+    case WindowVariable::Kind::kManhattanFrame:
+      return first_estimate(prior.manhattan_frames, prior.R_map_manhattan_lin, variable.manhattan_frame());
     default:
       return first_estimate(prior.keyframes, prior.T_map_cam_lin, variable.keyframe());
   }
@@ -172,8 +172,8 @@ void WindowEquations::add_prior() {
   for (std::size_t k = 0; k < prior.planes.size(); ++k)
     add(plane_variable(prior.planes[k]), prior.plane_columns(k), prior.plane_lin[k],
         SO3::right_jacobian_inverse);
-  for (std::size_t k = 0; k < prior.worlds.size(); ++k)
-    add(world_variable(prior.worlds[k]), prior.world_columns(k), prior.R_map_world_lin[k],
+  for (std::size_t k = 0; k < prior.manhattan_frames.size(); ++k)
+    add(manhattan_variable(prior.manhattan_frames[k]), prior.manhattan_columns(k), prior.R_map_manhattan_lin[k],
         SO3::right_jacobian_inverse);
   form.H.noalias() += J.transpose() * J;
   form.b.noalias() += J.transpose() * e;

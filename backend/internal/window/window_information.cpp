@@ -122,21 +122,21 @@ std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, Keyfram
   return inverse_if_full(absolute_information(window, keyframe));
 }
 
-std::optional<Eigen::Matrix3d> world_covariance(const SlidingWindow& window, ManhattanFrameId world,
+std::optional<Eigen::Matrix3d> manhattan_covariance(const SlidingWindow& window, ManhattanFrameId manhattan_frame,
                                                 KeyframeId keyframe) {
   const WindowState& state = window.state();
   require_variable(state, keyframe_variable(keyframe));
-  require_variable(state, world_variable(world));
+  require_variable(state, manhattan_variable(manhattan_frame));
   const SO3 R_world_cam =
-      state.worlds.at(world).inverse() * state.keyframes.at(keyframe).rotation();
+      state.manhattan_frames.at(manhattan_frame).inverse() * state.keyframes.at(keyframe).rotation();
   std::vector<WindowVariable> variables;
   const bool held = state.fixed == keyframe;
   if (!held) variables.push_back(keyframe_variable(keyframe));
-  variables.push_back(world_variable(world));
+  variables.push_back(manhattan_variable(manhattan_frame));
   QuadraticForm form{joint_information(state, window.information(), variables), {}};
   form.b = Eigen::VectorXd::Zero(form.H.rows());
   if (!held) form = marginalize_first(form, 3);  // where the keyframe is
-  // R_cam_world turns on its right by that of the world, less that of the camera seen from it.
+  // R_cam_manhattan turns on its right by that of the world, less that of the camera seen from it.
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(3, form.H.cols());
   J.rightCols<3>().setIdentity();
   if (!held) J.leftCols<3>() = -R_world_cam.matrix();

@@ -33,7 +33,7 @@ std::set<WindowVariable> leaving_variables(const WindowState& state, KeyframeId 
   const WindowVariable keyframe = keyframe_variable(leaving);
   std::set<WindowVariable> touched, staying = state.kept;
   for (const PlaneId id : state.prior.planes) touched.insert(plane_variable(id));
-  for (const ManhattanFrameId id : state.prior.worlds) touched.insert(world_variable(id));
+  for (const ManhattanFrameId id : state.prior.manhattan_frames) touched.insert(manhattan_variable(id));
   for (const WindowFactor& factor : state.factors) {
     const bool leaves = touches(factor, keyframe);
     const bool between_keyframes =
@@ -90,9 +90,9 @@ MarginalPrior make_prior(const QuadraticForm& form, const std::vector<WindowVari
       if (variable.kind == WindowVariable::Kind::kPlane) {
         prior.planes.push_back(variable.plane());
         prior.plane_lin.push_back(std::get<Plane3>(lin));
-      } else if (variable.kind == WindowVariable::Kind::kWorld) {
-        prior.worlds.push_back(variable.world());
-        prior.R_map_world_lin.push_back(std::get<SO3>(lin));
+      } else if (variable.kind == WindowVariable::Kind::kManhattanFrame) {
+        prior.manhattan_frames.push_back(variable.manhattan_frame());
+        prior.R_map_manhattan_lin.push_back(std::get<SO3>(lin));
       } else {
         prior.keyframes.push_back(variable.keyframe());
         prior.T_map_cam_lin.push_back(std::get<SE3>(lin));
@@ -128,9 +128,9 @@ void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, Key
     if (variable.kind == WindowVariable::Kind::kPlane) state.planes.erase(variable.plane());
     if (variable.kind == WindowVariable::Kind::kKeyframe)
       state.keyframes.erase(variable.keyframe());
-    if (variable.kind != WindowVariable::Kind::kWorld) continue;
-    state.worlds.erase(variable.world());
-    if (state.held_world == variable.world()) state.held_world.reset();
+    if (variable.kind != WindowVariable::Kind::kManhattanFrame) continue;
+    state.manhattan_frames.erase(variable.manhattan_frame());
+    if (state.held_manhattan_frame == variable.manhattan_frame()) state.held_manhattan_frame.reset();
   }
 }
 

@@ -68,16 +68,16 @@ WindowFactor window_factor(const PlaneObservation& o) {
           Length::kMeasured};
 }
 
-WindowFactor window_factor(const WorldObservation& o) {
-  const std::string name = "sliding window: sighting of world " + to_string(o.world) +
+WindowFactor window_factor(const ManhattanObservation& o) {
+  const std::string name = "sliding window: sighting of world " + to_string(o.manhattan_frame) +
                            " in keyframe " + to_string(o.keyframe);
-  require(o.R_cam_world.matrix().allFinite(), name + ": the rotation must be finite");
+  require(o.R_cam_manhattan.matrix().allFinite(), name + ": the rotation must be finite");
   require_information(o.information, name);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(o.information);
   const Eigen::Matrix3d W =
       eigen.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.eigenvectors().transpose();
-  return {std::make_shared<AbsoluteRotationFactor>(o.R_cam_world, W),
-          {keyframe_variable(o.keyframe), world_variable(o.world)},
+  return {std::make_shared<AbsoluteRotationFactor>(o.R_cam_manhattan, W),
+          {keyframe_variable(o.keyframe), manhattan_variable(o.manhattan_frame)},
           true,
           Length::kNone};
 }
@@ -133,7 +133,7 @@ void add_plane_observation(SlidingWindow& window, const PlaneObservation& observ
   window.add(factor);
 }
 
-void add_world_observation(SlidingWindow& window, const WorldObservation& observation) {
+void add_manhattan_observation(SlidingWindow& window, const ManhattanObservation& observation) {
   window.add(window_factor(observation));
 }
 

@@ -37,11 +37,11 @@ struct PlaneObservation {
 };
 
 /// A rectangular world, a rotation of the window, as a keyframe sees it: error
-/// log(R_map_world^-1 R_map_cam R_cam_world), see AbsoluteRotationFactor.
-struct WorldObservation {
+/// log(R_map_manhattan^-1 R_map_cam R_cam_manhattan), see AbsoluteRotationFactor.
+struct ManhattanObservation {
   KeyframeId keyframe;
-  ManhattanFrameId world;
-  SO3 R_cam_world;
+  ManhattanFrameId manhattan_frame;
+  SO3 R_cam_manhattan;
   Eigen::Matrix3d information = Eigen::Matrix3d::Identity();  ///< right tangent, of any rank
 };
 
@@ -68,7 +68,7 @@ struct MotionObservation {
 WindowFactor window_factor(const DistanceObservation& distance);
 WindowFactor window_factor(const HeightObservation& height);
 WindowFactor window_factor(const PlaneObservation& observation);
-WindowFactor window_factor(const WorldObservation& observation);
+WindowFactor window_factor(const ManhattanObservation& observation);
 WindowFactor window_factor(const PosePrior& prior);
 WindowFactor window_factor(const MotionObservation& motion);
 
@@ -77,7 +77,7 @@ WindowFactor window_factor(const MotionObservation& motion);
 void add_distance(SlidingWindow& window, const DistanceObservation& distance);
 void add_height(SlidingWindow& window, const HeightObservation& height);
 void add_plane_observation(SlidingWindow& window, const PlaneObservation& observation);
-void add_world_observation(SlidingWindow& window, const WorldObservation& observation);
+void add_manhattan_observation(SlidingWindow& window, const ManhattanObservation& observation);
 void add_pose_prior(SlidingWindow& window, const PosePrior& prior);
 void add_motion(SlidingWindow& window, const MotionObservation& motion);
 

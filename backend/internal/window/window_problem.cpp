@@ -76,7 +76,7 @@ class WindowProblem {
   VariableManifold<SE3> pose_manifold_;
   VariableManifold<Line3> line_manifold_;
   VariableManifold<Plane3> plane_manifold_;
-  VariableManifold<SO3> world_manifold_;
+  VariableManifold<SO3> rotation_manifold_;
   WindowBlocks blocks_;
   std::vector<int> points_by_keyframe_;
   std::optional<WindowFactor> reference_;
@@ -159,8 +159,8 @@ void WindowProblem::add_prior() {
   for (const KeyframeId id : state_.prior.keyframes)
     blocks.push_back(blocks_.at(keyframe_variable(id)));
   for (const PlaneId id : state_.prior.planes) blocks.push_back(blocks_.at(plane_variable(id)));
-  for (const ManhattanFrameId id : state_.prior.worlds)
-    blocks.push_back(blocks_.at(world_variable(id)));
+  for (const ManhattanFrameId id : state_.prior.manhattan_frames)
+    blocks.push_back(blocks_.at(manhattan_variable(id)));
   problem_.AddResidualBlock(&prior_.emplace(state_.prior), nullptr, blocks);
 }
 
@@ -168,8 +168,8 @@ ceres::Manifold* WindowProblem::manifold_of(const WindowVariable& variable) {
   switch (variable.kind) {
     case WindowVariable::Kind::kPlane:
       return &plane_manifold_;
-    case WindowVariable::Kind::kWorld:
-      return &world_manifold_;
+    case WindowVariable::Kind::kManhattanFrame:
+      return &rotation_manifold_;
     default:
       return &pose_manifold_;
   }
@@ -246,8 +246,8 @@ void WindowProblem::read_back(WindowState& state) const {
   }
   for (auto& [id, plane_map] : state.planes)
     plane_map = VariableBlock<Plane3>::load(blocks_.variable(k++));
-  for (auto& [id, R_map_world] : state.worlds)
-    R_map_world = VariableBlock<SO3>::load(blocks_.variable(k++));
+  for (auto& [id, R_map_manhattan] : state.manhattan_frames)
+    R_map_manhattan = VariableBlock<SO3>::load(blocks_.variable(k++));
   const auto motion_of = [&](const auto& landmark) {
     const KeyframeId seen = landmark.observations.back().keyframe;
     return std::pair(state.keyframes.at(seen), before.at(seen).inverse());
@@ -291,12 +291,12 @@ WindowSummary optimize_window(WindowState& state) {
     return summary;
   }
   const auto held =
-      state.held_world ? std::optional(state.worlds.at(*state.held_world)) : std::nullopt;
+      state.held_manhattan_frame ? std::optional(state.manhattan_frames.at(*state.held_manhattan_frame)) : std::nullopt;
   const Eigen::Vector3d p_map_oldest = state.keyframes.begin()->second.translation();
   problem.read_back(state);
   if (held) {
     // A prior that holds the window in the map swings it at the end of the way behind it.
-    turn_window(state, *state.held_world, *held);
+    rotate_window(state, *state.held_manhattan_frame, *held);
     const Eigen::Vector3d moved_to = state.keyframes.begin()->second.translation();
     move_window(state, SE3(SO3(), p_map_oldest - moved_to));
   }

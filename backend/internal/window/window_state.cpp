@@ -14,8 +14,8 @@ bool contains(const WindowState& state, const WindowVariable& variable) {
   switch (variable.kind) {
     case Kind::kPlane:
       return state.planes.contains(variable.plane());
-    case Kind::kWorld:
-      return state.worlds.contains(variable.world());
+    case Kind::kManhattanFrame:
+      return state.manhattan_frames.contains(variable.manhattan_frame());
     default:
       return state.keyframes.contains(variable.keyframe());
   }
@@ -61,8 +61,8 @@ Variable value_of(const WindowState& state, const WindowVariable& variable) {
   switch (variable.kind) {
     case Kind::kPlane:
       return state.planes.at(variable.plane());
-    case Kind::kWorld:
-      return state.worlds.at(variable.world());
+    case Kind::kManhattanFrame:
+      return state.manhattan_frames.at(variable.manhattan_frame());
     default:
       return state.keyframes.at(variable.keyframe());
   }
@@ -72,7 +72,7 @@ std::vector<WindowVariable> variables_of(const WindowState& state) {
   std::vector<WindowVariable> variables;
   for (const auto& [id, T_map_cam] : state.keyframes) variables.push_back(keyframe_variable(id));
   for (const auto& [id, plane_map] : state.planes) variables.push_back(plane_variable(id));
-  for (const auto& [id, R_map_world] : state.worlds) variables.push_back(world_variable(id));
+  for (const auto& [id, R_map_manhattan] : state.manhattan_frames) variables.push_back(manhattan_variable(id));
   return variables;
 }
 

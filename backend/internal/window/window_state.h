@@ -33,10 +33,10 @@ struct WindowState {
   std::map<LandmarkId, WindowLandmark> landmarks;
   std::map<LineId, WindowLine> lines;
   std::map<PlaneId, Plane3> planes;        ///< planes of the map
-  std::map<ManhattanFrameId, SO3> worlds;  ///< R_map_world
+  std::map<ManhattanFrameId, SO3> manhattan_frames;  ///< R_map_manhattan
   std::set<WindowVariable> kept;           ///< are not to be marginalized
   /// Where the window lies as a whole is chosen so that this one stays as it is.
-  std::optional<ManhattanFrameId> held_world;
+  std::optional<ManhattanFrameId> held_manhattan_frame;
   /// All measurements but those of points and lines: those of one type together, in the order in
   /// which they came.
   std::vector<WindowFactor> factors;
@@ -84,7 +84,7 @@ void for_factors(const Camera& camera, const LineObservation& o, Use&& use) {
   use(LineReprojectionFactor(camera, o.start_px, o.end_px, o.sigma_px));
   if (o.second)
     use(LineReprojectionFactor(camera, o.second->start_px, o.second->end_px, o.second->sigma_px,
-                               o.second->eye_cam));
+                               o.second->second_in_cam));
 }
 
 /// Whether a factor of one keyframe alone leaves no direction of it open: it holds the window in

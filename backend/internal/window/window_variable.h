@@ -9,10 +9,10 @@
 namespace placegraph {
 
 /// A variable of a sliding window that measurements stand between: a keyframe's pose T_map_cam, a
-/// plane of the map, the rotation R_map_world of a rectangular world. (Points and lines, which
+/// plane of the map, the rotation R_map_manhattan of a rectangular world. (Points and lines, which
 /// cameras alone observe, have a path of their own.)
 struct WindowVariable {
-  enum class Kind { kKeyframe, kPlane, kWorld };
+  enum class Kind { kKeyframe, kPlane, kManhattanFrame };
   Kind kind = Kind::kKeyframe;
   std::int64_t id = 0;  ///< its number among those of its kind
   auto operator<=>(const WindowVariable&) const = default;
@@ -20,7 +20,7 @@ struct WindowVariable {
   /// The id of a variable of that kind.
   KeyframeId keyframe() const { return KeyframeId(id); }
   PlaneId plane() const { return PlaneId(id); }
-  ManhattanFrameId world() const { return ManhattanFrameId(id); }
+  ManhattanFrameId manhattan_frame() const { return ManhattanFrameId(id); }
 };
 
 inline WindowVariable keyframe_variable(KeyframeId id) {
@@ -29,8 +29,8 @@ inline WindowVariable keyframe_variable(KeyframeId id) {
 inline WindowVariable plane_variable(PlaneId id) {
   return {WindowVariable::Kind::kPlane, id.value()};
 }
-inline WindowVariable world_variable(ManhattanFrameId id) {
-  return {WindowVariable::Kind::kWorld, id.value()};
+inline WindowVariable manhattan_variable(ManhattanFrameId id) {
+  return {WindowVariable::Kind::kManhattanFrame, id.value()};
 }
 
 /// Number of directions in which it can move: columns that it has in the normal equations.
@@ -49,7 +49,7 @@ inline std::size_t factor_kind(const WindowVariable& variable) {
   switch (variable.kind) {
     case WindowVariable::Kind::kPlane:
       return Variable(std::in_place_type<Plane3>).index();
-    case WindowVariable::Kind::kWorld:
+    case WindowVariable::Kind::kManhattanFrame:
       return Variable(std::in_place_type<SO3>).index();
     default:
       return Variable(std::in_place_type<SE3>).index();

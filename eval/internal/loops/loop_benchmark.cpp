@@ -110,7 +110,7 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
     else
       ++result.dropped;
   }
-  std::vector<ScoredAnswer> answers;
+  std::vector<ScoredPrediction> answers;
   std::array<int, LoopBenchmark::kRanks.size()> found = {};
   for (auto& [id, of_query] : gathered) {
     const JudgedQuery judged = judge(id, of_query);

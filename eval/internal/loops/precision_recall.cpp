@@ -7,9 +7,9 @@
 namespace placegraph {
 namespace {
 
-void check(const std::vector<ScoredAnswer>& answers, int positives) {
+void check(const std::vector<ScoredPrediction>& answers, int positives) {
   int correct = 0;
-  for (const ScoredAnswer& answer : answers) {
+  for (const ScoredPrediction& answer : answers) {
     require(std::isfinite(answer.score), "precision_recall: a score is not finite");
     correct += answer.correct;
   }
@@ -20,10 +20,10 @@ void check(const std::vector<ScoredAnswer>& answers, int positives) {
 
 }  // namespace
 
-PrecisionRecall precision_recall(std::vector<ScoredAnswer> answers, int positives) {
+PrecisionRecall precision_recall(std::vector<ScoredPrediction> answers, int positives) {
   check(answers, positives);
   std::sort(answers.begin(), answers.end(),
-            [](const ScoredAnswer& a, const ScoredAnswer& b) { return a.score > b.score; });
+            [](const ScoredPrediction& a, const ScoredPrediction& b) { return a.score > b.score; });
   PrecisionRecall result;
   PrecisionRecallPoint point;
   double area = 0, full = 0, f1 = 0, recall_before = 0;

@@ -6,11 +6,11 @@
 
 namespace placegraph {
 
-Reliability reliability_of(const std::vector<ScoredAnswer>& answers) {
+Reliability reliability_of(const std::vector<ScoredPrediction>& answers) {
   constexpr int kBins = 10;
   Reliability result;
   result.bins.resize(kBins);
-  for (const ScoredAnswer& answer : answers) {
+  for (const ScoredPrediction& answer : answers) {
     require(answer.score >= 0 && answer.score <= 1, "reliability_of: a score is no probability");
     const int at = std::min(kBins - 1, static_cast<int>(kBins * answer.score));
     ReliabilityBin& bin = result.bins[static_cast<std::size_t>(at)];

@@ -20,6 +20,6 @@ struct Reliability {
 };
 
 /// Scores are probabilities; throws ArgumentError for one outside 0 to 1.
-Reliability reliability_of(const std::vector<ScoredAnswer>& answers);
+Reliability reliability_of(const std::vector<ScoredPrediction>& answers);
 
 }  // namespace placegraph

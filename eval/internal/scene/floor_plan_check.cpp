@@ -52,9 +52,9 @@ std::vector<Segment> solid_pieces(const BuildingPlan& truth, std::size_t wall, b
 }
 
 /// What the poses can have seen, seen from above.
-class Sight {
+class Observation {
  public:
-  Sight(const BuildingPlan& truth, const std::vector<SE3>& poses,
+  Observation(const BuildingPlan& truth, const std::vector<SE3>& poses,
         const FloorPlanCheckOptions& options)
       : options_(options) {
     for (std::size_t i = 0; i < truth.walls.size(); ++i)
@@ -216,7 +216,7 @@ class Checker {
         T_(T_truth_plan),
         poses_(poses),
         options_(options),
-        sight_(truth, poses, options) {}
+        observation_(truth, poses, options) {}
 
   FloorPlanCheck check() {
     walls();
@@ -240,7 +240,7 @@ class Checker {
     std::vector<double> from_truth, from_plan;
     for (const Surface& surface : surfaces)
       for (const Sample& sample : samples_of(surface.segment, surface.normal))
-        if (sight_.sees(sample.at, sample.normal)) from_truth.push_back(nearest(sample, told));
+        if (observation_.sees(sample.at, sample.normal)) from_truth.push_back(nearest(sample, told));
     for (const Surface& surface : told)
       for (const Sample& sample : samples_of(surface.segment, surface.normal))
         from_plan.push_back(nearest(sample, surfaces));
@@ -293,8 +293,8 @@ class Checker {
       const Vector2d axis = (wall.b - wall.a).normalized(), across(-axis[1], axis[0]);
       const Vector2d middle = 0.5 * (door.a + door.b);
       // A closed door stands in the middle line itself, so that it is looked at a little before it.
-      const bool seen = sight_.sees(middle + 0.03 * across, across) ||
-                        sight_.sees(middle - 0.03 * across, -across);
+      const bool seen = observation_.sees(middle + 0.03 * across, across) ||
+                        observation_.sees(middle - 0.03 * across, -across);
       int match = -1;
       for (std::size_t i = 0; i < plan_.doors.size(); ++i) {
         const Vector2d there = 0.5 * (into_truth(plan_.doors[i].a) + into_truth(plan_.doors[i].b));
@@ -312,7 +312,7 @@ class Checker {
   const SE3& T_;
   const std::vector<SE3>& poses_;
   const FloorPlanCheckOptions& options_;
-  Sight sight_;
+  Observation observation_;
   FloorPlanCheck result_;
 };
 

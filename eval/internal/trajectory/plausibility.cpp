@@ -20,7 +20,7 @@ constexpr double kGoodMisfit = 1e-4;
 /// Orientations that differ by less are the same.
 constexpr double kSameOrientation_rad = 1e-6;
 /// Turned axes below this are a mounting error, not those of another sensor.
-constexpr double kTurnedAxes_deg = 5;
+constexpr double kRotatedAxes_deg = 5;
 
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& R) {
   const Eigen::AngleAxisd angle_axis(R);
@@ -127,7 +127,7 @@ double misfit(const std::vector<FramePair>& pairs, int stride, const Reading& of
 
 /// The greatest angle [rad] between an orientation and the first.
 template <class Poses>
-double greatest_turn(const std::vector<FramePair>& pairs, Poses pose_of) {
+double greatest_rotation(const std::vector<FramePair>& pairs, Poses pose_of) {
   double greatest = 0;
   const Eigen::Isometry3d* first = nullptr;
   for (const FramePair& pair : pairs) {
@@ -140,24 +140,24 @@ double greatest_turn(const std::vector<FramePair>& pairs, Poses pose_of) {
   return greatest;
 }
 
-std::string never_turns(const std::vector<FramePair>& pairs) {
+std::string never_rotations(const std::vector<FramePair>& pairs) {
   const auto truth = [](const FramePair& pair) { return &pair.T_world_truth; };
   const auto estimate = [](const FramePair& pair) {
     return pair.T_world_estimate ? &*pair.T_world_estimate : nullptr;
   };
-  const double truth_turns = greatest_turn(pairs, truth);
-  const double estimate_turns = greatest_turn(pairs, estimate);
+  const double truth_rotations = greatest_rotation(pairs, truth);
+  const double estimate_rotations = greatest_rotation(pairs, estimate);
   const auto text = [](const char* one, const char* other, double angle) {
     return fmt::format(
         "{} never turns, but {} does, by up to {:.1f} deg: if it has positions alone, RPE, t_rel "
         "and r_rel mean nothing",
         one, other, rad_to_deg(angle));
   };
-  constexpr double kTurned_rad = 0.05;
-  if (truth_turns < kSameOrientation_rad && estimate_turns > kTurned_rad)
-    return text("the ground truth", "the estimate", estimate_turns);
-  if (estimate_turns < kSameOrientation_rad && truth_turns > kTurned_rad)
-    return text("the estimate", "the ground truth", truth_turns);
+  constexpr double kRotated_rad = 0.05;
+  if (truth_rotations < kSameOrientation_rad && estimate_rotations > kRotated_rad)
+    return text("the ground truth", "the estimate", estimate_rotations);
+  if (estimate_rotations < kSameOrientation_rad && truth_rotations > kRotated_rad)
+    return text("the estimate", "the ground truth", truth_rotations);
   return {};
 }
 
@@ -195,7 +195,7 @@ std::string other_convention(const std::vector<FramePair>& pairs, int stride, do
   const Motions motions(pairs, stride, 0, as_it_stands, as_it_stands);
   const std::optional<Eigen::Matrix3d> R = motions.axes();
   const double angle_deg = R ? rad_to_deg(rotation_angle(*R)) : 0;
-  if (angle_deg < kTurnedAxes_deg || !(motions.misfit(*R) < least)) return best ? best->text : "";
+  if (angle_deg < kRotatedAxes_deg || !(motions.misfit(*R) < least)) return best ? best->text : "";
   return fmt::format(
       "the estimate's axes are turned by {:.0f} deg against the ground truth's: are these poses of "
       "another sensor (camera against body)?",
@@ -227,7 +227,7 @@ double motion_misfit(const std::vector<FramePair>& pairs, int stride, int shift,
 }
 
 std::vector<std::string> convention_warnings(const std::vector<FramePair>& pairs) {
-  const std::string stands = never_turns(pairs);
+  const std::string stands = never_rotations(pairs);
   if (!stands.empty()) return {stands};
   const int n = static_cast<int>(pairs.size());
   if (n < 4 * kMaxShift) return {};

@@ -212,7 +212,7 @@ void measure(const Job& job, AlignResult& result) {
   result.similarity = fit.similarity;
   result.agreement = agreement(fit, seen.cur);
   result.inlier_share = fit.inlier_share;
-  result.likeness = robust_similarity(
+  result.robust_similarity = robust_similarity(
       o.similarity == Similarity::kMi ? Similarity::kZncc : o.similarity, seen.ref, seen.cur);
   result.gain = fit.gain, result.bias = fit.bias;
   const auto covariance =

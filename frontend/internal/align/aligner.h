@@ -44,7 +44,7 @@ struct AlignResult {
   double independent_share = 0;
   double similarity = 0;     ///< on the finest level
   double agreement = 0;      ///< weighted correlation of the image and what the template predicts
-  double likeness = 0;       ///< robust_similarity on the finest level, of ZNCC under MI
+  double robust_similarity = 0;       ///< robust_similarity on the finest level, of ZNCC under MI
   double visible_share = 0;  ///< of the samples
   double inlier_share = 0;   ///< of those in view
   double gain = 1, bias = 0;

@@ -107,7 +107,7 @@ void visit(OptionVisitor& field, PlaneTrackerOptions& o) {
   field("search_shift", o.search_shift, "of all corners in the search, in diagonals", {0, 10});
   field("back_px", o.back_px, "agreement of the way there and back", {0.01, 100});
   field.group("finder", o.finder, "search by point features");
-  field("key_likeness", o.key_likeness, "of a view that becomes the second template", {0, 1});
+  field("key_similarity", o.key_similarity, "of a view that becomes the second template", {0, 1});
   field("key_interval", o.key_interval, "frames between second templates", {1, 1000000});
   field.group("normal", o.normal, "the plane's normal from several views");
 }
@@ -152,13 +152,13 @@ PlaneTracker::PlaneTracker(const Image& image_ref, const std::vector<Vector2d>& 
     outcome_ = Outcome::failure(Code::kDegenerate, "the template has too little texture");
     return;
   }
-  chance_ = chance_likeness(image_ref, corners_px, template_, swarm_of(options.align),
+  chance_ = null_distribution(image_ref, corners_px, template_, swarm_of(options.align),
                             options.chance_trials);
   outcome_ = Outcome::ok();
 }
 
-double PlaneTracker::least_likeness_found() const {
-  return std::max(least_likeness(), chance_.rival + options_.rival_margin);
+double PlaneTracker::least_similarity_found() const {
+  return std::max(least_similarity(), chance_.rival + options_.rival_margin);
 }
 
 /// Of the model's family, once the plane's normal is known.
@@ -183,8 +183,8 @@ Outcome PlaneTracker::judge(const AlignResult& result, const Matrix3d& H_cur_ref
       return Outcome::failure(Code::kInconsistent,
                               "area changed by a factor of " + std::to_string(change));
   }
-  if (result.likeness < least)
-    return Outcome::failure(Code::kInconsistent, "likeness " + std::to_string(result.likeness) +
+  if (result.robust_similarity < least)
+    return Outcome::failure(Code::kInconsistent, "likeness " + std::to_string(result.robust_similarity) +
                                                      ", " + std::to_string(least) + " needed");
   return Outcome::ok();
 }
@@ -198,7 +198,7 @@ PlaneTrack PlaneTracker::aligned(const View& view, const Matrix3d& H_start,
   track.source = source;
   track.outcome = judge(result, result.warp.H_cur_ref(), least);
   track.similarity = result.agreement;
-  track.likeness = result.likeness;
+  track.robust_similarity = result.robust_similarity;
   track.visible_share = result.visible_share;
   track.inlier_share = result.inlier_share;
   if (!track.outcome) return track;
@@ -216,10 +216,10 @@ PlaneTrack PlaneTracker::follow(const View& view) const {
   const bool plausible = std::max(change, 1 / change) < std::sqrt(options_.max_area_change);
   if (plausible) {
     const PlaneTrack track =
-        aligned(view, H_predicted, options_.align, least_likeness(), PlaneTrackSource::kPrediction);
+        aligned(view, H_predicted, options_.align, least_similarity(), PlaneTrackSource::kPrediction);
     if (track.outcome || template_.corner_distance_px(H_predicted, H_last_ref_) < 1) return track;
   }
-  return aligned(view, H_last_ref_, options_.align, least_likeness(), PlaneTrackSource::kLastPlace);
+  return aligned(view, H_last_ref_, options_.align, least_similarity(), PlaneTrackSource::kLastPlace);
 }
 
 /// By a recent view; then by the first image from there, whose word is the last if it holds.
@@ -231,9 +231,9 @@ PlaneTrack PlaneTracker::by_second_template(const View& view) const {
       align(key_->planar_template, view.pyramid,
             key_->planar_template.homography(H_last_ref_ * H_ref_key), options_.align);
   const Matrix3d H_cur_key = result.warp.H_cur_ref(), H_cur_ref = H_cur_key * key_->H_key_ref;
-  const Outcome outcome = judge(result, H_cur_ref, least_likeness());
+  const Outcome outcome = judge(result, H_cur_ref, least_similarity());
   if (!outcome) return lost(outcome, source);
-  PlaneTrack track = aligned(view, H_cur_ref, options_.align, least_likeness(), source);
+  PlaneTrack track = aligned(view, H_cur_ref, options_.align, least_similarity(), source);
   if (track.outcome) return track;
   track.outcome = Outcome::ok();
   track.H_cur_ref = H_cur_ref;
@@ -245,7 +245,7 @@ PlaneTrack PlaneTracker::by_second_template(const View& view) const {
         slope_at(H_cur_key, key_->corners_px[static_cast<std::size_t>(c)]);
   track.covariance += slope * key_->covariance * slope.transpose();
   track.similarity = result.agreement;
-  track.likeness = result.likeness;
+  track.robust_similarity = result.robust_similarity;
   track.visible_share = result.visible_share;
   track.inlier_share = result.inlier_share;
   return track;
@@ -259,7 +259,7 @@ PlaneTrack PlaneTracker::search(const View& view) const {
   options.search_shift_sigma = std::min({options_.search_shift * (1 + 0.5 * lost_), widest, 10.0});
   options.swarm.seed += static_cast<std::uint64_t>(frames_);
   PlaneTrack track =
-      aligned(view, H_last_ref_, options, least_likeness_found(), PlaneTrackSource::kSwarm);
+      aligned(view, H_last_ref_, options, least_similarity_found(), PlaneTrackSource::kSwarm);
   if (track.outcome) track.outcome = the_way_back(view, track);
   return track;
 }
@@ -270,7 +270,7 @@ PlaneTrack PlaneTracker::find(const View& view) {
                           PlaneTrackSource::kFeatures);
   for (const FoundPlace& place : finder_.find(view.image, random_)) {
     if (seen_area_px(place.H_cur_ref, corners_px_) < options_.min_area_px) continue;
-    PlaneTrack there = aligned(view, place.H_cur_ref, options_.align, least_likeness_found(),
+    PlaneTrack there = aligned(view, place.H_cur_ref, options_.align, least_similarity_found(),
                                PlaneTrackSource::kFeatures);
     if (there.outcome) there.outcome = the_way_back(view, there);
     if (there.outcome) return there;
@@ -311,11 +311,11 @@ void PlaneTracker::remember(const View& view, const PlaneTrack& track) {
       lost_ == 0 ? Matrix3d(track.H_cur_ref * H_last_ref_.inverse()) : Matrix3d::Identity();
   H_last_ref_ = track.H_cur_ref;
   lost_ = 0;
-  const bool whole = track.visible_share > 0.95 && track.likeness >= options_.key_likeness;
+  const bool whole = track.visible_share > 0.95 && track.robust_similarity >= options_.key_similarity;
   const bool due = !key_ || frames_ - key_frame_ >= options_.key_interval;
   if (!whole || !due || track.source == PlaneTrackSource::kSecondTemplate) return;
   key_.emplace(
-      KeyView{PlanarTemplate(view.image, track.corners_px, options_.levels, options_.max_samples),
+      TemplateView{PlanarTemplate(view.image, track.corners_px, options_.levels, options_.max_samples),
               track.corners_px, track.H_cur_ref, track.covariance});
   key_frame_ = frames_;
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/internal/align/aligner.h>
-#include <placegraph/frontend/internal/align/chance_likeness.h>
+#include <placegraph/frontend/internal/align/null_distribution.h>
 #include <placegraph/frontend/internal/align/template_finder.h>
 #include <placegraph/frontend/internal/planes/plane_normal.h>
 
@@ -37,7 +37,7 @@ struct PlaneTrackerOptions {
                                ///< every further lost frame, up to the image's size
   double back_px = 2;          ///< forward and backward alignment agree to this once found again
   TemplateFinderOptions finder;
-  double key_likeness = 0.85;  ///< of a view that becomes the second template, at least
+  double key_similarity = 0.85;  ///< of a view that becomes the second template, at least
   int key_interval = 5;        ///< frames from one to the next at least
   PlaneNormalOptions normal;
   void check() const;
@@ -59,7 +59,7 @@ struct PlaneTrack {
   /// of freedom they are.
   Eigen::Matrix<double, 8, 8> covariance = Eigen::Matrix<double, 8, 8>::Zero();
   double similarity = 0;     ///< weighted correlation with the template where it is not occluded
-  double likeness = 0;       ///< robust_similarity: an occluded part counts as an error
+  double robust_similarity = 0;       ///< robust_similarity: an occluded part counts as an error
   double visible_share = 0;  ///< of the template, in the image
   double inlier_share = 0;   ///< of what is in the image
   /// With a camera, once the views have told the plane's normal: the motion in units of the plane's
@@ -73,7 +73,7 @@ struct PlaneTrack {
 /// Follows a planar region of one image through a sequence (direct alignment; Paper III of the
 /// thesis the project builds on). Each frame is aligned with the first image, from the motion
 /// predicted by the last two, so that nothing drifts. It counts as tracked where the likeness is
-/// above what chance reaches (chance_likeness), the template's image is a convex quadrilateral of
+/// above what chance reaches (null_distribution), the template's image is a convex quadrilateral of
 /// the same sense whose area changed by no leap, and the alignment's own gates hold. Where the
 /// first image no longer resembles what is seen, a second template helps, cut from a recent frame
 /// in which the first was confirmed: errors chain over one link at most (compare Matthews, Ishikawa
@@ -91,17 +91,17 @@ class PlaneTracker {
 
   /// Whether the template can be tracked at all: kTooFewData or kDegenerate if not.
   const Outcome& outcome() const { return outcome_; }
-  const ChanceLikeness& chance() const { return chance_; }
+  const NullDistribution& chance() const { return chance_; }
   /// The likeness a frame must show, and one in which the template is found again.
-  double least_likeness() const { return chance_.bound(options_.chance_deviations); }
-  double least_likeness_found() const;
+  double least_similarity() const { return chance_.bound(options_.chance_deviations); }
+  double least_similarity_found() const;
 
   /// The next frame; of any size, CV_8UC1.
   [[nodiscard]] PlaneTrack track(const Image& image);
 
  private:
   struct View;
-  struct KeyView {
+  struct TemplateView {
     PlanarTemplate planar_template;
     std::vector<Eigen::Vector2d> corners_px;
     Eigen::Matrix3d H_key_ref;
@@ -128,10 +128,10 @@ class PlaneTracker {
   TemplateFinder finder_;
   Random random_{1};
   Outcome outcome_;
-  ChanceLikeness chance_;
+  NullDistribution chance_;
   std::optional<PlaneNormalEstimator> normal_;
   PlaneNormal plane_;  ///< as far as it is known
-  std::optional<KeyView> key_;
+  std::optional<TemplateView> key_;
   int frames_ = 0, key_frame_ = 0;
   int lost_ = 0;                                                 ///< frames since it was tracked
   Eigen::Matrix3d H_last_ref_ = Eigen::Matrix3d::Identity();     ///< where it was tracked last

@@ -35,7 +35,7 @@ class TemplateFinder {
 
  private:
   TemplateFinderOptions options_;
-  WidePoints points_ref_;
+  WideBaselineFeatures points_ref_;
 };
 
 }  // namespace placegraph

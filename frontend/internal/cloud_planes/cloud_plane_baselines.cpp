@@ -112,7 +112,7 @@ PlaneLabels planes_by_ransac(const CloudPoints& points, const CloudPlanesOptions
 
 PlaneLabels planes_by_growing(const CloudPoints& points, const CloudPlanesOptions& options) {
   constexpr std::size_t kPatch = 25;
-  const double turn_cos = std::cos(deg_to_rad(10));
+  const double rotation_cos = std::cos(deg_to_rad(10));
   PlaneLabels result;
   result.labels.assign(points.xyz.size(), -1);
   std::vector<FittedPlane> local(points.xyz.size());
@@ -139,7 +139,7 @@ PlaneLabels planes_by_growing(const CloudPoints& points, const CloudPlanesOption
       for (int n = points.begin[region[k]]; n < points.begin[region[k] + 1]; ++n) {
         const int j = points.neighbours[n];
         if (result.labels[j] >= 0 || !local[j].ok) continue;
-        if (std::abs(local[j].plane.normal.dot(plane.plane.normal)) < turn_cos ||
+        if (std::abs(local[j].plane.normal.dot(plane.plane.normal)) < rotation_cos ||
             residual_sigmas(plane, points.fit[j], points.model) > options.inlier_sigmas)
           continue;
         result.labels[j] = label;

@@ -75,7 +75,7 @@ void join_nearest(const std::vector<Eigen::Vector3d>& where, const NeighbourTree
 /// there is one surface along each ray.
 bool seen_from_origin(const std::vector<Eigen::Vector3d>& xyz, const NeighbourTree& by_direction) {
   constexpr int kSamples = 1000, kOfEach = 2;
-  constexpr double kAlike = 0.06, kShare = 0.75;
+  constexpr double kSimilar = 0.06, kShare = 0.75;
   const int stride = std::max<int>(1, static_cast<int>(xyz.size()) / kSamples);
   std::vector<double> differences;
   std::vector<int> found;
@@ -85,7 +85,7 @@ bool seen_from_origin(const std::vector<Eigen::Vector3d>& xyz, const NeighbourTr
     for (const int j : found)
       differences.push_back(std::abs(xyz[static_cast<std::size_t>(j)].norm() / range - 1));
   }
-  return !differences.empty() && quantile_of(differences, kShare) < kAlike;
+  return !differences.empty() && quantile_of(differences, kShare) < kSimilar;
 }
 
 /// The points about one, itself first: of an image a square, otherwise neighbours of neighbours.

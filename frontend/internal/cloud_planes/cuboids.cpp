@@ -191,12 +191,12 @@ std::optional<Cuboid> cuboid_of(const std::vector<Face>& faces, const std::vecto
       const Face& face = faces[static_cast<std::size_t>(k)];
       std::vector<double> places;
       for (const Eigen::Vector3d& X : face.points) places.push_back(along.dot(X));
-      const double turned = along.dot(face.normal);
-      if (std::abs(turned) < 0.5) {
+      const double rotated = along.dot(face.normal);
+      if (std::abs(rotated) < 0.5) {
         beside.insert(beside.end(), places.begin(), places.end());
         continue;
       }
-      const bool upper = (turned > 0) == (kind == CuboidKind::kBox);
+      const bool upper = (rotated > 0) == (kind == CuboidKind::kBox);
       if (side[upper]) return std::nullopt;
       side[upper] =
           std::accumulate(places.begin(), places.end(), 0.0) / static_cast<double>(places.size());

@@ -328,8 +328,8 @@ DepthPlane Grid::describe(const Region& region) const {
   Eigen::Matrix3d of_g =
       region.sums.M.inverse() * std::max(noise_, roughness_ * pixels);  // independent cells
   for (const int block_cells : {2, 4, 8}) {
-    const Eigen::Matrix3d alike = covariance(region, block_cells);
-    if (alike.trace() > of_g.trace()) of_g = alike;
+    const Eigen::Matrix3d similar = covariance(region, block_cells);
+    if (similar.trace() > of_g.trace()) of_g = similar;
   }
   const double square = g.squaredNorm();
   const Eigen::Matrix3d J = (Eigen::Matrix3d::Identity() - 2 * g * g.transpose() / square) / square;

@@ -15,7 +15,7 @@ constexpr double kCellRise = 12;
 constexpr double kOddCells = 0.03;  ///< share of the points in cells that may rise more
 /// A cut where the affinities are more than this share of those within follows no crease.
 constexpr double kSmoothCut = 0.6;
-constexpr double kMaxTurnCos = 0.95;  ///< of planes that are merged
+constexpr double kMaxRotationCos = 0.95;  ///< of planes that are merged
 
 /// An affinity of cells: how alike they are, as often as their points are neighbours.
 struct Joint : Affinity {
@@ -56,14 +56,14 @@ std::vector<Part> halves(const Part& part, double max_cut, std::vector<int>& num
   std::vector<Part> two(2);
   for (std::size_t i = 0; i < part.cells.size(); ++i)
     two[cut->second[i] ? 1 : 0].cells.push_back(part.cells[i]);
-  double alike_cut = 0, pairs_cut = 0, alike = 0, pairs = 0;
+  double similar_cut = 0, pairs_cut = 0, similar = 0, pairs = 0;
   for (std::size_t k = 0; k < local.size(); ++k) {
     const bool across = cut->second[local[k].a] != cut->second[local[k].b];
-    (across ? alike_cut : alike) += local[k].weight;
+    (across ? similar_cut : similar) += local[k].weight;
     (across ? pairs_cut : pairs) += part.joints[k].pairs;
     if (!across) two[cut->second[local[k].a] ? 1 : 0].joints.push_back(part.joints[k]);
   }
-  if (alike_cut * pairs > kSmoothCut * alike * pairs_cut) return {};
+  if (similar_cut * pairs > kSmoothCut * similar * pairs_cut) return {};
   return two;
 }
 
@@ -77,7 +77,7 @@ double rise_of(const PlanarSegment& segment, const FittedPlane& plane, const Fit
 /// common plane tilts over a step between them; the larger one's does not.)
 bool are_coplanar(const PlanarSegment& large, const PlanarSegment& small, const FitModel& model) {
   constexpr double kChance = 16, kNoiseShare = 0.1, kBending = 4;
-  if (std::abs(small.plane.plane.normal.dot(large.plane.plane.normal)) < kMaxTurnCos) return false;
+  if (std::abs(small.plane.plane.normal.dot(large.plane.plane.normal)) < kMaxRotationCos) return false;
   // The noise as these segments have it, where that is more than elsewhere.
   const double noise = std::max(
       1.0, (large.plane.chi2 + small.plane.chi2) / (large.sums.count() + small.sums.count()));
@@ -138,9 +138,9 @@ std::vector<PlanarSegment> cut_into_segments(const SuperPoints& cloud, const Fit
   for (const Contact& contact : cloud.contacts) {
     const SuperPoint &a = cloud.cells[contact.a], &b = cloud.cells[contact.b];
     if (!a.planar || !b.planar) continue;
-    const double alike = std::exp(-planar_dissimilarity(a, b, model) / kDissimilarityScale);
-    if (alike > kLeastAffinity)
-      joints.push_back({{contact.a, contact.b, alike * contact.pairs}, 1.0 * contact.pairs});
+    const double similar = std::exp(-planar_dissimilarity(a, b, model) / kDissimilarityScale);
+    if (similar > kLeastAffinity)
+      joints.push_back({{contact.a, contact.b, similar * contact.pairs}, 1.0 * contact.pairs});
   }
   std::vector<PlanarSegment> segments;
   std::vector<Part> stack = connected_parts(planar, joints, number_of);

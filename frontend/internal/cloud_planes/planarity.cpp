@@ -11,7 +11,7 @@ namespace placegraph {
 namespace {
 
 constexpr int kSamples = 256;  ///< points of a segment that are looked at
-const double kAlikeCos = std::cos(deg_to_rad(10)), kGentleCos = std::cos(deg_to_rad(12)),
+const double kSimilarCos = std::cos(deg_to_rad(10)), kGentleCos = std::cos(deg_to_rad(12)),
              kCreaseCos = std::cos(deg_to_rad(30));
 
 std::vector<int> sample_points(const PlanarSegment& segment, const SuperPoints& cloud) {
@@ -128,12 +128,12 @@ PlanarityFeatures planarity_features(const PlanarSegment& segment, const CloudPo
   const double misfit =
       segment.plane.chi2 / (n * segment.sums.inflation(segment.plane, points.model));
   const Shape shape = shape_of(segment, points, cloud);
-  double turn = 0, alike = 0;
+  double turn = 0, similar = 0;
   for (const int c : segment.cells) {
     const double cosine =
         std::min(1.0, std::abs(cloud.cells[c].plane.plane.normal.dot(segment.plane.plane.normal)));
     turn += cloud.cells[c].sums.count() * std::acos(cosine) / n;
-    if (cosine > kAlikeCos) alike += cloud.cells[c].sums.count() / n;
+    if (cosine > kSimilarCos) similar += cloud.cells[c].sums.count() / n;
   }
   const Border border = border_of(segment, cloud, contacts, points.model);
   return {std::log(misfit + 1e-3),
@@ -144,7 +144,7 @@ PlanarityFeatures planarity_features(const PlanarSegment& segment, const CloudPo
           shape.curved,
           shape.bend,
           turn,
-          alike,
+          similar,
           border.goes_on,
           border.gentle,
           border.crease,

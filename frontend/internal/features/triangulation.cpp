@@ -20,19 +20,19 @@ double largest_angle(const std::vector<Eigen::Vector3d>& rays) {
 /// The point of least reprojection errors, by Gauss-Newton from a point near it; nothing where it
 /// comes to lie behind a camera.
 std::optional<Eigen::Vector3d> least_reprojection_errors(const Camera& camera,
-                                                         const std::vector<Sighting>& sightings,
+                                                         const std::vector<PointMeasurement>& observations,
                                                          const std::vector<SE3>& T_cam_ref,
                                                          Eigen::Vector3d p) {
   for (int iteration = 0; iteration < 4; ++iteration) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < sightings.size(); ++i) {
+    for (std::size_t i = 0; i < observations.size(); ++i) {
       Eigen::Matrix<double, 2, 3> J_px_cam;
       const auto px = camera.project(T_cam_ref[i] * p, &J_px_cam);
       if (!px) return std::nullopt;
       const Eigen::Matrix<double, 2, 3> J = J_px_cam * T_cam_ref[i].rotation().matrix();
       H.noalias() += J.transpose() * J;
-      g.noalias() += J.transpose() * (*px - sightings[i].px);
+      g.noalias() += J.transpose() * (*px - observations[i].px);
     }
     const Eigen::Vector3d step =
         -(H + 1e-12 * H.trace() * Eigen::Matrix3d::Identity()).ldlt().solve(g);
@@ -45,18 +45,18 @@ std::optional<Eigen::Vector3d> least_reprojection_errors(const Camera& camera,
 
 }  // namespace
 
-TriangulationResult triangulate(const Camera& camera, const std::vector<Sighting>& sightings,
+TriangulationResult triangulate(const Camera& camera, const std::vector<PointMeasurement>& observations,
                                 double min_parallax_rad, double max_error_px) {
   using Code = Outcome::Code;
   TriangulationResult result;
-  if (sightings.size() < 2) {
+  if (observations.size() < 2) {
     result.outcome = Outcome::failure(Code::kTooFewData, "two sightings needed");
     return result;
   }
   std::vector<SE3> T_cam_ref;
   std::vector<Eigen::Vector3d> rays_ref;
   Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
-  for (const Sighting& s : sightings) {
+  for (const PointMeasurement& s : observations) {
     T_cam_ref.push_back(s.T_ref_cam.inverse());
     const auto ray = camera.unproject(s.px);
     if (!ray) {
@@ -82,18 +82,18 @@ TriangulationResult triangulate(const Camera& camera, const std::vector<Sighting
     return result;
   }
   const auto p =
-      least_reprojection_errors(camera, sightings, T_cam_ref, Eigen::Vector3d(h.head<3>() / h[3]));
+      least_reprojection_errors(camera, observations, T_cam_ref, Eigen::Vector3d(h.head<3>() / h[3]));
   if (!p) {
     result.outcome = Outcome::failure(Code::kDegenerate, "the point lies behind a camera");
     return result;
   }
-  for (std::size_t i = 0; i < sightings.size(); ++i) {
+  for (std::size_t i = 0; i < observations.size(); ++i) {
     const auto px = camera.project(T_cam_ref[i] * *p);
     if (!px) {
       result.outcome = Outcome::failure(Code::kDegenerate, "the point lies behind a camera");
       return result;
     }
-    result.max_error_px = std::max(result.max_error_px, (*px - sightings[i].px).norm());
+    result.max_error_px = std::max(result.max_error_px, (*px - observations[i].px).norm());
   }
   result.point_ref = *p;
   result.outcome = result.max_error_px <= max_error_px

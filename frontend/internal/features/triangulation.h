@@ -7,7 +7,7 @@
 namespace placegraph {
 
 /// One sighting of a point: the camera's pose in the reference frame and the pixel.
-struct Sighting {
+struct PointMeasurement {
   SE3 T_ref_cam;
   Eigen::Vector2d px;
 };
@@ -24,7 +24,7 @@ struct TriangulationResult {
 /// degenerate (parallax below `min_parallax_rad`, or behind a camera), inconsistent (an error above
 /// `max_error_px`).
 [[nodiscard]] TriangulationResult triangulate(const Camera& camera,
-                                              const std::vector<Sighting>& sightings,
+                                              const std::vector<PointMeasurement>& observations,
                                               double min_parallax_rad, double max_error_px);
 
 }  // namespace placegraph

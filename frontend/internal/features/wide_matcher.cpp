@@ -9,23 +9,23 @@
 namespace placegraph {
 namespace {
 
-PointPair pair_of(const WidePoints& a, int i, const WidePoints& b, int j) {
+PointPair pair_of(const WideBaselineFeatures& a, int i, const WideBaselineFeatures& b, int j) {
   PointPair pair;
   pair.px_a = a.px[i];
   pair.px_b = b.px[j];
   const double turn = b.angle_rad[j] - a.angle_rad[i], scale = b.size_px[j] / a.size_px[i];
-  pair.turn_b_a << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
-  pair.turn_b_a *= scale;
+  pair.rotation_b_a << std::cos(turn), -std::sin(turn), std::sin(turn), std::cos(turn);
+  pair.rotation_b_a *= scale;
   return pair;
 }
 
 }  // namespace
 
-WidePoints detect_wide(const Image& image, const WideMatcherOptions& options, const Image& mask) {
+WideBaselineFeatures detect_wide(const Image& image, const WideMatcherOptions& options, const Image& mask) {
   constexpr int kLayers = 3;
   const auto sift = cv::SIFT::create(options.max_features, kLayers, kLayers * options.min_contrast);
   std::vector<cv::KeyPoint> keys;
-  WidePoints points;
+  WideBaselineFeatures points;
   sift->detectAndCompute(image, mask, keys, points.descriptors);
   for (int i = 0; i < points.descriptors.rows; ++i) {
     cv::Mat row = points.descriptors.row(i);
@@ -41,7 +41,7 @@ WidePoints detect_wide(const Image& image, const WideMatcherOptions& options, co
   return points;
 }
 
-std::vector<PointPair> match_points(const WidePoints& a, const WidePoints& b, double max_ratio) {
+std::vector<PointPair> match_points(const WideBaselineFeatures& a, const WideBaselineFeatures& b, double max_ratio) {
   std::vector<PointPair> pairs;
   if (a.descriptors.rows < 2 || b.descriptors.rows < 2) return pairs;
   const cv::BFMatcher matcher(cv::NORM_L2);

@@ -21,11 +21,11 @@ void visit(OptionVisitor& field, WideMatcherOptions& options);
 /// A point seen in two images, with what its surroundings say about the motion around it.
 struct PointPair {
   Eigen::Vector2d px_a = Eigen::Vector2d::Zero(), px_b = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d turn_b_a = Eigen::Matrix2d::Identity();  ///< similarity: scale times rotation
+  Eigen::Matrix2d rotation_b_a = Eigen::Matrix2d::Identity();  ///< similarity: scale times rotation
 };
 
 /// Points of one image as match_wide compares them, made ready for any number of comparisons.
-struct WidePoints {
+struct WideBaselineFeatures {
   std::vector<Eigen::Vector2d> px;
   std::vector<double> angle_rad, size_px;
   Image descriptors;  ///< CV_32FC1, a row each
@@ -33,11 +33,11 @@ struct WidePoints {
 
 /// SIFT (Lowe 2004) with the square roots of normalized histograms, whose distance is Hellinger's
 /// (Arandjelovic & Zisserman 2012). `mask`, if not empty, has zeros where no point is wanted.
-WidePoints detect_wide(const Image& image, const WideMatcherOptions& options,
+WideBaselineFeatures detect_wide(const Image& image, const WideMatcherOptions& options,
                        const Image& mask = {});
 
 /// Mutually best matches that pass the ratio test, before any geometry.
-std::vector<PointPair> match_points(const WidePoints& a, const WidePoints& b, double max_ratio);
+std::vector<PointPair> match_points(const WideBaselineFeatures& a, const WideBaselineFeatures& b, double max_ratio);
 
 struct WideMatches {
   Outcome outcome;               ///< kNoConsensus: `F_b_a` and `pairs` say nothing

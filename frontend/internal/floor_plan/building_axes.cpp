@@ -61,7 +61,7 @@ std::optional<double> floor_level(const std::vector<std::pair<double, double>>& 
 
 /// The turn, modulo a right angle, that the level normals share; the fullest of a histogram,
 /// refined.
-std::optional<double> shared_turn(const std::vector<double>& angles) {
+std::optional<double> shared_rotation(const std::vector<double>& angles) {
   if (angles.size() < kFewest) return std::nullopt;
   constexpr int kBins = 180;
   const double quarter = std::numbers::pi / 2;
@@ -117,7 +117,7 @@ BuildingAxes find_building_axes(const std::vector<SurfacePoint>& points_map,
   }
   const auto floor = floor_level(levels);
   if (!floor) return fail("no floor is seen");
-  const auto turn = shared_turn(angles);
+  const auto turn = shared_rotation(angles);
   if (!turn) return fail("no upright surface is seen");
   Eigen::Matrix3d about_z = Eigen::Matrix3d::Identity();
   about_z.topLeftCorner<2, 2>() << std::cos(*turn), std::sin(*turn), -std::sin(*turn),

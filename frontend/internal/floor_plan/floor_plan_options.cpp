@@ -40,7 +40,7 @@ void visit(OptionVisitor& field, PlaneSweepOptions& o) {
   field("sigma_px", o.sigma_px, "of where a surface is seen in another view", {0.01, 10});
 }
 
-void visit(OptionVisitor& field, FloorSightOptions& o) {
+void visit(OptionVisitor& field, SkirtingLineOptions& o) {
   field("max_range_m", o.max_range_m, "farther surfaces are not used", {0.1, 1000});
   field("step_px", o.step_px, "between points", {1, 100});
   field("sigma_boundary_px", o.sigma_boundary_px, "of the row where floor and wall meet",
@@ -50,7 +50,7 @@ void visit(OptionVisitor& field, FloorSightOptions& o) {
 
 void visit(OptionVisitor& field, WallFinderOptions& o) {
   field("max_sigma_m", o.max_sigma_m, "of points that walls are found from", {0.001, 10});
-  field("max_turn_deg", o.max_turn_deg, "of a point's normal from the wall's", {1, 44});
+  field("max_rotation_deg", o.max_rotation_deg, "of a point's normal from the wall's", {1, 44});
   field("band_m", o.band_m, "half width of what counts as one plane", {0.02, 1});
   field("min_height_m", o.min_height_m, "that must be seen of a wall", {0.1, 10});
   field("min_share", o.min_share, "of the looked at height that must be wall", {0, 1});

@@ -23,7 +23,7 @@ class SideCoverage {
     const double cells[2] = {voxels.columns() * voxels.cell_m(), voxels.rows() * voxels.cell_m()};
     alongs_ = static_cast<int>(cells[1 - axis] / kAlong_m) + 1;
     offsets_ = static_cast<int>(cells[axis] / kOffset_m) + 1;
-    const double least = std::cos(deg_to_rad(options.max_turn_deg));
+    const double least = std::cos(deg_to_rad(options.max_rotation_deg));
     for (const PlacedPoint& p : points)
       if (sign * p.normal[axis] > least && p.sigma < options.max_sigma_m) points_.push_back(&p);
     layers_.assign(static_cast<std::size_t>(alongs_) * offsets_, 0);
@@ -59,7 +59,7 @@ class SideCoverage {
 
  private:
   WallTolerance tolerance() const {
-    return {options_.band_m, options_.max_turn_deg, options_.max_gap_m, options_.max_step_m};
+    return {options_.band_m, options_.max_rotation_deg, options_.max_gap_m, options_.max_step_m};
   }
   std::uint64_t layer_bit(double z) const {
     const int layer = voxels_.layer_of(z);

@@ -18,7 +18,7 @@ void tell(const std::vector<const PlacedPoint*>& near, WallPiece& piece) {
     const double s = p->point[1 - piece.axis];
     deviations.push_back(std::abs(p->point[piece.axis] - piece.offset_at(s)));
     heights.push_back(p->point[2]), alongs.push_back(s);
-    ++votes[p->sight];
+    ++votes[p->observation];
   }
   // Points of one sight share its pose's error: sights count, not points.
   piece.sigma_m = std::hypot(
@@ -31,7 +31,7 @@ void tell(const std::vector<const PlacedPoint*>& near, WallPiece& piece) {
   piece.to_m = std::min(piece.to_m, *std::max_element(alongs.begin(), alongs.end()));
   piece.offset_m = offset_from + piece.slope * 0.5 * (piece.from_m + piece.to_m);
   piece.count = static_cast<int>(near.size());
-  piece.sight = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
+  piece.observation = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
                   return a.second < b.second;
                 })->first;
 }
@@ -75,7 +75,7 @@ bool fit_wall(const std::vector<const PlacedPoint*>& points, const WallTolerance
     piece.offset_m = x[0], piece.slope = x[1];
   }
   tell(near, piece);
-  return std::abs(piece.slope) < std::tan(deg_to_rad(tolerance.max_turn_deg));
+  return std::abs(piece.slope) < std::tan(deg_to_rad(tolerance.max_rotation_deg));
 }
 
 void join_walls(const std::vector<const PlacedPoint*>& points, const WallTolerance& tolerance,

@@ -8,7 +8,7 @@ namespace placegraph {
 /// What still counts as one wall.
 struct WallTolerance {
   double band_m;        ///< half width of what counts as one plane
-  double max_turn_deg;  ///< of a wall from the axis that it runs along
+  double max_rotation_deg;  ///< of a wall from the axis that it runs along
   double max_gap_m;     ///< within a wall
   double max_step_m;    ///< between pieces of one wall: what drift of the poses makes of it
 };
@@ -16,7 +16,7 @@ struct WallTolerance {
 /// Fits a piece of wall to the points near it: the line through them (reweighted least squares,
 /// Cauchy), which slopes only where the piece is long, and what they tell of its extent, its height
 /// and the sights that it is from. `points` face the piece's side. False, the piece then being of
-/// no use, if there are too few points or the wall turns more than `max_turn_deg`.
+/// no use, if there are too few points or the wall turns more than `max_rotation_deg`.
 [[nodiscard]] bool fit_wall(const std::vector<const PlacedPoint*>& points,
                             const WallTolerance& tolerance, WallPiece& piece);
 

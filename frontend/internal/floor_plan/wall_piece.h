@@ -7,7 +7,7 @@ namespace placegraph {
 struct PlacedPoint {
   Eigen::Vector3f point, normal;
   float sigma = 0;
-  int sight = 0;  ///< number of the sight it is from
+  int observation = 0;  ///< number of the sight it is from
 };
 
 /// A wall in the frame of the walls: the points of coordinate `offset_m` along `axis`, seen from
@@ -20,7 +20,7 @@ struct WallPiece {
     return offset_m + slope * (along_m - 0.5 * (from_m + to_m));
   }
   double sigma_m = 0, low_m = 0, high_m = 0;
-  int count = 0, sight = 0;  ///< points, and the sight that gave most of them
+  int count = 0, observation = 0;  ///< points, and the sight that gave most of them
 };
 
 }  // namespace placegraph

@@ -17,7 +17,7 @@ constexpr float kWeightSigma = 5;
 constexpr float kGreySigma = 4, kWarpSigma = 0.1f;
 /// Neighbouring pixels err alike, as they are blurred alike: by this the deviation of a fit is more
 /// than independent pixels would give.
-constexpr float kAlike = 2;
+constexpr float kSimilar = 2;
 
 /// Bilinear; the caller has seen to it that all of it lies inside.
 template <typename Row>
@@ -60,7 +60,7 @@ std::optional<AnchoredPatch> AnchoredPatch::take(const Image& image, const Eigen
   grown.A *= (kHalf + 1.f) / kHalf;
   if (!is_inside(image, grown)) return std::nullopt;
   AnchoredPatch patch;
-  sample(image, place, patch.look_);
+  sample(image, place, patch.grey_);
   Row right, left, below, above;
   sample(image, {px + Eigen::Vector2f(1, 0), place.A}, right);
   sample(image, {px - Eigen::Vector2f(1, 0), place.A}, left);
@@ -73,7 +73,7 @@ std::optional<AnchoredPatch> AnchoredPatch::take(const Image& image, const Eigen
   for (int v = -kHalf; v <= kHalf; ++v)
     for (int u = -kHalf; u <= kHalf; ++u, ++i) {
       const float gx = (right[i] - left[i]) / 2, gy = (below[i] - above[i]) / 2;
-      M.row(i) << patch.look_[i], 1, gx, gy, gx * u, gx * v, gy * u, gy * v;
+      M.row(i) << patch.grey_[i], 1, gx, gy, gx * u, gx * v, gy * u, gy * v;
       weight[i] = std::exp(-static_cast<float>(u * u + v * v) / (2 * kWeightSigma * kWeightSigma));
     }
   const Eigen::Matrix<float, kUnknowns, kPixels> MtW = M.transpose() * weight.asDiagonal();
@@ -126,7 +126,7 @@ std::optional<AnchoredPatch::Place> AnchoredPatch::find(const std::vector<Image>
     if (shift.norm() * unit < 0.05f) break;
     if (iteration == kMost) return std::nullopt;
   }
-  const Row a = look_.array() - look_.mean(), b = grey.array() - grey.mean();
+  const Row a = grey_.array() - grey_.mean(), b = grey.array() - grey.mean();
   const float power = std::max(1e-6f, b.squaredNorm()), like = std::max(1e-6f, a.squaredNorm());
   const float correlation = a.dot(b) / std::sqrt(like * power);
   if (!(correlation >= min_correlation)) return std::nullopt;
@@ -134,7 +134,7 @@ std::optional<AnchoredPatch::Place> AnchoredPatch::find(const std::vector<Image>
   const float noise = std::sqrt(like * std::max(0.f, 1 - correlation * correlation) / kPixels);
   place.px *= unit;
   place.A *= unit;
-  place.covariance = kAlike * kAlike * noise * noise * place.A * covariance_ * place.A.transpose();
+  place.covariance = kSimilar * kSimilar * noise * noise * place.A * covariance_ * place.A.transpose();
   return place;
 }
 

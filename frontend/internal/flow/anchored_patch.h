@@ -44,7 +44,7 @@ class AnchoredPatch {
   static constexpr int kUnknowns = 8;
   using Row = Eigen::Matrix<float, kPixels, 1>;
 
-  Row look_;                                                       // grey values
+  Row grey_;                                                       // grey values
   Eigen::Matrix<float, kUnknowns, kPixels, Eigen::RowMajor> fit_;  // of unknowns to grey values
   Eigen::Matrix2f covariance_;               // of the shift, of grey values that err by one
   Eigen::Matrix<float, kUnknowns, 4> keep_;  // of unknowns to how far A is from its start

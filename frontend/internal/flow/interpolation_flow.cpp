@@ -54,7 +54,7 @@ InterpolationFlow::InterpolationFlow(const InterpolationFlowOptions& options) : 
                      s = sign * std::sin(options_.rotation_rad);
         const double u = c * x - s * y, v = s * x + c * y;
         const double u0 = std::floor(u), v0 = std::floor(v), a = u - u0, b = v - v0;
-        (sign > 0 ? turned_ : returned_)
+        (sign > 0 ? rotated_ : returned_)
             .push_back({static_cast<int>(v0), static_cast<int>(u0),
                         static_cast<float>((1 - a) * (1 - b)), static_cast<float>(a * (1 - b)),
                         static_cast<float>((1 - a) * b), static_cast<float>(a * b)});
@@ -95,7 +95,7 @@ void InterpolationFlow::reference(const Image& image, int u, int v, bool rotates
     };
     // A copy turned by +angle has at x what the patch has at x turned back.
     for (int i = 0; i < side * side; ++i)
-      patch.columns(i, 2) = around * (at(returned_[i]) - at(turned_[i]));
+      patch.columns(i, 2) = around * (at(returned_[i]) - at(rotated_[i]));
   } else {
     patch.columns.col(2).setZero();
   }
@@ -155,8 +155,8 @@ bool InterpolationFlow::follow(const Patch& patch, const Image& image, const Vec
   const Eigen::LDLT<Matrix4d> solver(patch.normal);
   for (int i = 0; i < options_.iterations; ++i) {
     // A turn so small is seen in the shape of the copies, and not worth sampling every pixel anew.
-    constexpr double kHardlyTurned = 0.01;
-    const double turn = std::abs(motion.rotation) < kHardlyTurned ? 0 : motion.rotation;
+    constexpr double kHardlyRotated = 0.01;
+    const double turn = std::abs(motion.rotation) < kHardlyRotated ? 0 : motion.rotation;
     if (!sample(image, centre + motion.shift, turn, seen)) return false;
     seen -= patch.grey;
     const Vector4d b = (patch.weighted.transpose() * seen).cast<double>();

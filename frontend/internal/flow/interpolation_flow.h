@@ -66,7 +66,7 @@ class InterpolationFlow {
 
   InterpolationFlowOptions options_;
   Eigen::VectorXf weights_;               // Psi, sum 1
-  std::vector<Pixel> turned_, returned_;  // by +rotation_rad and by -rotation_rad
+  std::vector<Pixel> rotated_, returned_;  // by +rotation_rad and by -rotation_rad
 };
 
 /// One answer for each of `points`, at the pixel nearest to it. Throws ArgumentError.

@@ -112,22 +112,22 @@ void PointTracker::anchor() {
     if (place) {
       track.px = place->px;
       track.A = place->A;
-      track.covariance = track.anchor_covariance + place->covariance + least_;
+      track.covariance = track.template_covariance + place->covariance + least_;
     } else {
       track.covariance += step * Eigen::Matrix2f::Identity();
       if (track.covariance.trace() > most) continue;
     }
     if (!place || !AnchoredPatch::is_comparable(track.A)) {
       // The new look lies where the old one is thought to be.
-      track.anchor_covariance = track.covariance;
-      take_look(track);
+      track.template_covariance = track.covariance;
+      take_template(track);
     }
     tracks_[kept++] = track;
   }
   tracks_.resize(kept);
 }
 
-void PointTracker::take_look(PointTrack& track) const {
+void PointTracker::take_template(PointTrack& track) const {
   track.A.setIdentity();
   track.anchor.reset();
   if (const auto look = AnchoredPatch::take(image_, track.px))
@@ -177,7 +177,7 @@ void PointTracker::detect(const Image& mask) {
         track.px = track.px_previous = Eigen::Vector2f(corner.u, corner.v);
         track.covariance *= static_cast<float>(options_.sigma_px * options_.sigma_px);
         if (options_.max_anchor_shift_px > 0) {
-          take_look(track);
+          take_template(track);
           if (track.anchor) track.covariance = least_;
         }
         tracks_.push_back(track);

@@ -21,7 +21,7 @@ struct PointTrack {
   int age = 0;  ///< frames since detection
   /// Of px [px^2], against where the track began; after `anchor` and `detect`.
   Eigen::Matrix2f covariance = Eigen::Matrix2f::Identity();
-  Eigen::Matrix2f anchor_covariance = Eigen::Matrix2f::Zero();  ///< the same of its look
+  Eigen::Matrix2f template_covariance = Eigen::Matrix2f::Zero();  ///< the same of its look
   std::shared_ptr<const AnchoredPatch> anchor;      ///< its look where that was last taken
   Eigen::Matrix2f A = Eigen::Matrix2f::Identity();  ///< how that lies in the image, see Place
 };
@@ -59,7 +59,7 @@ class PointTracker {
   std::vector<std::optional<Eigen::Vector2f>> follow(
       const std::vector<Image>& pyramid, const std::vector<Eigen::Vector2f>& predicted_px,
       Search search) const;
-  void take_look(PointTrack& track) const;
+  void take_template(PointTrack& track) const;
 
   PointTrackerOptions options_;
   Eigen::Matrix2f least_ = Eigen::Matrix2f::Identity();  // covariance of a look that is found

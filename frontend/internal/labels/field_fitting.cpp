@@ -12,13 +12,13 @@ namespace {
 /// What the field with given weights says of the examples that judge it.
 class FieldTrial {
  public:
-  FieldTrial(const std::vector<SceneExample>& examples, const SceneLesson& lesson,
+  FieldTrial(const std::vector<SceneExample>& examples, const SceneTrainingSet& training_set,
              const std::vector<float>& shares, const RelationTable& relations)
       : examples_(examples),
-        lesson_(lesson),
+        training_set_(training_set),
         shares_(shares),
         relations_(relations),
-        n_(static_cast<std::size_t>(lesson.classes())) {}
+        n_(static_cast<std::size_t>(training_set.classes())) {}
 
   /// Pixel accuracy plus mean intersection over union.
   double score(double smoothness, double relation) const {
@@ -55,7 +55,7 @@ class FieldTrial {
       const std::vector<float> q = marginals_of(e, smoothness, relation);
       for (std::size_t k = 0; k < kPowers.size(); ++k) {
         std::vector<float> p = q;
-        sharpen(p, lesson_.classes(), kPowers[k]);
+        sharpen(p, training_set_.classes(), kPowers[k]);
         for (std::size_t i = 0; i < p.size(); ++i)
           cost[k] -= examples_[e].pixels[i] * static_cast<double>(std::log(std::max(p[i], 1e-6f)));
       }
@@ -67,16 +67,16 @@ class FieldTrial {
  private:
   std::vector<float> marginals_of(std::size_t e, double smoothness, double relation) const {
     const SceneExample& example = examples_[e];
-    const auto begin = shares_.begin() + static_cast<std::ptrdiff_t>(lesson_.first_share(e));
+    const auto begin = shares_.begin() + static_cast<std::ptrdiff_t>(training_set_.first_share(e));
     const std::vector<float> shares(
         begin, begin + static_cast<std::ptrdiff_t>(
                            static_cast<std::size_t>(example.superpixels.count) * n_));
-    return field_marginals({lesson_.classes(), smoothness, relation, relations_}, shares,
+    return field_marginals({training_set_.classes(), smoothness, relation, relations_}, shares,
                            example.superpixels, example.features);
   }
 
   const std::vector<SceneExample>& examples_;
-  const SceneLesson& lesson_;
+  const SceneTrainingSet& training_set_;
   const std::vector<float>& shares_;
   const RelationTable& relations_;
   std::size_t n_;
@@ -85,22 +85,22 @@ class FieldTrial {
 }  // namespace
 
 RelationTable learn_relations(const std::vector<SceneExample>& examples,
-                              const SceneLesson& lesson) {
-  RelationCounts counts(lesson.rows.classes);
+                              const SceneTrainingSet& training_set) {
+  RelationCounts counts(training_set.rows.classes);
   for (std::size_t e = 0; e < examples.size(); ++e) {
     std::vector<int> labels;
     for (int i = 0; i < examples[e].superpixels.count; ++i) {
-      const int label = lesson.rows.label[static_cast<std::size_t>(lesson.first_row[e] + i)];
-      labels.push_back(label == ForestLesson::kVoid ? -1 : label);
+      const int label = training_set.rows.label[static_cast<std::size_t>(training_set.first_row[e] + i)];
+      labels.push_back(label == ForestTrainingSet::kVoid ? -1 : label);
     }
     counts.add(examples[e].superpixels, labels);
   }
   return counts.table();
 }
 
-void fit_field(const std::vector<SceneExample>& examples, const SceneLesson& lesson,
+void fit_field(const std::vector<SceneExample>& examples, const SceneTrainingSet& training_set,
                const std::vector<float>& shares, SceneModel& model) {
-  const FieldTrial field(examples, lesson, shares, model.relations);
+  const FieldTrial field(examples, training_set, shares, model.relations);
   double best = -1;
   for (const double smoothness : {0.0, 0.5, 1.0, 2.0, 3.0})
     for (const double relation : {0.0, 0.15, 0.3, 0.6}) {

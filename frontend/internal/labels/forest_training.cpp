@@ -33,18 +33,18 @@ struct Split {
 /// One tree that grows.
 class Grower {
  public:
-  Grower(const ForestLesson& lesson, const ForestOptions& options, std::uint64_t stream)
-      : lesson_(lesson),
+  Grower(const ForestTrainingSet& training_set, const ForestOptions& options, std::uint64_t stream)
+      : training_set_(training_set),
         options_(options),
         random_(options.seed, stream),
-        n_(static_cast<std::size_t>(lesson.classes)),
+        n_(static_cast<std::size_t>(training_set.classes)),
         histogram_(256 * n_),
         filled_(256) {}
 
   DecisionForest grow() {
     draw_rows();
-    tree_.classes = lesson_.classes;
-    tree_.dimension = lesson_.dimension();
+    tree_.classes = training_set_.classes;
+    tree_.dimension = training_set_.dimension();
     tree_.roots = {0};
     if (rows_.empty()) add_any_row();
     grow_node(0, rows_.size(), 0);
@@ -54,19 +54,19 @@ class Grower {
 
  private:
   void draw_rows() {
-    taken_.resize(static_cast<std::size_t>(lesson_.blocks));
+    taken_.resize(static_cast<std::size_t>(training_set_.blocks));
     for (char& taken : taken_) taken = random_.uniform() < options_.share_blocks ? 1 : 0;
-    for (int i = 0; i < lesson_.rows(); ++i)
-      if (lesson_.label[static_cast<std::size_t>(i)] != ForestLesson::kVoid &&
-          taken_[static_cast<std::size_t>(lesson_.block[static_cast<std::size_t>(i)])] &&
+    for (int i = 0; i < training_set_.rows(); ++i)
+      if (training_set_.label[static_cast<std::size_t>(i)] != ForestTrainingSet::kVoid &&
+          taken_[static_cast<std::size_t>(training_set_.block[static_cast<std::size_t>(i)])] &&
           random_.uniform() < options_.share_rows)
         rows_.push_back(static_cast<std::uint32_t>(i));
   }
 
   // A tree whose blocks were all left out: it answers with the class of one row.
   void add_any_row() {
-    for (std::size_t i = 0; i < lesson_.label.size() && rows_.empty(); ++i)
-      if (lesson_.label[i] != ForestLesson::kVoid) rows_.push_back(static_cast<std::uint32_t>(i));
+    for (std::size_t i = 0; i < training_set_.label.size() && rows_.empty(); ++i)
+      if (training_set_.label[i] != ForestTrainingSet::kVoid) rows_.push_back(static_cast<std::uint32_t>(i));
   }
 
   void grow_node(std::size_t begin, std::size_t end, int depth) {
@@ -74,7 +74,7 @@ class Grower {
     tree_.nodes.emplace_back();
     std::array<double, kMostClasses> sums{};
     for (std::size_t i = begin; i < end; ++i)
-      sums[lesson_.label[rows_[i]]] += lesson_.weight[rows_[i]];
+      sums[training_set_.label[rows_[i]]] += training_set_.weight[rows_[i]];
     const bool pure = std::count_if(sums.begin(), sums.end(), [](double s) { return s > 0; }) <= 1;
     Split split;
     if (!pure && depth < options_.max_depth &&
@@ -85,7 +85,7 @@ class Grower {
       return;
     }
     const std::vector<std::uint8_t>& column =
-        lesson_.columns[static_cast<std::size_t>(split.feature)];
+        training_set_.columns[static_cast<std::size_t>(split.feature)];
     const auto middle =
         std::partition(rows_.begin() + static_cast<std::ptrdiff_t>(begin),
                        rows_.begin() + static_cast<std::ptrdiff_t>(end),
@@ -114,13 +114,13 @@ class Grower {
     for (std::size_t c = 0; c < n_; ++c) sum += sums[c], squares += sums[c] * sums[c];
     best.gain = squares / sum + 1e-9 * sum;
     for (int i = 0; i < options_.tries; ++i)
-      try_feature(random_.index(lesson_.dimension()), begin, end, sums, best);
+      try_feature(random_.index(training_set_.dimension()), begin, end, sums, best);
     return best;
   }
 
   void try_feature(int feature, std::size_t begin, std::size_t end,
                    const std::array<double, kMostClasses>& sums, Split& best) {
-    const std::vector<std::uint8_t>& column = lesson_.columns[static_cast<std::size_t>(feature)];
+    const std::vector<std::uint8_t>& column = training_set_.columns[static_cast<std::size_t>(feature)];
     int low = 255, high = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t row = rows_[i];
@@ -128,7 +128,7 @@ class Grower {
       low = std::min(low, value);
       high = std::max(high, value);
       ++filled_[static_cast<std::size_t>(value)];
-      histogram_[static_cast<std::size_t>(value) * n_ + lesson_.label[row]] += lesson_.weight[row];
+      histogram_[static_cast<std::size_t>(value) * n_ + training_set_.label[row]] += training_set_.weight[row];
     }
     std::array<double, kMostClasses> left{};
     double left_sum = 0, sum = 0;
@@ -155,7 +155,7 @@ class Grower {
     }
   }
 
-  const ForestLesson& lesson_;
+  const ForestTrainingSet& training_set_;
   const ForestOptions& options_;
   Random random_;
   std::size_t n_;
@@ -167,12 +167,12 @@ class Grower {
 };
 
 /// The leaf of a row that lies in columns.
-const std::uint8_t* leaf_of(const DecisionForest& tree, const ForestLesson& lesson,
+const std::uint8_t* leaf_of(const DecisionForest& tree, const ForestTrainingSet& training_set,
                             std::size_t row) {
   const DecisionForest::Node* node = tree.nodes.data();
   while (node->feature != DecisionForest::kLeaf)
     node =
-        lesson.columns[node->feature][row] <= node->threshold ? node + 1 : &tree.nodes[node->other];
+        training_set.columns[node->feature][row] <= node->threshold ? node + 1 : &tree.nodes[node->other];
   return tree.leaves.data() +
          static_cast<std::size_t>(node->other) * static_cast<std::size_t>(tree.classes);
 }
@@ -190,26 +190,26 @@ void append_tree(DecisionForest& forest, const DecisionForest& tree) {
 }
 
 /// Sums of the answers of the trees that did not see a row, then shares.
-std::vector<float> judge_unseen(const ForestLesson& lesson,
+std::vector<float> judge_unseen(const ForestTrainingSet& training_set,
                                 const std::vector<DecisionForest>& trees,
                                 const std::vector<std::vector<char>>& taken, int threads) {
-  const auto n = static_cast<std::size_t>(lesson.classes);
-  std::vector<float> unseen(lesson.label.size() * n, 0.0f);
+  const auto n = static_cast<std::size_t>(training_set.classes);
+  std::vector<float> unseen(training_set.label.size() * n, 0.0f);
   std::vector<double> prior(n, 0.0);
   double all = 0;
-  for (std::size_t i = 0; i < lesson.label.size(); ++i)
-    if (lesson.label[i] != ForestLesson::kVoid)
-      prior[lesson.label[i]] += static_cast<double>(lesson.weight[i]),
-          all += static_cast<double>(lesson.weight[i]);
+  for (std::size_t i = 0; i < training_set.label.size(); ++i)
+    if (training_set.label[i] != ForestTrainingSet::kVoid)
+      prior[training_set.label[i]] += static_cast<double>(training_set.weight[i]),
+          all += static_cast<double>(training_set.weight[i]);
   constexpr std::size_t kPart = 4096;
-  const int parts = static_cast<int>((lesson.label.size() + kPart - 1) / kPart);
+  const int parts = static_cast<int>((training_set.label.size() + kPart - 1) / kPart);
   parallel_for(parts, threads, [&](int part) {
     const std::size_t begin = static_cast<std::size_t>(part) * kPart;
-    const std::size_t end = std::min(begin + kPart, lesson.label.size());
+    const std::size_t end = std::min(begin + kPart, training_set.label.size());
     for (std::size_t t = 0; t < trees.size(); ++t)
       for (std::size_t i = begin; i < end; ++i) {
-        if (taken[t][static_cast<std::size_t>(lesson.block[i])]) continue;
-        const std::uint8_t* leaf = leaf_of(trees[t], lesson, i);
+        if (taken[t][static_cast<std::size_t>(training_set.block[i])]) continue;
+        const std::uint8_t* leaf = leaf_of(trees[t], training_set, i);
         for (std::size_t c = 0; c < n; ++c) unseen[i * n + c] += leaf[c];
       }
     for (std::size_t i = begin; i < end; ++i) {
@@ -224,31 +224,31 @@ std::vector<float> judge_unseen(const ForestLesson& lesson,
 
 }  // namespace
 
-TrainedForest train_forest(const ForestLesson& lesson, const ForestOptions& options, int threads) {
+TrainedForest train_forest(const ForestTrainingSet& training_set, const ForestOptions& options, int threads) {
   options.check();
-  const std::size_t rows = lesson.label.size();
+  const std::size_t rows = training_set.label.size();
   const auto learned =
-      std::count_if(lesson.label.begin(), lesson.label.end(),
-                    [](std::uint8_t label) { return label != ForestLesson::kVoid; });
-  require(learned > 0 && lesson.classes > 0 && lesson.classes <= kMostClasses && lesson.blocks > 0,
+      std::count_if(training_set.label.begin(), training_set.label.end(),
+                    [](std::uint8_t label) { return label != ForestTrainingSet::kVoid; });
+  require(learned > 0 && training_set.classes > 0 && training_set.classes <= kMostClasses && training_set.blocks > 0,
           "train_forest: nothing to learn from");
-  require(lesson.weight.size() == rows && lesson.block.size() == rows && lesson.dimension() > 0 &&
-              lesson.dimension() < DecisionForest::kLeaf,
+  require(training_set.weight.size() == rows && training_set.block.size() == rows && training_set.dimension() > 0 &&
+              training_set.dimension() < DecisionForest::kLeaf,
           "train_forest: the sizes do not agree");
-  for (const auto& column : lesson.columns)
+  for (const auto& column : training_set.columns)
     require(column.size() == rows, "train_forest: the sizes do not agree");
   std::vector<DecisionForest> trees(static_cast<std::size_t>(options.trees));
   std::vector<std::vector<char>> taken(trees.size());
   parallel_for(options.trees, threads, [&](int i) {
-    Grower grower(lesson, options, static_cast<std::uint64_t>(i));
+    Grower grower(training_set, options, static_cast<std::uint64_t>(i));
     trees[static_cast<std::size_t>(i)] = grower.grow();
     taken[static_cast<std::size_t>(i)] = grower.taken();
   });
   TrainedForest result;
-  result.forest.classes = lesson.classes;
-  result.forest.dimension = lesson.dimension();
+  result.forest.classes = training_set.classes;
+  result.forest.dimension = training_set.dimension();
   for (const DecisionForest& tree : trees) append_tree(result.forest, tree);
-  result.unseen = judge_unseen(lesson, trees, taken, threads);
+  result.unseen = judge_unseen(training_set, trees, taken, threads);
   return result;
 }
 

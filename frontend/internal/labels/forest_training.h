@@ -9,7 +9,7 @@ namespace placegraph {
 
 /// What a forest learns from: rows of bytes with a class and a weight. Rows of one `block` are
 /// alike (neighbouring pictures of a drive): a tree takes all or none of them.
-struct ForestLesson {
+struct ForestTrainingSet {
   static constexpr std::uint8_t kVoid = 255;  ///< as label: judged, not learned from
   int classes = 0, blocks = 0;
   std::vector<std::vector<std::uint8_t>>
@@ -42,6 +42,6 @@ struct TrainedForest {
 
 /// Learns trees by the Gini impurity, each from blocks and rows drawn for it. The same bits for any
 /// number of threads. Throws ArgumentError if the sizes do not agree or there is nothing to learn.
-TrainedForest train_forest(const ForestLesson& lesson, const ForestOptions& options, int threads);
+TrainedForest train_forest(const ForestTrainingSet& training_set, const ForestOptions& options, int threads);
 
 }  // namespace placegraph

@@ -28,7 +28,7 @@ float squared_difference(const std::uint8_t* a, const std::uint8_t* b) {
 struct Link {
   int to, from;
   float weight;                ///< share of the border of `to`
-  float alike;                 ///< exp(-|c - c'|^2 / 2m)
+  float similar;                 ///< exp(-|c - c'|^2 / 2m)
   float above, below, beside;  ///< shares of the border where `to` lies so to `from`
 };
 
@@ -47,14 +47,14 @@ std::vector<Link> links_of(const Superpixels& superpixels, const ByteFeatures& c
   for (std::size_t k = 0; k < superpixels.borders.size(); ++k) {
     const SuperpixelBorder& b = superpixels.borders[k];
     const auto length = static_cast<float>(b.length());
-    const float alike = std::exp(-differences[k] / (2 * static_cast<float>(mean)));
+    const float similar = std::exp(-differences[k] / (2 * static_cast<float>(mean)));
     const float above = static_cast<float>(b.above) / length,
                 below = static_cast<float>(b.below) / length;
     const float beside = static_cast<float>(b.beside) / length;
     const float to_a = length / static_cast<float>(whole[static_cast<std::size_t>(b.a)]);
     const float to_b = length / static_cast<float>(whole[static_cast<std::size_t>(b.b)]);
-    links.push_back({b.a, b.b, to_a, alike, above, below, beside});
-    links.push_back({b.b, b.a, to_b, alike, below, above, beside});
+    links.push_back({b.a, b.b, to_a, similar, above, below, beside});
+    links.push_back({b.b, b.a, to_b, similar, below, above, beside});
   }
   return links;
 }
@@ -93,7 +93,7 @@ std::vector<float> field_marginals(const LabelField& field, const std::vector<fl
     for (const Link& link : links) {
       const float* q = marginals.data() + static_cast<std::size_t>(link.from) * n;
       float* out = heard.data() + static_cast<std::size_t>(link.to) * n;
-      for (std::size_t c = 0; c < n; ++c) out[c] += link.weight * smoothness * link.alike * q[c];
+      for (std::size_t c = 0; c < n; ++c) out[c] += link.weight * smoothness * link.similar * q[c];
       if (relation == 0) continue;
       for (std::size_t d = 0; d < n; ++d) {
         const float w = link.weight * relation * q[d];

@@ -28,19 +28,19 @@ SceneModel train_scene_model(SceneModel model, std::vector<SceneExample> example
     require(example.pixels.size() ==
                 static_cast<std::size_t>(example.superpixels.count) * model.classes.size(),
             "train_scene_model: an example of other classes");
-  SceneLesson lesson = make_lesson(examples, model.class_count(), options.class_power);
-  say("learning what superpixels show, from " + std::to_string(lesson.rows.rows()) + " of them");
-  TrainedForest first = train_forest(lesson.rows, options.forest, threads);
-  add_context(examples, first.unseen, lesson);
+  SceneTrainingSet training_set = make_training_set(examples, model.class_count(), options.class_power);
+  say("learning what superpixels show, from " + std::to_string(training_set.rows.rows()) + " of them");
+  TrainedForest first = train_forest(training_set.rows, options.forest, threads);
+  add_context(examples, first.unseen, training_set);
   say("learning what lies around them");
   ForestOptions second_options = options.forest;
   ++second_options.seed;
-  const TrainedForest second = train_forest(lesson.rows, second_options, threads);
+  const TrainedForest second = train_forest(training_set.rows, second_options, threads);
   model.first = std::move(first.forest);
   model.second = second.forest;
   say("learning how classes lie to each other");
-  model.relations = learn_relations(examples, lesson);
-  fit_field(examples, lesson, second.unseen, model);
+  model.relations = learn_relations(examples, training_set);
+  fit_field(examples, training_set, second.unseen, model);
   if (base) keep_trees(*base, model);
   return model;
 }

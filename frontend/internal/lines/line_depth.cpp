@@ -101,12 +101,12 @@ std::vector<std::optional<DepthAlong>> lookup_depth_along(
   return result;
 }
 
-MadeUpEye eye_from_depth(const Camera& camera, const LineSegment& segment,
+VirtualCamera virtual_camera_from_depth(const Camera& camera, const LineSegment& segment,
                          const DepthAlong& depth) {
   constexpr double kBaseline = 0.1;  // [m]; only a unit: errors are scaled with it
   const Eigen::Vector2d n = segment.normal();
-  MadeUpEye eye;
-  eye.eye_cam << kBaseline * n, 0;
+  VirtualCamera eye;
+  eye.second_in_cam << kBaseline * n, 0;
   const Eigen::Vector2d shift(camera.fx * kBaseline * n.x(), camera.fy * kBaseline * n.y());
   eye.seen.first = segment.start - depth.inverse_depth_start * shift;
   eye.seen.second = segment.end - depth.inverse_depth_end * shift;

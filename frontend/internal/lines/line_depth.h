@@ -27,10 +27,10 @@ std::vector<std::optional<DepthAlong>> lookup_depth_along(const Image& depth_m,
 
 /// A segment as an eye beside the camera would see it, displaced across the segment, so that the
 /// depths along it become a shift across its image: a right eye where there is only depth.
-struct MadeUpEye {
-  Eigen::Vector3d eye_cam = Eigen::Vector3d::Zero();
+struct VirtualCamera {
+  Eigen::Vector3d second_in_cam = Eigen::Vector3d::Zero();
   ImageLine::Carriers seen;
 };
-MadeUpEye eye_from_depth(const Camera& camera, const LineSegment& segment, const DepthAlong& depth);
+VirtualCamera virtual_camera_from_depth(const Camera& camera, const LineSegment& segment, const DepthAlong& depth);
 
 }  // namespace placegraph

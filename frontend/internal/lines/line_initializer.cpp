@@ -31,10 +31,10 @@ std::vector<Ids> families_of(const Camera& camera, const LineView& view,
     ids.push_back(id);
   }
   const VanishingPoints found = find_vanishing_points(segments, camera, options, random);
-  std::vector<Ids> families(found.points.size());
+  std::vector<Ids> clusters(found.points.size());
   for (std::size_t i = 0; i < found.labels.size(); ++i)
-    if (found.labels[i] >= 0) families[static_cast<std::size_t>(found.labels[i])].push_back(ids[i]);
-  return families;
+    if (found.labels[i] >= 0) clusters[static_cast<std::size_t>(found.labels[i])].push_back(ids[i]);
+  return clusters;
 }
 
 struct Direction {
@@ -45,12 +45,12 @@ struct Direction {
 /// The direction at right angles to the planes of a family: least squares over the sines, each
 /// weighted by how well its segment points, reweighted (Cauchy).
 std::optional<Direction> direction_of(const Camera& camera, const LineView& view,
-                                      const Ids& family) {
+                                      const Ids& cluster) {
   constexpr std::size_t kLeast = 3;
   constexpr int kRounds = 5;
   constexpr double kFloorRad = 2e-3;  // edges are not that parallel
   std::vector<std::pair<Eigen::Vector3d, double>> planes;
-  for (const LineId id : family) {
+  for (const LineId id : cluster) {
     const auto line = view.find(id);
     if (line == view.end()) continue;
     const double length = std::max(1.0, line->second.segment.length());
@@ -81,12 +81,12 @@ std::optional<Direction> direction_of(const Camera& camera, const LineView& view
 }
 
 RotationFromDirections rotation_between(const Camera& camera, const LineView& ref,
-                                        const LineView& cur, const std::vector<Ids>& families,
+                                        const LineView& cur, const std::vector<Ids>& clusters,
                                         const SO3& guess) {
   std::vector<DirectionPair> pairs;
-  for (const Ids& family : families) {
+  for (const Ids& cluster : clusters) {
     Ids common;
-    for (const LineId id : family)
+    for (const LineId id : cluster)
       if (cur.contains(id)) common.push_back(id);
     const auto a = direction_of(camera, ref, common), b = direction_of(camera, cur, common);
     if (a && b) pairs.push_back({a->v, b->v, std::hypot(a->sigma_rad, b->sigma_rad)});
@@ -110,13 +110,13 @@ struct Three {
   Ids ids;
   std::vector<LineNormals> normals;
 
-  /// Takes the tracks whose planes turn from the first to the last view by `min_turn_rad` or more.
-  void take(const Ids& tracks, double min_turn_rad) {
+  /// Takes the tracks whose planes turn from the first to the last view by `min_rotation_rad` or more.
+  void take(const Ids& tracks, double min_rotation_rad) {
     for (const LineId id : tracks) {
       LineNormals m;
       for (std::size_t k = 0; k < 3; ++k) m[k] = normal_of(camera, views[k]->at(id));
       const double turn = m[0].cross(R_view_ref[2].inverse() * m[2]).norm();
-      if (turn < std::sin(min_turn_rad)) continue;
+      if (turn < std::sin(min_rotation_rad)) continue;
       ids.push_back(id);
       normals.push_back(m);
     }
@@ -176,15 +176,15 @@ RansacResult<std::vector<SE3>> translate(const Three& three, const LineInitializ
 std::map<LineId, Line3> place_lines(const Camera& camera, const std::vector<LineView>& views,
                                     const std::vector<std::optional<SE3>>& T_ref_view) {
   LineTriangulationOptions options;
-  options.min_turn_deg = 0.5;
-  options.min_turn_sigmas = 5;
+  options.min_rotation_deg = 0.5;
+  options.min_rotation_sigmas = 5;
   options.max_error_sigmas = 20;  // poses are not the last word yet
   std::map<LineId, Line3> lines;
-  std::map<LineId, std::vector<LineSighting>> sightings;
+  std::map<LineId, std::vector<LineMeasurement>> observations;
   for (std::size_t k = 0; k < views.size(); ++k)
     if (T_ref_view[k])
-      for (const auto& [id, line] : views[k]) sightings[id].push_back({*T_ref_view[k], line.seen});
-  for (const auto& [id, seen] : sightings) {
+      for (const auto& [id, line] : views[k]) observations[id].push_back({*T_ref_view[k], line.seen});
+  for (const auto& [id, seen] : observations) {
     const auto line = triangulate_line(camera, seen, options);
     if (line.outcome) lines.emplace(id, line.line_ref);
   }
@@ -243,17 +243,17 @@ LineInitialization initialize_from_lines(const Camera& camera, const std::vector
         failure(Outcome::Code::kTooFewData, std::to_string(common.size()) + " lines in all views");
     return result;
   }
-  const std::vector<Ids> families = families_of(camera, views.front(), options.directions, random);
+  const std::vector<Ids> clusters = families_of(camera, views.front(), options.directions, random);
   for (std::size_t k = 1; k < 3; ++k) {
     const auto rotation =
-        rotation_between(camera, views.front(), *three.views[k], families, three.R_view_ref[k - 1]);
+        rotation_between(camera, views.front(), *three.views[k], clusters, three.R_view_ref[k - 1]);
     if (!rotation.outcome) {
       result.outcome = failure(rotation.outcome.code, "rotation: " + rotation.outcome.reason);
       return result;
     }
     three.R_view_ref[k] = rotation.R_cur_ref;
   }
-  three.take(common, deg_to_rad(options.min_turn_deg));
+  three.take(common, deg_to_rad(options.min_rotation_deg));
   result.candidates = static_cast<int>(three.ids.size());
   const auto found = translate(three, options, random);
   result.inliers = static_cast<int>(found.inliers.size());

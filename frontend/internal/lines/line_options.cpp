@@ -29,7 +29,7 @@ void visit(OptionVisitor& field, SegmentFlowOptions& o) {
   field("strip_px", o.strip_px, "half width of the strip that is followed", {3, 30});
   field("iterations", o.iterations, "on each level", {1, 50});
   field("robust_grey", o.robust_grey, "width of the kernel on grey values", {1, 255});
-  field("max_turn_deg", o.max_turn_deg, "from the expected direction", {1, 60});
+  field("max_rotation_deg", o.max_rotation_deg, "from the expected direction", {1, 60});
 }
 
 void VanishingNoise::check() const { check_ranges(*this); }
@@ -105,9 +105,9 @@ void visit(OptionVisitor& field, LineStereoOptions& o) {
 }
 
 void visit(OptionVisitor& field, LineTriangulationOptions& o) {
-  field("min_turn_deg", o.min_turn_deg, "between the planes through the line and two eyes",
+  field("min_rotation_deg", o.min_rotation_deg, "between the planes through the line and two eyes",
         {0.01, 45});
-  field("min_turn_sigmas", o.min_turn_sigmas, "the same over its standard deviation", {1, 1000});
+  field("min_rotation_sigmas", o.min_rotation_sigmas, "the same over its standard deviation", {1, 1000});
   field("max_error_sigmas", o.max_error_sigmas, "of a sighting from the line", {1, 1000});
 }
 
@@ -127,7 +127,7 @@ void visit(OptionVisitor& field, LineInitializerOptions& o) {
   field.group("directions", o.directions, "vanishing points that show the rotation");
   field.group("ransac", o.ransac, "five-line hypotheses of the translations");
   field("threshold_px", o.threshold_px, "of a line of two views in the third", {0.1, 50});
-  field("min_turn_deg", o.min_turn_deg, "of a line's plane, to take part", {0.01, 45});
+  field("min_rotation_deg", o.min_rotation_deg, "of a line's plane, to take part", {0.01, 45});
   field("min_lines", o.min_lines, "seen from the first to the last view", {6, 1000});
 }
 

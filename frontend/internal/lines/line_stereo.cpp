@@ -58,7 +58,7 @@ std::vector<std::optional<EdgeSegment>> match_stereo_segments(
     for (int k = 0; useful(segment) && k < options.samples; ++k)
       px.push_back((segment.start + (k + 0.5) / options.samples * segment.vector()).cast<float>());
   const auto disparities = match_stereo(left, right, px, points);
-  const StripImage strips_left(left), strips_right(right);
+  const LineProfileImage strips_left(left), strips_right(right);
   const EdgeRefiner refiner(right, refinement);
 
   std::vector<std::optional<EdgeSegment>> result(segments_left.size());
@@ -75,9 +75,9 @@ std::vector<std::optional<EdgeSegment>> match_stereo_segments(
                                segment.end - Eigen::Vector2d(ends->second, 0)};
     const auto flow = follow_segment(strips_left, segment, strips_right, expected, 1, options.flow);
     if (!flow || std::abs(flow->shift_px) > 2 * options.max_disparity_miss_px) continue;
-    const double alike =
-        std::max(flow->alike.both, std::max(flow->alike.left, flow->alike.right) - 0.1);
-    if (alike < options.min_similarity) continue;
+    const double similar =
+        std::max(flow->similar.both, std::max(flow->similar.left, flow->similar.right) - 0.1);
+    if (similar < options.min_similarity) continue;
     const auto edge = refiner.follow(flow->segment, {0, 10});
     if (!edge || edge->segment.length() < 0.4 * segment.length()) continue;
     // Where the rows of the left ends meet the right line, the disparity is positive.

@@ -9,9 +9,9 @@ namespace placegraph {
 namespace {
 
 /// Both sides of an edge, or one of them where the other has changed.
-double similarity(const StripSimilarity& alike) {
+double similarity(const LineProfileSimilarity& similar) {
   constexpr double kOneSidePenalty = 0.1;
-  return std::max(alike.both, std::max(alike.left, alike.right) - kOneSidePenalty);
+  return std::max(similar.both, std::max(similar.left, similar.right) - kOneSidePenalty);
 }
 
 /// The part of a segment inside the image; without length if there is none.
@@ -86,7 +86,7 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
   require(image_.empty() || image.size() == image_.size(), "LineTracker: size of image changed");
   require(expected.empty() || expected.size() == tracks_.size(),
           "LineTracker: one expected segment a track needed");
-  const auto strips = std::make_shared<const StripImage>(image);
+  const auto strips = std::make_shared<const LineProfileImage>(image);
   const auto refiner = std::make_shared<const EdgeRefiner>(image, options_.detector.refinement);
   merged_.clear();
   std::vector<LineTrack> kept;
@@ -94,7 +94,7 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
     const double border = options_.detector.border_px;
     const int coarsest =
         std::max(0, static_cast<int>(std::ceil(std::log2(options_.max_shift_px / 4))));
-    const double max_turn = deg_to_rad(options_.flow.max_turn_deg);
+    const double max_rotation = deg_to_rad(options_.flow.max_rotation_deg);
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       LineTrack track = tracks_[i];
       const LineSegment& wanted = expected.empty() ? track.edge.segment : expected[i];
@@ -103,7 +103,7 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
       const LineSegment before = part_of(track.edge.segment, wanted, seen);
       const auto flow = follow_segment(*strips_, before, *strips, seen, coarsest, options_.flow);
       if (!flow || std::abs(flow->shift_px) > options_.max_shift_px ||
-          similarity(flow->alike) < options_.min_similarity)
+          similarity(flow->similar) < options_.min_similarity)
         continue;
       const auto edge = refiner->follow(flow->segment, options_.growth);
       if (!edge) continue;
@@ -113,7 +113,7 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
       if (std::max(ratio, 1 / ratio) > options_.max_contrast_ratio) continue;
       const double turn =
           std::acos(std::clamp(inside.direction().dot(seen.direction()), -1.0, 1.0));
-      if (turn > max_turn) continue;
+      if (turn > max_rotation) continue;
       if (!leads_back(track.edge.segment, before, flow->segment, *edge, *strips)) continue;
       track.previous = track.edge.segment;
       track.edge = *edge;
@@ -133,7 +133,7 @@ void LineTracker::track(const Image& image, const std::vector<LineSegment>& expe
 /// only which was measured: a turn that its noise leaves grows beyond.
 bool LineTracker::leads_back(const LineSegment& origin, const LineSegment& before,
                              const LineSegment& aligned, const EdgeSegment& edge,
-                             const StripImage& strips) const {
+                             const LineProfileImage& strips) const {
   constexpr double kLeast_px = 4;
   const LineSegment supported = common_part(aligned, edge.segment);
   if (supported.length() < kLeast_px) return false;

@@ -52,14 +52,14 @@ class LineTracker {
 
  private:
   bool leads_back(const LineSegment& origin, const LineSegment& before, const LineSegment& aligned,
-                  const EdgeSegment& edge, const StripImage& strips) const;
+                  const EdgeSegment& edge, const LineProfileImage& strips) const;
   void merge_tracks();
 
   LineTrackerOptions options_;
   std::vector<LineTrack> tracks_;
   std::vector<std::pair<LineId, LineId>> merged_;
   Image image_;
-  std::shared_ptr<const StripImage> strips_;    // of image_
+  std::shared_ptr<const LineProfileImage> strips_;    // of image_
   std::shared_ptr<const EdgeRefiner> refiner_;  // of image_
   LineId next_id_;
 };

@@ -18,7 +18,7 @@ Eigen::Matrix3d line_projection(const Camera& c) {
 
 struct Planes {
   int a = 0, b = 0;
-  double turn_rad = -1;
+  double rotation_rad = -1;
 };
 
 /// The two sightings whose planes, turned into the reference frame, meet at the largest angle.
@@ -28,19 +28,19 @@ Planes widest(const std::vector<Eigen::Vector3d>& normals_ref) {
   for (int i = 0; i < n; ++i)
     for (int j = i + 1; j < n; ++j) {
       const double turn = std::asin(std::min(1.0, normals_ref[i].cross(normals_ref[j]).norm()));
-      if (turn > best.turn_rad) best = {i, j, turn};
+      if (turn > best.rotation_rad) best = {i, j, turn};
     }
   return best;
 }
 
 /// Of the angle between the planes: how well both image lines are placed across, seen as angles.
-double turn_sigma_rad(const Camera& camera, const LineSighting& a, const LineSighting& b) {
+double rotation_sigma_rad(const Camera& camera, const LineMeasurement& a, const LineMeasurement& b) {
   return std::hypot(a.seen.sigma_px, b.seen.sigma_px) / std::min(camera.fx, camera.fy);
 }
 
 /// Gauss-Newton on the distances of the sightings' carriers from the projected line, from a line
 /// near by; sets the line, its covariance and the error of the worst sighting.
-void refine_line(const Camera& camera, const std::vector<LineSighting>& sightings,
+void refine_line(const Camera& camera, const std::vector<LineMeasurement>& observations,
                  TriangulatedLine& result) {
   Eigen::Matrix4d H;
   constexpr int kIterations = 6;
@@ -48,7 +48,7 @@ void refine_line(const Camera& camera, const std::vector<LineSighting>& sighting
     H.setZero();
     Eigen::Vector4d g = Eigen::Vector4d::Zero();
     result.error_sigmas = 0;
-    for (const LineSighting& s : sightings) {
+    for (const LineMeasurement& s : observations) {
       Eigen::Matrix<double, 2, 4> J;
       const auto r = line_residual_px(camera, s.T_ref_cam, result.line_ref, s.seen.first,
                                       s.seen.second, nullptr, &J);
@@ -113,35 +113,35 @@ std::optional<double> depth_on_line(const Camera& camera, const SE3& T_ref_cam,
   return across.dot(L.head<3>()) / square;
 }
 
-TriangulatedLine triangulate_line(const Camera& camera, const std::vector<LineSighting>& sightings,
+TriangulatedLine triangulate_line(const Camera& camera, const std::vector<LineMeasurement>& observations,
                                   const LineTriangulationOptions& options) {
   options.check();
   TriangulatedLine result;
-  if (sightings.size() < 2) {
+  if (observations.size() < 2) {
     result.outcome = Outcome::failure(Outcome::Code::kTooFewData, "one sighting is a plane");
     return result;
   }
   std::vector<Eigen::Vector3d> normals_ref;
-  for (const LineSighting& s : sightings)
+  for (const LineMeasurement& s : observations)
     normals_ref.push_back(s.T_ref_cam.rotation() *
                           plane_normal(camera, s.seen.first, s.seen.second));
   const Planes planes = widest(normals_ref);
-  const LineSighting &a = sightings[planes.a], &b = sightings[planes.b];
-  result.turn_rad = planes.turn_rad;
+  const LineMeasurement &a = observations[planes.a], &b = observations[planes.b];
+  result.rotation_rad = planes.rotation_rad;
   const auto start =
       meet(normals_ref[planes.a], normals_ref[planes.a].dot(a.T_ref_cam.translation()),
            normals_ref[planes.b], normals_ref[planes.b].dot(b.T_ref_cam.translation()));
-  const double needed = std::max(deg_to_rad(options.min_turn_deg),
-                                 options.min_turn_sigmas * turn_sigma_rad(camera, a, b));
-  if (!start || planes.turn_rad < needed) {
+  const double needed = std::max(deg_to_rad(options.min_rotation_deg),
+                                 options.min_rotation_sigmas * rotation_sigma_rad(camera, a, b));
+  if (!start || planes.rotation_rad < needed) {
     result.outcome =
         Outcome::failure(Outcome::Code::kDegenerate, "the planes through the line hardly turn");
     return result;
   }
   result.line_ref = *start;
-  refine_line(camera, sightings, result);
+  refine_line(camera, observations, result);
   bool in_front = result.covariance.allFinite();
-  for (const LineSighting& s : sightings) {
+  for (const LineMeasurement& s : observations) {
     const auto z =
         depth_on_line(camera, s.T_ref_cam, result.line_ref, 0.5 * (s.seen.first + s.seen.second));
     in_front = in_front && z && *z > 0;

@@ -11,7 +11,7 @@
 namespace placegraph {
 
 /// A line of the scene as one eye sees it.
-struct LineSighting {
+struct LineMeasurement {
   SE3 T_ref_cam;
   ImageLine::Carriers seen;  ///< two points of the image line [px], independent
 };
@@ -20,7 +20,7 @@ struct TriangulatedLine {
   Outcome outcome;
   Line3 line_ref;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< in the line's tangent
-  double turn_rad = 0;      ///< between the planes of the two sightings that turn most
+  double rotation_rad = 0;      ///< between the planes of the two sightings that turn most
   double error_sigmas = 0;  ///< of the worst sighting
 };
 
@@ -31,7 +31,7 @@ struct TriangulatedLine {
 /// planes, or the eyes did not move across it), inconsistent (a sighting misses, or the line lies
 /// behind an eye that sees it).
 [[nodiscard]] TriangulatedLine triangulate_line(const Camera& camera,
-                                                const std::vector<LineSighting>& sightings,
+                                                const std::vector<LineMeasurement>& observations,
                                                 const LineTriangulationOptions& options);
 
 /// Unit normal, in the camera, of the plane through its centre and an image line.

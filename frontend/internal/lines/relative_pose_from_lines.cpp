@@ -19,11 +19,11 @@ Outcome too_few(std::size_t have, const std::string& needed) {
 /// m_3^T t_31 - beta m_2^T t_21 as a row over [t_21, t_31], the normals m_2 and m_3 turned into the
 /// first camera's axes as n_2 and n_3.
 std::optional<Eigen::Matrix<double, 1, 6>> three_view_row(const LineNormals& m, const SO3& R_21,
-                                                          const SO3& R_31, double least_turn_rad) {
+                                                          const SO3& R_31, double least_rotation_rad) {
   const Eigen::Vector3d n_2 = R_21.inverse() * m[1], n_3 = R_31.inverse() * m[2];
   const Eigen::Vector3d across = m[0].cross(n_2);
   const double square = across.squaredNorm();
-  if (!(square > least_turn_rad * least_turn_rad)) return std::nullopt;
+  if (!(square > least_rotation_rad * least_rotation_rad)) return std::nullopt;
   const double beta = m[0].cross(n_3).dot(across) / square;
   Eigen::Matrix<double, 1, 6> row;
   row << -beta * m[1].transpose(), m[2].transpose();
@@ -110,12 +110,12 @@ TranslationFromLines translation_from_three_views(const std::vector<LineNormals>
                                                   double sigma_rad) {
   require(sigma_rad > 0, "translation_from_three_views: sigma_rad must be positive");
   constexpr int kNeeded = 5;
-  constexpr double kLeastTurnSigmas = 12;  // below, the error of beta is no longer proportional
+  constexpr double kLeastRotationSigmas = 12;  // below, the error of beta is no longer proportional
   TranslationFromLines result;
   Eigen::MatrixXd A(static_cast<Eigen::Index>(lines.size()), 6);
   std::vector<const LineNormals*> used;
   for (const LineNormals& line : lines)
-    if (const auto row = three_view_row(line, R_21, R_31, kLeastTurnSigmas * sigma_rad)) {
+    if (const auto row = three_view_row(line, R_21, R_31, kLeastRotationSigmas * sigma_rad)) {
       A.row(static_cast<Eigen::Index>(used.size())) = *row;
       used.push_back(&line);
     }
@@ -158,7 +158,7 @@ Outcome translation_from_two_views(std::size_t lines) {
                               " lines say nothing of the translation, a third view is needed");
 }
 
-MotionOnPlane motion_from_floor_lines(const std::vector<PlaneLineSighting>& lines,
+MotionOnPlane motion_from_floor_lines(const std::vector<PlaneLineObservation>& lines,
                                       const Plane3& plane_ref, double height_cur,
                                       const SO3& R_cur_ref) {
   const double sign = plane_ref.distance() < 0 ? -1 : 1;
@@ -172,7 +172,7 @@ MotionOnPlane motion_from_floor_lines(const std::vector<PlaneLineSighting>& line
   MotionOnPlane result;
   Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
   Eigen::Vector2d g = Eigen::Vector2d::Zero();
-  for (const PlaneLineSighting& line : lines) {
+  for (const PlaneLineObservation& line : lines) {
     const auto a = in_plane(line.normal_ref, n, height_ref, line.sigma_rad);
     auto b = in_plane(R_cur_ref.inverse() * line.normal_cur, n, height_cur, line.sigma_rad);
     if (!a || !b) continue;

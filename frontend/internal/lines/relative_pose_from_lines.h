@@ -56,7 +56,7 @@ struct TranslationFromLines {
 [[nodiscard]] Outcome translation_from_two_views(std::size_t lines);
 
 /// A line on a known plane n^T p = d of the first camera's frame (a floor), as two views see it.
-struct PlaneLineSighting {
+struct PlaneLineObservation {
   Eigen::Vector3d normal_ref = Eigen::Vector3d::Zero();  ///< of its plane through each camera
   Eigen::Vector3d normal_cur = Eigen::Vector3d::Zero();
   double sigma_rad = 1e-3;  ///< of either
@@ -74,7 +74,7 @@ struct MotionOnPlane {
 /// plane, so two lines of different direction give c. `height_cur` is the plane's distance from the
 /// second view, where it is not that from the first. Outcomes: too few data, degenerate (all lines
 /// of one direction: the way along them is open; the information about the other is in covariance).
-[[nodiscard]] MotionOnPlane motion_from_floor_lines(const std::vector<PlaneLineSighting>& lines,
+[[nodiscard]] MotionOnPlane motion_from_floor_lines(const std::vector<PlaneLineObservation>& lines,
                                                     const Plane3& plane_ref, double height_cur,
                                                     const SO3& R_cur_ref);
 

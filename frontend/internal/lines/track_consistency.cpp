@@ -5,7 +5,7 @@
 namespace placegraph {
 namespace {
 
-bool sees(const Camera& camera, const LineSighting& s, const Line3& line_ref, double max_px) {
+bool sees(const Camera& camera, const LineMeasurement& s, const Line3& line_ref, double max_px) {
   const auto r = line_residual_px(camera, s.T_ref_cam, line_ref, s.seen.first, s.seen.second);
   const auto z = depth_on_line(camera, s.T_ref_cam, line_ref, 0.5 * (s.seen.first + s.seen.second));
   return r && r->cwiseAbs().maxCoeff() <= max_px && z && *z > 0;
@@ -17,27 +17,27 @@ int TrackConsistency::wrong() const {
   return static_cast<int>(std::count(of_one.begin(), of_one.end(), false));
 }
 
-TrackConsistency judge_line_track(const Camera& camera, const std::vector<LineSighting>& sightings,
+TrackConsistency judge_line_track(const Camera& camera, const std::vector<LineMeasurement>& observations,
                                   double max_error_px, int kept) {
   TrackConsistency result;
-  const int n = static_cast<int>(sightings.size());
-  result.of_one.assign(sightings.size(), true);
+  const int n = static_cast<int>(observations.size());
+  result.of_one.assign(observations.size(), true);
   if (n < 3) return result;
   std::vector<int> chosen;
   const int count = std::min(n, kept);
   for (int i = 0; i < count; ++i) chosen.push_back(i * (n - 1) / (count - 1));
   LineTriangulationOptions options;
-  options.min_turn_deg = 0.05;
-  options.min_turn_sigmas = 1;
+  options.min_rotation_deg = 0.05;
+  options.min_rotation_sigmas = 1;
   options.max_error_sigmas = 1000;
   long most = -1;
   for (int i = 0; i < count; ++i)
     for (int j = i + 1; j < count; ++j) {
       const auto line =
-          triangulate_line(camera, {sightings[chosen[i]], sightings[chosen[j]]}, options);
+          triangulate_line(camera, {observations[chosen[i]], observations[chosen[j]]}, options);
       if (!line.outcome) continue;
       std::vector<bool> of_one;
-      for (const LineSighting& s : sightings)
+      for (const LineMeasurement& s : observations)
         of_one.push_back(sees(camera, s, line.line_ref, max_error_px));
       const long agreeing = std::count(of_one.begin(), of_one.end(), true);
       if (agreeing <= most) continue;

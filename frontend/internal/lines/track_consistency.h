@@ -16,7 +16,7 @@ struct TrackConsistency {
 /// before them. Pairs are taken from at most `kept` sightings, evenly spaced. All count as of one
 /// where fewer than three or no two planes that turn by 0.05 degrees are there.
 [[nodiscard]] TrackConsistency judge_line_track(const Camera& camera,
-                                                const std::vector<LineSighting>& sightings,
+                                                const std::vector<LineMeasurement>& observations,
                                                 double max_error_px = 3, int kept = 12);
 
 }  // namespace placegraph

@@ -32,7 +32,7 @@ cv::Rect grown(const cv::Rect& box, const Image& grey) {
 
 /// Centre, covariance and shape of the spot around `seed`; false if it is none.
 bool measure(const Image& grey, const cv::Rect& window, const cv::Point& seed,
-             const BeaconDetectorOptions& options, BeaconSighting& spot) {
+             const BeaconDetectorOptions& options, BeaconObservation& spot) {
   const double around = surroundings(grey, window);
   const double peak = grey.at<std::uint8_t>(seed);
   if (peak - around < options.min_contrast) return false;
@@ -80,14 +80,14 @@ bool measure(const Image& grey, const cv::Rect& window, const cv::Point& seed,
 
 }  // namespace
 
-std::vector<BeaconSighting> detect_beacons(const Image& grey,
+std::vector<BeaconObservation> detect_beacons(const Image& grey,
                                            const BeaconDetectorOptions& options) {
   options.check();
   require(!grey.empty() && grey.type() == CV_8UC1, "detect_beacons: grey image needed");
   Image bright, labels, stats, centroids;
   cv::compare(grey, options.min_grey, bright, cv::CMP_GE);
   const int count = cv::connectedComponentsWithStats(bright, labels, stats, centroids, 8, CV_32S);
-  std::vector<BeaconSighting> spots;
+  std::vector<BeaconObservation> spots;
   for (int label = 1; label < count; ++label) {
     const int* row = stats.ptr<int>(label);
     if (row[cv::CC_STAT_AREA] > options.max_area_px) continue;
@@ -101,17 +101,17 @@ std::vector<BeaconSighting> detect_beacons(const Image& grey,
           peak = grey.at<std::uint8_t>(v, u);
           seed = {u, v};
         }
-    BeaconSighting spot;
+    BeaconObservation spot;
     if (!measure(grey, grown(box, grey), seed, options, spot)) continue;
     // Two bright pixels of one spot are one spot.
-    const bool known = std::any_of(spots.begin(), spots.end(), [&](const BeaconSighting& other) {
+    const bool known = std::any_of(spots.begin(), spots.end(), [&](const BeaconObservation& other) {
       return (other.px - spot.px).norm() < 1;
     });
     if (!known) spots.push_back(spot);
   }
   std::stable_sort(
       spots.begin(), spots.end(),
-      [](const BeaconSighting& a, const BeaconSighting& b) { return a.area_px > b.area_px; });
+      [](const BeaconObservation& a, const BeaconObservation& b) { return a.area_px > b.area_px; });
   return spots;
 }
 

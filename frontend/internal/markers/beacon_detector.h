@@ -9,7 +9,7 @@
 namespace placegraph {
 
 /// A bright spot in an image.
-struct BeaconSighting {
+struct BeaconObservation {
   Eigen::Vector2d px = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< px^2
   double area_px = 0;                                        ///< above half of its contrast
@@ -20,7 +20,7 @@ struct BeaconSighting {
 /// saturates and the spot blooms, all pixels inside count the same and its rim decides. Covariance:
 /// that of the centre under the noise of the pixels, the rim's share where it is cut by whole
 /// pixels. Largest first. CV_8UC1, else ArgumentError.
-std::vector<BeaconSighting> detect_beacons(const Image& grey,
+std::vector<BeaconObservation> detect_beacons(const Image& grey,
                                            const BeaconDetectorOptions& options = {});
 
 }  // namespace placegraph

@@ -41,7 +41,7 @@ int beacons_in_view(const Camera& camera, const SE3& T_world_cam,
   return count;
 }
 
-std::vector<SeenPoint> seen_points(const std::vector<BeaconSighting>& spots,
+std::vector<SeenPoint> seen_points(const std::vector<BeaconObservation>& spots,
                                    const std::vector<Eigen::Vector3d>& beacons_world,
                                    const BeaconPairs& pairs) {
   std::vector<SeenPoint> points;
@@ -51,7 +51,7 @@ std::vector<SeenPoint> seen_points(const std::vector<BeaconSighting>& spots,
 }
 
 /// The pose under which spots and beacons fit, its pairs found anew; empty pairs if it falls apart.
-BeaconPose refined(const std::vector<BeaconSighting>& spots,
+BeaconPose refined(const std::vector<BeaconObservation>& spots,
                    const std::vector<Eigen::Vector3d>& beacons_world, const Camera& camera,
                    const SE3& T_world_cam, const BeaconPoseOptions& options) {
   BeaconPose result;
@@ -88,11 +88,11 @@ bool same_pose(const SE3& a, const SE3& b, double range_m) {
 /// All poses from three spots given to three beacons that explain enough spots.
 class AssignmentSearch {
  public:
-  AssignmentSearch(const std::vector<BeaconSighting>& spots,
+  AssignmentSearch(const std::vector<BeaconObservation>& spots,
                    const std::vector<Eigen::Vector3d>& beacons_world, const Camera& camera,
                    const BeaconPoseOptions& options)
       : spots_(spots), beacons_(beacons_world), camera_(camera), options_(options) {
-    for (const BeaconSighting& spot : spots) {
+    for (const BeaconObservation& spot : spots) {
       const auto ray = camera.unproject(spot.px);
       rays_.push_back(ray ? ray->normalized() : Eigen::Vector3d::UnitZ());
     }
@@ -150,14 +150,14 @@ class AssignmentSearch {
     std::vector<Eigen::Vector2d> expected;
     for (const Eigen::Vector3d& beacon : beacons_)
       if (const auto px = camera_.project(T_cam_world * beacon)) expected.push_back(*px);
-    for (const BeaconSighting& spot : spots_)
+    for (const BeaconObservation& spot : spots_)
       count += std::any_of(expected.begin(), expected.end(), [&](const Eigen::Vector2d& px) {
         return (px - spot.px).squaredNorm() < kNear_px * kNear_px;
       });
     return count;
   }
 
-  const std::vector<BeaconSighting>& spots_;
+  const std::vector<BeaconObservation>& spots_;
   const std::vector<Eigen::Vector3d>& beacons_;
   const Camera& camera_;
   const BeaconPoseOptions& options_;
@@ -168,7 +168,7 @@ class AssignmentSearch {
 
 }  // namespace
 
-BeaconPairs assign_beacons(const std::vector<BeaconSighting>& spots,
+BeaconPairs assign_beacons(const std::vector<BeaconObservation>& spots,
                            const std::vector<Eigen::Vector3d>& beacons_world, const Camera& camera,
                            const SE3& T_world_cam, const Matrix6d& covariance,
                            const BeaconPoseOptions& options) {
@@ -193,7 +193,7 @@ BeaconPairs assign_beacons(const std::vector<BeaconSighting>& spots,
   return near;
 }
 
-BeaconPose find_beacon_pose(const std::vector<BeaconSighting>& spots,
+BeaconPose find_beacon_pose(const std::vector<BeaconObservation>& spots,
                             const std::vector<Eigen::Vector3d>& beacons_world, const Camera& camera,
                             const BeaconPoseOptions& options) {
   options.check();

@@ -15,7 +15,7 @@ using BeaconPairs = std::vector<std::pair<int, int>>;
 
 /// The spots' beacons where the camera's pose is known to a covariance (right tangent of
 /// T_world_cam): a spot and a beacon that lie within the gate of each other and of nothing else.
-BeaconPairs assign_beacons(const std::vector<BeaconSighting>& spots,
+BeaconPairs assign_beacons(const std::vector<BeaconObservation>& spots,
                            const std::vector<Eigen::Vector3d>& beacons_world, const Camera& camera,
                            const SE3& T_world_cam, const Matrix6d& covariance,
                            const BeaconPoseOptions& options = {});
@@ -32,7 +32,7 @@ struct BeaconPose {
 /// are given to any three beacons in turn (Kneip et al. 2011), the others tell which is right.
 /// Outcomes: too few data (fewer than `min_spots` spots or beacons), no consensus, inconsistent
 /// (two different poses explain the spots), degenerate.
-[[nodiscard]] BeaconPose find_beacon_pose(const std::vector<BeaconSighting>& spots,
+[[nodiscard]] BeaconPose find_beacon_pose(const std::vector<BeaconObservation>& spots,
                                           const std::vector<Eigen::Vector3d>& beacons_world,
                                           const Camera& camera,
                                           const BeaconPoseOptions& options = {});

@@ -9,20 +9,20 @@
 
 namespace placegraph {
 
-struct MarkerDetector::Family {
+struct MarkerDetector::DirectionCluster {
   cv::Ptr<cv::aruco::Dictionary> dictionary;
 };
 
 MarkerDetector::MarkerDetector(const MarkerDetectorOptions& options, const std::string& dictionary)
     : options_(options), dictionary_(dictionary) {
   options_.check();
-  const MarkerFamily family = marker_family(dictionary);
-  family_ = std::make_shared<const Family>(Family{cv::makePtr<cv::aruco::Dictionary>(
-      family.codes, family.bits_per_side, family.correctable_bits)});
+  const MarkerFamily cluster = marker_family(dictionary);
+  family_ = std::make_shared<const DirectionCluster>(DirectionCluster{cv::makePtr<cv::aruco::Dictionary>(
+      cluster.codes, cluster.bits_per_side, cluster.correctable_bits)});
 }
 
 void MarkerDetector::detect_in(const Image& grey, int left, int top, int right, int bottom,
-                               const Camera* lens, std::vector<MarkerSighting>& found) const {
+                               const Camera* lens, std::vector<MarkerObservation>& found) const {
   const cv::Rect window(left, top, right - left, bottom - top);
   const double longest = std::max(window.width, window.height);
   if (std::min(window.width, window.height) < options_.min_side_px + 8) return;
@@ -54,10 +54,10 @@ void MarkerDetector::detect_in(const Image& grey, int left, int top, int right, 
 namespace {
 
 /// The same marker found twice, in two windows or as the two sides of a thick line.
-void drop_copies(std::vector<MarkerSighting>& found) {
+void drop_copies(std::vector<MarkerObservation>& found) {
   std::stable_sort(found.begin(), found.end(),
-                   [](const MarkerSighting& a, const MarkerSighting& b) { return a.id < b.id; });
-  const auto same = [](const MarkerSighting& a, const MarkerSighting& b) {
+                   [](const MarkerObservation& a, const MarkerObservation& b) { return a.id < b.id; });
+  const auto same = [](const MarkerObservation& a, const MarkerObservation& b) {
     constexpr double kSame_px = 3;
     if (a.id != b.id) return false;
     for (int k = 0; k < 4; ++k)
@@ -69,19 +69,19 @@ void drop_copies(std::vector<MarkerSighting>& found) {
 
 }  // namespace
 
-std::vector<MarkerSighting> MarkerDetector::detect(const Image& grey, const Camera* lens) const {
+std::vector<MarkerObservation> MarkerDetector::detect(const Image& grey, const Camera* lens) const {
   require(!grey.empty() && grey.type() == CV_8UC1, "MarkerDetector: grey image needed");
-  std::vector<MarkerSighting> found;
+  std::vector<MarkerObservation> found;
   detect_in(grey, 0, 0, grey.cols, grey.rows, lens, found);
   drop_copies(found);
   return found;
 }
 
-std::vector<MarkerSighting> MarkerDetector::detect_near(const Image& grey,
+std::vector<MarkerObservation> MarkerDetector::detect_near(const Image& grey,
                                                         const std::vector<ExpectedSquare>& expected,
                                                         const Camera* lens) const {
   require(!grey.empty() && grey.type() == CV_8UC1, "MarkerDetector: grey image needed");
-  std::vector<MarkerSighting> found;
+  std::vector<MarkerObservation> found;
   for (const ExpectedSquare& square : expected) {
     Eigen::Vector2d low = square.corners_px[0], high = low;
     for (const Eigen::Vector2d& corner : square.corners_px) {

@@ -11,7 +11,7 @@ namespace placegraph {
 
 /// A marker in an image. Corners: top left, top right, bottom right, bottom left, as somebody reads
 /// it (those of PlacedMarker::corners_marker).
-struct MarkerSighting {
+struct MarkerObservation {
   int id = 0;
   SquareCorners corners_px;
   /// Of the corners together, [x0 y0 x1 y1 ...] [px^2].
@@ -40,23 +40,23 @@ class MarkerDetector {
 
   /// All markers of the image (CV_8UC1, else ArgumentError), in the order of their ids. `lens`: the
   /// camera if it bends straight lines.
-  std::vector<MarkerSighting> detect(const Image& grey, const Camera* lens = nullptr) const;
+  std::vector<MarkerObservation> detect(const Image& grey, const Camera* lens = nullptr) const;
   /// The same, looked for only around where markers are expected: a tenth of the work for a marker
   /// of a tenth of the image.
-  std::vector<MarkerSighting> detect_near(const Image& grey,
+  std::vector<MarkerObservation> detect_near(const Image& grey,
                                           const std::vector<ExpectedSquare>& expected,
                                           const Camera* lens = nullptr) const;
 
   const std::string& dictionary() const { return dictionary_; }
 
  private:
-  struct Family;
+  struct DirectionCluster;
   void detect_in(const Image& grey, int left, int top, int right, int bottom, const Camera* lens,
-                 std::vector<MarkerSighting>& found) const;
+                 std::vector<MarkerObservation>& found) const;
 
   MarkerDetectorOptions options_;
   std::string dictionary_;
-  std::shared_ptr<const Family> family_;
+  std::shared_ptr<const DirectionCluster> family_;
 };
 
 }  // namespace placegraph

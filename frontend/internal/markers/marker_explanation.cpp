@@ -14,16 +14,16 @@ using Code = Outcome::Code;
 using Eigen::Vector3d;
 
 /// Squares outside the gate count as at its edge, and so do beacons of which no spot is known.
-double nats_of(const Camera& camera, const std::vector<SeenSquare>& squares,
+double log_likelihood_of(const Camera& camera, const std::vector<SeenSquare>& squares,
                const std::vector<SeenPoint>& points, double gate, double point_gate,
                const SE3& T_ref_cam) {
-  double nats = 0;
+  double log_likelihood_sum = 0;
   for (const SeenSquare& square : squares)
-    nats += log_likelihood(std::min(gate, square_chi2(camera, square, T_ref_cam)), 8);
+    log_likelihood_sum += log_likelihood(std::min(gate, square_chi2(camera, square, T_ref_cam)), 8);
   for (const SeenPoint& point : points)
-    nats += log_likelihood(std::min(point_gate, point_chi2(camera, point, T_ref_cam)), 2) -
+    log_likelihood_sum += log_likelihood(std::min(point_gate, point_chi2(camera, point, T_ref_cam)), 2) -
             log_likelihood(point_gate, 2);
-  return nats;
+  return log_likelihood_sum;
 }
 
 std::vector<SeenSquare> pick(const std::vector<SeenSquare>& squares,
@@ -33,7 +33,7 @@ std::vector<SeenSquare> pick(const std::vector<SeenSquare>& squares,
   return picked;
 }
 
-std::vector<SeenPoint> points_of(const std::vector<BeaconSighting>& spots,
+std::vector<SeenPoint> points_of(const std::vector<BeaconObservation>& spots,
                                  const std::vector<Vector3d>& beacons_world,
                                  const BeaconPairs& pairs) {
   std::vector<SeenPoint> points;
@@ -93,7 +93,7 @@ MarkerExplanation solve(const Camera& camera, const std::vector<SeenSquare>& squ
 
 /// Takes in the beacons that the pose makes plain.
 void add_beacons(const Camera& camera, const std::vector<SeenSquare>& squares,
-                 const std::vector<BeaconSighting>& spots,
+                 const std::vector<BeaconObservation>& spots,
                  const std::vector<Vector3d>& beacons_world, const BeaconPoseOptions& options,
                  MarkerExplanation& explanation) {
   const BeaconPairs pairs = assign_beacons(spots, beacons_world, camera, explanation.pose.T_ref_cam,
@@ -114,7 +114,7 @@ void add_beacons(const Camera& camera, const std::vector<SeenSquare>& squares,
 std::vector<SE3> starts_of(const Camera& camera, const std::vector<SeenSquare>& squares) {
   std::vector<SE3> starts;
   for (const SeenSquare& square : squares) {
-    MarkerSighting alone;
+    MarkerObservation alone;
     alone.corners_px = square.corners_px;
     alone.covariance = square.information.inverse();
     const auto& corners = square.corners_ref;
@@ -136,7 +136,7 @@ void keep(MarkerExplanation explanation, std::vector<MarkerExplanation>& found) 
 }
 
 /// The pose that beacons alone tell; `expected` makes three of them enough.
-MarkerExplanation by_beacons(const Camera& camera, const std::vector<BeaconSighting>& spots,
+MarkerExplanation by_beacons(const Camera& camera, const std::vector<BeaconObservation>& spots,
                              const std::vector<Vector3d>& beacons_world,
                              const BeaconPoseOptions& options,
                              const std::optional<KnownCamera>& expected) {
@@ -165,7 +165,7 @@ double log_likelihood(double chi2, int dimensions) {
 }
 
 MarkerExplanations explain_markers(const Camera& camera, const std::vector<SeenSquare>& squares,
-                                   const std::vector<BeaconSighting>& spots,
+                                   const std::vector<BeaconObservation>& spots,
                                    const std::vector<Vector3d>& beacons_world, double gate,
                                    const BeaconPoseOptions& options,
                                    const std::optional<KnownCamera>& expected) {
@@ -195,8 +195,8 @@ MarkerExplanations explain_markers(const Camera& camera, const std::vector<SeenS
   // A single square is not left out, however bad it is.
   const double worst = squares.size() > 1 ? gate : std::numeric_limits<double>::infinity();
   for (MarkerExplanation& explanation : result.found)
-    explanation.nats =
-        nats_of(camera, squares, points_of(spots, beacons_world, explanation.beacons), worst,
+    explanation.log_likelihood_sum =
+        log_likelihood_of(camera, squares, points_of(spots, beacons_world, explanation.beacons), worst,
                 chi_squared_quantile(options.gate, 2), explanation.pose.T_ref_cam);
   if (!result.found.empty()) result.outcome = Outcome::ok();
   return result;

@@ -22,7 +22,7 @@ struct MarkerExplanation {
   SquarePose pose;           ///< T_ref_cam: of the camera in the world
   std::vector<int> squares;  ///< that fit it
   BeaconPairs beacons;
-  double nats = 0;  ///< log-likelihood; what does not fit counts as at the gate
+  double log_likelihood_sum = 0;  ///< log-likelihood; what does not fit counts as at the gate
 };
 
 struct MarkerExplanations {
@@ -36,7 +36,7 @@ struct MarkerExplanations {
 /// beacons that the pose makes plain solved together, squares outside `gate` (chi^2) left out,
 /// worst first. Without squares the beacons stand alone: about `expected`, else from nothing.
 MarkerExplanations explain_markers(const Camera& camera, const std::vector<SeenSquare>& squares,
-                                   const std::vector<BeaconSighting>& spots,
+                                   const std::vector<BeaconObservation>& spots,
                                    const std::vector<Eigen::Vector3d>& beacons_world, double gate,
                                    const BeaconPoseOptions& options,
                                    const std::optional<KnownCamera>& expected);

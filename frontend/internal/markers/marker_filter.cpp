@@ -33,9 +33,9 @@ bool indistinct(const MarkerHypothesis& a, const MarkerHypothesis& b, bool filte
 /// Two minima that are nearer to each other than either is known become one: mean and covariance of
 /// the mixture.
 MarkerHypothesis mixture(const MarkerHypothesis& a, const MarkerHypothesis& b) {
-  const double share = 1 / (1 + std::exp(a.nats - b.nats));  // of b
+  const double share = 1 / (1 + std::exp(a.log_likelihood_sum - b.log_likelihood_sum));  // of b
   const Vector6d d = difference(a.T_world_body, b.T_world_body);
-  MarkerHypothesis both = a.nats >= b.nats ? a : b;
+  MarkerHypothesis both = a.log_likelihood_sum >= b.log_likelihood_sum ? a : b;
   both.T_world_body = a.T_world_body.plus(share * d);
   both.covariance =
       (1 - share) * a.covariance + share * b.covariance + share * (1 - share) * d * d.transpose();
@@ -59,16 +59,16 @@ MarkerFilter::MarkerFilter(const MarkerFilterOptions& options, MarkerLayout layo
 /// Markers of the layout that are seen once: of two with one number nobody knows which is which.
 std::vector<SeenSquare> MarkerFilter::known_squares(const MarkerView& view) const {
   std::vector<SeenSquare> squares;
-  for (const MarkerSighting& sighting : view.markers) {
-    const auto same_id = [&](const auto& other) { return other.id == sighting.id; };
+  for (const MarkerObservation& observation : view.markers) {
+    const auto same_id = [&](const auto& other) { return other.id == observation.id; };
     const auto placed = std::find_if(layout_.markers.begin(), layout_.markers.end(), same_id);
     if (placed == layout_.markers.end()) continue;
     if (std::count_if(view.markers.begin(), view.markers.end(), same_id) != 1) continue;
     SeenSquare square;
-    square.corners_px = sighting.corners_px;
+    square.corners_px = observation.corners_px;
     const auto corners = placed->corners_marker();
     for (int k = 0; k < 4; ++k) square.corners_ref[k] = placed->T_world_marker * corners[k];
-    Eigen::Matrix<double, 8, 8> covariance = sighting.covariance;
+    Eigen::Matrix<double, 8, 8> covariance = observation.covariance;
     covariance.diagonal().array() += options_.extra_sigma_px * options_.extra_sigma_px;
     const Eigen::LLT<Eigen::Matrix<double, 8, 8>> inverse(covariance);
     if (!covariance.allFinite() || inverse.info() != Eigen::Success) continue;
@@ -78,7 +78,7 @@ std::vector<SeenSquare> MarkerFilter::known_squares(const MarkerView& view) cons
   return squares;
 }
 
-std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view, MarkerAnswer& answer,
+std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view, MarkerPoseEstimate& answer,
                                                     const BodyExpectation* expected) const {
   const SE3 T_cam_body = T_body_cam_.inverse();
   std::optional<KnownCamera> known;
@@ -102,7 +102,7 @@ std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view, Mark
     hypothesis.covariance =
         T_body_cam_.adjoint() * explanation.pose.covariance * T_body_cam_.adjoint().transpose();
     hypothesis.chi2 = explanation.pose.chi2;
-    hypothesis.followed = explanation.nats;
+    hypothesis.followed = explanation.log_likelihood_sum;
     hypotheses.push_back(hypothesis);
     answer.markers = std::max(answer.markers, static_cast<int>(explanation.squares.size()));
     answer.beacons = std::max(answer.beacons, static_cast<int>(explanation.beacons.size()));
@@ -120,15 +120,15 @@ void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected
     double before = hypotheses_.empty() ? 0 : -std::numeric_limits<double>::infinity();
     for (const MarkerHypothesis& parent : hypotheses_) {
       const SO3 R_parent = parent.T_world_body.rotation();
-      const SO3 R_expected = view.turn_body ? R_parent * *view.turn_body : R_parent;
+      const SO3 R_expected = view.rotation_body ? R_parent * *view.rotation_body : R_parent;
       const Vector3d turn = (R_expected.inverse() * hypothesis.T_world_body.rotation()).log();
       const Vector3d way =
           hypothesis.T_world_body.translation() - parent.T_world_body.translation();
-      const double turn_sigma =
-          view.turn_body ? options_.turn_sigma_deg * kRadPerDeg : options_.max_turn_rad_s * dt;
+      const double rotation_sigma =
+          view.rotation_body ? options_.rotation_sigma_deg * kRadPerDeg : options_.max_rotation_rad_s * dt;
       const double way_sigma = options_.max_speed_m_s * dt;
       const Eigen::Matrix3d R = hypothesis.T_world_body.rotation().matrix();
-      const Eigen::Matrix3d S_turn = turn_sigma * turn_sigma * Eigen::Matrix3d::Identity() +
+      const Eigen::Matrix3d S_rotation = rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity() +
                                      parent.covariance.bottomRightCorner<3, 3>() +
                                      hypothesis.covariance.bottomRightCorner<3, 3>();
       const Eigen::Matrix3d S_way =
@@ -137,16 +137,16 @@ void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected
               Eigen::Matrix3d(hypothesis.covariance.topLeftCorner<3, 3>() +
                               parent.covariance.topLeftCorner<3, 3>()) *
               R.transpose();
-      const double step = log_likelihood(turn.dot(S_turn.ldlt().solve(turn)), 3) +
+      const double step = log_likelihood(turn.dot(S_rotation.ldlt().solve(turn)), 3) +
                           log_likelihood(way.dot(S_way.ldlt().solve(way)), 3);
       before = std::max(before, kKept * parent.followed + step);
     }
     hypothesis.followed += before;
-    hypothesis.nats = hypothesis.followed;
+    hypothesis.log_likelihood_sum = hypothesis.followed;
     if (view.force_body && view.force_body->norm() > 0) {
       const Vector3d up = hypothesis.T_world_body.rotation() * *view.force_body;
       const double angle = std::atan2(up.head<2>().norm(), up.z());
-      hypothesis.nats +=
+      hypothesis.log_likelihood_sum +=
           log_likelihood(std::pow(angle / (options_.gravity_sigma_deg * kRadPerDeg), 2), 2);
     }
   }
@@ -163,27 +163,27 @@ void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected
   }
   if (least > chi_squared_quantile(options_.gate, 6)) return;
   for (std::size_t i = 0; i < hypotheses.size(); ++i)
-    hypotheses[i].nats += log_likelihood(deviation2[i], 6);
+    hypotheses[i].log_likelihood_sum += log_likelihood(deviation2[i], 6);
 }
 
-MarkerAnswer MarkerFilter::observe(const MarkerView& view, const BodyExpectation* expected) {
-  MarkerAnswer answer;
+MarkerPoseEstimate MarkerFilter::observe(const MarkerView& view, const BodyExpectation* expected) {
+  MarkerPoseEstimate answer;
   if (view.stamp_ns <= last_ns_ ||
       1e-9 * static_cast<double>(view.stamp_ns - last_ns_) > options_.memory_s)
     hypotheses_.clear();
   std::vector<MarkerHypothesis> hypotheses = explain(view, answer, expected);
   if (hypotheses.empty()) return answer;
   weigh(view, expected, hypotheses);
-  const auto by_nats = [](const MarkerHypothesis& a, const MarkerHypothesis& b) {
-    return a.nats > b.nats;
+  const auto by_log_likelihood = [](const MarkerHypothesis& a, const MarkerHypothesis& b) {
+    return a.log_likelihood_sum > b.log_likelihood_sum;
   };
-  std::sort(hypotheses.begin(), hypotheses.end(), by_nats);
-  const double best = hypotheses.front().nats, best_followed = hypotheses.front().followed;
+  std::sort(hypotheses.begin(), hypotheses.end(), by_log_likelihood);
+  const double best = hypotheses.front().log_likelihood_sum, best_followed = hypotheses.front().followed;
   std::erase_if(hypotheses, [&](const MarkerHypothesis& hypothesis) {
-    return hypothesis.nats < best - options_.decided_nats;
+    return hypothesis.log_likelihood_sum < best - options_.decided_log_ratio;
   });
   for (MarkerHypothesis& hypothesis : hypotheses) {
-    hypothesis.nats -= best;
+    hypothesis.log_likelihood_sum -= best;
     hypothesis.followed -= best_followed;
   }
   hypotheses_ = answer.hypotheses = hypotheses;
@@ -199,7 +199,7 @@ MarkerAnswer MarkerFilter::observe(const MarkerView& view, const BodyExpectation
     joined = mixture(joined, hypotheses[i]);
   }
   answer.outcome = Outcome::ok();
-  answer.sighting = {view.stamp_ns, joined.T_world_body, joined.covariance};
+  answer.observation = {view.stamp_ns, joined.T_world_body, joined.covariance};
   return answer;
 }
 

@@ -16,13 +16,13 @@ namespace placegraph {
 /// What one image shows, and what is known of the body at its time.
 struct MarkerView {
   std::int64_t stamp_ns = 0;
-  std::vector<MarkerSighting> markers;
-  std::vector<BeaconSighting> beacons;
+  std::vector<MarkerObservation> markers;
+  std::vector<BeaconObservation> beacons;
   /// The accelerometer's mean about that time (specific force, up where the body is at rest), if
   /// there is one.
   std::optional<Eigen::Vector3d> force_body;
   /// The body's turn since the last view (R_last_now), as the gyro has it, if there is one.
-  std::optional<SO3> turn_body;
+  std::optional<SO3> rotation_body;
 };
 
 /// One way to explain what is seen.
@@ -30,16 +30,16 @@ struct MarkerHypothesis {
   SE3 T_world_body;
   Matrix6d covariance = Matrix6d::Zero();  ///< right tangent
   double chi2 = 0;                         ///< of this view's corners and spots
-  double nats = 0;      ///< log-likelihood over the views it was followed through, with all that
+  double log_likelihood_sum = 0;      ///< log-likelihood over the views it was followed through, with all that
                         ///< speaks for it now; 0 for the best
   double followed = 0;  ///< what of that is kept for the next view
 };
 
-struct MarkerAnswer {
+struct MarkerPoseEstimate {
   /// Outcomes: too few data (nothing known in view), inconsistent (two poses are still possible;
   /// the filter or the other markers contradict all), degenerate.
   Outcome outcome;
-  PoseSighting sighting;                     ///< meaningful only if outcome
+  PoseMeasurement observation;                     ///< meaningful only if outcome
   int markers = 0, beacons = 0;              ///< that shaped it
   std::vector<MarkerHypothesis> hypotheses;  ///< those still possible, best first
 };
@@ -57,7 +57,7 @@ class MarkerFilter {
 
   /// Views come in the order of their times. `expected`, if given, is the body as another estimator
   /// expects it at the view's time; without it the layout and the sensors decide.
-  MarkerAnswer observe(const MarkerView& view, const BodyExpectation* expected = nullptr);
+  MarkerPoseEstimate observe(const MarkerView& view, const BodyExpectation* expected = nullptr);
   /// Where a camera at this pose would see the layout's markers, wholly or but for what the pose
   /// leaves open (right tangent of T_world_body): for MarkerDetector::detect_near.
   std::vector<ExpectedSquare> expected_squares(const SE3& T_world_body,
@@ -66,7 +66,7 @@ class MarkerFilter {
 
  private:
   std::vector<SeenSquare> known_squares(const MarkerView& view) const;
-  std::vector<MarkerHypothesis> explain(const MarkerView& view, MarkerAnswer& answer,
+  std::vector<MarkerHypothesis> explain(const MarkerView& view, MarkerPoseEstimate& answer,
                                         const BodyExpectation* expected) const;
   void weigh(const MarkerView& view, const BodyExpectation* expected,
              std::vector<MarkerHypothesis>& hypotheses) const;

@@ -60,19 +60,19 @@ double MarkerPoses::margin() const {
   return poses.size() < 2 ? std::numeric_limits<double>::infinity() : poses[1].chi2 - poses[0].chi2;
 }
 
-MarkerPoses estimate_marker_poses(const MarkerSighting& sighting, double side_m,
+MarkerPoses estimate_marker_poses(const MarkerObservation& observation, double side_m,
                                   const Camera& camera) {
   require(side_m > 0, "estimate_marker_poses: a marker's side is positive");
   MarkerPoses result;
   SeenSquare seen;
-  seen.corners_px = sighting.corners_px;
+  seen.corners_px = observation.corners_px;
   PlacedMarker marker;
   marker.side_m = side_m;
   seen.corners_ref = marker.corners_marker();
-  const Eigen::LLT<Eigen::Matrix<double, 8, 8>> covariance(sighting.covariance);
+  const Eigen::LLT<Eigen::Matrix<double, 8, 8>> covariance(observation.covariance);
   const bool finite = std::all_of(seen.corners_px.begin(), seen.corners_px.end(),
                                   [](const Eigen::Vector2d& px) { return px.allFinite(); });
-  if (!finite || !sighting.covariance.allFinite() || covariance.info() != Eigen::Success ||
+  if (!finite || !observation.covariance.allFinite() || covariance.info() != Eigen::Success ||
       !faces_camera(seen.corners_px)) {
     result.outcome = Outcome::failure(Code::kDegenerate, "the corners are no marker's face");
     return result;
@@ -91,8 +91,8 @@ MarkerPoses estimate_marker_poses(const MarkerSighting& sighting, double side_m,
     MarkerPose pose;
     pose.T_cam_marker = refined.T_ref_cam.inverse();
     if (!face_seen(pose.T_cam_marker)) return;
-    const Matrix6d turned = refined.T_ref_cam.adjoint();
-    pose.covariance = turned * refined.covariance * turned.transpose();
+    const Matrix6d rotated = refined.T_ref_cam.adjoint();
+    pose.covariance = rotated * refined.covariance * rotated.transpose();
     pose.chi2 = refined.chi2;
     double squared = 0;
     for (int k = 0; k < 4; ++k)

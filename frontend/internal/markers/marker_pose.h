@@ -29,7 +29,7 @@ struct MarkerPoses {
 /// minimum only, the other is the mirrored pose (find_planar_rival). Outcomes: degenerate (the
 /// corners are no convex quadrangle, or leave a direction open), no consensus (no pose has the
 /// marker in front of the camera, its face towards it).
-[[nodiscard]] MarkerPoses estimate_marker_poses(const MarkerSighting& sighting, double side_m,
+[[nodiscard]] MarkerPoses estimate_marker_poses(const MarkerObservation& observation, double side_m,
                                                 const Camera& camera);
 
 }  // namespace placegraph

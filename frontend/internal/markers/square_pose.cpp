@@ -165,9 +165,9 @@ SquarePose find_planar_rival(const Camera& camera, const std::vector<SeenSquare>
                              double apart_rad) {
   SquarePose result;
   // The camera goes round the centre to the other side of the normal.
-  const Eigen::Vector3d sight = (centre_ref - T_ref_cam.translation()).normalized();
-  const Eigen::Vector3d axis = sight.cross(normal_ref);
-  const double tilt = std::atan2(axis.norm(), -sight.dot(normal_ref));
+  const Eigen::Vector3d observation = (centre_ref - T_ref_cam.translation()).normalized();
+  const Eigen::Vector3d axis = observation.cross(normal_ref);
+  const double tilt = std::atan2(axis.norm(), -observation.dot(normal_ref));
   if (!(2 * tilt > apart_rad)) {
     result.outcome = Outcome::failure(Code::kInconsistent, "seen from right above");
     return result;

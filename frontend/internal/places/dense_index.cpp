@@ -55,13 +55,13 @@ int DenseIndex::add(std::span<const float> vector) {
   return size() - 1;
 }
 
-std::vector<PlaceLikeness> DenseIndex::query(std::span<const float> vector, int count, int first,
+std::vector<PlaceSimilarity> DenseIndex::query(std::span<const float> vector, int count, int first,
                                              int last) const {
   require(vector.size() == static_cast<std::size_t>(dimension_),
           "DenseIndex: a vector of another dimension");
   first = std::max(first, 0);
   last = std::min(last, size() - 1);
-  std::vector<PlaceLikeness> list;
+  std::vector<PlaceSimilarity> list;
   if (first > last || count < 1) return list;
   const int inside = last - first + 1, outside = size() - inside;
   if (inside <= exact_below_ || outside > inside) {

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/frontend/places/place_similarity.h>
 
 #include <memory>
 #include <span>
@@ -23,7 +23,7 @@ class DenseIndex {
   int add(std::span<const float> vector);
   /// The `count` of first..last (cut to those there are) with the largest inner product, best
   /// first; fewer where many near ones lie outside.
-  std::vector<PlaceLikeness> query(std::span<const float> vector, int count, int first,
+  std::vector<PlaceSimilarity> query(std::span<const float> vector, int count, int first,
                                    int last) const;
   int size() const;
   int dimension() const { return dimension_; }

@@ -52,7 +52,7 @@ std::vector<Cluster> cluster(const FloatDescriptors& descriptors, const Rows& me
   return clusters;
 }
 
-bool all_alike(const FloatDescriptors& descriptors, const Rows& members) {
+bool all_equal(const FloatDescriptors& descriptors, const Rows& members) {
   return std::all_of(members.begin(), members.end(),
                      [&](int i) { return descriptors.row(i) == descriptors.row(members.front()); });
 }
@@ -88,7 +88,7 @@ FloatVocabulary FloatVocabulary::train(const FloatDescriptors& descriptors,
   std::vector<Work> queue{{0, 0, std::move(all)}};
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const Work work = std::move(queue[next]);
-    if (work.depth == options.depth || all_alike(descriptors, work.members)) {
+    if (work.depth == options.depth || all_equal(descriptors, work.members)) {
       tree.nodes[work.node].word = tree.words++;
       continue;
     }

@@ -83,7 +83,7 @@ std::vector<ImageLandmark> find_landmarks(const FloatFeatures& features,
   return landmarks;
 }
 
-double landmark_likeness(const std::vector<ImageLandmark>& query,
+double landmark_similarity(const std::vector<ImageLandmark>& query,
                          const std::vector<ImageLandmark>& stored, double max_shift) {
   const auto limit = static_cast<float>(max_shift * max_shift);
   double sum = 0, weights = 0;

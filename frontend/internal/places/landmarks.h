@@ -32,7 +32,7 @@ std::vector<ImageLandmark> find_landmarks(const FloatFeatures& features,
 /// How alike two views' landmarks are, in [0, 1]: the mean over those of the query, weighed by the
 /// roots of their key-points, of the largest inner product with one of the other view at most
 /// `max_shift` away.
-double landmark_likeness(const std::vector<ImageLandmark>& query,
+double landmark_similarity(const std::vector<ImageLandmark>& query,
                          const std::vector<ImageLandmark>& stored, double max_shift);
 
 }  // namespace placegraph

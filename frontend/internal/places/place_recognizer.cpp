@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/places/dense_index.h>
 #include <placegraph/frontend/internal/places/place_view.h>
-#include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/frontend/places/place_similarity.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/function_clones.h>
@@ -15,7 +15,7 @@ namespace {
 struct Candidate {
   int view = 0;
   double coarse = 0;
-  GridLikeness grids;
+  GridSimilarity grids;
   double corners = 0;
   bool verified = false;
   double score() const { return grids.sum() + corners; }
@@ -55,8 +55,8 @@ void inner_products(const std::int16_t* query, const std::int16_t* stored, std::
   }
 }
 
-std::vector<float> unit_vector(const std::int16_t* glance, std::size_t length) {
-  std::vector<float> vector(glance, glance + length);
+std::vector<float> unit_vector(const std::int16_t* thumbnail, std::size_t length) {
+  std::vector<float> vector(thumbnail, thumbnail + length);
   float squares = 0;
   for (const float value : vector) squares += value * value;
   const float scale = squares > 0 ? 1 / std::sqrt(squares) : 0;
@@ -79,9 +79,9 @@ int PlaceRecognizer::add(PlaceView view) {
           "PlaceRecognizer: one view is grey and one in colour");
   if (view.tiny.size() > 1) view.tiny.resize(1);
   if (view.gradients.size() > 1) view.gradients.resize(1);
-  require(views_.empty() || views_.front().glance.size() == view.glance.size(),
+  require(views_.empty() || views_.front().thumbnail.size() == view.thumbnail.size(),
           "PlaceRecognizer: views of different cues");
-  glances_.insert(glances_.end(), view.glance.begin(), view.glance.end());
+  glances_.insert(glances_.end(), view.thumbnail.begin(), view.thumbnail.end());
   views_.push_back(std::move(view));
   grow_graph();
   return size() - 1;
@@ -89,7 +89,7 @@ int PlaceRecognizer::add(PlaceView view) {
 
 // From half of the number on two views are entered for each that comes, so that none waits long.
 void PlaceRecognizer::grow_graph() {
-  const std::size_t length = views_.back().glance.size();
+  const std::size_t length = views_.back().thumbnail.size();
   if (length == 0 || size() < options_.indexed_from / 2) return;
   if (!graph_) graph_ = std::make_unique<DenseIndex>(static_cast<int>(length), 0);
   for (int i = 0; i < 2 && graph_->size() < size(); ++i)
@@ -97,29 +97,29 @@ void PlaceRecognizer::grow_graph() {
         unit_vector(glances_.data() + static_cast<std::size_t>(graph_->size()) * length, length));
 }
 
-std::vector<int> PlaceRecognizer::glance_along_graph(const PlaceView& query, int first,
+std::vector<int> PlaceRecognizer::thumbnails_along_graph(const PlaceView& query, int first,
                                                      int last) const {
   std::vector<int> views;
-  for (const PlaceLikeness& likeness : graph_->query(
-           unit_vector(query.glance.data(), query.glance.size()), options_.glanced, first, last))
-    views.push_back(likeness.view);
+  for (const PlaceSimilarity& similarity : graph_->query(
+           unit_vector(query.thumbnail.data(), query.thumbnail.size()), options_.shortlisted, first, last))
+    views.push_back(similarity.view);
   std::sort(views.begin(), views.end());
   return views;
 }
 
-std::vector<int> PlaceRecognizer::glance(const PlaceView& query, int first, int last) const {
+std::vector<int> PlaceRecognizer::thumbnail(const PlaceView& query, int first, int last) const {
   if (first > last) return {};
   if (graph_ && graph_->size() == size() && last - first + 1 >= options_.indexed_from)
-    return glance_along_graph(query, first, last);
-  const auto length = static_cast<std::ptrdiff_t>(query.glance.size());
-  std::vector<std::int32_t> likeness(static_cast<std::size_t>(last - first + 1));
-  inner_products(query.glance.data(), glances_.data() + first * length, length, last - first + 1,
-                 likeness.data());
+    return thumbnails_along_graph(query, first, last);
+  const auto length = static_cast<std::ptrdiff_t>(query.thumbnail.size());
+  std::vector<std::int32_t> similarity(static_cast<std::size_t>(last - first + 1));
+  inner_products(query.thumbnail.data(), glances_.data() + first * length, length, last - first + 1,
+                 similarity.data());
   std::vector<std::pair<std::int32_t, int>> order;  // minus the likeness, view
-  order.reserve(likeness.size());
+  order.reserve(similarity.size());
   for (int view = first; view <= last; ++view)
-    order.emplace_back(-likeness[static_cast<std::size_t>(view - first)], view);
-  const auto count = std::min(order.size(), static_cast<std::size_t>(options_.glanced));
+    order.emplace_back(-similarity[static_cast<std::size_t>(view - first)], view);
+  const auto count = std::min(order.size(), static_cast<std::size_t>(options_.shortlisted));
   if (count < order.size())
     std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count),
                      order.end());
@@ -129,30 +129,30 @@ std::vector<int> PlaceRecognizer::glance(const PlaceView& query, int first, int 
   return views;
 }
 
-std::vector<PlaceLikeness> PlaceRecognizer::query(const PlaceView& query, int first,
+std::vector<PlaceSimilarity> PlaceRecognizer::query(const PlaceView& query, int first,
                                                   int last) const {
   const auto view_at = [&](int i) -> const PlaceView& {
     return views_[static_cast<std::size_t>(i)];
   };
-  require(views_.empty() || query.glance.size() == views_.front().glance.size(),
+  require(views_.empty() || query.thumbnail.size() == views_.front().thumbnail.size(),
           "PlaceRecognizer: a query of other cues than the views");
   std::vector<Candidate> candidates;
-  for (const int view : glance(query, std::max(first, 0), std::min(last, size() - 1)))
+  for (const int view : thumbnail(query, std::max(first, 0), std::min(last, size() - 1)))
     candidates.push_back(
-        {view, coarse_likeness(query, view_at(view), options_.cues), {}, 0, false});
+        {view, coarse_similarity(query, view_at(view), options_.cues), {}, 0, false});
   sort_by(candidates, [](const Candidate& c) { return c.coarse; });
   if (candidates.size() > static_cast<std::size_t>(options_.short_list))
     candidates.resize(static_cast<std::size_t>(options_.short_list));
   for (Candidate& candidate : candidates)
-    candidate.grids = grid_likeness(query, view_at(candidate.view), options_.cues);
+    candidate.grids = grid_similarity(query, view_at(candidate.view), options_.cues);
   if (options_.cues.corners > 0) {
     nominate(candidates, options_);
     for (Candidate& candidate : candidates)
       if (candidate.verified)
-        candidate.corners = corner_likeness(query, view_at(candidate.view), options_.cues);
+        candidate.corners = corner_similarity(query, view_at(candidate.view), options_.cues);
   }
   sort_by(candidates, [](const Candidate& c) { return c.score(); });
-  std::vector<PlaceLikeness> list;
+  std::vector<PlaceSimilarity> list;
   for (const Candidate& candidate : candidates) list.push_back({candidate.view, candidate.score()});
   return list;
 }

@@ -43,17 +43,17 @@ void append_pooled(const CueGrid& grid, int columns, int rows, double weight,
 }
 
 // Few cells, so that views from a little beside look alike; colours of the image as a whole.
-std::vector<std::int16_t> glance_of(const PlaceView& view) {
+std::vector<std::int16_t> thumbnail_of(const PlaceView& view) {
   std::vector<float> code;
   append_pooled(view.colour, 1, 1, 1, code);
   append_pooled(view.coarse, 4, 3, 1, code);
   if (!view.gradients.empty()) append_pooled(view.gradients.front(), 4, 3, 1, code);
   constexpr float kUnit = 8191;
-  std::vector<std::int16_t> glance;
-  glance.reserve(code.size());
+  std::vector<std::int16_t> thumbnail;
+  thumbnail.reserve(code.size());
   for (const float value : code)
-    glance.push_back(static_cast<std::int16_t>(std::lround(value * kUnit)));
-  return glance;
+    thumbnail.push_back(static_cast<std::int16_t>(std::lround(value * kUnit)));
+  return thumbnail;
 }
 
 }  // namespace
@@ -82,52 +82,52 @@ PlaceView describe_place(const Image& image, const PlaceCueOptions& options, boo
   if (options.colour > 0 && image.channels() == 3) view.colour = colour_histogram_cue(sized);
   if (options.gabor > 0) view.gabor = gabor_cue(sized_grey);
   if (options.corners > 0) view.corners = corners_of_view(grey, options.corner_agreement);
-  view.glance = glance_of(view);
+  view.thumbnail = thumbnail_of(view);
   return view;
 }
 
-GridLikeness grid_likeness(const PlaceView& query, const PlaceView& stored,
+GridSimilarity grid_similarity(const PlaceView& query, const PlaceView& stored,
                            const PlaceCueOptions& options) {
   require(query.colour.empty() == stored.colour.empty(),
           "grid_likeness: one view is grey and one in colour");
-  GridLikeness likeness;
+  GridSimilarity similarity;
   if (options.tiny > 0)
-    likeness.tiny = options.tiny * best_over_scales(query.tiny, stored.tiny.front(),
+    similarity.tiny = options.tiny * best_over_scales(query.tiny, stored.tiny.front(),
                                                     {.shift_x = kTinyShiftX,
                                                      .shift_y = kTinyShiftY,
                                                      .step = 2,
                                                      .loss = options.shift_loss});
   if (!query.colour.empty())
-    likeness.colour =
+    similarity.colour =
         options.colour * best_alignment(query.colour, stored.colour, {.shift_x = 1, .shift_y = 1});
   if (options.gradients > 0)
-    likeness.gradients =
+    similarity.gradients =
         options.gradients *
         best_over_scales(
             query.gradients, stored.gradients.front(),
             {.shift_x = kGradientShiftX, .shift_y = kGradientShiftY, .loss = options.shift_loss});
   if (options.gabor > 0)
-    likeness.gabor =
+    similarity.gabor =
         options.gabor * best_alignment(query.gabor, stored.gabor,
                                        {.shift_x = 1, .shift_y = 1, .loss = options.shift_loss});
-  return likeness;
+  return similarity;
 }
 
-double corner_likeness(const PlaceView& query, const PlaceView& stored,
+double corner_similarity(const PlaceView& query, const PlaceView& stored,
                        const PlaceCueOptions& options) {
   const int agreeing = corner_agreement(query.corners, stored.corners, options.corner_agreement);
   return options.corners * std::log(static_cast<double>(std::max(agreeing, options.corner_floor)) /
                                     options.corner_floor);
 }
 
-double coarse_likeness(const PlaceView& query, const PlaceView& stored,
+double coarse_similarity(const PlaceView& query, const PlaceView& stored,
                        const PlaceCueOptions& options) {
-  double likeness = best_alignment(
+  double similarity = best_alignment(
       query.coarse, stored.coarse,
       {.shift_x = kTinyShiftX / 2, .shift_y = kTinyShiftY / 2, .loss = options.shift_loss});
   if (!query.colour.empty() && !stored.colour.empty())
-    likeness += options.colour * best_alignment(query.colour, stored.colour, {});
-  return likeness;
+    similarity += options.colour * best_alignment(query.colour, stored.colour, {});
+  return similarity;
 }
 
 }  // namespace placegraph

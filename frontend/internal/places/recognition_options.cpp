@@ -78,7 +78,7 @@ void PlaceRecognizerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, PlaceRecognizerOptions& o) {
   field.group("cues", o.cues, "what tells places apart, and how much each counts");
-  field("glanced", o.glanced, "views that pass the first look", {1, 1e6});
+  field("shortlisted", o.shortlisted, "views that pass the first look", {1, 1e6});
   field("short_list", o.short_list, "of those, views compared in full", {1, 1e6});
   field("verified", o.verified, "first views by all grids whose corners are compared", {0, 1e6});
   field("indexed_from", o.indexed_from, "views from which a graph serves the first look", {1, 1e9});

@@ -60,21 +60,21 @@ std::vector<double> SequenceFilter::predict(const State& state, int first, int l
   return best;
 }
 
-std::vector<PlaceLikeness> SequenceFilter::update(const std::vector<PlaceLikeness>& list, int first,
+std::vector<PlaceSimilarity> SequenceFilter::update(const std::vector<PlaceSimilarity>& list, int first,
                                                   int last) {
   if (list.empty()) {
     restart();
     return {};
   }
   double least = std::numeric_limits<double>::infinity();
-  for (const PlaceLikeness& likeness : list) {
-    require(likeness.view >= first && likeness.view <= last,
+  for (const PlaceSimilarity& similarity : list) {
+    require(similarity.view >= first && similarity.view <= last,
             "SequenceFilter: a view outside the range");
-    least = std::min(least, likeness.score);
+    least = std::min(least, similarity.score);
   }
   std::vector<double> row(static_cast<std::size_t>(last - first + 1), least);
-  for (const PlaceLikeness& likeness : list)
-    row[static_cast<std::size_t>(likeness.view - first)] = likeness.score;
+  for (const PlaceSimilarity& similarity : list)
+    row[static_cast<std::size_t>(similarity.view - first)] = similarity.score;
 
   if (states_.empty()) {
     for (const double pace : kPaces) states_.push_back({pace, row});
@@ -88,7 +88,7 @@ std::vector<PlaceLikeness> SequenceFilter::update(const std::vector<PlaceLikenes
     weight_ = 1 + options_.memory * weight_;
   }
   first_ = first;
-  std::vector<PlaceLikeness> result;
+  std::vector<PlaceSimilarity> result;
   for (int view = first; view <= last; ++view) {
     double best = -std::numeric_limits<double>::infinity();
     for (const State& state : states_)
@@ -97,16 +97,16 @@ std::vector<PlaceLikeness> SequenceFilter::update(const std::vector<PlaceLikenes
   }
   std::stable_sort(
       result.begin(), result.end(),
-      [](const PlaceLikeness& a, const PlaceLikeness& b) { return a.score > b.score; });
+      [](const PlaceSimilarity& a, const PlaceSimilarity& b) { return a.score > b.score; });
   return result;
 }
 
-double SequenceFilter::confidence(const PlaceLikeness& answer,
-                                  const std::vector<PlaceLikeness>& list) const {
+double SequenceFilter::confidence(const PlaceSimilarity& answer,
+                                  const std::vector<PlaceSimilarity>& list) const {
   double present = std::numeric_limits<double>::infinity();
-  for (const PlaceLikeness& likeness : list) {
-    present = likeness.view == answer.view ? likeness.score : std::min(present, likeness.score);
-    if (likeness.view == answer.view) break;
+  for (const PlaceSimilarity& similarity : list) {
+    present = similarity.view == answer.view ? similarity.score : std::min(present, similarity.score);
+    if (similarity.view == answer.view) break;
   }
   if (list.empty()) return answer.score;
   return (answer.score + options_.present * present) / (1 + options_.present);

@@ -69,11 +69,11 @@ void DominantSurface::widen(double sigma_rad, double sigma_log_distance) {
 /// n' = R n and d' = d + n'^T t, so that g' = R g / (1 + (R g)^T t).
 void DominantSurface::predict(const SE3& T_cur_last) {
   const Matrix3d R = T_cur_last.rotation().matrix();
-  const Vector3d turned = R * g_cam_, &t = T_cur_last.translation();
-  const double stretch = 1 + turned.dot(t);
+  const Vector3d rotated = R * g_cam_, &t = T_cur_last.translation();
+  const double stretch = 1 + rotated.dot(t);
   if (stretch > 0.1) {  // else the motion leads through the surface: not believed
-    const Matrix3d J = (Matrix3d::Identity() - turned * t.transpose() / stretch) * R / stretch;
-    g_cam_ = turned / stretch;
+    const Matrix3d J = (Matrix3d::Identity() - rotated * t.transpose() / stretch) * R / stretch;
+    g_cam_ = rotated / stretch;
     covariance_ = J * covariance_ * J.transpose();
   }
   widen(deg_to_rad(options_.pitching_sigma_deg), options_.distance_drift);
@@ -104,7 +104,7 @@ std::vector<Vector2f> DominantSurface::pixels_of(SurfaceRegion region, const Ima
 
 InverseDepthPlane DominantSurface::measure(SurfaceRegion region, const SurfaceDepths& depths,
                                            const Image& mask, Random& random,
-                                           SurfaceLook& look) const {
+                                           SurfaceAppearance& look) const {
   const std::vector<Vector2f> px = pixels_of(region, mask);
   std::vector<double> expected;
   for (const Vector2f& p : px)
@@ -134,7 +134,7 @@ InverseDepthPlane DominantSurface::measure(SurfaceRegion region, const SurfaceDe
   return plane;
 }
 
-SurfaceLook DominantSurface::look(const SurfaceDepths& depths, const SE3& T_cur_last,
+SurfaceAppearance DominantSurface::look(const SurfaceDepths& depths, const SE3& T_cur_last,
                                   const Image& mask, Random& random) {
   require(mask.empty() ||
               (mask.type() == CV_8UC1 && mask.cols == camera_.width && mask.rows == camera_.height),
@@ -144,10 +144,10 @@ SurfaceLook DominantSurface::look(const SurfaceDepths& depths, const SE3& T_cur_
   for (const SurfaceRegion region : kRegions)
     if (region != last_region_) order.push_back(region);
 
-  SurfaceLook best;
+  SurfaceAppearance best;
   best.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no depths below the horizon");
   for (const SurfaceRegion region : order) {
-    SurfaceLook look;
+    SurfaceAppearance look;
     const InverseDepthPlane measured = measure(region, depths, mask, random, look);
     if (measured.outcome && look.share >= options_.min_share) {
       const Vector3d innovation = measured.g_cam - g_cam_;

@@ -16,7 +16,7 @@ using SurfaceDepths = std::function<std::vector<std::optional<InverseDepth>>(
 enum class SurfaceRegion { kAhead, kNear, kFar, kLeft, kRight };
 const char* to_string(SurfaceRegion region);
 
-struct SurfaceLook {
+struct SurfaceAppearance {
   /// Too few data (no region shows enough depths), no consensus (in none do enough of them lie on
   /// a plane), inconsistent (there is a plane, but not where the surface can be: a vehicle's side,
   /// or the slope has changed, which the next look will believe).
@@ -46,7 +46,7 @@ class DominantSurface {
 
   /// `T_cur_last`: the motion since the last look, identity if none is known or there was none.
   /// `mask`: 0 = not the surface (a label image's answer), CV_8UC1 of the camera's size or empty.
-  [[nodiscard]] SurfaceLook look(const SurfaceDepths& depths, const SE3& T_cur_last,
+  [[nodiscard]] SurfaceAppearance look(const SurfaceDepths& depths, const SE3& T_cur_last,
                                  const Image& mask, Random& random);
 
   Plane plane_cam() const;
@@ -57,7 +57,7 @@ class DominantSurface {
   void predict(const SE3& T_cur_last);
   void widen(double sigma_rad, double sigma_log_distance);
   InverseDepthPlane measure(SurfaceRegion region, const SurfaceDepths& depths, const Image& mask,
-                            Random& random, SurfaceLook& look) const;
+                            Random& random, SurfaceAppearance& look) const;
 
   DominantSurfaceOptions options_;
   Camera camera_;

@@ -250,7 +250,7 @@ Readings readings_of(const Views& views, const PlanarRegionsResult& regions,
   std::sort(result.readings.begin(), result.readings.end(),
             [](const PlanesReading& a, const PlanesReading& b) { return a.cost < b.cost; });
   while (!result.readings.empty() &&
-         result.readings.back().cost > result.readings.front().cost + options.ambiguity_nats)
+         result.readings.back().cost > result.readings.front().cost + options.ambiguity_log_ratio)
     result.readings.pop_back();
   return result;
 }
@@ -261,7 +261,7 @@ void MotionFromPlanesOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MotionFromPlanesOptions& o) {
   field("max_iterations", o.max_iterations, "of the joint refinement", {1, 10000});
-  field("ambiguity_nats", o.ambiguity_nats, "readings this close to the likeliest are kept",
+  field("ambiguity_log_ratio", o.ambiguity_log_ratio, "readings this close to the likeliest are kept",
         {0, 1e6});
 }
 
@@ -291,12 +291,12 @@ MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatch
 
   // The free homographies lie below any motion: if the rotation's three parameters do nearly as
   // well as their eight each, a translation is not seen.
-  State turned;
-  result.rotation_cost = only_rotation(views, regions, turned, options.max_iterations).cost;
+  State rotated;
+  result.rotation_cost = only_rotation(views, regions, rotated, options.max_iterations).cost;
   const double per_parameter = 0.5 * std::log(static_cast<double>(count));
   const double parameters = 8.0 * static_cast<double>(regions.regions.size()) - 3;
   if (result.rotation_cost < result.homographies_cost + parameters * per_parameter) {
-    result.R_cur_ref = turned.R_cur_ref;
+    result.R_cur_ref = rotated.R_cur_ref;
     result.outcome = Outcome::failure(Outcome::Code::kDegenerate, "the camera only turned");
     return result;
   }

@@ -9,7 +9,7 @@ namespace placegraph {
 
 struct MotionFromPlanesOptions {
   int max_iterations = 30;
-  double ambiguity_nats = 6;  ///< readings this close in likelihood to the best are kept
+  double ambiguity_log_ratio = 6;  ///< readings this close in likelihood to the best are kept
   void check() const;
 };
 void visit(OptionVisitor& field, MotionFromPlanesOptions& options);

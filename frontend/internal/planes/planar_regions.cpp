@@ -22,7 +22,7 @@ constexpr int kMoreNeighbours = 2;
 constexpr int kFitIterations = 10;
 constexpr int kRounds = 12;  ///< of labels, models and noise in turn
 
-struct Answer {
+struct StateEstimate {
   std::vector<Matrix3d> models;
   std::vector<int> labels;  // 0: none, k: models[k - 1]
   double share_none = 1;    // of label 0
@@ -45,28 +45,28 @@ class Search {
     find_neighbours();
   }
 
-  Answer nothing(double noise_px) const;
+  StateEstimate nothing(double noise_px) const;
   /// The best of many local samples, refined; false if none helps.
-  bool propose(const Answer& answer, Random& random, Matrix3d& H) const;
+  bool propose(const StateEstimate& answer, Random& random, Matrix3d& H) const;
   /// Labels, models, noise and shares in turn until the cost stands; weak planes are dropped.
-  Answer settle(Answer answer, int rounds) const;
-  Answer merged(Answer answer) const;
+  StateEstimate settle(StateEstimate answer, int rounds) const;
+  StateEstimate merged(StateEstimate answer) const;
   /// Plane after plane with the noise held, then all together with the noise free.
-  Answer search(double noise_px, Random& random) const;
-  std::vector<int> members(const Answer& answer, int label) const;
+  StateEstimate search(double noise_px, Random& random) const;
+  std::vector<int> members(const StateEstimate& answer, int label) const;
 
  private:
   void find_neighbours();
   double on_plane_cost(const Matrix3d& H, double noise_px, int i) const;
-  double plane_cost(const Answer& answer, int matches) const;
-  Eigen::MatrixXd costs(const Answer& answer) const;
-  double total(const Answer& answer) const;
-  void drop(Answer& answer, int label) const;
-  bool relabel(Answer& answer) const;
-  void refit(Answer& answer) const;
+  double plane_cost(const StateEstimate& answer, int matches) const;
+  Eigen::MatrixXd costs(const StateEstimate& answer) const;
+  double total(const StateEstimate& answer) const;
+  void drop(StateEstimate& answer, int label) const;
+  bool relabel(StateEstimate& answer) const;
+  void refit(StateEstimate& answer) const;
   /// Whether some of the neighbours among which a sample was drawn lie on its plane, too.
-  bool agrees(const Matrix3d& H, const Answer& answer, const std::vector<int>& near) const;
-  double gain(const Matrix3d& H, const Answer& answer, const std::vector<double>& now,
+  bool agrees(const Matrix3d& H, const StateEstimate& answer, const std::vector<int>& near) const;
+  double gain(const Matrix3d& H, const StateEstimate& answer, const std::vector<double>& now,
               std::vector<int>* inliers) const;
 
   const PointMatches& matches_;
@@ -110,12 +110,12 @@ double Search::on_plane_cost(const Matrix3d& H, double noise_px, int i) const {
 }
 
 /// Four points of the current view, each to the precision with which n matches give it.
-double Search::plane_cost(const Answer& answer, int n) const {
+double Search::plane_cost(const StateEstimate& answer, int n) const {
   return 4 * (log_area_ - std::log(2 * std::numbers::pi * 2 * answer.noise_px * answer.noise_px) +
               std::log(std::max(n, 4) / 4.0));
 }
 
-Eigen::MatrixXd Search::costs(const Answer& answer) const {
+Eigen::MatrixXd Search::costs(const StateEstimate& answer) const {
   const int n = matches_.size(), labels = static_cast<int>(answer.models.size()) + 1;
   Eigen::MatrixXd unary(n, labels);
   for (int l = 0; l < labels; ++l) {
@@ -128,21 +128,21 @@ Eigen::MatrixXd Search::costs(const Answer& answer) const {
   return unary;
 }
 
-std::vector<int> Search::members(const Answer& answer, int label) const {
+std::vector<int> Search::members(const StateEstimate& answer, int label) const {
   std::vector<int> which;
   for (int i = 0; i < matches_.size(); ++i)
     if (answer.labels[static_cast<std::size_t>(i)] == label) which.push_back(i);
   return which;
 }
 
-void set_share(Answer& answer) {
+void set_share(StateEstimate& answer) {
   // One more of each than there is, so that none is impossible.
   const auto none = std::count(answer.labels.begin(), answer.labels.end(), 0);
   answer.share_none =
       (1.0 + static_cast<double>(none)) / (2.0 + static_cast<double>(answer.labels.size()));
 }
 
-double Search::total(const Answer& answer) const {
+double Search::total(const StateEstimate& answer) const {
   double cost = label_cost({costs(answer), neighbours_, options_.smoothness}, answer.labels);
   for (std::size_t k = 1; k <= answer.models.size(); ++k)
     cost += plane_cost(answer, static_cast<int>(members(answer, static_cast<int>(k)).size()));
@@ -151,8 +151,8 @@ double Search::total(const Answer& answer) const {
   return cost + options_.noise_confidence * (ratio * ratio - 2 * std::log(ratio));
 }
 
-Answer Search::nothing(double noise_px) const {
-  Answer answer;
+StateEstimate Search::nothing(double noise_px) const {
+  StateEstimate answer;
   answer.labels.assign(static_cast<std::size_t>(matches_.size()), 0);
   answer.noise_px = noise_px;
   set_share(answer);
@@ -160,7 +160,7 @@ Answer Search::nothing(double noise_px) const {
   return answer;
 }
 
-void Search::drop(Answer& answer, int label) const {
+void Search::drop(StateEstimate& answer, int label) const {
   answer.models.erase(answer.models.begin() + label - 1);
   for (int& l : answer.labels) {
     if (l == label) l = 0;
@@ -169,7 +169,7 @@ void Search::drop(Answer& answer, int label) const {
   set_share(answer);
 }
 
-double Search::gain(const Matrix3d& H, const Answer& answer, const std::vector<double>& now,
+double Search::gain(const Matrix3d& H, const StateEstimate& answer, const std::vector<double>& now,
                     std::vector<int>* inliers) const {
   double sum = 0;
   if (inliers) inliers->clear();
@@ -184,14 +184,14 @@ double Search::gain(const Matrix3d& H, const Answer& answer, const std::vector<d
   return sum;
 }
 
-bool Search::agrees(const Matrix3d& H, const Answer& answer, const std::vector<int>& near) const {
+bool Search::agrees(const Matrix3d& H, const StateEstimate& answer, const std::vector<int>& near) const {
   const double none = log_area_ - std::log(answer.share_none) + std::log(1 - answer.share_none);
   int count = 0;
   for (const int i : near) count += on_plane_cost(H, answer.noise_px, i) < none;
   return count >= 3 + kMoreNeighbours;
 }
 
-bool Search::propose(const Answer& answer, Random& random, Matrix3d& H) const {
+bool Search::propose(const StateEstimate& answer, Random& random, Matrix3d& H) const {
   const int n = matches_.size();
   const Eigen::MatrixXd unary = costs(answer);
   std::vector<double> now(static_cast<std::size_t>(n));
@@ -242,7 +242,7 @@ bool Search::propose(const Answer& answer, Random& random, Matrix3d& H) const {
   return best > 0;
 }
 
-bool Search::relabel(Answer& answer) const {
+bool Search::relabel(StateEstimate& answer) const {
   std::vector<int> labels = answer.labels;
   const LabelProblem problem{costs(answer), neighbours_, options_.smoothness};
   expand_labels(problem, labels);
@@ -254,7 +254,7 @@ bool Search::relabel(Answer& answer) const {
   return changed;
 }
 
-void Search::refit(Answer& answer) const {
+void Search::refit(StateEstimate& answer) const {
   const TransferNoise noise{answer.noise_px, options_.tail_freedom};
   double squared = 2 * options_.noise_confidence * options_.noise_px * options_.noise_px;
   double freedom = 2 * options_.noise_confidence;
@@ -277,9 +277,9 @@ void Search::refit(Answer& answer) const {
   if (answer.noise_free) answer.noise_px = std::sqrt(squared / freedom);
 }
 
-Answer Search::settle(Answer answer, int rounds) const {
+StateEstimate Search::settle(StateEstimate answer, int rounds) const {
   set_share(answer);
-  Answer best;
+  StateEstimate best;
   for (int round = 0; round < rounds; ++round) {
     const bool changed = relabel(answer);
     refit(answer);
@@ -290,14 +290,14 @@ Answer Search::settle(Answer answer, int rounds) const {
   return best;
 }
 
-Answer Search::merged(Answer answer) const {
+StateEstimate Search::merged(StateEstimate answer) const {
   for (bool lower = true; lower;) {
     lower = false;
     const int planes = static_cast<int>(answer.models.size());
     for (int a = 1; a <= planes && !lower; ++a)
       for (int b = 0; b <= planes && !lower; ++b) {
         if (b == a) continue;
-        Answer trial = answer;
+        StateEstimate trial = answer;
         for (int& l : trial.labels)
           if (l == a) l = b;
         drop(trial, a);
@@ -310,10 +310,10 @@ Answer Search::merged(Answer answer) const {
   return answer;
 }
 
-Answer Search::search(double noise_px, Random& random) const {
-  Answer answer = nothing(noise_px);
+StateEstimate Search::search(double noise_px, Random& random) const {
+  StateEstimate answer = nothing(noise_px);
   while (static_cast<int>(answer.models.size()) < options_.max_planes) {
-    Answer more = answer;
+    StateEstimate more = answer;
     Matrix3d H;
     if (!propose(answer, random, H)) break;
     more.models.push_back(H);
@@ -359,10 +359,10 @@ PlanarRegionsResult find_planar_regions(const PointMatches& matches,
     return result;
   }
   const Search search(matches, options);
-  Answer answer = search.nothing(options.noise_px);
+  StateEstimate answer = search.nothing(options.noise_px);
   const double empty = answer.cost;
   for (const double factor : kNoiseStarts) {
-    Answer other = search.search(factor * options.noise_px, random);
+    StateEstimate other = search.search(factor * options.noise_px, random);
     if (other.cost < answer.cost) answer = std::move(other);
   }
   result.noise = {answer.noise_px, options.tail_freedom};

@@ -40,9 +40,9 @@ void visit(OptionVisitor& field, OrientationMapOptions& o) {
         {0, 50});
 }
 
-void UrbanSightOptions::check() const { check_ranges(*this); }
+void StreetLabellingOptions::check() const { check_ranges(*this); }
 
-void visit(OptionVisitor& field, UrbanSightOptions& o) {
+void visit(OptionVisitor& field, StreetLabellingOptions& o) {
   field("step_px", o.step_px, "between points", {1, 100});
   field("max_range_m", o.max_range_m, "farther points are not used", {1, 1000});
   field("max_residual", o.max_residual,

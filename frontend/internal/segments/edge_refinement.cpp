@@ -115,12 +115,12 @@ std::optional<EdgeSegment> EdgeRefiner::refine(const LineSegment& given) const {
     for (const EdgePoint& point : edge) sum += std::abs(point.gradient);
     return sum;
   };
-  const bool turned = strength(dark) > strength(points);
-  if (turned) points = std::move(dark);
+  const bool rotated = strength(dark) > strength(points);
+  if (rotated) points = std::move(dark);
   auto edge = fit(points, static_cast<int>(std::ceil(options_.min_support * samples)));
   if (!edge) return std::nullopt;
   edge->segment = {edge->line.foot(given.start), edge->line.foot(given.end)};
-  if (turned) std::swap(edge->segment.start, edge->segment.end);
+  if (rotated) std::swap(edge->segment.start, edge->segment.end);
   return edge;
 }
 

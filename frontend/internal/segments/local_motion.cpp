@@ -104,7 +104,7 @@ std::optional<LocalMotion> LocalMotionField::around(const LineSegment& a, int wi
       for (int k = 0; k < 2; ++k)
         equations.push_back(
             {row_of(Eigen::Vector2d::Unit(k), pair.px_a - origin), pair.px_b[k], weight, i});
-      for (int k = 0; k < 4; ++k) entries[k].push_back(pair.turn_b_a(k / 2, k % 2));
+      for (int k = 0; k < 4; ++k) entries[k].push_back(pair.rotation_b_a(k / 2, k % 2));
     } else {
       const SegmentPair& pair = segments_[e.index];
       const Eigen::Vector2d n = pair.b.normal();
@@ -115,7 +115,7 @@ std::optional<LocalMotion> LocalMotionField::around(const LineSegment& a, int wi
   Eigen::Matrix2d prior = Eigen::Matrix2d::Identity();
   if (entries[0].empty())
     for (const PointPair& pair : points_)
-      for (int k = 0; k < 4; ++k) entries[k].push_back(pair.turn_b_a(k / 2, k % 2));
+      for (int k = 0; k < 4; ++k) entries[k].push_back(pair.rotation_b_a(k / 2, k % 2));
   if (!entries[0].empty())
     prior << median_of(entries[0]), median_of(entries[1]), median_of(entries[2]),
         median_of(entries[3]);

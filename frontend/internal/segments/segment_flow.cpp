@@ -26,7 +26,7 @@ LineSegment moved(const LineSegment& s, double shift, double lean) {
   return {s.start + (shift - lean) * n, s.end + (shift + lean) * n};
 }
 
-std::vector<Sample> sample_strip(const StripImage& image, const LineSegment& segment,
+std::vector<Sample> sample_strip(const LineProfileImage& image, const LineSegment& segment,
                                  const Grid& grid, int level) {
   const Eigen::Vector2d across = grid.step_px * segment.normal();
   std::vector<Sample> samples;
@@ -47,7 +47,7 @@ std::vector<Sample> sample_strip(const StripImage& image, const LineSegment& seg
 }
 
 /// One level of the alignment; false if there is nothing to hold on to.
-bool align_level(const StripImage& from, const LineSegment& segment, const StripImage& to,
+bool align_level(const LineProfileImage& from, const LineSegment& segment, const LineProfileImage& to,
                  const LineSegment& expected, int level, const SegmentFlowOptions& options,
                  double& shift, double& lean) {
   Grid grid;
@@ -95,19 +95,19 @@ bool align_level(const StripImage& from, const LineSegment& segment, const Strip
 
 }  // namespace
 
-std::optional<SegmentFlow> follow_segment(const StripImage& from, const LineSegment& segment,
-                                          const StripImage& to, const LineSegment& expected,
+std::optional<SegmentFlow> follow_segment(const LineProfileImage& from, const LineSegment& segment,
+                                          const LineProfileImage& to, const LineSegment& expected,
                                           int coarsest, const SegmentFlowOptions& options) {
   if (segment.length() < 4 || expected.length() < 4) return std::nullopt;
   double shift = 0, lean = 0;
   for (int level = std::min(coarsest, to.level_of(1 << coarsest)); level >= 0; --level)
     if (!align_level(from, segment, to, expected, level, options, shift, lean)) return std::nullopt;
   const double turn = std::abs(std::atan2(2 * lean, expected.length()));
-  if (turn > deg_to_rad(options.max_turn_deg)) return std::nullopt;
+  if (turn > deg_to_rad(options.max_rotation_deg)) return std::nullopt;
   SegmentFlow flow;
   flow.segment = moved(expected, shift, lean);
   flow.shift_px = shift;
-  flow.alike = compare_strips(from, {segment.start, segment.end, segment.normal()}, to,
+  flow.similar = compare_strips(from, {segment.start, segment.end, segment.normal()}, to,
                               {flow.segment.start, flow.segment.end, flow.segment.normal()},
                               options.strip_px);
   return flow;

@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/segments/segment_strip.h>
+#include <placegraph/frontend/internal/segments/segment_profile.h>
 #include <placegraph/frontend/lines/line_options.h>
 #include <placegraph/graph/core/options.h>
 
@@ -9,7 +9,7 @@ namespace placegraph {
 
 struct SegmentFlow {
   LineSegment segment;    ///< in the second image; its ends correspond as the expected ones do
-  StripSimilarity alike;  ///< of the two strips, at full size
+  LineProfileSimilarity similar;  ///< of the two strips, at full size
   double shift_px = 0;    ///< of the middle from where it was expected
 };
 
@@ -20,8 +20,8 @@ struct SegmentFlow {
 /// `expected`. Nothing where the strip leaves the image or has no gradient, or the alignment runs
 /// away. `coarsest` is the number of halvings begun with: about log2 of the error of `expected`
 /// [px].
-std::optional<SegmentFlow> follow_segment(const StripImage& from, const LineSegment& segment,
-                                          const StripImage& to, const LineSegment& expected,
+std::optional<SegmentFlow> follow_segment(const LineProfileImage& from, const LineSegment& segment,
+                                          const LineProfileImage& to, const LineSegment& expected,
                                           int coarsest, const SegmentFlowOptions& options);
 
 }  // namespace placegraph

@@ -1,6 +1,6 @@
 #include <placegraph/frontend/internal/segments/local_motion.h>
 #include <placegraph/frontend/internal/segments/segment_matcher.h>
-#include <placegraph/frontend/internal/segments/segment_strip.h>
+#include <placegraph/frontend/internal/segments/segment_profile.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/angle.h>
 
@@ -22,13 +22,13 @@ constexpr double kOnePieceAngleRad = 0.07, kOnePiecePx = 2.5;
 
 struct View {
   const std::vector<LineSegment>& segments;
-  StripImage image;
+  LineProfileImage image;
   std::vector<bool> scene;  ///< which segments are not the border of the picture itself
 };
 
 /// The frame of a picture gives straight edges that are no lines of the scene.
 View view_of(const Image& image, const std::vector<LineSegment>& segments) {
-  View view{segments, StripImage(image), std::vector<bool>(segments.size(), true)};
+  View view{segments, LineProfileImage(image), std::vector<bool>(segments.size(), true)};
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Eigen::Vector2d low = segments[i].start.cwiseMax(segments[i].end);
     const Eigen::Vector2d high = Eigen::Vector2d(image.cols - 1, image.rows - 1) -
@@ -64,7 +64,7 @@ struct Overlap {
   double share = 0;  ///< of the shorter segment
   double share_of_longer = 0;
   double distance_px = 0;
-  double turn_rad = 0;  ///< from the expected direction to b's
+  double rotation_rad = 0;  ///< from the expected direction to b's
 };
 
 /// Position along b's line of a point of a: where its epipolar line crosses, if it does so well,
@@ -88,9 +88,9 @@ std::optional<Overlap> overlap(const LineSegment& a, const Expectation& expected
   if (b.vector().dot(expected.segment.vector()) < 0) std::swap(b.start, b.end);
   const Eigen::Vector2d direction = b.direction(), wanted = expected.segment.direction();
   Overlap result;
-  result.turn_rad =
+  result.rotation_rad =
       std::atan2(wanted.x() * direction.y() - wanted.y() * direction.x(), wanted.dot(direction));
-  if (std::abs(result.turn_rad) > deg_to_rad(options.max_angle_deg)) return std::nullopt;
+  if (std::abs(result.rotation_rad) > deg_to_rad(options.max_angle_deg)) return std::nullopt;
   const double from = position_along(b, a.start, expected.segment.start, F_b_a, expected.gate_px);
   const double to = position_along(b, a.end, expected.segment.end, F_b_a, expected.gate_px);
   if (to - from < 1) return std::nullopt;
@@ -117,8 +117,8 @@ double score_of(const Overlap& shared, const Expectation& expected, const View& 
   const double step_a = std::max(1.0, 1 / scale);
   const Eigen::Vector2d across_a = step_a * shared.a.normal();
   const Eigen::Vector2d across_b =
-      Eigen::Rotation2Dd(shared.turn_rad) * (expected.motion.A * across_a);
-  const StripSimilarity strips =
+      Eigen::Rotation2Dd(shared.rotation_rad) * (expected.motion.A * across_a);
+  const LineProfileSimilarity strips =
       compare_strips(a.image, {shared.a.start, shared.a.end, across_a}, b.image,
                      {shared.b.start, shared.b.end, across_b}, options.strip_px);
   const double similarity =

@@ -72,7 +72,7 @@ double offset_likelihood(const std::array<AxisEquations, 3>& axes, double s2) {
 }
 
 /// Turn by the directions that the normal equations fix; the rest stays.
-Eigen::Vector3d observed_turn(const Eigen::Matrix3d& A, const Eigen::Vector3d& b) {
+Eigen::Vector3d observed_rotation(const Eigen::Matrix3d& A, const Eigen::Vector3d& b) {
   constexpr double kLeast = 30;  // a deviation of 10 degrees
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A);
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
@@ -80,9 +80,9 @@ Eigen::Vector3d observed_turn(const Eigen::Matrix3d& A, const Eigen::Vector3d& b
     if (eigen.eigenvalues()[k] > kLeast)
       turn += eigen.eigenvectors().col(k) *
               (eigen.eigenvectors().col(k).dot(b) / eigen.eigenvalues()[k]);
-  constexpr double kMaxTurn = 0.2;
+  constexpr double kMaxRotation = 0.2;
   const double norm = turn.norm();
-  return norm > kMaxTurn ? Eigen::Vector3d(turn * (kMaxTurn / norm)) : turn;
+  return norm > kMaxRotation ? Eigen::Vector3d(turn * (kMaxRotation / norm)) : turn;
 }
 
 /// Lines to the axes at the shares they have; evidence and cost by the lines' log-ratios.
@@ -148,7 +148,7 @@ ManhattanFit fit_manhattan(const VanishingEvidence& evidence, const SO3& R_cam_a
         if (value > best) best = value, fit.orthogonality_rad = s;
       }
       reduce(axes, fit.orthogonality_rad * fit.orthogonality_rad, A, b);
-      fit.R_cam_axes = fit.R_cam_axes.plus(observed_turn(A, b));
+      fit.R_cam_axes = fit.R_cam_axes.plus(observed_rotation(A, b));
     }
   }
   assign(evidence, fit.orthogonality_rad, fit);

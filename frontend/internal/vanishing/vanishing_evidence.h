@@ -77,7 +77,7 @@ class VanishingEvidence {
   double log_constant_ = 0;                          ///< of the density of the errors times pi
   double end_variance_ = 0, parallel_variance_ = 0;  ///< of noise_, in focal lengths^2 and rad^2
   // For quick_gains, one entry a line: coefficients of the line, middle, turn variance, constants.
-  Eigen::ArrayXf a_, b_, c_, x_, y_, turn_, log_gain_, weight_;
+  Eigen::ArrayXf a_, b_, c_, x_, y_, rotation_, log_gain_, weight_;
 };
 
 /// Labels of lines of the evidence turned into labels of all `segments` that were handed over; -1

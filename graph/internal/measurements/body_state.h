@@ -25,7 +25,7 @@ struct BodyExpectation {
   std::optional<BodyState> state;  ///< empty: the estimator has no estimate at that time
   /// Squared Mahalanobis distance of a pose measured at that time from the expectation, in both
   /// covariances (chi^2, six degrees of freedom); nothing if the estimator cannot tell.
-  std::function<std::optional<double>(const PoseSighting&)> deviation2;
+  std::function<std::optional<double>(const PoseMeasurement&)> deviation2;
 };
 
 }  // namespace placegraph

@@ -51,10 +51,10 @@ std::string other_clock(const std::vector<std::int64_t>& stamps_ns,
   const double other_first = 1e-9 * static_cast<double>(other_ns.front());
   const double other_last = 1e-9 * static_cast<double>(other_ns.back());
   const double length = last - first, other_length = other_last - other_first;
-  const auto alike = [](double a, double b) { return a > 0.5 * b && b > 0.5 * a; };
+  const auto similar = [](double a, double b) { return a > 0.5 * b && b > 0.5 * a; };
   for (int power = -9; power <= 9; power += 3) {
     const double factor = std::pow(10.0, power);
-    if (power == 0 || !alike(length, factor * other_length)) continue;
+    if (power == 0 || !similar(length, factor * other_length)) continue;
     const bool overlap = factor * other_first < last && factor * other_last > first;
     const char* unit = power == -3   ? "in milliseconds"
                        : power == -6 ? "in microseconds"
@@ -63,7 +63,7 @@ std::string other_clock(const std::vector<std::int64_t>& stamps_ns,
     return fmt::format("{} seems to have its times {}: times {:g} it {}", other, unit, factor,
                        overlap ? "fits" : "is as long, though at another time");
   }
-  if (alike(length, other_length))
+  if (similar(length, other_length))
     return fmt::format(
         "both are {:.4g} s and {:.4g} s long: {} seems to be of another clock, {:.3f} s "
         "later",

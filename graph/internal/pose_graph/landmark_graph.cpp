@@ -18,12 +18,12 @@ void check_prior(const PosePriorConstraint& prior, PoseKind kind, const NodeInde
   if (const char* fault = fault_of(prior.information)) throw ArgumentError(name + fault);
 }
 
-void check_sight(const PointSight& sight, const NodeIndex& nodes, const NodeIndex& points,
+void check_observation(const PointObservation& observation, const NodeIndex& nodes, const NodeIndex& points,
                  const std::string& name) {
-  require(nodes.contains(sight.node), name + "unknown node " + to_string(sight.node));
-  require(points.contains(sight.point), name + "unknown point " + to_string(sight.point));
-  require(sight.position_node.allFinite(), name + "position is not finite");
-  if (const char* fault = fault_of(sight.information)) throw ArgumentError(name + fault);
+  require(nodes.contains(observation.node), name + "unknown node " + to_string(observation.node));
+  require(points.contains(observation.point), name + "unknown point " + to_string(observation.point));
+  require(observation.position_node.allFinite(), name + "position is not finite");
+  if (const char* fault = fault_of(observation.information)) throw ArgumentError(name + fault);
 }
 
 }  // namespace
@@ -47,8 +47,8 @@ void LandmarkGraph::check() const {
             "point " + to_string(ids[i]) + " is there twice");
   for (std::size_t i = 0; i < priors.size(); ++i)
     check_prior(priors[i], kind, nodes, "prior " + std::to_string(i) + ": ");
-  for (std::size_t i = 0; i < sights.size(); ++i)
-    check_sight(sights[i], nodes, by_id, "sight " + std::to_string(i) + ": ");
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    check_observation(observations[i], nodes, by_id, "sight " + std::to_string(i) + ": ");
 }
 
 }  // namespace placegraph

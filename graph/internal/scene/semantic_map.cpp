@@ -36,12 +36,12 @@ struct Told {
 void visit(OptionVisitor& field, SemanticGridOptions& o) {
   field("cell_m", o.cell_m, "side of a cell", {0.05, 5});
   field("max_sigma_m", o.max_sigma_m, "points whose depth is worse are left out", {0.01, 100});
-  field("sight_weight", o.sight_weight, "how much a further sight counts, as they err alike",
+  field("observation_weight", o.observation_weight, "how much a further sight counts, as they err alike",
         {0.01, 1});
   field("full_weight", o.full_weight, "points of a sight in a cell that make it count wholly",
         {0.1, 1000});
   field("min_weight", o.min_weight, "points of a cell that is known", {0, 1e6});
-  field("min_sights", o.min_sights, "sights of a cell that is known", {1, 1000});
+  field("min_observations", o.min_observations, "sights of a cell that is known", {1, 1000});
   field("min_confidence", o.min_confidence, "probability below which a cell is unknown", {0, 1});
 }
 
@@ -63,11 +63,11 @@ std::size_t SemanticGrid::cell_at(const Eigen::Vector3i& at) {
   return entry->second;
 }
 
-void SemanticGrid::add(const SemanticSight& sight, const SE3& T_map_cam) {
+void SemanticGrid::add(const KeyframeSemantics& observation, const SE3& T_map_cam) {
   const std::size_t n = classes_.size();
-  std::vector<float> log_shares(sight.shares.size());
+  std::vector<float> log_shares(observation.shares.size());
   for (std::size_t i = 0; i < log_shares.size(); ++i)
-    log_shares[i] = std::log(std::max(sight.shares[i], kLeastShare));
+    log_shares[i] = std::log(std::max(observation.shares[i], kLeastShare));
   const SE3 T_plan_cam = SE3(R_plan_map_, Eigen::Vector3d::Zero()) * T_map_cam;
   const Eigen::Matrix3f R = T_plan_cam.rotation().matrix().cast<float>();
   const Eigen::Vector3d t = T_plan_cam.translation();
@@ -75,8 +75,8 @@ void SemanticGrid::add(const SemanticSight& sight, const SE3& T_map_cam) {
   // In the order of first sight, so that sums do not depend on a hash.
   std::unordered_map<std::size_t, std::size_t> told_of;
   std::vector<std::pair<std::size_t, Told>> all;
-  for (const SemanticPoint& p : sight.points) {
-    require((p.region + std::size_t{1}) * n <= sight.shares.size(),
+  for (const SemanticPoint& p : observation.points) {
+    require((p.region + std::size_t{1}) * n <= observation.shares.size(),
             "semantic grid: a point of a region that the sight does not have");
     if (static_cast<double>(p.sigma) > options_.max_sigma_m) continue;
     const Eigen::Vector3d at = (R * p.point).cast<double>() + t;
@@ -99,8 +99,8 @@ void SemanticGrid::add(const SemanticSight& sight, const SE3& T_map_cam) {
     known.weight += told.weight;
     known.mean += told.sum;
     known.height_m += told.height;
-    ++known.sights;
-    const float step = static_cast<float>(options_.sight_weight) *
+    ++known.observations;
+    const float step = static_cast<float>(options_.observation_weight) *
                        std::min(1.0F, told.weight / static_cast<float>(options_.full_weight));
     for (std::size_t l = 0; l < n; ++l)
       log_odds_[index * n + l] += step * (told.log_shares[l] / told.weight - log_prior);
@@ -133,7 +133,7 @@ SemanticMap SemanticGrid::map() const {
     cell.confidence = 1 / sum;
     if (static_cast<double>(cell.confidence) >= options_.min_confidence &&
         static_cast<double>(cell.weight) >= options_.min_weight &&
-        cell.sights >= options_.min_sights)
+        cell.observations >= options_.min_observations)
       cell.label = static_cast<int>(best - odds);
     map.cells.push_back(cell);
     map.log_odds.insert(map.log_odds.end(), odds, odds + n);

@@ -29,7 +29,7 @@ struct CalibrationYaml {
   DepthYaml depth;
 
   /// Of eyes that are not rectified, which other programs' forms tell.
-  std::optional<RightEye> right;
+  std::optional<RightCamera> right;
 
   RawCamera camera() const;
   DepthCamera depth_camera() const;

@@ -82,12 +82,12 @@ DataNote of_scale(std::string text) { return {std::move(text), true}; }
 
 void add_principal_point(const Camera& camera, std::vector<DataNote>& notes) {
   const double x = camera.cx / (camera.width - 1), y = camera.cy / (camera.height - 1);
-  const bool alike = std::abs(std::log(x / y)) < std::log(1.25);
+  const bool similar = std::abs(std::log(x / y)) < std::log(1.25);
   const std::string where = fmt::format(
       "the principal point ({:.5g}, {:.5g}) lies at {:.0f} % of the width and {:.0f} % of "
       "the height of {}x{} images",
       camera.cx, camera.cy, 100 * x, 100 * y, camera.width, camera.height);
-  if (x > 0 && y > 0 && alike && (std::min(x, y) > 0.75 || std::max(x, y) < 0.3)) {
+  if (x > 0 && y > 0 && similar && (std::min(x, y) > 0.75 || std::max(x, y) < 0.3)) {
     notes.push_back(of_scale(fmt::format(
         "{}: the calibration looks like one of images of about {:.0f}x{:.0f}; scale fx, fy, cx and "
         "cy by {:.3g}, or use images of that size",

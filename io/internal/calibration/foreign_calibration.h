@@ -10,7 +10,7 @@ namespace placegraph {
 struct ForeignCalibration {
   std::string program;            ///< "OpenCV", "ROS", "Kalibr", "ORB-SLAM", "RealSense", "COLMAP"
   RawCamera raw;                  ///< width and height 0 where the file does not tell them
-  std::optional<RightEye> right;  ///< of eyes that are not rectified
+  std::optional<RightCamera> right;  ///< of eyes that are not rectified
   double baseline_m = 0;          ///< of rectified eyes; 0: not told
   double fps = 0;
   double depth_unit_m = 0;  ///< metres of one step of depth images; 0: not told

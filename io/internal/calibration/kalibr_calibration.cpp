@@ -48,7 +48,7 @@ ForeignCalibration read_kalibr(const YamlDocument& yaml, bool with_right) {
   result.raw = read_kalibr_camera(reader, yaml.root()["cam0"]);
   if (const YAML::Node cam1 = yaml.root()["cam1"]; with_right && cam1.IsDefined()) {
     if (!cam1.IsMap()) reader.fail(cam1, "cam1: is no camera");
-    result.right = RightEye{read_kalibr_camera(reader, cam1), chain_T_left_right(reader, cam1)};
+    result.right = RightCamera{read_kalibr_camera(reader, cam1), chain_T_left_right(reader, cam1)};
   }
   return result;
 }

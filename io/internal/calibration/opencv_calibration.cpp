@@ -66,7 +66,7 @@ std::optional<ForeignCalibration> read_stereo(const YamlDocument& yaml, bool wit
   if (!with_right) return result;
   const YAML::Node K2 = first_of(root, {"K2", "M2", "cameraMatrix2", "camera_matrix_2"});
   if (!K2.IsDefined()) reader.fail(root, "K2: is missing, the camera of the images in right/");
-  result.right = RightEye{
+  result.right = RightCamera{
       read_opencv_camera(reader, root, K2, first_of(root, {"D2", "distCoeffs2", "dist_coeffs_2"})),
       stereo_T_left_right(reader, root)};
   return result;

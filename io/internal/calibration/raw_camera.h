@@ -28,7 +28,7 @@ struct RawCamera {
 };
 
 /// A right eye as its images come, and where it is.
-struct RightEye {
+struct RightCamera {
   RawCamera raw;
   SE3 T_left_right;
 };

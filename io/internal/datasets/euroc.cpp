@@ -167,7 +167,7 @@ void take_pairs(const ImageList& left, const ImageList& right, RecordedSequence&
 }
 
 /// Fills cameras and images; returns T_body_cam of the left camera as handed over.
-SE3 read_mav_eyes(const fs::path& mav, RecordedSequence& sequence) {
+SE3 read_mav_cameras(const fs::path& mav, RecordedSequence& sequence) {
   const ImageList left_images = read_list(mav / "cam0");
   const BodyCamera left = read_sensor(mav / "cam0");
   sequence.raw_camera = left.camera;
@@ -218,7 +218,7 @@ EurocBody open_euroc_body(const std::string& folder) {
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
   sequence.format = "euroc";
-  const SE3 T_body_cam = read_mav_eyes(mav, sequence);
+  const SE3 T_body_cam = read_mav_cameras(mav, sequence);
 
   const fs::path truth = mav / "state_groundtruth_estimate0" / "data.csv";
   if (fs::exists(truth)) {

@@ -84,7 +84,7 @@ void read_ground_truth(const fs::path& path, const SE3& T_left_rectified,
 }
 
 /// One eye, or a rectified pair whose distance `yaml` tells.
-void take_eyes(const std::string& yaml_path, const CalibrationYaml& yaml, const fs::path& folder,
+void take_cameras(const std::string& yaml_path, const CalibrationYaml& yaml, const fs::path& folder,
                RecordedSequence& sequence) {
   const UndistortedCamera undistorted = undistort_plausibly(yaml_path, yaml.camera());
   sequence.calibration.camera = undistorted.camera;
@@ -95,7 +95,7 @@ void take_eyes(const std::string& yaml_path, const CalibrationYaml& yaml, const 
 }
 
 /// A pair that is rectified here; returns T_left_rectified.
-SE3 take_raw_eyes(const std::string& yaml_path, const CalibrationYaml& yaml, const fs::path& folder,
+SE3 take_raw_cameras(const std::string& yaml_path, const CalibrationYaml& yaml, const fs::path& folder,
                   RecordedSequence& sequence) {
   require_plausible_camera(yaml_path, yaml.camera());
   require_plausible_camera(yaml_path, yaml.right->raw);
@@ -150,9 +150,9 @@ std::unique_ptr<Dataset> open_image_folder(const std::string& folder) {
   sequence.raw_camera = yaml.camera().camera;
   SE3 T_left_rectified;
   if (yaml.right)
-    T_left_rectified = take_raw_eyes(yaml_path, yaml, path, sequence);
+    T_left_rectified = take_raw_cameras(yaml_path, yaml, path, sequence);
   else
-    take_eyes(yaml_path, yaml, path, sequence);
+    take_cameras(yaml_path, yaml, path, sequence);
   if (yaml.camera_height_m > 0) sequence.calibration.camera_height_m = yaml.camera_height_m;
   take_depth(yaml, path, sequence);
   if (fs::exists(path / "times.txt")) {

@@ -64,25 +64,25 @@ void set_size(const std::string& first_image, const Image& image, Camera& camera
   }
 }
 
-KittiEyes read_kitti_eyes(const std::string& path, int left, bool with_right) {
+KittiCameras read_kitti_cameras(const std::string& path, int left, bool with_right) {
   const auto lines = read_kitti_lines(path, {{"P0", 12}, {"P1", 12}, {"P2", 12}, {"P3", 12}});
   const std::string left_key = fmt::format("P{}", left), right_key = fmt::format("P{}", left + 1);
   const auto P_left = lines.find(left_key), P_right = lines.find(right_key);
   if (P_left == lines.end()) throw FileError(path, "has no line " + left_key + ":");
-  KittiEyes eyes;
-  eyes.camera = kitti_camera(path, left_key, P_left->second);
-  eyes.position_in_cam0 = kitti_position(P_left->second);
-  if (!with_right || P_right == lines.end()) return eyes;
+  KittiCameras kitti_cameras;
+  kitti_cameras.camera = kitti_camera(path, left_key, P_left->second);
+  kitti_cameras.position_in_cam0 = kitti_position(P_left->second);
+  if (!with_right || P_right == lines.end()) return kitti_cameras;
   const Camera right = kitti_camera(path, right_key, P_right->second);
-  if (right.fx != eyes.camera.fx || right.fy != eyes.camera.fy || right.cx != eyes.camera.cx ||
-      right.cy != eyes.camera.cy)
+  if (right.fx != kitti_cameras.camera.fx || right.fy != kitti_cameras.camera.fy || right.cx != kitti_cameras.camera.cx ||
+      right.cy != kitti_cameras.camera.cy)
     throw FileError(path, P_right->second.line,
                     right_key + ": has other intrinsics than " + left_key + ": not rectified");
-  eyes.baseline_m = (P_left->second.numbers[3] - P_right->second.numbers[3]) / eyes.camera.fx;
-  if (!(eyes.baseline_m > 0))
+  kitti_cameras.baseline_m = (P_left->second.numbers[3] - P_right->second.numbers[3]) / kitti_cameras.camera.fx;
+  if (!(kitti_cameras.baseline_m > 0))
     throw FileError(path, P_right->second.line,
-                    fmt::format("{}: baseline is {} m, not positive", right_key, eyes.baseline_m));
-  return eyes;
+                    fmt::format("{}: baseline is {} m, not positive", right_key, kitti_cameras.baseline_m));
+  return kitti_cameras;
 }
 
 KittiCalibration read_kitti_calibration(const std::string& path) {

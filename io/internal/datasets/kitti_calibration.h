@@ -32,14 +32,14 @@ void set_size(const std::string& first_image, const Image& image, Camera& camera
 
 /// The rectified cameras `left` and `left + 1` of a calib.txt or calib_cam_to_cam.txt; the image
 /// size is not among it and left 0.
-struct KittiEyes {
+struct KittiCameras {
   Camera camera;
   double baseline_m = 0;                                       ///< 0 without a right eye
   Eigen::Vector3d position_in_cam0 = Eigen::Vector3d::Zero();  ///< of the left eye, rectified
 };
 /// `with_right`: there are images of a right eye. Throws FileError for a file without the left
 /// camera, a right eye with other intrinsics, or one that is not to the right.
-KittiEyes read_kitti_eyes(const std::string& path, int left, bool with_right);
+KittiCameras read_kitti_cameras(const std::string& path, int left, bool with_right);
 
 /// What the lines P0 and P1 of a calib.txt say; the image size is not among it and left 0.
 struct KittiCalibration {

@@ -17,7 +17,7 @@ namespace placegraph {
 namespace fs = std::filesystem;
 namespace {
 
-fs::path eye_folder(const fs::path& drive, int camera) {
+fs::path camera_folder(const fs::path& drive, int camera) {
   return drive / fmt::format("image_{:02d}", camera);
 }
 
@@ -46,9 +46,9 @@ std::string calibration_file(const fs::path& drive) {
 /// Images of both eyes by their numbers; those of one eye alone are counted.
 void take_images(const fs::path& drive, int left, bool has_right, RecordedSequence& sequence,
                  std::vector<std::int64_t>& numbers) {
-  const auto lefts = numbered_images(eye_folder(drive, left) / "data");
+  const auto lefts = numbered_images(camera_folder(drive, left) / "data");
   std::map<std::int64_t, std::string> rights;
-  if (has_right) rights = numbered_images(eye_folder(drive, left + 1) / "data");
+  if (has_right) rights = numbered_images(camera_folder(drive, left + 1) / "data");
   for (const auto& [number, path] : lefts) {
     if (has_right && !rights.contains(number)) continue;
     sequence.left.push_back(path);
@@ -68,7 +68,7 @@ void take_images(const fs::path& drive, int left, bool has_right, RecordedSequen
 /// The images' times from the first image on, by their numbers, which are those of the lines.
 void take_times(const fs::path& drive, int left, const std::vector<std::int64_t>& numbers,
                 RecordedSequence& sequence) {
-  const fs::path path = eye_folder(drive, left) / "timestamps.txt";
+  const fs::path path = camera_folder(drive, left) / "timestamps.txt";
   if (!fs::exists(path)) {
     sequence.stamps_ns = synthetic_stamps_ns(numbers.size());
     sequence.notes.push_back(
@@ -121,30 +121,30 @@ void take_truth(const fs::path& path, const Eigen::Vector3d& position_in_cam0,
 }  // namespace
 
 bool is_kitti_drive(const std::string& folder) {
-  return fs::is_directory(eye_folder(folder, 0) / "data") ||
-         fs::is_directory(eye_folder(folder, 2) / "data");
+  return fs::is_directory(camera_folder(folder, 0) / "data") ||
+         fs::is_directory(camera_folder(folder, 2) / "data");
 }
 
 std::unique_ptr<Dataset> open_kitti_drive(const std::string& folder) {
   const fs::path drive(folder);
-  const int left = fs::is_directory(eye_folder(drive, 0) / "data") ? 0 : 2;
+  const int left = fs::is_directory(camera_folder(drive, 0) / "data") ? 0 : 2;
   const std::string calibration = calibration_file(drive);
-  const KittiEyes eyes =
-      read_kitti_eyes(calibration, left, fs::is_directory(eye_folder(drive, left + 1) / "data"));
+  const KittiCameras kitti_cameras =
+      read_kitti_cameras(calibration, left, fs::is_directory(camera_folder(drive, left + 1) / "data"));
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
   sequence.format = "kitti_raw";
   std::vector<std::int64_t> numbers;
-  take_images(drive, left, eyes.baseline_m > 0, sequence, numbers);
+  take_images(drive, left, kitti_cameras.baseline_m > 0, sequence, numbers);
   take_times(drive, left, numbers, sequence);
   const Image first = read_image(sequence.left[0]).grey;
   require_rectified(calibration, left, sequence.left[0], first);
-  sequence.calibration.camera = eyes.camera;
+  sequence.calibration.camera = kitti_cameras.camera;
   set_size(sequence.left[0], first, sequence.calibration.camera);
   require_plausible_camera(calibration, sequence.calibration.camera);
   sequence.raw_camera = sequence.calibration.camera;
-  sequence.calibration.baseline_m = eyes.baseline_m;
-  take_truth(drive / "poses.txt", eyes.position_in_cam0, numbers, sequence);
+  sequence.calibration.baseline_m = kitti_cameras.baseline_m;
+  take_truth(drive / "poses.txt", kitti_cameras.position_in_cam0, numbers, sequence);
   return make_dataset(std::move(sequence));
 }
 

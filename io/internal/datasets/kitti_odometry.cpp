@@ -24,22 +24,22 @@ void require_count(const std::string& path, std::size_t found, std::size_t image
 
 /// The left eye (image_0, else image_2) and, where calibrated, the right one (image_1 / image_3).
 /// Returns the left camera's position in the frame of camera 0, which ground truth refers to.
-Eigen::Vector3d read_eyes(const fs::path& folder, RecordedSequence& sequence) {
+Eigen::Vector3d read_cameras(const fs::path& folder, RecordedSequence& sequence) {
   const int left = fs::is_directory(folder / "image_0") ? 0 : 2;
   const fs::path right_folder = folder / fmt::format("image_{}", left + 1);
-  const KittiEyes eyes =
-      read_kitti_eyes((folder / "calib.txt").string(), left, fs::is_directory(right_folder));
+  const KittiCameras kitti_cameras =
+      read_kitti_cameras((folder / "calib.txt").string(), left, fs::is_directory(right_folder));
   sequence.left = list_numbered_images((folder / fmt::format("image_{}", left)).string());
-  sequence.calibration.camera = eyes.camera;
+  sequence.calibration.camera = kitti_cameras.camera;
   set_size(sequence.left[0], read_image(sequence.left[0]).grey, sequence.calibration.camera);
   require_plausible_camera((folder / "calib.txt").string(), sequence.calibration.camera);
   sequence.raw_camera = sequence.calibration.camera;
-  if (eyes.baseline_m > 0) {
+  if (kitti_cameras.baseline_m > 0) {
     sequence.right = list_numbered_images(right_folder.string());
     require_count(right_folder.string(), sequence.right.size(), sequence.left.size());
-    sequence.calibration.baseline_m = eyes.baseline_m;
+    sequence.calibration.baseline_m = kitti_cameras.baseline_m;
   }
-  return eyes.position_in_cam0;
+  return kitti_cameras.position_in_cam0;
 }
 
 /// depth_0, with its own camera in calib_depth.txt; without that file it is registered to the left
@@ -129,7 +129,7 @@ std::unique_ptr<Dataset> open_kitti_odometry(const std::string& folder) {
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
   sequence.format = "kitti";
-  const Eigen::Vector3d position_in_cam0 = read_eyes(path, sequence);
+  const Eigen::Vector3d position_in_cam0 = read_cameras(path, sequence);
   read_depth_camera(path, sequence);
   if (fs::exists(path / "times.txt")) {
     sequence.stamps_ns = read_times((path / "times.txt").string());

@@ -54,11 +54,11 @@ class RecordedDataset : public Dataset {
     Frame frame;
     frame.id = FrameId(index);
     frame.stamp_ns = s_.stamps_ns[index];
-    const GreyAndColour left = read_eye(s_.left[index], s_.left_remap);
+    const GreyAndColour left = read_camera_images(s_.left[index], s_.left_remap);
     frame.image = left.grey;
     frame.colour = left.colour;
     if (sensor == Sensor::kStereo) {
-      frame.right = read_eye(s_.right[index], s_.right_remap).grey;
+      frame.right = read_camera_images(s_.right[index], s_.right_remap).grey;
     }
     if (sensor == Sensor::kRgbd) {
       const Camera& camera = s_.calibration.depth->camera;
@@ -75,7 +75,7 @@ class RecordedDataset : public Dataset {
     throw ArgumentError(fmt::format("{}: frame {} of {}", s_.name, index, size()));
   }
 
-  GreyAndColour read_eye(const std::string& path, const Remap& remap) const {
+  GreyAndColour read_camera_images(const std::string& path, const Remap& remap) const {
     GreyAndColour eye = read_image(path, bits_);
     require_size(path, eye.grey, s_.raw_camera.width, s_.raw_camera.height);
     if (remap.is_identity()) return eye;

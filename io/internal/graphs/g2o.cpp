@@ -87,12 +87,12 @@ bool parse_landmark_line(const TextFile& file, const Fields& fields, PoseGraphBu
     builder.require_near(position);
     Information information = Information::Zero(3, 3);
     information.topLeftCorner<2, 2>() = builder.symmetric(fields, 5, 2);
-    lines.add_sight(fields[1], fields[2], position, builder.plausible(information), true);
+    lines.add_observation(fields[1], fields[2], position, builder.plausible(information), true);
   } else if (tag == "EDGE_SE3_TRACKXYZ") {
     builder.require_count(fields, 12);
     const Eigen::Vector3d position = parse_point(file, fields, 4, 3);
     builder.require_near(position);
-    lines.add_sight(fields[1], fields[2], position,
+    lines.add_observation(fields[1], fields[2], position,
                     builder.plausible(builder.symmetric(fields, 7, 3)), false, fields[3]);
   } else {
     return false;
@@ -203,11 +203,11 @@ void format_prior(Buffer out, const PosePriorConstraint& prior) {
   format_information(out, prior.information, planar ? 3 : 6);
 }
 
-void format_sight(Buffer out, const PointSight& sight, bool planar) {
-  fmt::format_to(out, "{} {} {}{}", planar ? "EDGE_SE2_XY" : "EDGE_SE3_TRACKXYZ", sight.node,
-                 sight.point, planar ? "" : " 0");
-  format_point(out, sight.position_node, planar);
-  format_information(out, sight.information, planar ? 2 : 3);
+void format_observation(Buffer out, const PointObservation& observation, bool planar) {
+  fmt::format_to(out, "{} {} {}{}", planar ? "EDGE_SE2_XY" : "EDGE_SE3_TRACKXYZ", observation.node,
+                 observation.point, planar ? "" : " 0");
+  format_point(out, observation.position_node, planar);
+  format_information(out, observation.information, planar ? 2 : 3);
 }
 
 void format_poses(Buffer out, const PoseGraph& graph) {
@@ -238,7 +238,7 @@ void format_beside_poses(Buffer out, const LandmarkGraph& graph) {
   for (const GraphPoint& point : graph.points)
     if (point.fixed) fmt::format_to(out, "FIX {}\n", point.id);
   for (const PosePriorConstraint& prior : graph.priors) format_prior(out, prior);
-  for (const PointSight& sight : graph.sights) format_sight(out, sight, planar);
+  for (const PointObservation& observation : graph.observations) format_observation(out, observation, planar);
 }
 
 void write_text(const std::string& path, const fmt::memory_buffer& text) {

@@ -22,12 +22,12 @@ PosePriorConstraint of_node(PosePriorConstraint prior, const SE3& T_node_sensor)
   return prior;
 }
 
-PointSight of_node(PointSight sight, const SE3& T_node_sensor) {
+PointObservation of_node(PointObservation observation, const SE3& T_node_sensor) {
   const Eigen::Matrix3d R = T_node_sensor.rotation().matrix();
-  sight.position_node = T_node_sensor * sight.position_node;
-  const Eigen::Matrix3d information = R * sight.information * R.transpose();
-  sight.information = 0.5 * (information + information.transpose());
-  return sight;
+  observation.position_node = T_node_sensor * observation.position_node;
+  const Eigen::Matrix3d information = R * observation.information * R.transpose();
+  observation.information = 0.5 * (information + information.transpose());
+  return observation;
 }
 
 Eigen::Vector3d seen_from(const Pose& T_world_node, const Eigen::Vector3d& position_node) {
@@ -46,7 +46,7 @@ int LandmarkLines::first_line() const {
   std::vector<int> lines;
   if (!priors_.empty()) lines.push_back(priors_.front().line);
   if (!points_.empty()) lines.push_back(points_.front().line);
-  if (!sights_.empty()) lines.push_back(sights_.front().line);
+  if (!observations_.empty()) lines.push_back(observations_.front().line);
   return *std::ranges::min_element(lines);
 }
 
@@ -68,10 +68,10 @@ void LandmarkLines::add_point(std::string_view id, const Eigen::Vector3d& positi
       {{NodeId(file_->integer(id, "id")), position_world, false}, file_->line(), planar});
 }
 
-void LandmarkLines::add_sight(std::string_view node, std::string_view point,
+void LandmarkLines::add_observation(std::string_view node, std::string_view point,
                               const Eigen::Vector3d& position, const Eigen::Matrix3d& information,
                               bool planar, std::string_view offset) {
-  sights_.push_back({{NodeId(file_->integer(node, "id")), NodeId(file_->integer(point, "id")),
+  observations_.push_back({{NodeId(file_->integer(node, "id")), NodeId(file_->integer(point, "id")),
                       position, information},
                      file_->line(),
                      planar,
@@ -127,20 +127,20 @@ void LandmarkLines::add_to(LandmarkGraph& graph) const {
       fail(point.line, fmt::format("vertex {} is there twice", point.point.id));
     graph.points.push_back(point.point);
   }
-  for (const Sight& sight : sights_) {
-    require_planar(sight.planar, sight.line);
-    const int node = node_at(sight.sight.node, sight.line);
-    const SE3 T = T_node_sensor(sight.offset, sight.line);
-    const PointSight seen = is_identity(T) ? sight.sight : of_node(sight.sight, T);
+  for (const Observation& observation : observations_) {
+    require_planar(observation.planar, observation.line);
+    const int node = node_at(observation.observation.node, observation.line);
+    const SE3 T = T_node_sensor(observation.offset, observation.line);
+    const PointObservation seen = is_identity(T) ? observation.observation : of_node(observation.observation, T);
     if (nodes.contains(seen.point))
-      fail(sight.line, fmt::format("vertex {} is a pose, not a point", seen.point));
+      fail(observation.line, fmt::format("vertex {} is a pose, not a point", seen.point));
     if (point_of.emplace(seen.point, graph.points.size()).second)
       graph.points.push_back(
           {seen.point,
            seen_from(graph.poses.nodes[static_cast<std::size_t>(node)].T_world_node,
                      seen.position_node),
            false});
-    graph.sights.push_back(seen);
+    graph.observations.push_back(seen);
   }
 }
 

@@ -16,7 +16,7 @@ class LandmarkLines {
  public:
   explicit LandmarkLines(const TextFile& file) : file_(&file) {}
 
-  bool empty() const { return priors_.empty() && points_.empty() && sights_.empty(); }
+  bool empty() const { return priors_.empty() && points_.empty() && observations_.empty(); }
   /// Of the first one; precondition: there is one.
   int first_line() const;
 
@@ -27,7 +27,7 @@ class LandmarkLines {
                  std::string_view offset = {});
   void add_point(std::string_view id, const Eigen::Vector3d& position_world, bool planar);
   /// A point as a node, or a sensor on it, sees it.
-  void add_sight(std::string_view node, std::string_view point, const Eigen::Vector3d& position,
+  void add_observation(std::string_view node, std::string_view point, const Eigen::Vector3d& position,
                  const Eigen::Matrix3d& information, bool planar, std::string_view offset = {});
 
   /// Fixes the point of this id, if there is one.
@@ -49,8 +49,8 @@ class LandmarkLines {
     int line;
     bool planar;
   };
-  struct Sight {
-    PointSight sight;
+  struct Observation {
+    PointObservation observation;
     int line;
     bool planar;
     std::string offset;
@@ -61,7 +61,7 @@ class LandmarkLines {
   std::map<std::string, SE3> offsets_;
   std::vector<Prior> priors_;
   std::vector<Point> points_;
-  std::vector<Sight> sights_;
+  std::vector<Observation> observations_;
 };
 
 }  // namespace placegraph

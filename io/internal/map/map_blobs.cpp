@@ -66,8 +66,8 @@ void BlobWriter::view(const PlaceView& view) {
   grid(view.colour);
   grid(view.gabor);
   grid(view.coarse);
-  number(static_cast<std::uint32_t>(view.glance.size()));
-  for (const std::int16_t value : view.glance) number(value);
+  number(static_cast<std::uint32_t>(view.thumbnail.size()));
+  for (const std::int16_t value : view.thumbnail) number(value);
   number(static_cast<std::uint32_t>(view.corners.size()));
   features(view.corners);
 }
@@ -194,10 +194,10 @@ PlaceView BlobReader::view() {
   view.colour = grid();
   view.gabor = grid();
   view.coarse = grid();
-  const auto glance = number<std::uint32_t>();
-  require_left(glance, sizeof(std::int16_t));
-  view.glance.resize(glance);
-  for (std::int16_t& value : view.glance) value = number<std::int16_t>();
+  const auto thumbnail = number<std::uint32_t>();
+  require_left(thumbnail, sizeof(std::int16_t));
+  view.thumbnail.resize(thumbnail);
+  for (std::int16_t& value : view.thumbnail) value = number<std::int16_t>();
   view.corners = features(number<std::uint32_t>());
   return view;
 }

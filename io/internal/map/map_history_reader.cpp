@@ -9,22 +9,22 @@ namespace {
 
 void read_links(SqliteDatabase& database, StoredMap& stored) {
   {
-    auto& measured = stored.history.unit_measured;
-    SqliteRows runs(database, "run", "number, unit_measured");
-    while (runs.next()) {
-      require_next(runs, measured.size());
-      measured.push_back(runs.integer(1, 0, 1) == 1);
+    auto& measured = stored.history.scale_measured;
+    SqliteRows track_segments(database, "run", "number, unit_measured");
+    while (track_segments.next()) {
+      require_next(track_segments, measured.size());
+      measured.push_back(track_segments.integer(1, 0, 1) == 1);
     }
   }
-  const auto runs = static_cast<std::int64_t>(stored.history.unit_measured.size());
+  const auto track_segments = static_cast<std::int64_t>(stored.history.scale_measured.size());
   SqliteRows rows(database, "link",
                   "keyframe, part, run, from_keyframe, T_from_this, information, source, "
                   "sigma_log_scale, scale");
   while (rows.next()) {
     PlaceHistory::Keyframe keyframe;
     keyframe.id = keyframe_of(stored, rows, rows.integer(0), "keyframe").id;
-    keyframe.part = keyframe_of(stored, rows, rows.integer(1), "part").id;
-    keyframe.run = static_cast<int>(rows.integer(2, 0, runs - 1));
+    keyframe.segment = keyframe_of(stored, rows, rows.integer(1), "part").id;
+    keyframe.track_segment = static_cast<int>(rows.integer(2, 0, track_segments - 1));
     if (!rows.is_null(3)) {
       KeyframeLink& link = keyframe.link.emplace();
       link.from = keyframe_of(stored, rows, rows.integer(3), "from_keyframe").id;
@@ -40,18 +40,18 @@ void read_links(SqliteDatabase& database, StoredMap& stored) {
 }
 
 std::set<KeyframeId> read_parts(SqliteDatabase& database, StoredMap& stored) {
-  std::set<KeyframeId> parts;
+  std::set<KeyframeId> segments;
   PlaceHistory& history = stored.history;
   SqliteRows rows(database, "part", "anchor, place, S_place_part, covariance, motion_covariance");
   while (rows.next()) {
-    PlaceHistory::Part& part = history.parts.emplace_back();
-    part.anchor = keyframe_of(stored, rows, rows.integer(0), "anchor").id;
-    part.place = place_of(stored, rows, rows.integer(1), "place").id;
-    part.S_place_part = similarity_column(rows, 2, "S_place_part");
-    part.covariance = symmetric_column(rows, 3, "covariance", 7);
+    PlaceHistory::Segment& segment = history.segments.emplace_back();
+    segment.anchor = keyframe_of(stored, rows, rows.integer(0), "anchor").id;
+    segment.place = place_of(stored, rows, rows.integer(1), "place").id;
+    segment.S_place_segment = similarity_column(rows, 2, "S_place_part");
+    segment.covariance = symmetric_column(rows, 3, "covariance", 7);
     if (!rows.is_null(4))
-      part.motion_covariance = symmetric_column(rows, 4, "motion_covariance", 6);
-    parts.insert(part.anchor);
+      segment.motion_covariance = symmetric_column(rows, 4, "motion_covariance", 6);
+    segments.insert(segment.anchor);
   }
   const std::size_t keyframes = stored.map.keyframes.size();
   if (!history.keyframes.empty() && history.keyframes.size() != keyframes)
@@ -59,12 +59,12 @@ std::set<KeyframeId> read_parts(SqliteDatabase& database, StoredMap& stored) {
                                          " rows for " + std::to_string(keyframes) + " keyframes");
   SqliteRows links(database, "link", "keyframe, part");
   while (links.next())
-    if (!parts.count(KeyframeId(links.integer(1))))
+    if (!segments.count(KeyframeId(links.integer(1))))
       links.refuse("part " + std::to_string(links.integer(1)) + " is no part of the map");
-  return parts;
+  return segments;
 }
 
-void read_motions(SqliteDatabase& database, StoredMap& stored, const std::set<KeyframeId>& parts) {
+void read_motions(SqliteDatabase& database, StoredMap& stored, const std::set<KeyframeId>& segments) {
   PlaceHistory& history = stored.history;
   SqliteRows motions(database, "motion", "number, from_part, to_part, T_from_to, covariance");
   while (motions.next()) {
@@ -72,7 +72,7 @@ void read_motions(SqliteDatabase& database, StoredMap& stored, const std::set<Ke
     PlaceHistory::Motion& motion = history.motions.emplace_back();
     motion.from = KeyframeId(motions.integer(1));
     motion.to = KeyframeId(motions.integer(2));
-    if (!parts.count(motion.from) || !parts.count(motion.to))
+    if (!segments.count(motion.from) || !segments.count(motion.to))
       motions.refuse("its ends are no parts of the map");
     motion.T_from_to = pose_column(motions, 3, "T_from_to");
     motion.covariance = symmetric_column(motions, 4, "covariance", 6);
@@ -90,7 +90,7 @@ void read_motions(SqliteDatabase& database, StoredMap& stored, const std::set<Ke
   }
 }
 
-void read_mergers(SqliteDatabase& database, StoredMap& stored, const std::set<KeyframeId>& parts) {
+void read_mergers(SqliteDatabase& database, StoredMap& stored, const std::set<KeyframeId>& segments) {
   PlaceHistory& history = stored.history;
   {
     SqliteRows rows(database, "merged", "number, anchor");
@@ -98,30 +98,30 @@ void read_mergers(SqliteDatabase& database, StoredMap& stored, const std::set<Ke
       require_next(rows, history.merged.size());
       const KeyframeId anchor(rows.integer(1));
       history.merged.push_back({anchor, {}});
-      if (!parts.count(anchor)) rows.refuse("anchor is no part of the map");
+      if (!segments.count(anchor)) rows.refuse("anchor is no part of the map");
     }
   }
   const auto mergers = static_cast<std::int64_t>(history.merged.size());
   SqliteRows rows(database, "merged_part", "number, merged, part, covariance");
   while (rows.next()) {
-    const KeyframeId part(rows.integer(2));
-    if (!parts.count(part)) rows.refuse("part " + to_string(part) + " is none of the map");
+    const KeyframeId segment(rows.integer(2));
+    if (!segments.count(segment)) rows.refuse("part " + to_string(segment) + " is none of the map");
     history.merged[static_cast<std::size_t>(rows.integer(1, 0, mergers - 1))]
-        .covariance_of_part[part] = symmetric_column(rows, 3, "covariance", 7);
+        .covariance_of_segment[segment] = symmetric_column(rows, 3, "covariance", 7);
   }
-  SqliteRows parted(database, "parted", "number, one, other");
-  while (parted.next())
-    history.parted.emplace(keyframe_of(stored, parted, parted.integer(1), "one").id,
-                           keyframe_of(stored, parted, parted.integer(2), "other").id);
+  SqliteRows separated(database, "parted", "number, one, other");
+  while (separated.next())
+    history.separated.emplace(keyframe_of(stored, separated, separated.integer(1), "one").id,
+                           keyframe_of(stored, separated, separated.integer(2), "other").id);
 }
 
 }  // namespace
 
 void read_history(SqliteDatabase& database, StoredMap& stored) {
   read_links(database, stored);
-  const std::set<KeyframeId> parts = read_parts(database, stored);
-  read_motions(database, stored, parts);
-  read_mergers(database, stored, parts);
+  const std::set<KeyframeId> segments = read_parts(database, stored);
+  read_motions(database, stored, segments);
+  read_mergers(database, stored, segments);
 }
 
 }  // namespace placegraph

@@ -6,20 +6,20 @@ namespace placegraph {
 
 MapHistoryWriter::MapHistoryWriter(SqliteDatabase& database)
     : links_(database, "link", "keyframe", 9),
-      parts_(database, "part", "anchor", 5),
+      segments_(database, "part", "anchor", 5),
       motions_(database, "motion", "number", 5),
       revisits_(database, "revisit", "number", 5),
-      runs_(database, "run", "number", 2),
+      track_segments_(database, "run", "number", 2),
       merged_(database, "merged", "number", 2),
-      merged_parts_(database, "merged_part", "number", 4),
-      parted_(database, "parted", "number", 3) {
+      merged_segments_(database, "merged_part", "number", 4),
+      separated_(database, "parted", "number", 3) {
   merged_.take_keys(database, "number merged");
-  merged_parts_.take_keys(database, "number merged_part");
+  merged_segments_.take_keys(database, "number merged_part");
 }
 
 void MapHistoryWriter::put(const PlaceHistory& history) {
   put_keyframes(history);
-  put_parts(history);
+  put_segments(history);
   put_motions(history);
   put_mergers(history);
 }
@@ -27,7 +27,7 @@ void MapHistoryWriter::put(const PlaceHistory& history) {
 void MapHistoryWriter::put_keyframes(const PlaceHistory& history) {
   for (const PlaceHistory::Keyframe& keyframe : history.keyframes) {
     MapRow row;
-    row.id(keyframe.part).integer(keyframe.run);
+    row.id(keyframe.segment).integer(keyframe.track_segment);
     if (const auto& link = keyframe.link)
       row.id(link->from)
           .pose(link->T_from_this)
@@ -41,32 +41,32 @@ void MapHistoryWriter::put_keyframes(const PlaceHistory& history) {
   }
 }
 
-void MapHistoryWriter::put_parts(const PlaceHistory& history) {
-  for (const PlaceHistory::Part& part : history.parts) {
-    std::string S_place_part;
-    BlobWriter(S_place_part).similarity(part.S_place_part);
+void MapHistoryWriter::put_segments(const PlaceHistory& history) {
+  for (const PlaceHistory::Segment& segment : history.segments) {
+    std::string S_place_segment;
+    BlobWriter(S_place_segment).similarity(segment.S_place_segment);
     MapRow row;
-    row.id(part.place).blob(S_place_part).symmetric(part.covariance);
-    part.motion_covariance ? row.symmetric(*part.motion_covariance) : row.null();
-    parts_.put(part.anchor.value(), row);
+    row.id(segment.place).blob(S_place_segment).symmetric(segment.covariance);
+    segment.motion_covariance ? row.symmetric(*segment.motion_covariance) : row.null();
+    segments_.put(segment.anchor.value(), row);
   }
 }
 
 void MapHistoryWriter::put_mergers(const PlaceHistory& history) {
-  std::int64_t number = 0, part_number = 0;
-  std::set<std::int64_t> kept, parts_kept;
+  std::int64_t number = 0, segment_number = 0;
+  std::set<std::int64_t> kept, segments_kept;
   for (const PlaceHistory::Merged& merger : history.merged) {
-    for (const auto& [part, covariance] : merger.covariance_of_part) {
-      parts_kept.insert(part_number);
-      merged_parts_.put(part_number++, MapRow().integer(number).id(part).symmetric(covariance));
+    for (const auto& [segment, covariance] : merger.covariance_of_segment) {
+      segments_kept.insert(segment_number);
+      merged_segments_.put(segment_number++, MapRow().integer(number).id(segment).symmetric(covariance));
     }
     kept.insert(number);
     merged_.put(number++, MapRow().id(merger.anchor));
   }
   merged_.keep(kept);
-  merged_parts_.keep(parts_kept);
+  merged_segments_.keep(segments_kept);
   number = 0;
-  for (const auto& [one, other] : history.parted) parted_.put(number++, MapRow().id(one).id(other));
+  for (const auto& [one, other] : history.separated) separated_.put(number++, MapRow().id(one).id(other));
 }
 
 void MapHistoryWriter::put_motions(const PlaceHistory& history) {
@@ -84,7 +84,7 @@ void MapHistoryWriter::put_motions(const PlaceHistory& history) {
         MapRow().id(loop.query).id(loop.match).blob(S_match_query).symmetric(loop.information));
   }
   number = 0;
-  for (const bool measured : history.unit_measured) runs_.put(number++, MapRow().integer(measured));
+  for (const bool measured : history.scale_measured) track_segments_.put(number++, MapRow().integer(measured));
 }
 
 }  // namespace placegraph

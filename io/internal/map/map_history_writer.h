@@ -14,11 +14,11 @@ class MapHistoryWriter {
 
  private:
   void put_keyframes(const PlaceHistory& history);
-  void put_parts(const PlaceHistory& history);
+  void put_segments(const PlaceHistory& history);
   void put_motions(const PlaceHistory& history);
   void put_mergers(const PlaceHistory& history);
 
-  MapTable links_, parts_, motions_, revisits_, runs_, merged_, merged_parts_, parted_;
+  MapTable links_, segments_, motions_, revisits_, track_segments_, merged_, merged_segments_, separated_;
 };
 
 }  // namespace placegraph

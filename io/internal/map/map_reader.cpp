@@ -159,12 +159,12 @@ void MapReader::read_views() {
     view = decoded(rows, rows.blob(1), "data", [](BlobReader& reader) { return reader.view(); });
     if (view.empty() || view.coarse.empty()) rows.refuse("data: a view without cues");
     if (!first) first = &view;
-    const bool alike = view.glance.size() == first->glance.size() &&
+    const bool similar = view.thumbnail.size() == first->thumbnail.size() &&
                        view.tiny.size() == first->tiny.size() &&
                        view.gradients.size() == first->gradients.size() &&
                        view.colour.channels == first->colour.channels &&
                        view.coarse.channels == first->coarse.channels;
-    if (!alike) rows.refuse("data: a view of other cues than the first");
+    if (!similar) rows.refuse("data: a view of other cues than the first");
   }
 }
 
@@ -255,9 +255,9 @@ void MapReader::read_loops() {
     if ((rows.integer(4, 0, 1) == 1) != loop.accepted())
       rows.refuse("accepted: contradicts stage " + std::string(rows.text(5)));
     loop.lines = static_cast<int>(rows.integer(8, 0, kMost));
-    loop.likeness = rows.real(9);
+    loop.similarity = rows.real(9);
     loop.probability = rows.real(10);
-    if (loop.likeness < 0 || loop.probability < 0 || loop.probability > 1)
+    if (loop.similarity < 0 || loop.probability < 0 || loop.probability > 1)
       rows.refuse("likeness or probability: out of range");
   }
 }

@@ -105,7 +105,7 @@ void MapWriter::put_frames(const MapChanges& changes) {
                             .pose(loop.T_match_query)
                             .text(to_string(loop.model))
                             .integer(loop.lines)
-                            .real(loop.likeness)
+                            .real(loop.similarity)
                             .real(loop.probability));
 }
 

@@ -79,7 +79,7 @@ std::string to_json(const IndoorMap& plan) {
                                  {"sigma_m", rounded(wall.sigma_m)},
                                  {"low_m", rounded(wall.low_m)},
                                  {"high_m", rounded(wall.high_m)},
-                                 {"points", wall.sights},
+                                 {"points", wall.observations},
                                  {"place", wall.place ? wall.place->value() : -1}});
   document["doors"] = ordered_json::array();
   for (const IndoorDoor& door : plan.doors)
@@ -119,7 +119,7 @@ IndoorMap read_indoor_map(const std::string& path) {
       wall.normal = point_of(entry.at("normal"));
       wall.sigma_m = entry.at("sigma_m").get<double>();
       wall.low_m = entry.at("low_m").get<double>(), wall.high_m = entry.at("high_m").get<double>();
-      wall.sights = entry.at("points").get<int>();
+      wall.observations = entry.at("points").get<int>();
       if (const auto place = entry.at("place").get<std::int64_t>(); place >= 0)
         wall.place = PlaceId(place);
       plan.walls.push_back(wall);

@@ -60,7 +60,7 @@ MapHeader read_header(const std::string& path, const std::string& bytes, Semanti
     throw FileError(path, "is no semantic map: no PLY header");
   header.body = end + std::strlen("end_header\n");
   std::istringstream lines(bytes.substr(0, end));
-  bool binary = false, turned = false;
+  bool binary = false, rotated = false;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream stream(line);
     const std::vector<std::string> words{std::istream_iterator<std::string>(stream), {}};
@@ -78,11 +78,11 @@ MapHeader read_header(const std::string& path, const std::string& bytes, Semanti
         R(i / 3, i % 3) = number_of(path, words[static_cast<std::size_t>(i) + 2]);
       if (!(R * R.transpose()).isIdentity(1e-4)) throw FileError(path, "R_plan_map: no rotation");
       map.R_plan_map = SO3(Eigen::Quaterniond(R).normalized());
-      turned = true;
+      rotated = true;
     }
   }
   if (!binary || properties != kProperties || header.cells < 0 || map.classes.size() < 2 ||
-      !turned || !(map.cell_m > 0))
+      !rotated || !(map.cell_m > 0))
     throw FileError(path, "is no semantic map of placegraph");
   return header;
 }
@@ -117,7 +117,7 @@ std::string to_ply(const SemanticMap& map) {
     put(bytes, cell.confidence);
     put(bytes, cell.height_m);
     put(bytes, cell.weight);
-    put(bytes, static_cast<std::uint16_t>(std::min(cell.sights, 65535)));
+    put(bytes, static_cast<std::uint16_t>(std::min(cell.observations, 65535)));
   }
   return bytes;
 }
@@ -144,7 +144,7 @@ SemanticMap read_semantic_map(const std::string& path) {
     cell.confidence = take<float>(at);
     cell.height_m = take<float>(at);
     cell.weight = take<float>(at);
-    cell.sights = take<std::uint16_t>(at);
+    cell.observations = take<std::uint16_t>(at);
     const Eigen::Vector3d p_plan = map.R_plan_map.matrix() * p.cast<double>();
     if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e6F || *cell.label >= map.class_count() ||
         !(cell.confidence >= 0 && cell.confidence <= 1) || !std::isfinite(cell.height_m) ||
@@ -273,13 +273,13 @@ class Patches {
       }
       all.push_back(std::move(ring));
     }
-    const auto outer = std::find_if(all.begin(), all.end(), [](const Ring& r) { return turns(r); });
+    const auto outer = std::find_if(all.begin(), all.end(), [](const Ring& r) { return rotations(r); });
     if (outer != all.end()) std::iter_swap(all.begin(), outer);
     return all;
   }
 
   /// Whether a ring goes round counter-clockwise.
-  static bool turns(const Ring& ring) {
+  static bool rotations(const Ring& ring) {
     std::int64_t area = 0;
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const Eigen::Vector2i &a = ring[i], &b = ring[(i + 1) % ring.size()];

@@ -2,9 +2,9 @@
 
 namespace placegraph {
 
-void GroundScaleOptions::check() const { check_ranges(*this); }
+void GroundPlaneScaleOptions::check() const { check_ranges(*this); }
 
-void visit(OptionVisitor& field, GroundScaleOptions& o) {
+void visit(OptionVisitor& field, GroundPlaneScaleOptions& o) {
   field.group("plane", o.plane, "direct alignment of the road");
   field("enabled", o.enabled, "use the ground plane where the camera height is known");
   field("sigma_relative", o.sigma_relative,
@@ -23,9 +23,9 @@ void visit(OptionVisitor& field, GroundScaleOptions& o) {
         "motion between the two views, in camera heights", {0.01, 10});
 }
 
-void FloorScaleOptions::check() const { check_ranges(*this); }
+void FloorLineScaleOptions::check() const { check_ranges(*this); }
 
-void visit(OptionVisitor& field, FloorScaleOptions& o) {
+void visit(OptionVisitor& field, FloorLineScaleOptions& o) {
   field.group("floor", o.floor, "which lines lie on the floor");
   field("sigma_relative", o.sigma_relative, "of a single height, beyond that of its lines", {0, 1});
   field("max_log_jump", o.max_log_jump,
@@ -45,16 +45,16 @@ void visit(OptionVisitor& field, LineCueOptions& o) {
   field.group("start", o.start, "first views of a single eye without points");
   field.group("floor", o.floor, "metric scale from lines on the floor, without points");
   field("sigma_floor_px", o.sigma_floor_px, "no line is placed better across", {0.01, 10});
-  field("alike_sightings", o.alike_sightings,
+  field("similar_observations", o.similar_observations,
         "sightings of one edge in the window that are worth one independent one", {1, 1000});
-  field("min_turn_steered_deg", o.min_turn_steered_deg,
+  field("min_rotation_steered_deg", o.min_rotation_steered_deg,
         "triangulation.min_turn_deg where directions show the rotation", {0.01, 45});
   field("stay_frames", o.stay_frames,
         "an edge that the motion takes out of the image before is begun last", {0, 100});
   field("outlier_px", o.outlier_px, "a line that is missed by more is dropped", {0.5, 100});
 }
 
-void visit(OptionVisitor& field, ManhattanWorldOptions& o) {
+void visit(OptionVisitor& field, ManhattanFrameOptions& o) {
   field("sigma_floor_deg", o.sigma_floor_deg,
         "of the directions of one view beyond the noise of its lines", {1e-3, 10});
   field("correlation", o.correlation, "so many neighbouring views count as one", {1, 1000});
@@ -62,7 +62,7 @@ void visit(OptionVisitor& field, ManhattanWorldOptions& o) {
         "of a world seen from a new keyframe, beyond what the window claims", {1e-3, 10});
   field("persistence", o.persistence, "keyframes of the window that must show a new world",
         {1, 1000});
-  field("max_worlds", o.max_worlds, "remembered; the one unseen for longest is forgotten",
+  field("max_frames", o.max_frames, "remembered; the one unseen for longest is forgotten",
         {1, 100});
 }
 
@@ -71,7 +71,7 @@ void ManhattanCueOptions::check() const { check_ranges(*this); }
 void visit(OptionVisitor& field, ManhattanCueOptions& o) {
   field.group("segments", o.segments, "straight edges");
   field.group("directions", o.directions, "vanishing points and rectangular worlds");
-  field.group("worlds", o.worlds, "the worlds of the window");
+  field.group("manhattan_frames", o.manhattan_frames, "the worlds of the window");
   field("max_width_px", o.max_width_px, "wider images are halved first", {16, 1e5});
   field("max_sigma_deg", o.max_sigma_deg, "directions known less well are not believed",
         {0.01, 30});
@@ -93,9 +93,9 @@ void visit(OptionVisitor& field, PlaneLandmarkOptions& o) {
   field("max_landmarks", o.max_landmarks, "the one unseen for longest is forgotten", {1, 1000});
 }
 
-void SurfaceCueOptions::check() const { check_ranges(*this); }
+void DirectCueOptions::check() const { check_ranges(*this); }
 
-void visit(OptionVisitor& field, SurfaceCueOptions& o) {
+void visit(OptionVisitor& field, DirectCueOptions& o) {
   field.group("surface", o.surface, "the ground under a vehicle, by depths");
   field.group("planes", o.planes, "planes through the depths of the whole image");
   field.group("align", o.align, "motion by the grey values of surfaces");

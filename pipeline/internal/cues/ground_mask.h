@@ -7,7 +7,7 @@
 namespace placegraph {
 
 /// What labels and edges tell of the ground in a view.
-struct GroundSight {
+struct GroundMask {
   Image mask;  ///< 0 = not the ground, CV_8UC1 of the image's size; empty: all may be
   /// Its normal (unit, down, in the camera) where edges show it to be a level floor.
   std::optional<Eigen::Vector3d> level;

@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-KeyframeAlignment::KeyframeAlignment(const SurfaceCueOptions& options,
+KeyframeAlignment::KeyframeAlignment(const DirectCueOptions& options,
                                      const Calibration& calibration,
                                      const StereoMatcherOptions& stereo)
     : cue_(options, calibration, stereo, true),

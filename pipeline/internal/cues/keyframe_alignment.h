@@ -2,7 +2,7 @@
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/internal/core/random.h>
-#include <placegraph/pipeline/internal/cues/surface_cue.h>
+#include <placegraph/pipeline/internal/cues/direct_cue.h>
 
 namespace placegraph {
 
@@ -10,7 +10,7 @@ namespace placegraph {
 /// surfaces goes into the window. The map must be metric.
 class KeyframeAlignment {
  public:
-  KeyframeAlignment(const SurfaceCueOptions& options, const Calibration& calibration,
+  KeyframeAlignment(const DirectCueOptions& options, const Calibration& calibration,
                     const StereoMatcherOptions& stereo);
 
   struct Keyframe {
@@ -29,7 +29,7 @@ class KeyframeAlignment {
   void reset();
 
  private:
-  SurfaceCue cue_;
+  DirectCue cue_;
   bool measures_depth_;  // otherwise the lengths of the map are those of the camera's height
   DirectMotion newest_;  // from the keyframe before it
 };

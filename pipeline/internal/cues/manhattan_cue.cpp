@@ -47,14 +47,14 @@ ManhattanCue::ManhattanCue(const ManhattanCueOptions& options, const Camera& cam
       camera_(camera),
       seed_(seed),
       log_(std::move(log)),
-      worlds_(options.worlds) {
+      manhattan_frames_(options.manhattan_frames) {
   options_.check();
 }
 
 void ManhattanCue::reset() {
-  worlds_.reset();
+  manhattan_frames_.reset();
   view_.clear();
-  sight_.reset();
+  observation_.reset();
 }
 
 /// Pixels of the whole image; one of the halved image covers about four.
@@ -74,28 +74,28 @@ std::vector<LineSegment> ManhattanCue::detect(const Image& image) const {
 
 /// Near where the window has it: farther off it is no sighting of that world.
 ManhattanFrame ManhattanCue::track(const std::vector<LineSegment>& segments,
-                                   const ManhattanWorlds::Expected& world) const {
+                                   const ManhattanFrames::Expected& manhattan_frame) const {
   const double reach_rad =
-      std::min(5 * kRadPerDeg, 1 * kRadPerDeg + 3 * largest_sigma_rad(world.covariance));
-  return track_manhattan_frame(segments, camera_, world.R_cam_world, reach_rad,
+      std::min(5 * kRadPerDeg, 1 * kRadPerDeg + 3 * largest_sigma_rad(manhattan_frame.covariance));
+  return track_manhattan_frame(segments, camera_, manhattan_frame.R_cam_frame, reach_rad,
                                options_.directions.points.noise, options_.directions.manhattan);
 }
 
-std::optional<ManhattanCue::Heading> ManhattanCue::heading(const Image& image,
+std::optional<ManhattanCue::RotationEstimate> ManhattanCue::heading(const Image& image,
                                                            const SO3& R_odom_cam,
                                                            const SlidingWindow& window,
                                                            KeyframeId keyframe) const {
-  const auto expected = worlds_.expected(window, keyframe);
+  const auto expected = manhattan_frames_.expected(window, keyframe);
   if (expected.empty()) return std::nullopt;
   const std::vector<LineSegment> segments = detect(image);
-  for (ManhattanWorlds::Expected world : expected) {
-    const auto R_odom_world = window.world(world.world);
-    if (world.world == ManhattanWorlds::kMapAxes || !R_odom_world) continue;
-    world.R_cam_world = R_odom_cam.inverse() * *R_odom_world;
-    const ManhattanFrame frame = track(segments, world);
+  for (ManhattanFrames::Expected manhattan_frame : expected) {
+    const auto R_odom_manhattan = window.manhattan_frame(manhattan_frame.manhattan_frame);
+    if (manhattan_frame.manhattan_frame == ManhattanFrames::kMapAxes || !R_odom_manhattan) continue;
+    manhattan_frame.R_cam_frame = R_odom_cam.inverse() * *R_odom_manhattan;
+    const ManhattanFrame frame = track(segments, manhattan_frame);
     if (!trusted(frame)) continue;
-    return Heading{world.world, nearest_axes(frame.R_cam_manhattan, world.R_cam_world),
-                   worlds_.honest(frame.covariance).inverse()};
+    return RotationEstimate{manhattan_frame.manhattan_frame, nearest_axes(frame.R_cam_manhattan, manhattan_frame.R_cam_frame),
+                   manhattan_frames_.honest(frame.covariance).inverse()};
   }
   return std::nullopt;
 }
@@ -112,20 +112,20 @@ bool ManhattanCue::trusted(const ManhattanFrame& frame) const {
 bool ManhattanCue::take(KeyframeId keyframe, const std::vector<LineSegment>& segments,
                         const ManhattanFrame& frame, SlidingWindow& window) {
   if (!trusted(frame)) return false;
-  if (!sight_) sight_ = Sight{segments, frame.axis, frame.R_cam_manhattan, frame.covariance};
-  const auto world = worlds_.add(keyframe, frame.R_cam_manhattan, frame.covariance, window);
+  if (!observation_) observation_ = Observation{segments, frame.axis, frame.R_cam_manhattan, frame.covariance};
+  const auto manhattan_frame = manhattan_frames_.add(keyframe, frame.R_cam_manhattan, frame.covariance, window);
   if (log_) {
     const Eigen::Vector3d w = frame.R_cam_manhattan.log();
     std::ostringstream text;
-    text << "directions " << keyframe << " world " << (world ? world->value() : -1) << " turn "
+    text << "directions " << keyframe << " world " << (manhattan_frame ? manhattan_frame->value() : -1) << " turn "
          << w.transpose() << " sigma_deg "
          << frame.covariance.diagonal().cwiseSqrt().transpose() / kRadPerDeg;
     log_(LogLevel::kDebug, text.str());
   }
   for (std::size_t i = 0; i < view_.size(); ++i)
-    if (world && frame.axis[i] >= 0 && !view_[i].axis)
-      view_[i].world = *world, view_[i].axis = frame.axis[i];
-  return world.has_value();
+    if (manhattan_frame && frame.axis[i] >= 0 && !view_[i].axis)
+      view_[i].manhattan_frame = *manhattan_frame, view_[i].axis = frame.axis[i];
+  return manhattan_frame.has_value();
 }
 
 void ManhattanCue::observe(KeyframeId keyframe, const Image& image,
@@ -133,11 +133,11 @@ void ManhattanCue::observe(KeyframeId keyframe, const Image& image,
                            SlidingWindow& window) {
   const std::vector<LineSegment> segments = known ? *known : detect(image);
   view_.clear();
-  sight_.reset();
+  observation_.reset();
   for (const LineSegment& segment : segments) view_.push_back({segment, {}, {}});
   bool seen = false;
-  for (const ManhattanWorlds::Expected& world : worlds_.expected(window, keyframe)) {
-    if (take(keyframe, segments, track(segments, world), window)) seen = true;
+  for (const ManhattanFrames::Expected& manhattan_frame : manhattan_frames_.expected(window, keyframe)) {
+    if (take(keyframe, segments, track(segments, manhattan_frame), window)) seen = true;
     if (seen) break;
   }
   if (seen) return;
@@ -147,12 +147,12 @@ void ManhattanCue::observe(KeyframeId keyframe, const Image& image,
   for (const ManhattanFrame& frame : scene.frames) take(keyframe, segments, frame, window);
 }
 
-GroundSight ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px) const {
-  if (!sight_ || outline_px.size() < 3) return {};
+GroundMask ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px) const {
+  if (!observation_ || outline_px.size() < 3) return {};
   const OrientationMap map =
-      compute_orientation_map(sight_->segments, sight_->axis, camera_, sight_->R_cam_manhattan);
+      compute_orientation_map(observation_->segments, observation_->axis, camera_, observation_->R_cam_manhattan);
   if (!map.outcome) return {};
-  const Image surfaces = indoor_surfaces(map, camera_, sight_->R_cam_manhattan);
+  const Image surfaces = indoor_surfaces(map, camera_, observation_->R_cam_manhattan);
   const Image walls = surfaces == static_cast<int>(IndoorSurface::kWall),
               floor = surfaces == static_cast<int>(IndoorSurface::kFloor);
   const Image outline = filled(outline_px, surfaces.size());
@@ -162,20 +162,20 @@ GroundSight ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px)
   if (all == 0 || in_outline(walls) < kStanding * all) return {};
   if (in_outline(floor) < kShown * all) return {below_walls(surfaces), std::nullopt};
   // A tilt of the vertical: turns about the other axes.
-  Eigen::Vector3d tilts = sight_->covariance.diagonal();
+  Eigen::Vector3d tilts = observation_->covariance.diagonal();
   tilts[map.vertical_axis] = 0;
-  const Eigen::Vector3d vertical = sight_->R_cam_manhattan.matrix().col(map.vertical_axis);
+  const Eigen::Vector3d vertical = observation_->R_cam_manhattan.matrix().col(map.vertical_axis);
   return {floor, vertical.y() < 0 ? Eigen::Vector3d(-vertical) : vertical,
           std::sqrt(tilts.maxCoeff())};
 }
 
 SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
-                 const std::optional<ManhattanCue::Heading>& heading, const SlidingWindow& window) {
-  const auto R_odom_world = heading ? window.world(heading->world) : std::nullopt;
-  if (!R_odom_world) return T_odom_cam;
-  const SO3 R_odom_cam = *R_odom_world * heading->R_cam_world.inverse();
-  // The heading's covariance is of R_cam_world's right tangent; that of R_odom_cam is rotated.
-  const Eigen::Matrix3d R = heading->R_cam_world.matrix();
+                 const std::optional<ManhattanCue::RotationEstimate>& heading, const SlidingWindow& window) {
+  const auto R_odom_manhattan = heading ? window.manhattan_frame(heading->manhattan_frame) : std::nullopt;
+  if (!R_odom_manhattan) return T_odom_cam;
+  const SO3 R_odom_cam = *R_odom_manhattan * heading->R_cam_frame.inverse();
+  // The heading's covariance is of R_cam_frame's right tangent; that of R_odom_cam is rotated.
+  const Eigen::Matrix3d R = heading->R_cam_frame.matrix();
   const Eigen::Matrix3d weight = R * heading->information * R.transpose();
   Matrix6d H = information;
   H.bottomRightCorner<3, 3>() += weight;

@@ -23,54 +23,54 @@ double frame_gate() {
 
 }  // namespace
 
-Eigen::Matrix3d ManhattanWorlds::honest(const Eigen::Matrix3d& covariance) const {
+Eigen::Matrix3d ManhattanFrames::honest(const Eigen::Matrix3d& covariance) const {
   const double floor_rad = options_.sigma_floor_deg * kRadPerDeg;
   return covariance + floor_rad * floor_rad * Eigen::Matrix3d::Identity();
 }
 
-std::vector<ManhattanWorlds::Expected> ManhattanWorlds::expected(const SlidingWindow& window,
+std::vector<ManhattanFrames::Expected> ManhattanFrames::expected(const SlidingWindow& window,
                                                                  KeyframeId keyframe) const {
   std::vector<std::pair<KeyframeId, ManhattanFrameId>> order;  // when, which
-  for (const auto& [world, seen] : last_seen_)
-    if (covariance_.contains(world)) order.emplace_back(seen, world);
+  for (const auto& [manhattan_frame, seen] : last_seen_)
+    if (covariance_.contains(manhattan_frame)) order.emplace_back(seen, manhattan_frame);
   std::sort(order.rbegin(), order.rend());
   const SO3 R_cam_map = window.pose(keyframe).rotation().inverse();
   const double drift_rad = options_.sigma_drift_deg * kRadPerDeg;
   std::vector<Expected> result;
-  for (const auto& [seen, world] : order)
-    result.push_back({world, R_cam_map * *window.world(world),
-                      covariance_.at(world) + drift_rad * drift_rad * Eigen::Matrix3d::Identity()});
+  for (const auto& [seen, manhattan_frame] : order)
+    result.push_back({manhattan_frame, R_cam_map * *window.manhattan_frame(manhattan_frame),
+                      covariance_.at(manhattan_frame) + drift_rad * drift_rad * Eigen::Matrix3d::Identity()});
   return result;
 }
 
-void ManhattanWorlds::see(const Candidate& sighting, ManhattanFrameId world,
+void ManhattanFrames::see(const Candidate& observation, ManhattanFrameId manhattan_frame,
                           SlidingWindow& window) {
-  add_world_observation(
-      window, {sighting.keyframe, world, sighting.R_cam_manhattan,
-               Eigen::Matrix3d((options_.correlation * honest(sighting.covariance)).inverse())});
-  last_seen_[world] = sighting.keyframe;
+  add_manhattan_observation(
+      window, {observation.keyframe, manhattan_frame, observation.R_cam_manhattan,
+               Eigen::Matrix3d((options_.correlation * honest(observation.covariance)).inverse())});
+  last_seen_[manhattan_frame] = observation.keyframe;
 }
 
-std::optional<ManhattanFrameId> ManhattanWorlds::add(KeyframeId keyframe,
+std::optional<ManhattanFrameId> ManhattanFrames::add(KeyframeId keyframe,
                                                      const SO3& R_cam_manhattan,
                                                      const Eigen::Matrix3d& covariance,
                                                      SlidingWindow& window) {
   std::optional<Expected> best;
   double least = frame_gate();
-  for (const Expected& world : expected(window, keyframe)) {
+  for (const Expected& manhattan_frame : expected(window, keyframe)) {
     const double distance =
-        frame_chi2(world.R_cam_world, nearest_axes(R_cam_manhattan, world.R_cam_world),
-                   world.covariance + honest(covariance));
-    if (distance < least) best = world, least = distance;
+        frame_chi2(manhattan_frame.R_cam_frame, nearest_axes(R_cam_manhattan, manhattan_frame.R_cam_frame),
+                   manhattan_frame.covariance + honest(covariance));
+    if (distance < least) best = manhattan_frame, least = distance;
   }
-  if (!best) return begin_world({keyframe, R_cam_manhattan, covariance}, window);
-  see({keyframe, nearest_axes(R_cam_manhattan, best->R_cam_world), covariance}, best->world,
+  if (!best) return begin_frame({keyframe, R_cam_manhattan, covariance}, window);
+  see({keyframe, nearest_axes(R_cam_manhattan, best->R_cam_frame), covariance}, best->manhattan_frame,
       window);
-  return best->world;
+  return best->manhattan_frame;
 }
 
 /// A candidate waits until enough of the window agree with it.
-std::optional<ManhattanFrameId> ManhattanWorlds::begin_world(const Candidate& newest,
+std::optional<ManhattanFrameId> ManhattanFrames::begin_frame(const Candidate& newest,
                                                              SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
   std::erase_if(candidates_, [&](const Candidate& c) { return c.keyframe < oldest; });
@@ -96,44 +96,44 @@ std::optional<ManhattanFrameId> ManhattanWorlds::begin_world(const Candidate& ne
   }
   candidates_ = std::move(others);
   forget_one(window);
-  if (!window.world(kMapAxes)) {
+  if (!window.manhattan_frame(kMapAxes)) {
     constexpr double kExactRad = 1e-4;
-    window.add_world(kMapAxes, SO3());
-    add_world_observation(window, {oldest, kMapAxes, window.pose(oldest).rotation().inverse(),
+    window.add_manhattan_frame(kMapAxes, SO3());
+    add_manhattan_observation(window, {oldest, kMapAxes, window.pose(oldest).rotation().inverse(),
                                    Eigen::Matrix3d::Identity() / (kExactRad * kExactRad)});
-    window.keep(world_variable(kMapAxes));
-    window.hold_world(kMapAxes);
+    window.keep(manhattan_variable(kMapAxes));
+    window.hold_manhattan_frame(kMapAxes);
   }
-  const ManhattanFrameId world = next_world_++;
-  window.add_world(world, R_map(newest));
-  window.keep(world_variable(world));
-  for (const Candidate& sighting : agreeing) see(sighting, world, window);
-  last_seen_[world] = newest.keyframe;
-  return world;
+  const ManhattanFrameId manhattan_frame = next_frame_++;
+  window.add_manhattan_frame(manhattan_frame, R_map(newest));
+  window.keep(manhattan_variable(manhattan_frame));
+  for (const Candidate& observation : agreeing) see(observation, manhattan_frame, window);
+  last_seen_[manhattan_frame] = newest.keyframe;
+  return manhattan_frame;
 }
 
-void ManhattanWorlds::forget_one(SlidingWindow& window) {
-  if (static_cast<int>(last_seen_.size()) < options_.max_worlds) return;
+void ManhattanFrames::forget_one(SlidingWindow& window) {
+  if (static_cast<int>(last_seen_.size()) < options_.max_frames) return;
   const auto longest =
       std::min_element(last_seen_.begin(), last_seen_.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  window.keep(world_variable(longest->first), false);
+  window.keep(manhattan_variable(longest->first), false);
   covariance_.erase(longest->first);
   last_seen_.erase(longest);
 }
 
-void ManhattanWorlds::settle(const SlidingWindow& window) {
+void ManhattanFrames::settle(const SlidingWindow& window) {
   covariance_.clear();
-  for (const auto& [world, seen] : last_seen_)
-    if (const auto covariance = world_covariance(window, world, window.keyframes().back()))
-      covariance_[world] = *covariance;
+  for (const auto& [manhattan_frame, seen] : last_seen_)
+    if (const auto covariance = manhattan_covariance(window, manhattan_frame, window.keyframes().back()))
+      covariance_[manhattan_frame] = *covariance;
 }
 
-void ManhattanWorlds::reset() {
+void ManhattanFrames::reset() {
   candidates_.clear();
   last_seen_.clear();
   covariance_.clear();
-  next_world_ = ++ManhattanFrameId(kMapAxes);
+  next_frame_ = ++ManhattanFrameId(kMapAxes);
 }
 
 }  // namespace placegraph

@@ -16,20 +16,20 @@ namespace placegraph {
 /// go on unseen, known ever less well as the motion goes on.
 ///
 /// The axes of the map are a world of their own, seen once, exactly, by the oldest keyframe at the
-/// time when the first rectangular one begins. They hold the window (SlidingWindow::hold_world):
+/// time when the first rectangular one begins. They hold the window (SlidingWindow::hold_manhattan_frame):
 /// what the others say about the heading turns the keyframes, and not the map under them.
-class ManhattanWorlds {
+class ManhattanFrames {
  public:
   static constexpr ManhattanFrameId kMapAxes{};
 
-  explicit ManhattanWorlds(const ManhattanWorldOptions& options) : options_(options) {
+  explicit ManhattanFrames(const ManhattanFrameOptions& options) : options_(options) {
     options_.check();
   }
 
   /// How the newest keyframe should see a world.
   struct Expected {
-    ManhattanFrameId world;
-    SO3 R_cam_world;
+    ManhattanFrameId manhattan_frame;
+    SO3 R_cam_frame;
     Eigen::Matrix3d covariance;  ///< right tangent [rad^2]
   };
   /// Those seen last first.
@@ -51,12 +51,12 @@ class ManhattanWorlds {
     SO3 R_cam_manhattan;
     Eigen::Matrix3d covariance;
   };
-  void see(const Candidate& sighting, ManhattanFrameId world, SlidingWindow& window);
-  std::optional<ManhattanFrameId> begin_world(const Candidate& newest, SlidingWindow& window);
+  void see(const Candidate& observation, ManhattanFrameId manhattan_frame, SlidingWindow& window);
+  std::optional<ManhattanFrameId> begin_frame(const Candidate& newest, SlidingWindow& window);
   void forget_one(SlidingWindow& window);
 
-  ManhattanWorldOptions options_;
-  ManhattanFrameId next_world_ = ++ManhattanFrameId(kMapAxes);
+  ManhattanFrameOptions options_;
+  ManhattanFrameId next_frame_ = ++ManhattanFrameId(kMapAxes);
   std::vector<Candidate> candidates_;                 // of keyframes in the window, ascending
   std::map<ManhattanFrameId, KeyframeId> last_seen_;  // of worlds
   std::map<ManhattanFrameId, Eigen::Matrix3d>

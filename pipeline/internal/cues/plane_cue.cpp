@@ -68,14 +68,14 @@ std::vector<Eigen::Vector3d> moved(const SE3& T_new_old, const std::vector<Eigen
 
 }  // namespace
 
-Eigen::Matrix3d PlaneLandmarks::drift(const Plane3& plane_cam) const {
+Eigen::Matrix3d PlaneCue::drift(const Plane3& plane_cam) const {
   return plane_information(plane_cam, std::max(1e-6, options_.drift_deg * kRadPerDeg),
                            std::max(1e-6, options_.drift_m))
       .inverse();
 }
 
 /// Every plane and landmark that agree, the best first.
-std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(KeyframeId keyframe,
+std::vector<PlaneCue::Match> PlaneCue::matches(KeyframeId keyframe,
                                                            const std::vector<DepthPlane>& seen,
                                                            const SlidingWindow& window) const {
   std::vector<Match> result;
@@ -104,7 +104,7 @@ std::vector<PlaneLandmarks::Match> PlaneLandmarks::matches(KeyframeId keyframe,
   return result;
 }
 
-void PlaneLandmarks::see(KeyframeId keyframe, const DepthPlane& plane, PlaneId id,
+void PlaneCue::see(KeyframeId keyframe, const DepthPlane& plane, PlaneId id,
                          SlidingWindow& window) {
   add_plane_observation(
       window, {keyframe, id, plane.plane_cam, (options_.correlation * plane.covariance).inverse()});
@@ -124,7 +124,7 @@ void PlaneLandmarks::see(KeyframeId keyframe, const DepthPlane& plane, PlaneId i
 }
 
 /// The one of those that wait which a plane of the newest keyframe agrees with best.
-std::optional<std::size_t> PlaneLandmarks::partner(KeyframeId keyframe, const DepthPlane& plane,
+std::optional<std::size_t> PlaneCue::partner(KeyframeId keyframe, const DepthPlane& plane,
                                                    const SlidingWindow& window) const {
   double least = plane_gate();
   std::optional<std::size_t> best;
@@ -153,7 +153,7 @@ std::optional<std::size_t> PlaneLandmarks::partner(KeyframeId keyframe, const De
 }
 
 /// Two planes that agree become a landmark.
-PlaneId PlaneLandmarks::begin(const Waiting& before, const Waiting& now, SlidingWindow& window) {
+PlaneId PlaneCue::begin(const Waiting& before, const Waiting& now, SlidingWindow& window) {
   const PlaneId id = next_++;
   window.add_plane(id, transform_to(window.pose(now.keyframe).inverse(), now.plane.plane_cam));
   window.keep(plane_variable(id));
@@ -163,7 +163,7 @@ PlaneId PlaneLandmarks::begin(const Waiting& before, const Waiting& now, Sliding
   return id;
 }
 
-void PlaneLandmarks::forget(KeyframeId keyframe, SlidingWindow& window) {
+void PlaneCue::forget(KeyframeId keyframe, SlidingWindow& window) {
   while (!landmarks_.empty()) {
     const auto longest = std::min_element(
         landmarks_.begin(), landmarks_.end(),
@@ -179,7 +179,7 @@ void PlaneLandmarks::forget(KeyframeId keyframe, SlidingWindow& window) {
 /// Each landmark to the plane that agrees with it best. A plane that agrees about as well with a
 /// landmark of the same place that no other plane is a sighting of gets none; nor does one whose
 /// landmark another plane agrees with about as well, unless that one is a sighting of its own.
-std::vector<std::optional<PlaneId>> PlaneLandmarks::assign(const std::vector<Match>& all,
+std::vector<std::optional<PlaneId>> PlaneCue::assign(const std::vector<Match>& all,
                                                            std::size_t count) {
   constexpr double kClearly = 6;  // so much of plane_chi2 makes one of two landmarks the better one
   constexpr double kUndecided = 2;  // so little of a score makes neither of two planes the better
@@ -205,7 +205,7 @@ std::vector<std::optional<PlaneId>> PlaneLandmarks::assign(const std::vector<Mat
   return result;
 }
 
-std::vector<std::optional<PlaneId>> PlaneLandmarks::add(KeyframeId keyframe,
+std::vector<std::optional<PlaneId>> PlaneCue::add(KeyframeId keyframe,
                                                         const std::vector<DepthPlane>& seen,
                                                         SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
@@ -250,7 +250,7 @@ std::vector<std::optional<PlaneId>> PlaneLandmarks::add(KeyframeId keyframe,
   return result;
 }
 
-void PlaneLandmarks::prune(SlidingWindow& window) {
+void PlaneCue::prune(SlidingWindow& window) {
   constexpr double kSigmas = 4;
   constexpr int kMostMisfits = 2;
   if (window.keyframes().empty()) return;
@@ -271,13 +271,13 @@ void PlaneLandmarks::prune(SlidingWindow& window) {
   }
 }
 
-std::vector<PlaneId> PlaneLandmarks::landmarks() const {
+std::vector<PlaneId> PlaneCue::landmarks() const {
   std::vector<PlaneId> ids;
   for (const auto& [id, landmark] : landmarks_) ids.push_back(id);
   return ids;
 }
 
-void PlaneLandmarks::reset() {
+void PlaneCue::reset() {
   landmarks_.clear();
   waiting_.clear();
   next_ = PlaneId(1);

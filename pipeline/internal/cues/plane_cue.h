@@ -19,9 +19,9 @@ namespace placegraph {
 /// What agrees with two landmarks of one place about alike, as a door leaf before its wall may, is
 /// left alone. What agrees with none waits for a second keyframe that sees it too. Landmarks go on
 /// unseen for a while, known ever less well.
-class PlaneLandmarks {
+class PlaneCue {
  public:
-  explicit PlaneLandmarks(const PlaneLandmarkOptions& options, LogSink log = {})
+  explicit PlaneCue(const PlaneLandmarkOptions& options, LogSink log = {})
       : options_(options), log_(std::move(log)) {
     options_.check();
   }

@@ -135,7 +135,7 @@ std::map<LandmarkId, Eigen::Vector2d> PointCue::anchor() {
   return drift_px;
 }
 
-void PointCue::leave_moving_objects(const Image& still) {
+void PointCue::drop_tracks_on_movable_objects(const Image& still) {
   if (still.empty()) return;
   std::vector<bool> keep;
   int kept = 0;
@@ -185,7 +185,7 @@ std::optional<Eigen::Vector3d> PointCue::place_point(const Observation& now,
     return T_odom_cam * Eigen::Vector3d(*ray / depth->value);
   }
   if (before.empty()) return std::nullopt;
-  std::vector<Sighting> rays{{T_odom_cam, now.px}};
+  std::vector<PointMeasurement> rays{{T_odom_cam, now.px}};
   for (const Observation& o : before) rays.push_back({window.pose(o.keyframe), o.px});
   const auto point =
       triangulate(camera_, rays, deg_to_rad(options_.min_parallax_deg), options_.outlier_px);

@@ -6,7 +6,7 @@
 #include <placegraph/graph/core/stage_times.h>
 #include <placegraph/pipeline/cues/cue_options.h>
 #include <placegraph/pipeline/internal/cues/depth_sensor.h>
-#include <placegraph/pipeline/internal/cues/surface_cue.h>
+#include <placegraph/pipeline/internal/cues/direct_cue.h>
 
 #include <map>
 #include <optional>
@@ -48,7 +48,7 @@ class PointCue {
   /// each was moved by [px]: the drift that it had accumulated.
   std::map<LandmarkId, Eigen::Vector2d> anchor();
   /// Drops tracks where `still` is 0 (CV_8UC1, the image's size), if enough others are left.
-  void leave_moving_objects(const Image& still);
+  void drop_tracks_on_movable_objects(const Image& still);
   /// Detects new points in the newest image where `mask` allows them. If it was made from semantic
   /// labels (`labelled`) and too few are found so, then wherever `given_mask` allows them.
   void detect(const Image& mask, bool labelled, const Image& given_mask);

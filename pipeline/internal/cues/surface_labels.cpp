@@ -6,7 +6,7 @@
 
 namespace placegraph {
 
-SceneEye::SceneEye(std::shared_ptr<const SceneModel> surfaces, const SceneMaskOptions& options)
+SurfaceLabeller::SurfaceLabeller(std::shared_ptr<const SceneModel> surfaces, const SceneMaskOptions& options)
     : surfaces_(std::move(surfaces)), options_(options) {
   options_.check();
   require(surfaces_ && surfaces_->kind == SceneModel::Kind::kSurfaces &&
@@ -14,14 +14,14 @@ SceneEye::SceneEye(std::shared_ptr<const SceneModel> surfaces, const SceneMaskOp
           "SceneEye: a model of surfaces is needed");
 }
 
-SceneSight SceneEye::look(const Frame& frame, bool masks) const {
+SurfaceLabels SurfaceLabeller::look(const Frame& frame, bool masks) const {
   const SceneView view = view_scene(frame.colour.empty() ? frame.image : frame.colour);
   const std::vector<float> surfaces = classify_superpixels(*surfaces_, view);
-  SceneSight sight;
-  sight.frame = frame.id;
-  sight.shares = surface_shares(surfaces, view);
-  if (masks) sight.masks = mask_scene(surfaces, view, options_);
-  return sight;
+  SurfaceLabels observation;
+  observation.frame = frame.id;
+  observation.shares = surface_shares(surfaces, view);
+  if (masks) observation.masks = mask_scene(surfaces, view, options_);
+  return observation;
 }
 
 std::pair<std::vector<LineSegment>, Camera> edges_of(const Image& grey, const Camera& camera) {

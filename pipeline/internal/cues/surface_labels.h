@@ -9,19 +9,19 @@
 namespace placegraph {
 
 /// What the surfaces of a keyframe's picture are good for.
-struct SceneSight {
+struct SurfaceLabels {
   FrameId frame;
   SceneMasks masks;  ///< empty images where no masks are wanted or the labels are not trusted
   SurfaceShares shares;
 };
 
 /// Labels the surfaces of pictures for motion, places and context. A picture costs some 80 ms.
-class SceneEye {
+class SurfaceLabeller {
  public:
   /// `surfaces`: a model of kind kSurfaces (ArgumentError otherwise), which must not be null.
-  SceneEye(std::shared_ptr<const SceneModel> surfaces, const SceneMaskOptions& options);
+  SurfaceLabeller(std::shared_ptr<const SceneModel> surfaces, const SceneMaskOptions& options);
   /// In colour where the frame has it. `masks`: whether they are wanted.
-  SceneSight look(const Frame& frame, bool masks) const;
+  SurfaceLabels look(const Frame& frame, bool masks) const;
 
  private:
   std::shared_ptr<const SceneModel> surfaces_;

@@ -9,14 +9,14 @@ namespace {
 
 using Code = Outcome::Code;
 
-const HoverOptions& checked(const HoverOptions& options) {
+const FlightOptions& checked(const FlightOptions& options) {
   options.check();
   return options;
 }
 
 }  // namespace
 
-FlightEstimator::FlightEstimator(const HoverOptions& options, const Camera& camera,
+FlightEstimator::FlightEstimator(const FlightOptions& options, const Camera& camera,
                                  const SE3& T_body_cam, const MarkerLayout& layout)
     : options_(checked(options)),
       R_body_cam_(T_body_cam.rotation()),
@@ -43,39 +43,39 @@ Outcome FlightEstimator::add(const ImuSample& sample) {
                            : Outcome::failure(Code::kNotAttempted, "no marker was seen yet");
 }
 
-HoverFrame FlightEstimator::add(const Frame& frame, bool markers_visible) {
+FlightFrame FlightEstimator::add(const Frame& frame, bool markers_visible) {
   const std::optional<BodyState> expected = filter_.expectation(frame.stamp_ns).state;
-  HoverSights sights;
-  sights.stamp_ns = frame.stamp_ns;
-  sights.flow = flow_.track(frame.image, last_ ? last_->state : std::nullopt, expected, times_);
+  FlightMeasurements observations;
+  observations.stamp_ns = frame.stamp_ns;
+  observations.flow = flow_.track(frame.image, last_ ? last_->state : std::nullopt, expected, times_);
   if (markers_ && markers_visible) {
     MarkerDetections found = markers_->detect(frame.image, expected, times_);
-    sights.markers = std::move(found.markers);
-    sights.beacons = std::move(found.beacons);
+    observations.markers = std::move(found.markers);
+    observations.beacons = std::move(found.beacons);
   }
-  return add(sights);
+  return add(observations);
 }
 
-HoverFrame FlightEstimator::add(const HoverSights& sights) {
-  const std::int64_t now_ns = sights.stamp_ns;
+FlightFrame FlightEstimator::add(const FlightMeasurements& observations) {
+  const std::int64_t now_ns = observations.stamp_ns;
   require(!last_ || now_ns > last_->stamp_ns,
           "FlightEstimator: the image is not after the last one");
-  HoverFrame result;
+  FlightFrame result;
   result.stamp_ns = now_ns;
 
   // 1. Flow since the last image, without the camera's rotation, corrects velocity and height.
   const KnownRotation rotation =
       last_ ? imu_.camera_rotation(last_->stamp_ns, now_ns, last_->state) : KnownRotation{};
-  use_flow(sights, rotation, result);
+  use_flow(observations, rotation, result);
 
   // 2. Markers become a pose. It starts the filter, or corrects it once its delay has passed.
-  use_markers(sights, rotation, result);
+  use_markers(observations, rotation, result);
   const Outcome delivered = deliver_poses(now_ns);
   if (result.markers && !delivered) result.markers = delivered;
-  if (markers_) markers_->report(result.markers, !sights.markers.empty());
+  if (markers_) markers_->report(result.markers, !observations.markers.empty());
 
   // 3. The state with all that has come until now.
-  const PositionFilter::Answer answer = filter_.at(now_ns);
+  const PositionFilter::StateEstimate answer = filter_.at(now_ns);
   result.outcome = answer.outcome;
   result.state = answer.state;
   last_ = LastImage{now_ns, answer.outcome ? std::optional(answer.state) : std::nullopt};
@@ -83,45 +83,45 @@ HoverFrame FlightEstimator::add(const HoverSights& sights) {
   return result;
 }
 
-void FlightEstimator::use_flow(const HoverSights& sights, const KnownRotation& rotation,
-                               HoverFrame& result) {
+void FlightEstimator::use_flow(const FlightMeasurements& observations, const KnownRotation& rotation,
+                               FlightFrame& result) {
   const auto span = times_.measure("flow");
   const FloorFlowMeasurement measured =
-      flow_.measure(sights.flow, last_ ? last_->state : std::nullopt, sights.stamp_ns, rotation);
+      flow_.measure(observations.flow, last_ ? last_->state : std::nullopt, observations.stamp_ns, rotation);
   result.flow = measured.outcome;
   result.flow_points = measured.inliers;
   result.flow_chi2 = measured.chi2_per_dof;
-  result.flow_sighting = measured.sighting;
-  if (measured.sighting) result.flow = filter_.add(*measured.sighting);
+  result.flow_measurement = measured.observation;
+  if (measured.observation) result.flow = filter_.add(*measured.observation);
 }
 
-void FlightEstimator::use_markers(const HoverSights& sights, const KnownRotation& rotation,
-                                  HoverFrame& result) {
+void FlightEstimator::use_markers(const FlightMeasurements& observations, const KnownRotation& rotation,
+                                  FlightFrame& result) {
   if (!markers_) {
     result.markers = Outcome::failure(Code::kNotAttempted, "there are no markers");
     return;
   }
   const auto span = times_.measure("markers");
-  MarkerView view{sights.stamp_ns, sights.markers, sights.beacons, imu_.mean_force_body(),
+  MarkerView view{observations.stamp_ns, observations.markers, observations.beacons, imu_.mean_force_body(),
                   std::nullopt};
   if (last_ && imu_.samples().size() > 1)
-    view.turn_body = R_body_cam_ * rotation.R_1_2 * R_body_cam_.inverse();
-  const BodyExpectation expectation = filter_.expectation(sights.stamp_ns);
+    view.rotation_body = R_body_cam_ * rotation.R_1_2 * R_body_cam_.inverse();
+  const BodyExpectation expectation = filter_.expectation(observations.stamp_ns);
   const bool restarts = !markers_->relies_on(expectation);
-  const MarkerAnswer answer = markers_->estimate(view, expectation);
+  const MarkerPoseEstimate answer = markers_->estimate(view, expectation);
   result.markers = answer.outcome;
   if (!answer.outcome) return;
   result.markers_seen = answer.markers;
   result.beacons_seen = answer.beacons;
-  result.pose_sighting = answer.sighting;
+  result.pose_measurement = answer.observation;
   if (restarts)
-    result.markers = start_by(answer.sighting);
+    result.markers = start_by(answer.observation);
   else
-    delayed_poses_.push(answer.sighting);
+    delayed_poses_.push(answer.observation);
 }
 
 /// Starts, or starts anew, where markers are; the biases that the filter knows are kept.
-Outcome FlightEstimator::start_by(const PoseSighting& pose) {
+Outcome FlightEstimator::start_by(const PoseMeasurement& pose) {
   if (!imu_.reaches(pose.stamp_ns, options_.filter.max_prediction_s))
     return Outcome::failure(Code::kTooFewData, "no inertial samples to begin with");
   start(start_state(pose, options_.start, filter_.expectation(pose.stamp_ns).state));
@@ -131,7 +131,7 @@ Outcome FlightEstimator::start_by(const PoseSighting& pose) {
 /// Hands the filter the poses whose delay has passed; those older than its history it refuses.
 Outcome FlightEstimator::deliver_poses(std::int64_t now_ns) {
   Outcome last = Outcome::ok();
-  for (const PoseSighting& pose : delayed_poses_.take(now_ns)) last = filter_.add(pose);
+  for (const PoseMeasurement& pose : delayed_poses_.take(now_ns)) last = filter_.add(pose);
   return last;
 }
 

@@ -5,7 +5,7 @@
 #include <placegraph/graph/internal/measurements/marker_layout.h>
 #include <placegraph/pipeline/internal/flight/delay_line.h>
 #include <placegraph/pipeline/internal/flight/floor_flow.h>
-#include <placegraph/pipeline/internal/flight/hover_options.h>
+#include <placegraph/pipeline/internal/flight/flight_options.h>
 #include <placegraph/pipeline/internal/flight/imu_buffer.h>
 #include <placegraph/pipeline/internal/flight/marker_sensor.h>
 
@@ -16,15 +16,15 @@
 namespace placegraph {
 
 /// What is seen in one image.
-struct HoverSights {
+struct FlightMeasurements {
   std::int64_t stamp_ns = 0;
   std::vector<FlowVector> flow = {};  ///< from the last image to this one
-  std::vector<MarkerSighting> markers = {};
-  std::vector<BeaconSighting> beacons = {};
+  std::vector<MarkerObservation> markers = {};
+  std::vector<BeaconObservation> beacons = {};
 };
 
 /// What became of one image.
-struct HoverFrame {
+struct FlightFrame {
   std::int64_t stamp_ns = 0;
   Outcome outcome;  ///< of `state`: see PositionFilter::at
   BodyState state;
@@ -33,8 +33,8 @@ struct HoverFrame {
   double flow_chi2 = 0;  ///< of the inliers, per degree of freedom
   Outcome markers;       ///< whether a pose by markers was measured and accepted
   /// The measurements, accepted or not, for a smoother beside the filter.
-  std::optional<FlowSighting> flow_sighting;
-  std::optional<PoseSighting> pose_sighting;
+  std::optional<FlowMeasurement> flow_measurement;
+  std::optional<PoseMeasurement> pose_measurement;
   int markers_seen = 0, beacons_seen = 0;  ///< that the pose was computed from
 };
 
@@ -46,22 +46,22 @@ struct HoverFrame {
 class FlightEstimator {
  public:
   /// `camera` has no distortion. World: z up. Throws ArgumentError if an option is out of range.
-  FlightEstimator(const HoverOptions& options, const Camera& camera, const SE3& T_body_cam,
+  FlightEstimator(const FlightOptions& options, const Camera& camera, const SE3& T_body_cam,
                   const MarkerLayout& layout);
 
   /// Inertial samples in the order of their stamps, before the images at or after them. Outcomes as
   /// PositionFilter's; samples before the start are kept.
   Outcome add(const ImuSample& sample);
   /// The next image; with `markers_visible` false it is not searched for markers.
-  HoverFrame add(const Frame& frame, bool markers_visible = true);
+  FlightFrame add(const Frame& frame, bool markers_visible = true);
   /// The same where the measurements of the image are made elsewhere. Throws ArgumentError if its
   /// stamp is not after the last one's.
-  HoverFrame add(const HoverSights& sights);
+  FlightFrame add(const FlightMeasurements& observations);
   /// Starts with a state that something else knows, instead of by markers.
   void start(const BodyState& state);
 
   /// The state at a time from the last image on, by the last inertial sample.
-  PositionFilter::Answer at(std::int64_t stamp_ns) const { return filter_.at(stamp_ns); }
+  PositionFilter::StateEstimate at(std::int64_t stamp_ns) const { return filter_.at(stamp_ns); }
   const StageTimes& times() const { return times_; }
 
  private:
@@ -70,17 +70,17 @@ class FlightEstimator {
     std::optional<BodyState> state;  // if it was known
   };
 
-  void use_flow(const HoverSights& sights, const KnownRotation& rotation, HoverFrame& result);
-  void use_markers(const HoverSights& sights, const KnownRotation& rotation, HoverFrame& result);
-  Outcome start_by(const PoseSighting& pose);
+  void use_flow(const FlightMeasurements& observations, const KnownRotation& rotation, FlightFrame& result);
+  void use_markers(const FlightMeasurements& observations, const KnownRotation& rotation, FlightFrame& result);
+  Outcome start_by(const PoseMeasurement& pose);
   Outcome deliver_poses(std::int64_t now_ns);
 
-  HoverOptions options_;
+  FlightOptions options_;
   SO3 R_body_cam_;
   FloorFlow flow_;
   std::optional<MarkerSensor> markers_;  // nothing: the layout has neither markers nor beacons
   ImuBuffer imu_;
-  DelayLine<PoseSighting> delayed_poses_;
+  DelayLine<PoseMeasurement> delayed_poses_;
   PositionFilter filter_;
   std::optional<LastImage> last_;
   StageTimes times_;

@@ -22,16 +22,16 @@ Matrix3d positive_part(const Matrix3d& symmetric) {
 }
 
 /// Of the body's motion from one image to the next, right tangent.
-Matrix6d step_covariance(const BodyState& before, const HoverFrame& frame, const SE3& T_body_cam,
-                         const HoverOptions& options) {
+Matrix6d step_covariance(const BodyState& before, const FlightFrame& frame, const SE3& T_body_cam,
+                         const FlightOptions& options) {
   const BodyState& now = frame.state;
   const double dt = 1e-9 * static_cast<double>(now.stamp_ns - before.stamp_ns);
   const Matrix3d R_world_cam = (before.T_world_body * T_body_cam).rotation().matrix();
   Matrix3d way_world = dt * dt * block(now, kVelocity);
-  if (frame.flow && frame.flow_sighting) {
+  if (frame.flow && frame.flow_measurement) {
     const double height = (before.T_world_body * T_body_cam).translation().z() - options.floor_z_m;
     way_world =
-        height * height * R_world_cam * frame.flow_sighting->covariance * R_world_cam.transpose();
+        height * height * R_world_cam * frame.flow_measurement->covariance * R_world_cam.transpose();
   }
   const double gyro = options.filter.gyro_noise;
   const Matrix3d turn = gyro * gyro * dt * Matrix3d::Identity() + dt * dt * block(now, kGyroBias);
@@ -47,8 +47,8 @@ Matrix6d step_covariance(const BodyState& before, const HoverFrame& frame, const
 
 }  // namespace
 
-MarkerMap map_hover_markers(const Dataset& images, const HoverRun& run, const SE3& T_body_cam,
-                            const MarkerLayout& layout, const HoverOptions& options) {
+MarkerMap map_flight_markers(const Dataset& images, const FlightRun& run, const SE3& T_body_cam,
+                            const MarkerLayout& layout, const FlightOptions& options) {
   options.check();
   require(run.frames.size() == images.size(), "map_hover_markers: one frame an image is needed");
   const MarkerDetector detector(options.marker_sensor.detector, layout.dictionary);
@@ -58,7 +58,7 @@ MarkerMap map_hover_markers(const Dataset& images, const HoverRun& run, const SE
   std::int64_t last_ns = 0;
   const BodyState* before = nullptr;
   for (std::size_t i = 0; i < run.frames.size(); ++i) {
-    const HoverFrame& frame = run.frames[i];
+    const FlightFrame& frame = run.frames[i];
     if (!frame.outcome) continue;
     if (before) since += step_covariance(*before, frame, T_body_cam, options);
     before = &frame.state;

@@ -10,8 +10,8 @@ namespace placegraph {
 /// gyro's noise, what is not known of its bias, and what the filter corrected itself by in between.
 /// Markers of the layout anchor the map; where none is, the world is the flight's. Throws as the
 /// data set does. Outcomes: those of map_markers.
-[[nodiscard]] MarkerMap map_hover_markers(const Dataset& images, const HoverRun& run,
+[[nodiscard]] MarkerMap map_flight_markers(const Dataset& images, const FlightRun& run,
                                           const SE3& T_body_cam, const MarkerLayout& layout,
-                                          const HoverOptions& options);
+                                          const FlightOptions& options);
 
 }  // namespace placegraph

@@ -5,10 +5,10 @@
 #include <cmath>
 
 namespace placegraph {
-HoverRun run_hover(const Dataset& images, const ImuRecording& imu, const SE3& T_body_cam,
-                   const MarkerLayout& layout, const HoverRunOptions& options,
+FlightRun run_flight(const Dataset& images, const ImuRecording& imu, const SE3& T_body_cam,
+                   const MarkerLayout& layout, const FlightRunOptions& options,
                    const std::function<void(std::size_t done)>& progress) {
-  HoverRun run;
+  FlightRun run;
   StageTimes reading;
   FlightEstimator estimator(options.hover, images.calibration(Sensor::kMono).camera, T_body_cam,
                             layout);
@@ -31,9 +31,9 @@ HoverRun run_hover(const Dataset& images, const ImuRecording& imu, const SE3& T_
     const bool blind =
         std::any_of(options.blind.begin(), options.blind.end(),
                     [t](const TimeSpan& span) { return t >= span.from_s && t < span.to_s; });
-    HoverFrame result = estimator.add(frame, !blind);
+    FlightFrame result = estimator.add(frame, !blind);
     if (ahead_ns > 0) {
-      const PositionFilter::Answer later = estimator.at(frame.stamp_ns + ahead_ns);
+      const PositionFilter::StateEstimate later = estimator.at(frame.stamp_ns + ahead_ns);
       result.outcome = later.outcome;
       result.state = later.state;
     }
@@ -45,8 +45,8 @@ HoverRun run_hover(const Dataset& images, const ImuRecording& imu, const SE3& T_
   return run;
 }
 
-std::vector<BodyState> smooth_hover(const HoverRun& run, const ImuRecording& imu,
-                                    const SE3& T_body_cam, const HoverOptions& options,
+std::vector<BodyState> smooth_flight(const FlightRun& run, const ImuRecording& imu,
+                                    const SE3& T_body_cam, const FlightOptions& options,
                                     int states) {
   InertialWindowOptions window_options;
   const PositionFilterOptions& filter = options.filter;
@@ -58,7 +58,7 @@ std::vector<BodyState> smooth_hover(const HoverRun& run, const ImuRecording& imu
   std::vector<BodyState> smoothed;
   auto sample = imu.samples.begin();
   std::vector<BodyState> held;
-  for (const HoverFrame& frame : run.frames) {
+  for (const FlightFrame& frame : run.frames) {
     if (!window.started()) {
       if (!frame.outcome) continue;
       window.start(frame.state);
@@ -67,8 +67,8 @@ std::vector<BodyState> smooth_hover(const HoverRun& run, const ImuRecording& imu
     }
     for (; sample != imu.samples.end() && sample->stamp_ns <= frame.stamp_ns; ++sample)
       (void)window.add(*sample);
-    if (frame.flow_sighting) (void)window.add(*frame.flow_sighting);
-    if (frame.pose_sighting) (void)window.add(*frame.pose_sighting);
+    if (frame.flow_measurement) (void)window.add(*frame.flow_measurement);
+    if (frame.pose_measurement) (void)window.add(*frame.pose_measurement);
     held = window.solve().states;
     if (static_cast<int>(held.size()) == states) smoothed.push_back(held.front());
   }

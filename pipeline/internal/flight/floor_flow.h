@@ -8,7 +8,7 @@
 #include <placegraph/graph/geometry/camera.h>
 #include <placegraph/graph/image/image.h>
 #include <placegraph/graph/internal/measurements/body_state.h>
-#include <placegraph/pipeline/internal/flight/hover_options.h>
+#include <placegraph/pipeline/internal/flight/flight_options.h>
 
 #include <cstdint>
 #include <optional>
@@ -27,7 +27,7 @@ struct FloorFlowMeasurement {
   int inliers = 0;
   double chi2_per_dof = 0;  ///< of the inliers
   /// For a filter; empty if `outcome` is no success or if flow is not `enabled`.
-  std::optional<FlowSighting> sighting;
+  std::optional<FlowMeasurement> observation;
 };
 
 /// Optical flow over a level floor: tracks corners from image to image, and turns their flow

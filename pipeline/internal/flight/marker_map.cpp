@@ -115,15 +115,15 @@ SeenMarkers collect_views(const std::vector<MarkerFrame>& frames, const MarkerLa
                           double extra_sigma_px) {
   SeenMarkers markers;
   for (std::size_t i = 0; i < frames.size(); ++i)
-    for (MarkerSighting sighting : frames[i].markers) {
-      const PlacedMarker* placed = find(known, sighting.id);
-      const auto side = sides_m.find(sighting.id);
+    for (MarkerObservation observation : frames[i].markers) {
+      const PlacedMarker* placed = find(known, observation.id);
+      const auto side = sides_m.find(observation.id);
       if (!placed && side == sides_m.end()) continue;
-      SeenMarker& marker = markers[sighting.id];
+      SeenMarker& marker = markers[observation.id];
       marker.placed = placed;
       marker.side_m = placed ? placed->side_m : side->second;
-      sighting.covariance.diagonal().array() += extra_sigma_px * extra_sigma_px;
-      MarkerPoses found = estimate_marker_poses(sighting, marker.side_m, camera);
+      observation.covariance.diagonal().array() += extra_sigma_px * extra_sigma_px;
+      MarkerPoses found = estimate_marker_poses(observation, marker.side_m, camera);
       if (found.outcome) marker.views.push_back({static_cast<int>(i), std::move(found.poses)});
     }
   return markers;
@@ -217,7 +217,7 @@ MarkerMap map_markers(const std::vector<MarkerFrame>& frames, const MarkerLayout
   add_markers(markers, T_world_odom, map.graph);
   // The start is good, and a fixed marker far down the list must not be outweighed by another one.
   PoseGraphOptions solver;
-  solver.start = PoseGraphStart::kFile;
+  solver.start = PoseGraphInitialization::kFile;
   const PoseGraphReport solved = optimize_pose_graph(std::move(map.graph), solver);
   map.graph = solved.graph;
   map.outcome = solved.outcome;

@@ -4,7 +4,7 @@
 #include <placegraph/graph/core/outcome.h>
 #include <placegraph/graph/internal/measurements/marker_layout.h>
 #include <placegraph/graph/pose_graph/pose_graph.h>
-#include <placegraph/pipeline/internal/flight/hover_options.h>
+#include <placegraph/pipeline/internal/flight/flight_options.h>
 
 #include <map>
 #include <vector>
@@ -16,7 +16,7 @@ struct MarkerFrame {
   SE3 T_odom_cam;
   /// Of the motion from the frame before (right tangent of T_before_this); not used of the first.
   Matrix6d step_covariance = Matrix6d::Identity();
-  std::vector<MarkerSighting> markers;
+  std::vector<MarkerObservation> markers;
 };
 
 struct MappedMarker {

@@ -9,7 +9,7 @@
 #include <placegraph/graph/image/image.h>
 #include <placegraph/graph/internal/measurements/body_state.h>
 #include <placegraph/graph/internal/measurements/marker_layout.h>
-#include <placegraph/pipeline/internal/flight/hover_options.h>
+#include <placegraph/pipeline/internal/flight/flight_options.h>
 
 #include <optional>
 #include <vector>
@@ -18,8 +18,8 @@ namespace placegraph {
 
 /// The markers and beacons in one image.
 struct MarkerDetections {
-  std::vector<MarkerSighting> markers;
-  std::vector<BeaconSighting> beacons;
+  std::vector<MarkerObservation> markers;
+  std::vector<BeaconObservation> beacons;
 };
 
 /// Poses of the body by markers and beacons of a layout, and where in the image they are searched
@@ -38,7 +38,7 @@ class MarkerSensor {
                           StageTimes& times);
   /// The pose by what one image shows, with the help of the expectation if it `relies_on` that.
   /// Outcomes: those of MarkerFilter::observe.
-  MarkerAnswer estimate(const MarkerView& view, const BodyExpectation& expectation);
+  MarkerPoseEstimate estimate(const MarkerView& view, const BodyExpectation& expectation);
   /// What became of the pose of one image: accepted by the estimator that expects states, or not,
   /// and whether the image shows markers.
   void report(const Outcome& accepted, bool markers_in_view);

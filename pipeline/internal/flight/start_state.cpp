@@ -3,7 +3,7 @@
 
 namespace placegraph {
 
-BodyState start_state(const PoseSighting& pose, const HoverStartOptions& options,
+BodyState start_state(const PoseMeasurement& pose, const FlightInitializationOptions& options,
                       const std::optional<BodyState>& before) {
   BodyState state;
   state.stamp_ns = pose.stamp_ns;

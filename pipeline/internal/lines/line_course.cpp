@@ -40,8 +40,8 @@ std::optional<PlaneAlong> plane_along(const Camera& camera, const ImageLine::Car
 /// deviation.
 std::vector<MotionObservation> course_along_lines(
     const SlidingWindow& window, const Camera& camera,
-    const std::vector<DirectionCompass::Family>& families, const LineSightings& sightings,
-    KeyframeId keyframe, double depth, double max_turn_rad) {
+    const std::vector<VanishingDirectionTracker::DirectionCluster>& clusters, const LineObservations& observations,
+    KeyframeId keyframe, double depth, double max_rotation_rad) {
   constexpr std::size_t kBack = 5;        // keyframes
   constexpr double kAlong = 0.96;         // cosine to the way: others are placed, or far
   constexpr double kRollSigmaRad = 1e-3;  // between two keyframes
@@ -50,37 +50,37 @@ std::vector<MotionObservation> course_along_lines(
   const KeyframeId oldest = keyframes[keyframes.size() - std::min(keyframes.size(), kBack + 1)];
   const SE3 T_odom_to = window.pose(keyframe);
   std::vector<MotionObservation> motions;
-  for (const auto& family : families) {
+  for (const auto& cluster : clusters) {
     std::map<KeyframeId, Eigen::Matrix3d> held;  // by the earlier keyframe, in its frame
-    for (const LineId id : family.tracks) {
-      const auto track = sightings.find(id);
-      if (track == sightings.end() || window.line(id)) continue;
+    for (const LineId id : cluster.tracks) {
+      const auto track = observations.find(id);
+      if (track == observations.end() || window.line(id)) continue;
       const LineInKeyframe& now = track->second.back();
       const auto then = std::find_if(track->second.begin(), track->second.end(),
                                      [&](const LineInKeyframe& s) { return s.keyframe >= oldest; });
       if (now.keyframe != keyframe || then->keyframe == keyframe) continue;
       const SE3 T_odom_from = window.pose(then->keyframe);
       const SE3 T_from_to = T_odom_from.inverse() * T_odom_to;
-      const Eigen::Vector3d d_from = T_odom_from.rotation().inverse() * family.d_ref;
+      const Eigen::Vector3d d_from = T_odom_from.rotation().inverse() * cluster.d_ref;
       if (!(std::abs(d_from.dot(T_from_to.translation())) >
             kAlong * T_from_to.translation().norm()))
         continue;
       const auto a = plane_along(camera, then->seen, d_from);
       const auto b = plane_along(camera, now.seen, T_from_to.rotation().inverse() * d_from);
       if (!a || !b) continue;
-      const double turn_rad =
+      const double rotation_rad =
           std::asin(std::min(1.0, a->n.cross(T_from_to.rotation() * b->n).norm()));
-      if (turn_rad > max_turn_rad) continue;
+      if (rotation_rad > max_rotation_rad) continue;
       const double sigma =
           kFactor * depth * b->reach *
-          std::hypot(turn_rad, std::hypot(a->sigma_rad, b->sigma_rad), kRollSigmaRad);
+          std::hypot(rotation_rad, std::hypot(a->sigma_rad, b->sigma_rad), kRollSigmaRad);
       held.try_emplace(then->keyframe, Eigen::Matrix3d::Zero()).first->second +=
           a->n * a->n.transpose() / (sigma * sigma);
     }
     for (const auto& [from, across] : held) {
       const SE3 T_odom_from = window.pose(from);
       const SE3 T_from_to = T_odom_from.inverse() * T_odom_to;
-      const Eigen::Vector3d d_from = T_odom_from.rotation().inverse() * family.d_ref;
+      const Eigen::Vector3d d_from = T_odom_from.rotation().inverse() * cluster.d_ref;
       MotionObservation motion{
           from, keyframe, SE3(T_from_to.rotation(), d_from * d_from.dot(T_from_to.translation())),
           Matrix6d::Zero()};

@@ -3,7 +3,7 @@
 #include <placegraph/pipeline/internal/lines/line_course.h>
 #include <placegraph/pipeline/internal/lines/line_cue.h>
 #include <placegraph/pipeline/internal/lines/line_prediction.h>
-#include <placegraph/pipeline/internal/lines/line_second_eye.h>
+#include <placegraph/pipeline/internal/lines/line_second_camera.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -13,8 +13,8 @@
 namespace placegraph {
 namespace {
 
-SE3 beside(const SE3& T_odom_cam, const Eigen::Vector3d& eye_cam) {
-  return T_odom_cam * SE3(SO3(), eye_cam);
+SE3 beside(const SE3& T_odom_cam, const Eigen::Vector3d& second_in_cam) {
+  return T_odom_cam * SE3(SO3(), second_in_cam);
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ LineCue::LineCue(const LineCueOptions& options, const Calibration& calibration,
 void LineCue::reset() {
   tracker_.reset();
   drift_px_.clear();
-  sightings_.clear();
+  observations_.clear();
   at_keyframe_.clear();
   covariances_.clear();
   calibrated_.clear();
@@ -41,7 +41,7 @@ LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) con
   constexpr std::size_t kFewestSteered = 7;  // keyframes: not to begin with
   LineTriangulationOptions options = options_.triangulation;
   if (compass_ && window.keyframes().size() > kFewestSteered && followed(window) < kFew)
-    options.min_turn_deg = std::min(options.min_turn_deg, options_.min_turn_steered_deg);
+    options.min_rotation_deg = std::min(options.min_rotation_deg, options_.min_rotation_steered_deg);
   return options;
 }
 
@@ -86,8 +86,8 @@ void LineCue::track(const Image& image, const SlidingWindow& window, const SE3& 
 /// What was known of a track that turned out to be part of another goes with it.
 void LineCue::follow_mergers() {
   for (const auto& [from, to] : tracker_.merged()) {
-    if (!sightings_.contains(to) && sightings_.contains(from)) sightings_[to] = sightings_[from];
-    sightings_.erase(from);
+    if (!observations_.contains(to) && observations_.contains(from)) observations_[to] = observations_[from];
+    observations_.erase(from);
   }
 }
 
@@ -155,16 +155,16 @@ void LineCue::accept(const SlidingWindow& window, const SE3& T_odom_cam) {
   tracker_.keep(keep);
 }
 
-void LineCue::add_to_window(LineId id, const LineInKeyframe& sighting,
+void LineCue::add_to_window(LineId id, const LineInKeyframe& line_in_keyframe,
                             SlidingWindow& window) const {
-  const double alike = std::sqrt(options_.alike_sightings);
-  LineObservation observation{sighting.keyframe,
+  const double similar = std::sqrt(options_.similar_observations);
+  LineObservation observation{line_in_keyframe.keyframe,
                               id,
-                              sighting.seen.first,
-                              sighting.seen.second,
-                              alike * sighting.seen.sigma_px,
-                              sighting.second};
-  if (observation.second) observation.second->sigma_px *= alike;
+                              line_in_keyframe.seen.first,
+                              line_in_keyframe.seen.second,
+                              similar * line_in_keyframe.seen.sigma_px,
+                              line_in_keyframe.second};
+  if (observation.second) observation.second->sigma_px *= similar;
   window.add_line_observation(observation);
 }
 
@@ -189,35 +189,35 @@ void LineCue::observe(KeyframeId keyframe, const Frame& frame,
   follow_mergers();
   std::vector<LineSegment> segments;
   for (const LineTrack& track : tracker_.tracks()) segments.push_back(track.edge.segment);
-  const auto seconds = second_eyes(frame, segments, calibration_, rectification, stereo_, options_);
+  const auto seconds = second_cameras(frame, segments, calibration_, rectification, stereo_, options_);
   std::map<LineId, LineInKeyframe> now;
   for (std::size_t i = 0; i < tracker_.tracks().size(); ++i) {
     const LineTrack& track = tracker_.tracks()[i];
     now[track.id] = {keyframe, track.edge.line.carriers(options_.sigma_floor_px), seconds[i]};
   }
   steer(keyframe, this->seen(), window);
-  add_sightings(keyframe, now, window);
+  add_observations(keyframe, now, window);
   at_keyframe_.clear();
   for (const LineTrack& track : tracker_.tracks()) at_keyframe_[track.id] = track.edge.segment;
 }
 
 /// The newest sighting of each track, and of those that are known well enough a place.
-void LineCue::add_sightings(KeyframeId keyframe, const std::map<LineId, LineInKeyframe>& all_now,
+void LineCue::add_observations(KeyframeId keyframe, const std::map<LineId, LineInKeyframe>& all_now,
                             SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
   const LineTriangulationOptions options = triangulation(window);
-  LineSightings all;
+  LineObservations all;
   std::map<LineId, Eigen::Matrix4d> covariances;
   for (const auto& [id, now] : all_now) {
-    std::vector<LineInKeyframe> sightings;
-    for (const LineInKeyframe& s : sightings_[id])
-      if (s.keyframe >= oldest && s.keyframe < keyframe) sightings.push_back(s);
-    sightings.push_back(now);
-    std::vector<LineSighting> views;
-    for (const LineInKeyframe& s : sightings) {
+    std::vector<LineInKeyframe> views_of_line;
+    for (const LineInKeyframe& s : observations_[id])
+      if (s.keyframe >= oldest && s.keyframe < keyframe) views_of_line.push_back(s);
+    views_of_line.push_back(now);
+    std::vector<LineMeasurement> views;
+    for (const LineInKeyframe& s : views_of_line) {
       views.push_back({window.pose(s.keyframe), s.seen});
       if (s.second)
-        views.push_back({beside(window.pose(s.keyframe), s.second->eye_cam),
+        views.push_back({beside(window.pose(s.keyframe), s.second->second_in_cam),
                          {s.second->start_px, s.second->end_px, s.second->sigma_px}});
     }
     const auto place = triangulate_line(calibration_.camera, views, options);
@@ -229,12 +229,12 @@ void LineCue::add_sightings(KeyframeId keyframe, const std::map<LineId, LineInKe
         covariances[id] = covariances_[id];
     } else if (place.outcome) {
       window.add_line(id, place.line_ref);
-      for (const LineInKeyframe& s : sightings) add_to_window(id, s, window);
+      for (const LineInKeyframe& s : views_of_line) add_to_window(id, s, window);
       covariances[id] = place.covariance;
     }
-    all[id] = std::move(sightings);
+    all[id] = std::move(views_of_line);
   }
-  sightings_ = std::move(all);
+  observations_ = std::move(all);
   covariances_ = std::move(covariances);
 }
 
@@ -242,7 +242,7 @@ void LineCue::observe_earlier(KeyframeId keyframe, const LineView& seen, Sliding
   std::map<LineId, LineInKeyframe> now;
   for (const auto& [id, line] : seen) now[id] = {keyframe, line.seen, std::nullopt};
   steer(keyframe, seen, window);
-  add_sightings(keyframe, now, window);
+  add_observations(keyframe, now, window);
 }
 
 void LineCue::wait(const Frame& frame, const SE3& T_odom_start) {
@@ -255,16 +255,16 @@ void LineCue::wait(const Frame& frame, const SE3& T_odom_start) {
 std::vector<SharedDirection> LineCue::shared_directions() const {
   std::vector<SharedDirection> shared;
   if (!compass_) return shared;
-  for (const auto& family : compass_->families())
-    shared.push_back({family.d_ref, family.sigma_rad});
+  for (const auto& cluster : compass_->clusters())
+    shared.push_back({cluster.d_ref, cluster.sigma_rad});
   return shared;
 }
 
 void LineCue::hold_course(KeyframeId keyframe, double depth, SlidingWindow& window) const {
   if (!compass_) return;
   for (const MotionObservation& motion :
-       course_along_lines(window, calibration_.camera, compass_->families(), sightings_, keyframe,
-                          depth, deg_to_rad(options_.triangulation.min_turn_deg)))
+       course_along_lines(window, calibration_.camera, compass_->clusters(), observations_, keyframe,
+                          depth, deg_to_rad(options_.triangulation.min_rotation_deg)))
     add_motion(window, motion);
 }
 
@@ -293,7 +293,7 @@ void LineCue::prune(SlidingWindow& window) {
     const auto r = observations.empty() ? std::nullopt : residual_px(window, observations.back());
     if (r && r->cwiseAbs().maxCoeff() <= options_.outlier_px) continue;
     window.remove_line(id);
-    sightings_.erase(id);
+    observations_.erase(id);
   }
 }
 
@@ -317,22 +317,22 @@ std::vector<DisparitySample> LineCue::disparity_samples(const SlidingWindow& win
   return samples;
 }
 
-void LineCue::revise_eyes(SlidingWindow& window, const RectificationError& before,
+void LineCue::revise_second_cameras(SlidingWindow& window, const RectificationError& before,
                           const RectificationError& now) {
   const RectificationError more{now.offset_px - before.offset_px, now.by_x_px - before.by_x_px,
                                 now.by_y_px - before.by_y_px};
-  const auto revised = [&](const LineObservation::SecondEye& second, const Eigen::Vector2d& a,
+  const auto revised = [&](const LineObservation::SecondCamera& second, const Eigen::Vector2d& a,
                            const Eigen::Vector2d& b) {
     return corrected(second, calibration_.camera, a, b, more);
   };
-  for (auto& [id, sightings] : sightings_)
-    for (LineInKeyframe& s : sightings)
+  for (auto& [id, views_of_line] : observations_)
+    for (LineInKeyframe& s : views_of_line)
       if (s.second) s.second = revised(*s.second, s.seen.first, s.seen.second);
   for (const LineId id : window.lines()) {
     const std::vector<LineObservation> observations = window.line_observations(id);
     for (const LineObservation& o : observations)
       if (o.second)
-        window.revise_second_eye(o.keyframe, id, revised(*o.second, o.start_px, o.end_px));
+        window.revise_second_camera(o.keyframe, id, revised(*o.second, o.start_px, o.end_px));
   }
 }
 

@@ -2,14 +2,14 @@
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/frontend/internal/features/rectification.h>
 #include <placegraph/frontend/internal/features/stereo_matcher.h>
-#include <placegraph/frontend/internal/lines/direction_compass.h>
+#include <placegraph/frontend/internal/lines/vanishing_direction_tracker.h>
 #include <placegraph/frontend/internal/lines/floor_from_lines.h>
 #include <placegraph/frontend/internal/lines/line_feature.h>
 #include <placegraph/frontend/internal/lines/line_tracker.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>
-#include <placegraph/pipeline/internal/lines/line_sightings.h>
+#include <placegraph/pipeline/internal/lines/line_observations.h>
 #include <placegraph/pipeline/internal/lines/line_tracks.h>
 
 #include <map>
@@ -66,7 +66,7 @@ class LineCue {
   std::vector<DisparitySample> disparity_samples(const SlidingWindow& window,
                                                  const RectificationError& rectification);
   /// What right eyes saw follows a better calibration.
-  void revise_eyes(SlidingWindow& window, const RectificationError& before,
+  void revise_second_cameras(SlidingWindow& window, const RectificationError& before,
                    const RectificationError& now);
   /// Drops lines of the window that the newest keyframe contradicts.
   void prune(SlidingWindow& window);
@@ -84,11 +84,11 @@ class LineCue {
   void reset();
 
  private:
-  void add_sightings(KeyframeId keyframe, const std::map<LineId, LineInKeyframe>& now,
+  void add_observations(KeyframeId keyframe, const std::map<LineId, LineInKeyframe>& now,
                      SlidingWindow& window);
   LineTriangulationOptions triangulation(const SlidingWindow& window) const;
   std::optional<PoseGuess> with_heading(const PoseGuess& guess) const;
-  void add_to_window(LineId id, const LineInKeyframe& sighting, SlidingWindow& window) const;
+  void add_to_window(LineId id, const LineInKeyframe& line_in_keyframe, SlidingWindow& window) const;
   void follow_mergers();
   void steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& window);
 
@@ -96,10 +96,10 @@ class LineCue {
   StereoMatcherOptions stereo_;
   Calibration calibration_;
   LineTracker tracker_;
-  std::optional<DirectionCompass> compass_;
+  std::optional<VanishingDirectionTracker> compass_;
   SE3 T_odom_last_;          // of the newest image, once accepted
   SE3 T_odom_before_;        // of the image before
-  LineSightings sightings_;  // of live tracks
+  LineObservations observations_;  // of live tracks
   std::map<LineId, LineSegment> at_keyframe_;
   std::map<LineId, Eigen::Matrix4d> covariances_;  // of lines of the window
   std::set<LineId> calibrated_;        // lines of the window whose disparity was given out

@@ -4,7 +4,7 @@
 
 namespace placegraph {
 
-void KeyframeMasks::set_model(std::shared_ptr<const SceneEye> labeller, bool masks) {
+void KeyframeMasks::set_model(std::shared_ptr<const SurfaceLabeller> labeller, bool masks) {
   labeller_ = std::move(labeller);
   masks_ = masks;
 }
@@ -14,7 +14,7 @@ KeyframeImages KeyframeMasks::apply(const Frame& frame) {
   if (!labeller_) return images;
   if (!labels_ || labels_->frame != frame.id) {
     const auto span = times_.measure("scene labels");
-    labels_ = std::make_shared<const SceneSight>(labeller_->look(frame, masks_ && trusted_));
+    labels_ = std::make_shared<const SurfaceLabels>(labeller_->look(frame, masks_ && trusted_));
   }
   images.labels = labels_;
   const Image& use = labels_->masks.use;

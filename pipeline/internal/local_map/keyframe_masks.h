@@ -10,7 +10,7 @@ namespace placegraph {
 struct KeyframeImages {
   Frame frame;                               ///< its mask leaves out what its labels say
   Image given_mask;                          ///< the mask that it came with
-  std::shared_ptr<const SceneSight> labels;  ///< of its surfaces; null: not labelled
+  std::shared_ptr<const SurfaceLabels> labels;  ///< of its surfaces; null: not labelled
   /// 0 where the labels say that the frame shows no ground (CV_8UC1); empty where they say nothing.
   Image ground() const { return labels ? labels->masks.ground : Image(); }
   /// Whether labels have a part in the frame's mask.
@@ -24,7 +24,7 @@ class KeyframeMasks {
   /// `times`, which must outlive it, receives the CPU time of labelling.
   explicit KeyframeMasks(StageTimes& times) : times_(times) {}
   /// `masks`: whether the labels mask anything.
-  void set_model(std::shared_ptr<const SceneEye> labeller, bool masks);
+  void set_model(std::shared_ptr<const SurfaceLabeller> labeller, bool masks);
   /// Whether labels are trusted to tell where motion may be measured.
   void trust(bool trusted) { trusted_ = trusted; }
   /// A frame that becomes a keyframe, or may become one. The labels of the last frame are kept.
@@ -32,9 +32,9 @@ class KeyframeMasks {
 
  private:
   StageTimes& times_;
-  std::shared_ptr<const SceneEye> labeller_;
+  std::shared_ptr<const SurfaceLabeller> labeller_;
   bool masks_ = false, trusted_ = true;
-  std::shared_ptr<const SceneSight> labels_;  // of the frame last labelled
+  std::shared_ptr<const SurfaceLabels> labels_;  // of the frame last labelled
 };
 
 }  // namespace placegraph

@@ -13,13 +13,13 @@ void LensEstimator::observe(const SlidingWindow& window) {
   add(lens_evidence(window.state()));
 }
 
-void LensEstimator::add(const LensEvidence& evidence) {
+void LensEstimator::add(const DistortionEvidence& evidence) {
   if (evidence.information > 0) windows_.push_back(evidence);
 }
 
 double LensEstimator::k1() const {
   double gradient = 0, information = 0;
-  for (const LensEvidence& window : windows_) {
+  for (const DistortionEvidence& window : windows_) {
     gradient += window.gradient;
     information += window.information;
   }
@@ -30,7 +30,7 @@ double LensEstimator::sigma_k1() const {
   constexpr double kWindows = 4;
   const double mean = k1();
   double information = 0, squares = 0, scatter = 0;
-  for (const LensEvidence& window : windows_) {
+  for (const DistortionEvidence& window : windows_) {
     const double off = -window.gradient / window.information - mean;
     information += window.information;
     squares += window.information * window.information;
@@ -44,7 +44,7 @@ double LensEstimator::sigma_k1() const {
 
 double LensEstimator::effect() const {
   double information = 0, residuals = 0;
-  for (const LensEvidence& window : windows_) {
+  for (const DistortionEvidence& window : windows_) {
     information += window.information;
     residuals += window.residuals;
   }

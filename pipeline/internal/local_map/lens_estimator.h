@@ -17,7 +17,7 @@ class LensEstimator {
  public:
   /// Takes the evidence of a window, if its keyframes are all newer than those of the last one.
   void observe(const SlidingWindow& window);
-  void add(const LensEvidence& evidence);
+  void add(const DistortionEvidence& evidence);
   /// The weighted mean of the windows; 0 before there are any.
   double k1() const;
   /// Infinite before there are four windows of like weight.
@@ -27,7 +27,7 @@ class LensEstimator {
   LensDistortion estimate() const { return {k1(), sigma_k1(), effect()}; }
 
  private:
-  std::vector<LensEvidence> windows_;
+  std::vector<DistortionEvidence> windows_;
   std::optional<KeyframeId> newest_;  // keyframe of the last window
 };
 

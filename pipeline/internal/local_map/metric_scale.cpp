@@ -7,12 +7,12 @@
 
 namespace placegraph {
 
-void MetricScale::use_ground_plane(const GroundScaleOptions& options, const Camera& camera,
+void MetricScale::use_ground_plane(const GroundPlaneScaleOptions& options, const Camera& camera,
                                    double height_m) {
   ground_.emplace(options, camera, height_m);
 }
 
-void MetricScale::use_floor_lines(const FloorScaleOptions& options, const Camera& camera,
+void MetricScale::use_floor_lines(const FloorLineScaleOptions& options, const Camera& camera,
                                   double height_m) {
   floor_.emplace(options, camera, height_m);
 }
@@ -49,8 +49,8 @@ std::vector<Eigen::Vector2d> MetricScale::ground_outline_px() const {
 }
 
 /// What labels of surfaces and the edges of the newest keyframe say of the ground.
-GroundSight MetricScale::ground_in(const KeyframeImages& images, const Cues& cues) const {
-  GroundSight ground;
+GroundMask MetricScale::ground_in(const KeyframeImages& images, const Cues& cues) const {
+  GroundMask ground;
   if (cues.manhattan) ground = cues.manhattan->ground(ground_->outline_px());
   if (ground.level && !ground_->may_be_ground(*ground.level)) ground = {};
   const Image labelled = images.ground();
@@ -79,7 +79,7 @@ std::optional<Rescale> MetricScale::measure_ground(const KeyframeImages& images,
   const Frame old_frame = old ? frames_.at(*old) : Frame();
   frames_[current] = images.frame;
   if (!old) return std::nullopt;
-  const GroundSight ground = ground_in(images, cues);
+  const GroundMask ground = ground_in(images, cues);
   const auto measured =
       known ? ground_->follow(images.frame.image, old_frame.image, T_old_new, ground)
             : ground_->find(images.frame.image, old_frame.image, T_old_new, ground);

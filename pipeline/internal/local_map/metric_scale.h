@@ -22,8 +22,8 @@ class MetricScale {
  public:
   explicit MetricScale(LogSink log) : log_(std::move(log)) {}
   /// Ways to measure; any number of them may be used.
-  void use_ground_plane(const GroundScaleOptions& options, const Camera& camera, double height_m);
-  void use_floor_lines(const FloorScaleOptions& options, const Camera& camera, double height_m);
+  void use_ground_plane(const GroundPlaneScaleOptions& options, const Camera& camera, double height_m);
+  void use_floor_lines(const FloorLineScaleOptions& options, const Camera& camera, double height_m);
   void use_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
   /// Whether anything measures the scale.
   bool available() const { return ground_ || floor_ || motion_; }
@@ -51,11 +51,11 @@ class MetricScale {
   std::optional<Rescale> measure_floor(const Cues& cues, LocalMap& map);
   std::optional<Rescale> measure_motion(LocalMap& map);
   std::optional<DistanceObservation> measured_distance(KeyframeId from, KeyframeId to) const;
-  GroundSight ground_in(const KeyframeImages& images, const Cues& cues) const;
+  GroundMask ground_in(const KeyframeImages& images, const Cues& cues) const;
 
   LogSink log_;
-  std::optional<GroundScale> ground_;
-  std::optional<FloorScale> floor_;
+  std::optional<GroundPlaneScale> ground_;
+  std::optional<FloorLineScale> floor_;
   std::shared_ptr<const MeasuredMotion> motion_;
   bool height_trusted_ = true;
   std::map<KeyframeId, std::int64_t> stamps_ns_;  // of the segment's keyframes

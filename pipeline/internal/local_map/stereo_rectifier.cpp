@@ -87,7 +87,7 @@ void StereoRectifier::calibrate(SlidingWindow& window, LineCue* lines) {
       samples.push_back(of_line);
   estimator_.add(samples);
   revise_disparities(window, before);
-  if (lines) lines->revise_eyes(window, before, error());
+  if (lines) lines->revise_second_cameras(window, before, error());
 }
 
 void StereoRectifier::revise_disparities(SlidingWindow& window,

@@ -144,7 +144,7 @@ std::vector<Loop> LoopCloser::find_loops(const KnownMotions& known, double media
     LoopRecord record;
     record.query_frame = views_.back().frame;
     record.match_frame = candidate.match->frame;
-    record.likeness = candidate.similarity;
+    record.similarity = candidate.similarity;
     const std::optional<Loop> loop = judge(candidate, known, median_depth_m, record);
     record.probability = loop_probability(record);
     records_.push_back(record);

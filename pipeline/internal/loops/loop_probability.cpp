@@ -7,7 +7,7 @@
 namespace placegraph {
 namespace {
 
-// By LoopStage, as tests/bench/loop_odds_study prints them.
+// By LoopStage, as tests/bench/loop_probability_study prints them.
 constexpr std::array<double, kLoopStageCount> kConstants = {0,    -6.85, -1.25, 1.16,
                                                             1.23, 0.11,  2.03};
 constexpr double kPerLogSimilarity = 6.53, kPerLogAgreeing = 0.54;
@@ -19,7 +19,7 @@ LoopFeatures loop_features(const LoopRecord& record) {
   constexpr double kLeastSimilarity = 0.03, kMostSimilarity = 2;
   const bool posed = record.stage >= LoopStage::kDrift;
   return {record.stage,
-          posed ? 0 : std::log(std::clamp(record.likeness, kLeastSimilarity, kMostSimilarity)),
+          posed ? 0 : std::log(std::clamp(record.similarity, kLeastSimilarity, kMostSimilarity)),
           std::log1p(std::max(0, record.inliers + record.lines))};
 }
 

@@ -6,7 +6,7 @@ namespace placegraph {
 /// How probable it is that query and match of a record show one place, by the stage that decided,
 /// how similar the views are, and how many points and lines agree with one pose: a logistic model
 /// whose coefficients were fitted to candidates of rendered drives whose truth is known
-/// (docs/places.md, tests/bench/loop_odds_study).
+/// (docs/places.md, tests/bench/loop_probability_study).
 double loop_probability(const LoopRecord& record);
 
 /// What the model sees of a record.

@@ -7,13 +7,13 @@ namespace placegraph {
 namespace {
 
 /// What any two views have in common: the median over pairs that are far from each other.
-double common_likeness(const std::vector<PlaceView>& views, const PlaceCueOptions& cues) {
+double common_similarity(const std::vector<PlaceView>& views, const PlaceCueOptions& cues) {
   constexpr std::size_t kSamples = 100;
   const std::size_t half = views.size() / 2;
   const std::size_t stride = std::max<std::size_t>(1, half / kSamples);
   std::vector<double> sums;
   for (std::size_t i = 0; i + half < views.size(); i += stride)
-    sums.push_back(grid_likeness(views[i], views[i + half], cues).sum());
+    sums.push_back(grid_similarity(views[i], views[i + half], cues).sum());
   return median_of(sums);
 }
 
@@ -29,15 +29,15 @@ StoredMap learn_map(std::size_t count, const std::function<Image(std::size_t)>& 
     views.push_back(describe_place(image(i), options.cues, false));
 
   StoredMap stored;
-  const double common = common_likeness(views, options.cues);
-  const auto alike = [&](std::size_t a, std::size_t b) {
-    return grid_likeness(views[a], views[b], options.cues).sum() - common;
+  const double common = common_similarity(views, options.cues);
+  const auto similar = [&](std::size_t a, std::size_t b) {
+    return grid_similarity(views[a], views[b], options.cues).sum() - common;
   };
   std::size_t anchor = 0;
   auto& places = stored.map.place_graph.places;
   for (std::size_t i = 0; i < count; ++i) {
     const KeyframeId id(i);
-    if (i == 0 || (i > anchor + 1 && alike(i, anchor) < options.alike * alike(i, i - 1))) {
+    if (i == 0 || (i > anchor + 1 && similar(i, anchor) < options.similar * similar(i, i - 1))) {
       anchor = i;
       Place& place = places.emplace_back();
       place.id = PlaceId(places.size() - 1);

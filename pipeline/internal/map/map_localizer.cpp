@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/frontend/internal/places/place_view.h>
-#include <placegraph/frontend/internal/places/recognition_odds.h>
-#include <placegraph/frontend/places/place_likeness.h>
+#include <placegraph/frontend/internal/places/recognition_probability.h>
+#include <placegraph/frontend/places/place_similarity.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/internal/loops/loop_closer.h>
 #include <placegraph/pipeline/map/map_localizer.h>
@@ -17,16 +17,16 @@ struct MapLocalizer::Impl {
   Impl(const LocalizerOptions& options, StoredMap stored);
   std::vector<Localization> localize(std::size_t count, const Frames& frames, bool sequence) const;
   std::string why_no_features(const Image& grey) const;
-  std::vector<PlaceLikeness> likenesses(const PlaceView& view) const;
+  std::vector<PlaceSimilarity> similarities(const PlaceView& view) const;
   void learn_near();
-  int lag_of_likeness() const;
+  int lag_of_similarity() const;
   bool near(int a, int b) const;
-  std::optional<RecognitionOdds> odds(bool sequence) const;
-  std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceLikeness>>& lists,
+  std::optional<RecognitionProbability> odds(bool sequence) const;
+  std::vector<ViewEvidence> evidence(const std::vector<std::vector<PlaceSimilarity>>& lists,
                                      bool sequence) const;
-  Localization described(const ViewAnswer& answer, double probability) const;
+  Localization described(const ViewEstimate& answer, double probability) const;
   std::optional<LocatedFrame> verify(const Frame& frame,
-                                     const std::vector<PlaceLikeness>& list) const;
+                                     const std::vector<PlaceSimilarity>& list) const;
   void take_geometry(const LocatedFrame& located, Localization& result) const;
   const Keyframe& keyframe_of(int view) const;
 
@@ -94,7 +94,7 @@ const Keyframe& MapLocalizer::Impl::keyframe_of(int view) const {
       .keyframes[static_cast<std::size_t>(keyframes_[static_cast<std::size_t>(view)])];
 }
 
-std::vector<PlaceLikeness> MapLocalizer::Impl::likenesses(const PlaceView& view) const {
+std::vector<PlaceSimilarity> MapLocalizer::Impl::similarities(const PlaceView& view) const {
   return recognizer_.query(view, 0, recognizer_.size() - 1);
 }
 
@@ -104,12 +104,12 @@ void MapLocalizer::Impl::learn_near() {
     adjacent_.emplace(from, to);
     adjacent_.emplace(to, from);
   }
-  lag_ = lag_of_likeness();
+  lag_ = lag_of_similarity();
 }
 
 /// By how many views two must be apart to look no more alike than any two: where three quarters of
 /// what neighbours have in common beyond that are gone.
-int MapLocalizer::Impl::lag_of_likeness() const {
+int MapLocalizer::Impl::lag_of_similarity() const {
   constexpr int kSamples = 40, kLongest = 50;
   constexpr double kRest = 0.25;
   const int views = recognizer_.size();
@@ -118,7 +118,7 @@ int MapLocalizer::Impl::lag_of_likeness() const {
     int count = 0;
     const int stride = std::max(1, (views - lag) / kSamples);
     for (int i = 0; i + lag < views; i += stride, ++count)
-      sum += grid_likeness(recognizer_.view(i), recognizer_.view(i + lag), options_.recognizer.cues)
+      sum += grid_similarity(recognizer_.view(i), recognizer_.view(i + lag), options_.recognizer.cues)
                  .sum();
     return sum / std::max(1, count);
   };
@@ -136,7 +136,7 @@ bool MapLocalizer::Impl::near(int a, int b) const {
 }
 
 std::vector<ViewEvidence> MapLocalizer::Impl::evidence(
-    const std::vector<std::vector<PlaceLikeness>>& lists, bool sequence) const {
+    const std::vector<std::vector<PlaceSimilarity>>& lists, bool sequence) const {
   const int views = recognizer_.size();
   return sequence ? sequence_evidence(lists, views, options_.sequence)
                   : lone_evidence(lists, views);
@@ -144,41 +144,41 @@ std::vector<ViewEvidence> MapLocalizer::Impl::evidence(
 
 /// What the map's own views are answered: kept from all that is near them, or from themselves.
 /// Nothing if they all look alike, or are of one place: that tells not how wrong answers look.
-std::optional<RecognitionOdds> MapLocalizer::Impl::odds(bool sequence) const {
+std::optional<RecognitionProbability> MapLocalizer::Impl::odds(bool sequence) const {
   const int views = recognizer_.size();
   // Some stretches of a long map, as a sequence needs neighbours.
   const int stretches = views <= options_.calibration_views ? 1 : 3;
   const int length = std::min(views, options_.calibration_views) / stretches;
   const NearViews near = [this](int a, int b) { return this->near(a, b); };
-  std::vector<ViewAnswer> wrong, right;
+  std::vector<ViewEstimate> wrong, right;
   for (int s = 0; s < stretches; ++s) {
     const int begin = s * views / stretches;
-    std::vector<std::vector<PlaceLikeness>> far, but_itself;
+    std::vector<std::vector<PlaceSimilarity>> far, but_itself;
     for (int view = begin; view < begin + length; ++view) {
       far.emplace_back();
       but_itself.emplace_back();
-      for (const PlaceLikeness& likeness : likenesses(recognizer_.view(view))) {
-        if (likeness.view != view) but_itself.back().push_back(likeness);
-        if (!near(likeness.view, view)) far.back().push_back(likeness);
+      for (const PlaceSimilarity& similarity : similarities(recognizer_.view(view))) {
+        if (similarity.view != view) but_itself.back().push_back(similarity);
+        if (!near(similarity.view, view)) far.back().push_back(similarity);
       }
     }
     const auto of_far = evidence(far, sequence), of_others = evidence(but_itself, sequence);
     for (int i = 0; i < length; ++i) {
       const int view = begin + i;
       const auto index = static_cast<std::size_t>(i);
-      const ViewAnswer not_near =
+      const ViewEstimate not_near =
           answer_of(of_far[index], near, [&](int other) { return !near(other, view); });
       if (not_near.view >= 0) wrong.push_back(not_near);
-      const ViewAnswer other =
+      const ViewEstimate other =
           answer_of(of_others[index], near, [&](int candidate) { return candidate != view; });
       if (other.view >= 0) right.push_back(other);
     }
   }
   if (wrong.empty() || right.empty()) return std::nullopt;
-  return RecognitionOdds(wrong, right);
+  return RecognitionProbability(wrong, right);
 }
 
-Localization MapLocalizer::Impl::described(const ViewAnswer& answer, double probability) const {
+Localization MapLocalizer::Impl::described(const ViewEstimate& answer, double probability) const {
   Localization result;
   result.stage = "blank";
   if (answer.view < 0) return result;
@@ -194,20 +194,20 @@ Localization MapLocalizer::Impl::described(const ViewAnswer& answer, double prob
 
 std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const Frames& frames,
                                                        bool sequence) const {
-  std::vector<std::vector<PlaceLikeness>> lists;
+  std::vector<std::vector<PlaceSimilarity>> lists;
   std::vector<std::optional<LocatedFrame>> verified;
   std::vector<std::string> hindrances;
   for (std::size_t i = 0; i < count; ++i) {
     const Frame frame = frames(i);
     require(!in_colour_ || !frame.colour.empty(),
             "image " + std::to_string(i) + " is grey, and the map's views have colour");
-    lists.push_back(likenesses(
+    lists.push_back(similarities(
         describe_place(in_colour_ ? frame.colour : frame.image, options_.recognizer.cues, true)));
     hindrances.push_back(why_no_features(frame.image));
     verified.push_back(hindrances.back().empty() ? verify(frame, lists.back()) : std::nullopt);
   }
   const NearViews near = [this](int a, int b) { return this->near(a, b); };
-  std::vector<ViewAnswer> answers;
+  std::vector<ViewEstimate> answers;
   for (const ViewEvidence& of_image : evidence(lists, sequence))
     answers.push_back(answer_of(of_image, near, [](int) { return true; }));
   // As far as the filter looks.
@@ -230,7 +230,7 @@ std::vector<Localization> MapLocalizer::Impl::localize(std::size_t count, const 
 }
 
 std::optional<LocatedFrame> MapLocalizer::Impl::verify(
-    const Frame& frame, const std::vector<PlaceLikeness>& list) const {
+    const Frame& frame, const std::vector<PlaceSimilarity>& list) const {
   constexpr std::size_t kTries = 3;
   std::vector<KeyframeId> tries;
   for (std::size_t i = 0; i < std::min(kTries, list.size()); ++i)

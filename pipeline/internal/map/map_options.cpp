@@ -20,7 +20,7 @@ void MapLearnerOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MapLearnerOptions& o) {
   field.group("cues", o.cues, "what tells places apart, and how much each counts");
-  field("alike", o.alike, "share of what neighbours have in common, below which a place ends",
+  field("similar", o.similar, "share of what neighbours have in common, below which a place ends",
         {0, 1});
 }
 

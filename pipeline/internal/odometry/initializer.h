@@ -5,9 +5,9 @@ namespace placegraph {
 
 /// What a frame did for the beginning of a map.
 struct Initialization {
-  /// kTracking: the map has begun. kWaiting: another frame is needed. kLost: what was waited for
+  /// kTracking: the map has begun. kInitializing: another frame is needed. kLost: what was waited for
   /// has been lost, and the frame is nothing to begin with either.
-  TrackingState state = TrackingState::kWaiting;
+  TrackingState state = TrackingState::kInitializing;
   Outcome outcome;                ///< why not, or why with another first view
   std::optional<SE3> T_last_cur;  ///< velocity to go on with; nothing if the frame is the first
   int inliers = 0;
@@ -42,7 +42,7 @@ inline OdometryUpdate Initialization::update() const {
 }
 
 /// What a motion without a length leaves open.
-inline Outcome no_unit_of_map() {
+inline Outcome no_scale_of_map() {
   return Outcome::failure(Outcome::Code::kDegenerate, "nothing gives the map's unit");
 }
 

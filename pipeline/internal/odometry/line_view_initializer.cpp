@@ -81,9 +81,9 @@ Initialization LineViewInitializer::add(const Frame& frame, const std::optional<
   }
   const auto scale = scale_of(median_of(depths), T_known, map, mapping);
   if (!scale) {
-    const Outcome no_unit = no_unit_of_map();
-    log(log_, LogLevel::kDebug, "initialization waits: {}", no_unit.reason);
-    return Initialization::waiting(no_unit);
+    const Outcome no_scale = no_scale_of_map();
+    log(log_, LogLevel::kDebug, "initialization waits: {}", no_scale.reason);
+    return Initialization::waiting(no_scale);
   }
   const std::vector<std::size_t> chosen = spread(views_.size(), kKeyframes);
   if (!(*scale > 0) ||

@@ -92,7 +92,7 @@ void Odometry::set_motion(std::shared_ptr<const MeasuredMotion> motion_cam) {
   map_ = make_local_map(options_, calibration_, mapping_.scale().available());
 }
 
-void Odometry::set_scene(std::shared_ptr<const SceneEye> labeller, bool masks) {
+void Odometry::set_scene(std::shared_ptr<const SurfaceLabeller> labeller, bool masks) {
   // Surfaces that are followed by their intensities alone are not masked.
   if (!parse_cues(options_.cues).surfaces_alone())
     mapping_.masks().set_model(std::move(labeller), masks);

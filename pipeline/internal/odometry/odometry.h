@@ -41,7 +41,7 @@ class Odometry {
   void set_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
   /// Labels the surfaces of keyframes from now on, before the first frame. `masks`: they say where
   /// points, lines and ground are looked for.
-  void set_scene(std::shared_ptr<const SceneEye> labeller, bool masks);
+  void set_scene(std::shared_ptr<const SurfaceLabeller> labeller, bool masks);
   /// What holds in the surroundings the camera is in; nothing: all that the options ask for.
   void assume(const std::optional<Assumptions>& assumptions);
 

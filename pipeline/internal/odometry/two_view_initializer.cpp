@@ -91,9 +91,9 @@ Initialization TwoViewInitializer::try_second_view(const Frame& frame,
   }
   const auto scale = scale_of(start, T_known, map, mapping);
   if (!scale) {
-    const Outcome no_unit = no_unit_of_map();
-    log(log_, LogLevel::kDebug, "initialization waits: {}", no_unit.reason);
-    return Initialization::waiting(no_unit);
+    const Outcome no_scale = no_scale_of_map();
+    log(log_, LogLevel::kDebug, "initialization waits: {}", no_scale.reason);
+    return Initialization::waiting(no_scale);
   }
   if (!(*scale > 0)) return {};
   return accept(frame, start, *scale, random, map, mapping);

@@ -22,9 +22,9 @@ Matrix7d covariance_of_link(const KeyframeLink& link) {
   return covariance;
 }
 
-KeyframeChain::Keyframe chained(const std::optional<KeyframeLink>& link, int run) {
+KeyframeChain::Keyframe chained(const std::optional<KeyframeLink>& link, int track_segment) {
   const Matrix7d covariance = link ? covariance_of_link(*link) : Matrix7d(Matrix7d::Zero());
-  return {link, covariance, run, SE3(), 0};
+  return {link, covariance, track_segment, SE3(), 0};
 }
 
 }  // namespace
@@ -32,29 +32,29 @@ KeyframeChain::Keyframe chained(const std::optional<KeyframeLink>& link, int run
 KeyframeChain::KeyframeChain(const std::vector<PlaceHistory::Keyframe>& keyframes,
                              std::vector<bool> scale_known)
     : scale_known_(std::move(scale_known)) {
-  for (const auto& [id, part, run, link] : keyframes) {
-    require(run >= 0 && run < static_cast<int>(scale_known_.size()),
+  for (const auto& [id, segment, track_segment, link] : keyframes) {
+    require(track_segment >= 0 && track_segment < static_cast<int>(scale_known_.size()),
             "KeyframeChain: keyframe " + to_string(id) + " is of an unknown run");
-    insert(id, link, run);
+    insert(id, link, track_segment);
   }
   chain_up(kBeforeAll);
 }
 
 void KeyframeChain::add(KeyframeId id, const std::optional<KeyframeLink>& link, bool scale_known) {
-  const bool begins_run = !is_odometry(link) || !contains(link->from);
-  insert(id, link, begins_run ? static_cast<int>(scale_known_.size()) : at(link->from).run);
-  if (begins_run) scale_known_.push_back(scale_known);
+  const bool begins_track_segment = !is_odometry(link) || !contains(link->from);
+  insert(id, link, begins_track_segment ? static_cast<int>(scale_known_.size()) : at(link->from).track_segment);
+  if (begins_track_segment) scale_known_.push_back(scale_known);
   chain_up(id);
 }
 
-void KeyframeChain::insert(KeyframeId id, const std::optional<KeyframeLink>& link, int run) {
+void KeyframeChain::insert(KeyframeId id, const std::optional<KeyframeLink>& link, int track_segment) {
   const std::string subject = "KeyframeChain: keyframe " + to_string(id);
   require(!contains(id), subject + " is there already");
   require(!link || (link->from < id && contains(link->from)),
           subject + " is linked to none before it");
-  require(!is_odometry(link) || at(link->from).run == run,
+  require(!is_odometry(link) || at(link->from).track_segment == track_segment,
           subject + " is linked by odometry to another run");
-  keyframes_[id] = chained(link, run);
+  keyframes_[id] = chained(link, track_segment);
 }
 
 /// Brings poses and path lengths up to date, from keyframe `first` on.
@@ -64,7 +64,7 @@ void KeyframeChain::chain_up(KeyframeId first) {
     if (!is_odometry(keyframe.link)) continue;
     const Keyframe& from = keyframes_.at(keyframe.link->from);
     const SE3& T_from_this = keyframe.link->T_from_this;
-    keyframe.T_run_keyframe = from.T_run_keyframe * T_from_this;
+    keyframe.T_track_keyframe = from.T_track_keyframe * T_from_this;
     keyframe.path_length = from.path_length + T_from_this.translation().norm();
   }
 }
@@ -88,12 +88,12 @@ void KeyframeChain::inform_link(KeyframeId id, const Matrix6d& information,
 }
 
 void KeyframeChain::rescale(KeyframeId first, double factor) {
-  const int run = at(first).run;
-  scale_known_[run] = true;
+  const int track_segment = at(first).track_segment;
+  scale_known_[track_segment] = true;
   for (auto& [id, keyframe] : keyframes_) {
     if (!keyframe.link) continue;
     KeyframeLink& link = *keyframe.link;
-    const bool begins = at(link.from).run == run, ends = keyframe.run == run;
+    const bool begins = at(link.from).track_segment == track_segment, ends = keyframe.track_segment == track_segment;
     if (begins) link.T_from_this = link.T_from_this.scaled(factor);
     if (ends) link.information = rescaled_information<6>(link.information, factor);
     if (link.source != ConstraintSource::kOdometry)
@@ -108,12 +108,12 @@ void KeyframeChain::rescale(KeyframeId first, double factor) {
 bool KeyframeChain::has_odometry(KeyframeId id) const { return is_odometry(at(id).link); }
 
 SE3 KeyframeChain::T_a_b(KeyframeId a, KeyframeId b) const {
-  return at(a).T_run_keyframe.inverse() * at(b).T_run_keyframe;
+  return at(a).T_track_keyframe.inverse() * at(b).T_track_keyframe;
 }
 
 std::optional<TrackedMotion> KeyframeChain::odometry(KeyframeId a, KeyframeId b) const {
   const auto from = keyframes_.find(a), to = keyframes_.find(b);
-  if (from == keyframes_.end() || to == keyframes_.end() || from->second.run != to->second.run)
+  if (from == keyframes_.end() || to == keyframes_.end() || from->second.track_segment != to->second.track_segment)
     return std::nullopt;
   return TrackedMotion{T_a_b(a, b), std::abs(to->second.path_length - from->second.path_length)};
 }

@@ -25,8 +25,8 @@ class KeyframeChain {
   struct Keyframe {
     std::optional<KeyframeLink> link;
     Matrix7d link_covariance = Matrix7d::Zero();  ///< in its right tangent [t, rotation, log scale]
-    int run = 0;
-    SE3 T_run_keyframe;      ///< from the run's first keyframe, along the links
+    int track_segment = 0;
+    SE3 T_track_keyframe;      ///< from the run's first keyframe, along the links
     double path_length = 0;  ///< from the run's first keyframe, along the links
   };
 
@@ -59,11 +59,11 @@ class KeyframeChain {
   std::optional<TrackedMotion> odometry(KeyframeId a, KeyframeId b) const;
 
   const std::vector<bool>& scale_known() const { return scale_known_; }  ///< of every run
-  bool scale_known(KeyframeId keyframe) const { return scale_known_[at(keyframe).run]; }
+  bool scale_known(KeyframeId keyframe) const { return scale_known_[at(keyframe).track_segment]; }
   bool all_scales_known() const;
 
  private:
-  void insert(KeyframeId id, const std::optional<KeyframeLink>& link, int run);
+  void insert(KeyframeId id, const std::optional<KeyframeLink>& link, int track_segment);
   void chain_up(KeyframeId first);
 
   std::map<KeyframeId, Keyframe> keyframes_;

@@ -22,7 +22,7 @@ PlaceEdge odometry_edge(const KeyframeChain& chain, const PlacePartition& partit
                  Sim3(chain.T_a_b(previous, anchor)),
                  chained,
                  ConstraintSource::kOdometry};
-  if (const auto& covariance = partition.parts().at(anchor).motion_covariance) {
+  if (const auto& covariance = partition.segments().at(anchor).motion_covariance) {
     edge.covariance.setZero();
     edge.covariance.topLeftCorner<6, 6>() = *covariance;
     edge.covariance(6, 6) = chained(6, 6);
@@ -43,7 +43,7 @@ std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartiti
   auto at = chain.keyframes().lower_bound(since);
   if (at == chain.keyframes().end()) return result;
   // Covariances add up from an anchor on.
-  KeyframeId begin = partition.part_of(at->first);
+  KeyframeId begin = partition.segment_of(at->first);
   if (begin == at->first) begin = partition.previous_anchor(chain, begin).value_or(begin);
   Matrix7d chained = Matrix7d::Zero();
   for (at = chain.keyframes().find(begin); at != chain.keyframes().end(); ++at) {
@@ -57,9 +57,9 @@ std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartiti
     const Sim3 S_from_this(link.T_from_this.rotation(), link.T_from_this.translation(), link.scale);
     if (link.source != ConstraintSource::kOdometry) {
       result.push_back({{PlaceConstraint::Kind::kLink, id.value()},
-                        partition.part_of(link.from),
+                        partition.segment_of(link.from),
                         id,
-                        Sim3(partition.T_part_keyframe(chain, link.from)) * S_from_this,
+                        Sim3(partition.T_segment_keyframe(chain, link.from)) * S_from_this,
                         keyframe.link_covariance,
                         link.source});
       chained.setZero();
@@ -67,7 +67,7 @@ std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartiti
     }
     chained = transported(S_from_this.inverse().adjoint(), chained) + keyframe.link_covariance;
     if (!partition.is_anchor(id)) continue;
-    result.push_back(odometry_edge(chain, partition, partition.part_of(link.from), id, chained));
+    result.push_back(odometry_edge(chain, partition, partition.segment_of(link.from), id, chained));
     chained.setZero();
   }
   return result;
@@ -75,8 +75,8 @@ std::vector<PlaceEdge> link_edges(const KeyframeChain& chain, const PlacePartiti
 
 PlaceEdge loop_edge(const KeyframeChain& chain, const PlacePartition& partition, const Loop& loop,
                     std::size_t number) {
-  const Sim3 S_part_match(partition.T_part_keyframe(chain, loop.match)),
-      S_part_query(partition.T_part_keyframe(chain, loop.query));
+  const Sim3 S_part_match(partition.T_segment_keyframe(chain, loop.match)),
+      S_segment_query(partition.T_segment_keyframe(chain, loop.query));
   Matrix7d covariance = Matrix7d::Zero();
   if (loop.information(6, 6) > 0 && !chain.all_scales_known()) {
     covariance = bounded_covariance(loop.information);
@@ -86,10 +86,10 @@ PlaceEdge loop_edge(const KeyframeChain& chain, const PlacePartition& partition,
     covariance(6, 6) = kScaleVariance;
   }
   return {{PlaceConstraint::Kind::kLoop, static_cast<std::int64_t>(number)},
-          partition.part_of(loop.match),
-          partition.part_of(loop.query),
-          S_part_match * loop.S_match_query() * S_part_query.inverse(),
-          transported(S_part_query.adjoint(), covariance),
+          partition.segment_of(loop.match),
+          partition.segment_of(loop.query),
+          S_part_match * loop.S_match_query() * S_segment_query.inverse(),
+          transported(S_segment_query.adjoint(), covariance),
           ConstraintSource::kLoop};
 }
 
@@ -109,12 +109,12 @@ std::optional<PlaceEdge> motion_edge(const KeyframeChain& chain, const PlaceHist
 
 RelativePoseConstraint constraint_between_places(const PlacePartition& partition,
                                                  const PlaceEdge& edge, bool all_scales_known) {
-  const PlacePartition::Part &from = partition.parts().at(edge.from_part),
-                             &to = partition.parts().at(edge.to_part);
-  const Sim3 S_from_to = from.S_place_part * edge.S_from_to * to.S_place_part.inverse();
+  const PlacePartition::Segment &from = partition.segments().at(edge.from_segment),
+                             &to = partition.segments().at(edge.to_segment);
+  const Sim3 S_from_to = from.S_place_segment * edge.S_from_to * to.S_place_segment.inverse();
   Matrix7d covariance = transported(edge.S_from_to.inverse().adjoint(), from.covariance) +
                         edge.covariance + to.covariance;
-  covariance = transported(to.S_place_part.adjoint(), covariance);
+  covariance = transported(to.S_place_segment.adjoint(), covariance);
 
   RelativePoseConstraint constraint;
   constraint.from = node_of_place(from.place);
@@ -151,7 +151,7 @@ std::vector<PlaceConstraint> place_constraints(const KeyframeChain& chain,
   const bool all_scales_known = chain.all_scales_known();
   for (const PlaceEdge& edge : edges) {
     result.push_back({edge.key, std::nullopt});
-    if (partition.parts().at(edge.from_part).place == partition.parts().at(edge.to_part).place)
+    if (partition.segments().at(edge.from_segment).place == partition.segments().at(edge.to_segment).place)
       continue;
     auto& measured = result.back().measured;
     measured = constraint_between_places(partition, edge, all_scales_known);

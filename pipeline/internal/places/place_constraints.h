@@ -12,7 +12,7 @@ namespace placegraph {
 /// A measured motion between the anchors of two parts.
 struct PlaceEdge {
   PlaceConstraint::Key key;
-  KeyframeId from_part, to_part;
+  KeyframeId from_segment, to_segment;
   Sim3 S_from_to;
   Matrix7d covariance = Matrix7d::Zero();  ///< in the right tangent
   ConstraintSource source = ConstraintSource::kOdometry;

@@ -21,7 +21,7 @@ PlaceMapper::PlaceMapper(const PlaceOptions& options, const IncrementalOptions& 
                          const std::vector<Place>& places, const PlaceHistory& history)
     : PlaceMapper(options, optimizer) {
   partition_ = PlacePartition(places, history);
-  chain_ = KeyframeChain(history.keyframes, history.unit_measured);
+  chain_ = KeyframeChain(history.keyframes, history.scale_measured);
   for (const PlaceHistory::Motion& motion : history.motions)
     add_motion(motion.from, motion.to, motion.T_from_to, motion.covariance);
   for (const Loop& loop : history.loops)
@@ -34,12 +34,12 @@ PlaceMapper::PlaceMapper(const PlaceOptions& options, const IncrementalOptions& 
 PlaceHistory PlaceMapper::history() const {
   PlaceHistory history;
   for (const auto& [id, keyframe] : chain_.keyframes())
-    history.keyframes.push_back({id, partition_.part_of(id), keyframe.run, keyframe.link});
+    history.keyframes.push_back({id, partition_.segment_of(id), keyframe.track_segment, keyframe.link});
   partition_.save(history);
   history.motions = motions_;
   history.loops = loops_;
   history.judged_loops = judged_loops_;
-  history.unit_measured = chain_.scale_known();
+  history.scale_measured = chain_.scale_known();
   return history;
 }
 
@@ -55,8 +55,8 @@ void PlaceMapper::add_keyframe(KeyframeId id, const std::optional<Link>& link,
   changed(id);
   if (chain_.all_scales_known() != were_known) unpublished_from_ = kBeforeAll;  // now over Sim(3)
   if (chain_.has_odometry(id) &&
-      in_reach_of_part(chain_, partition_, loops_, options_, id, median_depth_m)) {
-    partition_.join(id, partition_.part_of(link->from));
+      in_reach_of_segment(chain_, partition_, loops_, options_, id, median_depth_m)) {
+    partition_.join(id, partition_.segment_of(link->from));
     return;
   }
   Sim3 S_map_place(T_map_guess);
@@ -113,9 +113,9 @@ void PlaceMapper::add_loop(const Loop& loop) {
 void PlaceMapper::rescale(KeyframeId first, double factor) {
   partition_.rescale(chain_, first, factor);
   chain_.rescale(first, factor);
-  const int run = chain_.at(first).run;
+  const int track_segment = chain_.at(first).track_segment;
   for (Loop& loop : loops_)
-    loop = rescaled_loop(loop, chain_.at(loop.match).run == run, chain_.at(loop.query).run == run,
+    loop = rescaled_loop(loop, chain_.at(loop.match).track_segment == track_segment, chain_.at(loop.query).track_segment == track_segment,
                          factor);
   optimizer_.reset();  // its lengths are of another scale
   unpublished_from_ = kBeforeAll;

@@ -64,7 +64,7 @@ std::optional<PlaceMerger> merger_of(const PlacePair& pair, const PlacePartition
   const PlacePartition::PlaceState &a = partition.places().at(older),
                                    &b = partition.places().at(younger);
   if (b.last_keyframe >= first_open || a.anchor_keyframe >= first_open ||
-      partition.have_parted(older, younger))
+      partition.were_separated(older, younger))
     return std::nullopt;
   const Sim3 S_a_b = a.S_map_place.inverse() * b.S_map_place;
   if (S_a_b.translation().norm() >= a.reach ||
@@ -96,17 +96,17 @@ struct MergerErrors {
 
 MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition& partition) {
   const std::vector<PlaceHistory::Merged>& merged = partition.merged();
-  std::map<KeyframeId, std::vector<std::size_t>> mergers_of_part;
+  std::map<KeyframeId, std::vector<std::size_t>> mergers_of_segment;
   for (std::size_t i = 0; i < merged.size(); ++i)
-    for (const auto& [anchor, covariance] : merged[i].covariance_of_part)
-      mergers_of_part[anchor].push_back(i);
+    for (const auto& [anchor, covariance] : merged[i].covariance_of_segment)
+      mergers_of_segment[anchor].push_back(i);
 
   MergerErrors result{
       std::vector<double>(merged.size(), 0), std::vector<int>(merged.size(), 0), {}};
   const bool all_scales_known = chain.all_scales_known();
   for (const PlaceEdge& edge : link_edges(chain, partition, kBeforeAll)) {
-    const PlaceId from = partition.parts().at(edge.from_part).place,
-                  to = partition.parts().at(edge.to_part).place;
+    const PlaceId from = partition.segments().at(edge.from_segment).place,
+                  to = partition.segments().at(edge.to_segment).place;
     if (from == to || edge.source != ConstraintSource::kOdometry) continue;
     const RelativePoseConstraint constraint =
         constraint_between_places(partition, edge, all_scales_known);
@@ -115,12 +115,12 @@ MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition&
                                        partition.places().at(to).S_map_place);
     const int directions = static_cast<int>(constraint.information.rows());
     result.ratios.push_back(error / directions);
-    for (const auto& [part, other] :
-         {std::pair(edge.from_part, edge.to_part), std::pair(edge.to_part, edge.from_part)}) {
-      const auto mergers = mergers_of_part.find(part);
-      if (mergers == mergers_of_part.end()) continue;
+    for (const auto& [segment, other] :
+         {std::pair(edge.from_segment, edge.to_segment), std::pair(edge.to_segment, edge.from_segment)}) {
+      const auto mergers = mergers_of_segment.find(segment);
+      if (mergers == mergers_of_segment.end()) continue;
       for (const std::size_t i : mergers->second) {
-        if (merged[i].covariance_of_part.count(other)) continue;
+        if (merged[i].covariance_of_segment.count(other)) continue;
         result.chi2[i] += error;
         result.degrees_of_freedom[i] += directions;
       }

@@ -18,9 +18,9 @@ namespace placegraph {
 /// Functions throw std::out_of_range for an unknown keyframe, part or place.
 class PlacePartition {
  public:
-  struct Part {  // named after its anchor
+  struct Segment {  // named after its anchor
     PlaceId place;
-    Sim3 S_place_part;                            ///< identity if it founded the place
+    Sim3 S_place_segment;                            ///< identity if it founded the place
     Matrix7d covariance = Matrix7d::Zero();       ///< of that, in its right tangent
     std::optional<Matrix6d> motion_covariance{};  ///< of the motion from the previous anchor
   };
@@ -51,7 +51,7 @@ class PlacePartition {
   /// Returns as merge().
   KeyframeId separate(std::size_t number);
   /// Whether the two places hold parts whose merger was undone.
-  bool have_parted(PlaceId one, PlaceId other) const;
+  bool were_separated(PlaceId one, PlaceId other) const;
 
   void set_pose(PlaceId place, const Sim3& S_map_place);
   /// The places of component `from` move by `S_new_old` and join component `to`.
@@ -63,17 +63,17 @@ class PlacePartition {
   /// places stay where they are and their scales shrink.
   void rescale(const KeyframeChain& chain, KeyframeId first, double factor);
 
-  const std::map<KeyframeId, Part>& parts() const { return parts_; }
+  const std::map<KeyframeId, Segment>& segments() const { return segments_; }
   const std::map<PlaceId, PlaceState>& places() const { return places_; }
   const std::vector<PlaceHistory::Merged>& merged() const { return merged_; }
-  KeyframeId part_of(KeyframeId keyframe) const { return part_of_.at(keyframe); }
-  PlaceId place_of(KeyframeId keyframe) const { return parts_.at(part_of(keyframe)).place; }
+  KeyframeId segment_of(KeyframeId keyframe) const { return segment_of_.at(keyframe); }
+  PlaceId place_of(KeyframeId keyframe) const { return segments_.at(segment_of(keyframe)).place; }
   const PlaceState& state_of(KeyframeId keyframe) const { return places_.at(place_of(keyframe)); }
-  bool is_anchor(KeyframeId keyframe) const { return parts_.count(keyframe) != 0; }
+  bool is_anchor(KeyframeId keyframe) const { return segments_.count(keyframe) != 0; }
   /// The anchor before `anchor` in its run of tracking; nothing if `anchor` is none or the first.
   std::optional<KeyframeId> previous_anchor(const KeyframeChain& chain, KeyframeId anchor) const;
 
-  SE3 T_part_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const;
+  SE3 T_segment_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const;
   Sim3 S_place_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const;
   Sim3 S_map_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const;
   /// The places with their members, as a place graph lists them.
@@ -82,11 +82,11 @@ class PlacePartition {
   void save(PlaceHistory& history) const;
 
  private:
-  std::map<KeyframeId, KeyframeId> part_of_;  // of every keyframe
-  std::map<KeyframeId, Part> parts_;
+  std::map<KeyframeId, KeyframeId> segment_of_;  // of every keyframe
+  std::map<KeyframeId, Segment> segments_;
   std::map<PlaceId, PlaceState> places_;
   std::vector<PlaceHistory::Merged> merged_;
-  std::set<std::pair<KeyframeId, KeyframeId>> parted_;  // anchors that are not one place
+  std::set<std::pair<KeyframeId, KeyframeId>> separated_;  // anchors that are not one place
   std::int64_t founded_ = 0;                            // places so far
 };
 

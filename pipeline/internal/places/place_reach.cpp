@@ -28,12 +28,12 @@ std::optional<PlaceId> earlier_place_in_reach(const KeyframeChain& chain,
   return nearest;
 }
 
-bool in_reach_of_part(const KeyframeChain& chain, const PlacePartition& partition,
+bool in_reach_of_segment(const KeyframeChain& chain, const PlacePartition& partition,
                       const std::vector<Loop>& loops, const PlaceOptions& options,
                       KeyframeId keyframe, double median_depth) {
-  const KeyframeId anchor = partition.part_of(chain.at(keyframe).link->from);
+  const KeyframeId anchor = partition.segment_of(chain.at(keyframe).link->from);
   const Sim3 S_place_this =
-      partition.parts().at(anchor).S_place_part * Sim3(chain.T_a_b(anchor, keyframe));
+      partition.segments().at(anchor).S_place_segment * Sim3(chain.T_a_b(anchor, keyframe));
   if (S_place_this.translation().norm() >=
           options.max_distance * median_depth * S_place_this.scale() ||
       S_place_this.rotation().log().norm() >= deg_to_rad(options.max_angle_deg))

@@ -22,7 +22,7 @@ std::optional<PlaceId> earlier_place_in_reach(const KeyframeChain& chain,
 /// its predecessor: it is within reach of the anchor and, once loops have led back to known places,
 /// in the same earlier place as the anchor. So where a path is travelled again, its parts end where
 /// those of the first time did.
-bool in_reach_of_part(const KeyframeChain& chain, const PlacePartition& partition,
+bool in_reach_of_segment(const KeyframeChain& chain, const PlacePartition& partition,
                       const std::vector<Loop>& loops, const PlaceOptions& options,
                       KeyframeId keyframe, double median_depth);
 

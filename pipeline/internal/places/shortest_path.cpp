@@ -15,8 +15,8 @@ double shortest_path(const KeyframeChain& chain, const PlacePartition& partition
     neighbours[a].push_back(b);
     neighbours[b].push_back(a);
   };
-  for (const auto& [anchor, part] : partition.parts())
-    if (const auto& link = chain.at(anchor).link) join(part.place, partition.place_of(link->from));
+  for (const auto& [anchor, segment] : partition.segments())
+    if (const auto& link = chain.at(anchor).link) join(segment.place, partition.place_of(link->from));
   for (const Loop& loop : loops)
     join(partition.place_of(loop.match), partition.place_of(loop.query));
 

@@ -7,21 +7,21 @@
 
 namespace placegraph {
 
-FloorScale::FloorScale(const FloorScaleOptions& options, const Camera& camera,
+FloorLineScale::FloorLineScale(const FloorLineScaleOptions& options, const Camera& camera,
                        double camera_height_m)
     : options_(options), camera_(camera), camera_height_m_(camera_height_m) {
   options_.check();
   require(camera_height_m > 0, "camera_height_m: must be positive");
 }
 
-void FloorScale::reset() {
+void FloorLineScale::reset() {
   heard_.clear();
   recent_log_factors_.clear();
   first_log_factors_.clear();
 }
 
 /// The unit once the last views agree on it: the median of three, and the middle one of any more.
-std::optional<GroundScale::Length> FloorScale::agreed(double log_factor, double sigma) {
+std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::agreed(double log_factor, double sigma) {
   constexpr std::size_t kViews = 3;
   first_log_factors_.push_back(log_factor);
   if (first_log_factors_.size() > kViews) first_log_factors_.pop_front();
@@ -29,19 +29,19 @@ std::optional<GroundScale::Length> FloorScale::agreed(double log_factor, double 
   const auto [least, most] =
       std::minmax_element(first_log_factors_.begin(), first_log_factors_.end());
   if (*most - *least > 2 * options_.max_sigma_at_first) return std::nullopt;
-  return GroundScale::Length{
+  return GroundPlaneScale::ScaleMeasurement{
       std::exp(median_of({first_log_factors_.begin(), first_log_factors_.end()})), sigma};
 }
 
-std::optional<GroundScale::Length> FloorScale::measure(const SE3& T_odom_cam,
+std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::measure(const SE3& T_odom_cam,
                                                        const std::vector<PlacedLine>& lines,
                                                        const std::vector<SharedDirection>& shared,
-                                                       bool unit_known) {
+                                                       bool scale_known) {
   const FloorFromLines floor = floor_from_lines(camera_, T_odom_cam, lines, options_.floor, shared);
   if (!floor.outcome) return std::nullopt;
   const double log_factor = std::log(camera_height_m_ / floor.height);
   double sigma = std::hypot(floor.sigma_height / floor.height, options_.sigma_relative);
-  if (!unit_known) {
+  if (!scale_known) {
     if (sigma > options_.max_sigma_at_first) return std::nullopt;
     return agreed(log_factor, sigma);
   }
@@ -57,7 +57,7 @@ std::optional<GroundScale::Length> FloorScale::measure(const SE3& T_odom_cam,
   for (const LineId id : floor.on_floor) fresh += heard_.insert(id).second;
   if (fresh == 0) return std::nullopt;
   sigma *= std::sqrt(static_cast<double>(floor.on_floor.size()) / fresh);
-  return GroundScale::Length{std::exp(log_factor), sigma};
+  return GroundPlaneScale::ScaleMeasurement{std::exp(log_factor), sigma};
 }
 
 }  // namespace placegraph

@@ -11,24 +11,24 @@
 namespace placegraph {
 
 /// Metric scale from lines on the floor under a camera of known height.
-class FloorScale {
+class FloorLineScale {
  public:
-  FloorScale(const FloorScaleOptions& options, const Camera& camera, double camera_height_m);
+  FloorLineScale(const FloorLineScaleOptions& options, const Camera& camera, double camera_height_m);
 
   /// What all lengths must be multiplied by, from lines of a scene whose unit is arbitrary
-  /// (`unit_known` false, which a few views must agree on) or roughly the metre; nothing if no
+  /// (`scale_known` false, which a few views must agree on) or roughly the metre; nothing if no
   /// floor is seen or nothing new of it: a line on the floor is heard once in a known unit.
-  std::optional<GroundScale::Length> measure(const SE3& T_odom_cam,
+  std::optional<GroundPlaneScale::ScaleMeasurement> measure(const SE3& T_odom_cam,
                                              const std::vector<PlacedLine>& lines,
                                              const std::vector<SharedDirection>& shared,
-                                             bool unit_known);
+                                             bool scale_known);
   double min_baseline_m() const { return 0.6 * camera_height_m_; }
   void reset();
 
  private:
-  std::optional<GroundScale::Length> agreed(double log_factor, double sigma);
+  std::optional<GroundPlaneScale::ScaleMeasurement> agreed(double log_factor, double sigma);
 
-  FloorScaleOptions options_;
+  FloorLineScaleOptions options_;
   Camera camera_;
   double camera_height_m_;
   std::set<LineId> heard_;

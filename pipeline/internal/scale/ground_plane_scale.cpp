@@ -9,7 +9,7 @@
 
 namespace placegraph {
 
-GroundScale::GroundScale(const GroundScaleOptions& options, const Camera& camera,
+GroundPlaneScale::GroundPlaneScale(const GroundPlaneScaleOptions& options, const Camera& camera,
                          double camera_height_m)
     : options_(options),
       camera_(camera),
@@ -19,7 +19,7 @@ GroundScale::GroundScale(const GroundScaleOptions& options, const Camera& camera
   require(camera_height_m > 0, "camera_height_m: must be positive");
 }
 
-std::vector<Eigen::Vector2d> GroundScale::outline_px() const {
+std::vector<Eigen::Vector2d> GroundPlaneScale::outline_px() const {
   const GroundPlaneOptions& o = options_.plane;
   std::vector<Eigen::Vector2d> outline;
   for (const auto& [x, z] : {std::pair(-o.half_width_heights, o.near_heights),
@@ -34,26 +34,26 @@ std::vector<Eigen::Vector2d> GroundScale::outline_px() const {
 }
 
 /// Of a single view's normal about the camera's mounting.
-double GroundScale::sigma_of_view_rad() const {
+double GroundPlaneScale::sigma_of_view_rad() const {
   const double frame = deg_to_rad(options_.pitching_sigma_deg);
   return std::sqrt(normal_variance_rad2_ + frame * frame);
 }
 
-bool GroundScale::may_be_ground(const Eigen::Vector3d& level) const {
+bool GroundPlaneScale::may_be_ground(const Eigen::Vector3d& level) const {
   return std::atan2(level.cross(normal_cam_).norm(), level.dot(normal_cam_)) <
          3 * sigma_of_view_rad();
 }
 
-GroundPlanePrior GroundScale::prior(const GroundSight& sight) const {
-  if (sight.level)
-    return {{*sight.level, camera_height_m_},
-            std::hypot(deg_to_rad(options_.level_sigma_deg), sight.level_sigma_rad)};
+GroundPlanePrior GroundPlaneScale::prior(const GroundMask& observation) const {
+  if (observation.level)
+    return {{*observation.level, camera_height_m_},
+            std::hypot(deg_to_rad(options_.level_sigma_deg), observation.level_sigma_rad)};
   return {plane_cam(), sigma_of_view_rad()};
 }
 
 /// The view's normal is the mean plus the vehicle's nodding; what the alignment reports is its
 /// posterior under prior() or a surer one, from which the mean's posterior follows.
-void GroundScale::learn(const GroundPlaneResult& found) {
+void GroundPlaneScale::learn(const GroundPlaneResult& found) {
   const double frame = deg_to_rad(options_.pitching_sigma_deg);
   const double before = normal_variance_rad2_ + frame * frame;
   const double gain = normal_variance_rad2_ / before;
@@ -63,47 +63,47 @@ void GroundScale::learn(const GroundPlaneResult& found) {
   normal_variance_rad2_ += drift * drift - gain * gain * std::max(0.0, before - after);
 }
 
-std::optional<GroundScale::Length> GroundScale::believe(const GroundPlaneResult& found) {
+std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::accept(const GroundPlaneResult& found) {
   if (!found.outcome) return std::nullopt;
   const double log_factor = std::log(camera_height_m_ / found.plane_ref.distance_m);
   // A car's side or a kerb may be taken for the road for a moment, but not for long.
   constexpr std::size_t kMemory = 5;
-  bool believed = true;
+  bool is_within_gate = true;
   if (recent_log_factors_.size() >= 3) {
     const double median = median_of({recent_log_factors_.begin(), recent_log_factors_.end()});
-    believed = std::abs(log_factor - median) < options_.max_log_jump;
+    is_within_gate = std::abs(log_factor - median) < options_.max_log_jump;
   }
   recent_log_factors_.push_back(log_factor);
   if (recent_log_factors_.size() > kMemory) recent_log_factors_.pop_front();
-  if (!believed) return std::nullopt;
+  if (!is_within_gate) return std::nullopt;
   learn(found);
-  return Length{std::exp(log_factor),
+  return ScaleMeasurement{std::exp(log_factor),
                 std::hypot(found.sigma_log_distance, options_.sigma_relative)};
 }
 
-std::optional<GroundScale::Length> GroundScale::find(const Image& image_new, const Image& image_old,
+std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::find(const Image& image_new, const Image& image_old,
                                                      const SE3& T_old_new,
-                                                     const GroundSight& sight) {
+                                                     const GroundMask& observation) {
   recent_log_factors_.clear();
   GroundPlaneResult found =
       search_ground_plane(image_new, image_old, camera_, T_old_new,
-                          sight.level.value_or(normal_cam_), options_.plane, sight.mask);
-  if (found.outcome && sight.level) {
-    GroundPlanePrior level = prior(sight);
+                          observation.level.value_or(normal_cam_), options_.plane, observation.mask);
+  if (found.outcome && observation.level) {
+    GroundPlanePrior level = prior(observation);
     level.plane_ref.distance_m = found.plane_ref.distance_m;
     found = align_ground_plane(image_new, image_old, camera_, T_old_new, level, options_.plane,
-                               sight.mask);
+                               observation.mask);
   }
-  const auto length = believe(found);
+  const auto length = accept(found);
   recent_log_factors_.clear();  // it belongs to another unit
   return length;
 }
 
-std::optional<GroundScale::Length> GroundScale::follow(const Image& image_new,
+std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::follow(const Image& image_new,
                                                        const Image& image_old, const SE3& T_old_new,
-                                                       const GroundSight& sight) {
-  return believe(align_ground_plane(image_new, image_old, camera_, T_old_new, prior(sight),
-                                    options_.plane, sight.mask));
+                                                       const GroundMask& observation) {
+  return accept(align_ground_plane(image_new, image_old, camera_, T_old_new, prior(observation),
+                                    options_.plane, observation.mask));
 }
 
 }  // namespace placegraph

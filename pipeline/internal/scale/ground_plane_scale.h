@@ -11,21 +11,21 @@ namespace placegraph {
 /// Metric scale from the ground: follows the plane under a camera of known height over pairs of
 /// views and says what a motion's true length is. The mean normal in the camera (mounting pitch and
 /// roll) is estimated, never given.
-class GroundScale {
+class GroundPlaneScale {
  public:
-  GroundScale(const GroundScaleOptions& options, const Camera& camera, double camera_height_m);
+  GroundPlaneScale(const GroundPlaneScaleOptions& options, const Camera& camera, double camera_height_m);
 
-  struct Length {
+  struct ScaleMeasurement {
     double factor = 1;  ///< true length = factor * |t| of the motion handed over
     double sigma_relative = 1;
   };
   /// For a motion whose scale is unknown; nothing if the road says nothing. `sight` is of the new
   /// view.
-  std::optional<Length> find(const Image& image_new, const Image& image_old, const SE3& T_old_new,
-                             const GroundSight& sight = {});
+  std::optional<ScaleMeasurement> find(const Image& image_new, const Image& image_old, const SE3& T_old_new,
+                             const GroundMask& observation = {});
   /// For a motion whose scale is roughly right.
-  std::optional<Length> follow(const Image& image_new, const Image& image_old, const SE3& T_old_new,
-                               const GroundSight& sight = {});
+  std::optional<ScaleMeasurement> follow(const Image& image_new, const Image& image_old, const SE3& T_old_new,
+                               const GroundMask& observation = {});
   /// Whether a level floor may be the ground: its normal is about where the camera's mounting, as
   /// far as it is known, lets it be.
   bool may_be_ground(const Eigen::Vector3d& level) const;
@@ -36,12 +36,12 @@ class GroundScale {
   Plane plane_cam() const { return {normal_cam_, camera_height_m_}; }
 
  private:
-  std::optional<Length> believe(const GroundPlaneResult& found);
+  std::optional<ScaleMeasurement> accept(const GroundPlaneResult& found);
   double sigma_of_view_rad() const;
-  GroundPlanePrior prior(const GroundSight& sight) const;
+  GroundPlanePrior prior(const GroundMask& observation) const;
   void learn(const GroundPlaneResult& found);
 
-  GroundScaleOptions options_;
+  GroundPlaneScaleOptions options_;
   Camera camera_;
   double camera_height_m_;
   Eigen::Vector3d normal_cam_ = Eigen::Vector3d::UnitY();

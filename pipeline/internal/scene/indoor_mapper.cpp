@@ -15,26 +15,26 @@ namespace placegraph {
 namespace {
 
 /// Sights in the map's frame, by the poses of the map.
-struct SightsInMap {
+struct ObservationsInMap {
   std::vector<KeyframeId> keyframes;     // by sight
   std::vector<SE3> T_map_cam;            // by sight
   std::vector<SurfacePoint> points;      // by sight
   std::vector<std::size_t> first_point;  // of the next sight
 };
 
-SightsInMap lay_out(const std::vector<SurfaceSight>& sights, const Map& map) {
-  SightsInMap result;
+ObservationsInMap lay_out(const std::vector<KeyframeSurfacePoints>& observations, const Map& map) {
+  ObservationsInMap result;
   const std::set<KeyframeId> connected = connected_keyframes(map);
-  for (const SurfaceSight& sight : sights) {
-    if (!connected.count(sight.keyframe)) continue;
-    const SE3 T_map_cam = camera_pose(map, sight.keyframe);
+  for (const KeyframeSurfacePoints& observation : observations) {
+    if (!connected.count(observation.keyframe)) continue;
+    const SE3 T_map_cam = camera_pose(map, observation.keyframe);
     const Eigen::Matrix3f R = T_map_cam.rotation().matrix().cast<float>();
     const Eigen::Vector3f t = T_map_cam.translation().cast<float>();
-    for (const SurfacePoint& p : sight.points)
+    for (const SurfacePoint& p : observation.points)
       result.points.push_back({R * p.point + t, R * p.normal, p.sigma});
     result.first_point.push_back(result.points.size());
     result.T_map_cam.push_back(T_map_cam);
-    result.keyframes.push_back(sight.keyframe);
+    result.keyframes.push_back(observation.keyframe);
   }
   return result;
 }
@@ -46,24 +46,24 @@ Eigen::Vector3d up_of(const std::vector<SE3>& T_map_cam) {
   return up;
 }
 
-PlacedSights to_walls(const SightsInMap& sights, const SE3& T_walls_map) {
-  PlacedSights placed;
-  placed.keyframes = sights.keyframes;
+PlacedObservations to_walls(const ObservationsInMap& observations, const SE3& T_walls_map) {
+  PlacedObservations placed;
+  placed.keyframes = observations.keyframes;
   const Eigen::Matrix3f R = T_walls_map.rotation().matrix().cast<float>();
   const Eigen::Vector3f t = T_walls_map.translation().cast<float>();
   std::size_t i = 0;
-  for (std::size_t s = 0; s < sights.first_point.size(); ++s)
-    for (; i < sights.first_point[s]; ++i) {
-      const SurfacePoint& p = sights.points[i];
+  for (std::size_t s = 0; s < observations.first_point.size(); ++s)
+    for (; i < observations.first_point[s]; ++i) {
+      const SurfacePoint& p = observations.points[i];
       placed.points.push_back({R * p.point + t, R * p.normal, p.sigma, static_cast<int>(s)});
     }
-  for (const SE3& T : sights.T_map_cam) placed.path.push_back(T_walls_map * T.translation());
+  for (const SE3& T : observations.T_map_cam) placed.path.push_back(T_walls_map * T.translation());
   return placed;
 }
 
-VoxelEvidence evidence_of(const PlacedSights& sights, double cell_m, double layer_m) {
-  Eigen::Vector3d low = sights.path.front(), high = sights.path.front();
-  for (const PlacedPoint& p : sights.points) {
+VoxelEvidence evidence_of(const PlacedObservations& observations, double cell_m, double layer_m) {
+  Eigen::Vector3d low = observations.path.front(), high = observations.path.front();
+  for (const PlacedPoint& p : observations.points) {
     low = low.cwiseMin(p.point.cast<double>());
     high = high.cwiseMax(p.point.cast<double>());
   }
@@ -71,15 +71,15 @@ VoxelEvidence evidence_of(const PlacedSights& sights, double cell_m, double laye
   low[2] = 0, high[2] = std::min(high[2], kHighest_m);
   const Eigen::Vector3d rim(0.3, 0.3, 0);
   VoxelEvidence voxels(low - rim, high + rim, cell_m, layer_m);
-  for (const PlacedPoint& p : sights.points)
-    voxels.add_ray(sights.path[p.sight], p.point.cast<double>(), 0.1 + 3 * p.sigma, true);
+  for (const PlacedPoint& p : observations.points)
+    voxels.add_ray(observations.path[p.observation], p.point.cast<double>(), 0.1 + 3 * p.sigma, true);
   return voxels;
 }
 
-IndoorMap fuse_sights(const std::vector<SurfaceSight>& all, const Map& map,
+IndoorMap fuse_observations(const std::vector<KeyframeSurfacePoints>& all, const Map& map,
                       const IndoorMapperOptions& options) {
   IndoorMap plan;
-  const SightsInMap in_map = lay_out(all, map);
+  const ObservationsInMap in_map = lay_out(all, map);
   if (in_map.points.empty()) {
     plan.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no surface is seen");
     return plan;
@@ -92,21 +92,21 @@ IndoorMap fuse_sights(const std::vector<SurfaceSight>& all, const Map& map,
   plan.floor_y = frame.floor_y();
   plan.yaw_rad = frame.yaw_rad();
 
-  const PlacedSights sights = to_walls(in_map, axes.T_walls_map);
-  const VoxelEvidence voxels = evidence_of(sights, options.cell_m, options.layer_m);
+  const PlacedObservations observations = to_walls(in_map, axes.T_walls_map);
+  const VoxelEvidence voxels = evidence_of(observations, options.cell_m, options.layer_m);
   constexpr double kShoulder_m = 0.45;
   const std::vector<WallPiece> walls =
-      cut_at_path(find_walls(sights.points, voxels, options.walls), sights.path, kShoulder_m,
+      cut_at_path(find_walls(observations.points, voxels, options.walls), observations.path, kShoulder_m,
                   options.walls.min_length_m);
   if (walls.empty()) {
     plan.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no wall is seen");
     return plan;
   }
   const std::vector<DoorPiece> doors =
-      find_doors(walls, sights.points, voxels, sights.path, options.doors);
-  const RoomPartition rooms = partition_rooms(voxels, walls, doors, sights.path, options.rooms);
-  plan.walls = plan_walls(walls, frame, sights, map);
-  plan.rooms = plan_rooms(rooms, voxels, frame, sights, map);
+      find_doors(walls, observations.points, voxels, observations.path, options.doors);
+  const RoomPartition rooms = partition_rooms(voxels, walls, doors, observations.path, options.rooms);
+  plan.walls = plan_walls(walls, frame, observations, map);
+  plan.rooms = plan_rooms(rooms, voxels, frame, observations, map);
   plan.doors = plan_doors(doors, rooms, voxels, frame);
   plan.cells = plan_cells(voxels);
   return plan;
@@ -120,7 +120,7 @@ IndoorMapper::IndoorMapper(const IndoorMapperOptions& options, const Calibration
   calibration_.check();
 }
 
-std::vector<SurfacePoint> IndoorMapper::points_of_one_eye(const Image& image) const {
+std::vector<SurfacePoint> IndoorMapper::points_of_monocular(const Image& image) const {
   const std::vector<LineSegment> segments = segments_of(detect_segments(image, {}));
   Random random(0);
   const SceneDirections scene = find_scene_directions(segments, calibration_.camera, {}, random);
@@ -165,23 +165,23 @@ std::vector<SurfacePoint> IndoorMapper::points_of(const Frame& frame,
   std::vector<SurfacePoint> swept;
   if (!views.empty()) swept = swept_points(frame.image, views);
   if (!swept.empty()) return swept;
-  if (calibration_.camera_height_m) return points_of_one_eye(frame.image);
+  if (calibration_.camera_height_m) return points_of_monocular(frame.image);
   return {};
 }
 
 void IndoorMapper::add(KeyframeId keyframe, const Frame& frame,
                        const std::vector<SweptView>& views) {
-  add(SurfaceSight{keyframe, points_of(frame, views)});
+  add(KeyframeSurfacePoints{keyframe, points_of(frame, views)});
 }
 
-void IndoorMapper::add(SurfaceSight sight) {
-  const auto same = std::find_if(sights_.begin(), sights_.end(), [&](const SurfaceSight& other) {
-    return other.keyframe == sight.keyframe;
+void IndoorMapper::add(KeyframeSurfacePoints observation) {
+  const auto same = std::find_if(observations_.begin(), observations_.end(), [&](const KeyframeSurfacePoints& other) {
+    return other.keyframe == observation.keyframe;
   });
-  if (same != sights_.end())
-    *same = std::move(sight);
+  if (same != observations_.end())
+    *same = std::move(observation);
   else
-    sights_.push_back(std::move(sight));
+    observations_.push_back(std::move(observation));
 }
 
 IndoorMap IndoorMapper::fuse(const Map& map) const {
@@ -192,7 +192,7 @@ IndoorMap IndoorMapper::fuse(const Map& map) const {
   }
   IndoorMapperOptions options = options_;
   if (!calibration_.depth) options.walls.band_m = options.swept_band_m;
-  return fuse_sights(sights_, map, options);
+  return fuse_observations(observations_, map, options);
 }
 
 void label_places(const IndoorMap& plan, PlaceGraph& places) {
@@ -210,7 +210,7 @@ IndoorMap map_indoors(const Map& map, const Calibration& calibration,
   if (!map.metric) return mapper.fuse(map);  // says so
   NearbyViews nearby(map, frame_of, options.views);
   for (const Keyframe* keyframe :
-       keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_turn_deg))) {
+       keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_rotation_deg))) {
     std::vector<SweptView> views;
     if (!calibration.depth) views = nearby.of(*keyframe);
     mapper.add(keyframe->id, nearby.frame(*keyframe), views);

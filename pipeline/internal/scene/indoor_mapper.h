@@ -1,5 +1,5 @@
 #pragma once
-#include <placegraph/frontend/internal/floor_plan/floor_sight.h>
+#include <placegraph/frontend/internal/floor_plan/skirting_line.h>
 #include <placegraph/frontend/internal/floor_plan/indoor_surfaces.h>
 #include <placegraph/frontend/internal/floor_plan/room_partition.h>
 #include <placegraph/graph/core/ids.h>
@@ -27,8 +27,8 @@ class IndoorMapper {
   /// Takes the images of a keyframe, and what the same (left) eye saw from nearby; what was told of
   /// it before is replaced. Points are metric.
   void add(KeyframeId keyframe, const Frame& frame, const std::vector<SweptView>& views = {});
-  void add(SurfaceSight sight);
-  const std::vector<SurfaceSight>& sights() const { return sights_; }
+  void add(KeyframeSurfacePoints observation);
+  const std::vector<KeyframeSurfacePoints>& observations() const { return observations_; }
 
   /// The plan by the poses of `map` (its first component and what is joined to it). Rooms list the
   /// places whose anchor stands in them.
@@ -40,10 +40,10 @@ class IndoorMapper {
   std::vector<SurfacePoint> points_of(const Frame& frame, std::vector<SweptView> views) const;
   std::vector<SurfacePoint> swept_points(const Image& image,
                                          const std::vector<SweptView>& views) const;
-  std::vector<SurfacePoint> points_of_one_eye(const Image& image) const;
+  std::vector<SurfacePoint> points_of_monocular(const Image& image) const;
   IndoorMapperOptions options_;
   Calibration calibration_;
-  std::vector<SurfaceSight> sights_;
+  std::vector<KeyframeSurfacePoints> observations_;
 };
 
 /// Writes each room's label to its places; other labels stay.

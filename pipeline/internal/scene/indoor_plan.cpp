@@ -24,7 +24,7 @@ std::optional<int> room_at(const RoomPartition& rooms, const VoxelEvidence& voxe
 }  // namespace
 
 std::vector<IndoorWall> plan_walls(const std::vector<WallPiece>& walls, const PlanFrame& frame,
-                                   const PlacedSights& sights, const Map& map) {
+                                   const PlacedObservations& observations, const Map& map) {
   std::vector<IndoorWall> result;
   for (const WallPiece& piece : walls) {
     IndoorWall wall;
@@ -36,8 +36,8 @@ std::vector<IndoorWall> plan_walls(const std::vector<WallPiece>& walls, const Pl
         frame.plan_of(on(piece.axis, piece.sign, 0)) - frame.plan_of({0, 0});
     if (wall.normal.dot(side) < 0) wall.normal = -wall.normal;
     wall.sigma_m = piece.sigma_m, wall.low_m = piece.low_m, wall.high_m = piece.high_m;
-    wall.sights = piece.count;
-    const Keyframe* keyframe = map.find_keyframe(sights.keyframes[piece.sight]);
+    wall.observations = piece.count;
+    const Keyframe* keyframe = map.find_keyframe(observations.keyframes[piece.observation]);
     if (keyframe) wall.place = keyframe->place;
     result.push_back(wall);
   }
@@ -45,13 +45,13 @@ std::vector<IndoorWall> plan_walls(const std::vector<WallPiece>& walls, const Pl
 }
 
 std::vector<IndoorRoom> plan_rooms(const RoomPartition& rooms, const VoxelEvidence& voxels,
-                                   const PlanFrame& frame, const PlacedSights& sights,
+                                   const PlanFrame& frame, const PlacedObservations& observations,
                                    const Map& map) {
   std::vector<IndoorRoom> result;
   const auto polygon = [&](const std::vector<Eigen::Vector2d>& points) {
-    std::vector<Eigen::Vector2d> turned;
-    for (const Eigen::Vector2d& p : points) turned.push_back(frame.plan_of(p));
-    return turned;
+    std::vector<Eigen::Vector2d> rotated;
+    for (const Eigen::Vector2d& p : points) rotated.push_back(frame.plan_of(p));
+    return rotated;
   };
   int corridors = 0, others = 0;
   for (const RoomPartition::Room& told : rooms.rooms) {
@@ -65,7 +65,7 @@ std::vector<IndoorRoom> plan_rooms(const RoomPartition& rooms, const VoxelEviden
         corridor ? "corridor " + std::to_string(++corridors) : "room " + std::to_string(++others);
     result.push_back(std::move(room));
   }
-  for (const Eigen::Vector3d& p : sights.path)
+  for (const Eigen::Vector3d& p : observations.path)
     if (const auto room = room_at(rooms, voxels, p.head<2>())) result[*room].entered = true;
   for (const Place& place : map.place_graph.places) {
     const auto room =
@@ -73,7 +73,7 @@ std::vector<IndoorRoom> plan_rooms(const RoomPartition& rooms, const VoxelEviden
     if (room) result[*room].places.push_back(place.id);
   }
   std::vector<std::vector<double>> ceilings(result.size());
-  for (const PlacedPoint& p : sights.points) {
+  for (const PlacedPoint& p : observations.points) {
     if (p.normal[2] > -0.95F || p.point[2] < 1.8F) continue;
     if (const auto room = room_at(rooms, voxels, p.point.head<2>().cast<double>()))
       ceilings[*room].push_back(p.point[2]);

@@ -13,7 +13,7 @@
 namespace placegraph {
 
 /// What the walls, doors and rooms were found from, in the frame of the walls.
-struct PlacedSights {
+struct PlacedObservations {
   std::vector<KeyframeId> keyframes;  ///< by sight
   std::vector<Eigen::Vector3d> path;  ///< where the camera of each sight stood
   std::vector<PlacedPoint> points;
@@ -21,12 +21,12 @@ struct PlacedSights {
 
 /// `map` tells the places that the keyframes belong to.
 std::vector<IndoorWall> plan_walls(const std::vector<WallPiece>& walls, const PlanFrame& frame,
-                                   const PlacedSights& sights, const Map& map);
+                                   const PlacedObservations& observations, const Map& map);
 
 /// Rooms, of which those several times as long as wide are corridors; each with the places whose
 /// anchor stands in it, whether the camera was in it, and its ceiling where that is seen.
 std::vector<IndoorRoom> plan_rooms(const RoomPartition& rooms, const VoxelEvidence& voxels,
-                                   const PlanFrame& frame, const PlacedSights& sights,
+                                   const PlanFrame& frame, const PlacedObservations& observations,
                                    const Map& map);
 
 /// Doors, each with the rooms on its two sides.

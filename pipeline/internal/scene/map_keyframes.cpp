@@ -49,14 +49,14 @@ KeyframePoses online_poses_of(const Map& map) {
   return looked_up(std::move(poses));
 }
 
-std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double turn_rad) {
+std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double rotation_rad) {
   std::vector<const Keyframe*> chosen;
   std::optional<SE3> last;
   for (const Keyframe& keyframe : map.keyframes) {
     const SE3 T_map_cam = camera_pose(map, keyframe.id);
     if (last) {
       const SE3 step = last->inverse() * T_map_cam;
-      if (step.translation().norm() < step_m && step.rotation().log().norm() < turn_rad) continue;
+      if (step.translation().norm() < step_m && step.rotation().log().norm() < rotation_rad) continue;
     }
     last = T_map_cam;
     chosen.push_back(&keyframe);

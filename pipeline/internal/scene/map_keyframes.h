@@ -25,6 +25,6 @@ KeyframePoses poses_of(const Map& map);
 KeyframePoses online_poses_of(const Map& map);
 
 /// Keyframes that are far enough from the one used before, or turned enough, in their order.
-std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double turn_rad);
+std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, double rotation_rad);
 
 }  // namespace placegraph

@@ -46,7 +46,7 @@ std::vector<SweptView> NearbyViews::of(const Keyframe& keyframe) {
       if (!connected_.count(other.id)) break;
       const SE3 T_view_cam = camera_pose(map_, other.id).inverse() * T_map_cam;
       const double moved_m = T_view_cam.translation().norm();
-      if (T_view_cam.rotation().log().norm() > deg_to_rad(options_.turn_deg)) break;
+      if (T_view_cam.rotation().log().norm() > deg_to_rad(options_.rotation_deg)) break;
       if (moved_m > 2 * options_.far_m) break;
       if (moved_m < wanted_m) continue;
       views.push_back({frame(other).image, T_view_cam});

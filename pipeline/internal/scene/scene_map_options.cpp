@@ -11,7 +11,7 @@ void NearbyViewOptions::check() const {
 void visit(OptionVisitor& field, NearbyViewOptions& o) {
   field("near_m", o.near_m, "how far the nearer ones have moved, at least", {0.001, 100});
   field("far_m", o.far_m, "how far the farther ones have", {0.001, 100});
-  field("turn_deg", o.turn_deg, "how much they have turned, at most", {0, 90});
+  field("rotation_deg", o.rotation_deg, "how much they have turned, at most", {0, 90});
 }
 
 void IndoorMapperOptions::check() const { check_ranges(*this); }
@@ -26,7 +26,7 @@ void visit(OptionVisitor& field, IndoorMapperOptions& o) {
   field("swept_band_m", o.swept_band_m, "walls.band_m for depth from images", {0.02, 1});
   field("min_step_m", o.min_step_m, "keyframes nearer to the last one used tell nothing new",
         {0, 10});
-  field("min_turn_deg", o.min_turn_deg, "unless they are turned by so much", {0, 180});
+  field("min_rotation_deg", o.min_rotation_deg, "unless they are turned by so much", {0, 180});
   field("cell_m", o.cell_m, "of the cells that walls and rooms are found from", {0.01, 1});
   field("layer_m", o.layer_m, "height of the cells", {0.05, 1});
   field.group("walls", o.walls, "upright surfaces up to the ceiling");
@@ -38,12 +38,12 @@ void UrbanMapperOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, UrbanMapperOptions& o) {
   field.group("stereo", o.stereo, "depth of two eyes");
-  field.group("sight", o.sight, "what a keyframe tells");
+  field.group("observation", o.observation, "what a keyframe tells");
   field("residuals", o.residuals, "points that the keyframe before or after looks through go");
   field.group("seen_through", o.seen_through, "when it does");
   field("min_step_m", o.min_step_m, "keyframes nearer to the last one that was used, and ...",
         {0, 100});
-  field("min_turn_deg", o.min_turn_deg, "... turned by less, tell nothing new", {0, 180});
+  field("min_rotation_deg", o.min_rotation_deg, "... turned by less, tell nothing new", {0, 180});
   field.group("grid", o.grid, "the cells");
 }
 

@@ -19,7 +19,7 @@ UrbanMapper::UrbanMapper(const UrbanMapperOptions& options, const Calibration& c
   calibration_.check();
   require(urban_.kind == SceneModel::Kind::kUrban && surfaces_.kind == SceneModel::Kind::kSurfaces,
           "urban mapper: a model of urban classes and one of surfaces are needed");
-  (void)moving_classes(options_.sight.moving, urban_);
+  (void)moving_classes(options_.observation.moving, urban_);
 }
 
 void UrbanMapper::add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_cam) {
@@ -27,19 +27,19 @@ void UrbanMapper::add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_
   const Camera& camera = calibration_.camera;
   const Image depth =
       dense_stereo(frame.image, frame.right, camera.fx, calibration_.baseline_m, options_.stereo);
-  SemanticSight sight =
+  KeyframeSemantics observation =
       see_street(frame.colour.empty() ? frame.image : frame.colour, depth, camera,
                  calibration_.baseline_m, calibration_.camera_height_m.value_or(0), urban_,
-                 surfaces_, options_.sight)
-          .sight;
-  sight.keyframe = keyframe;
-  if (options_.residuals) drop_seen_through(sight, depth, T_map_cam);
+                 surfaces_, options_.observation)
+          .observation;
+  observation.keyframe = keyframe;
+  if (options_.residuals) drop_seen_through(observation, depth, T_map_cam);
   last_ = Last{keyframe, depth, T_map_cam};
-  add(std::move(sight));
+  add(std::move(observation));
 }
 
 /// What moved between two keyframes: seen in the one where the other sees farther.
-void UrbanMapper::drop_seen_through(SemanticSight& sight, const Image& depth_m,
+void UrbanMapper::drop_seen_through(KeyframeSemantics& observation, const Image& depth_m,
                                     const SE3& T_map_cam) {
   if (!last_) return;
   const SE3 T_last_cam = last_->T_map_cam.inverse() * T_map_cam;
@@ -52,19 +52,19 @@ void UrbanMapper::drop_seen_through(SemanticSight& sight, const Image& depth_m,
       if (!gone[i]) points[kept++] = points[i];
     points.resize(kept);
   };
-  drop(sight.points, last_->depth_m, T_last_cam);
-  for (SemanticSight& other : sights_)
+  drop(observation.points, last_->depth_m, T_last_cam);
+  for (KeyframeSemantics& other : observations_)
     if (other.keyframe == last_->keyframe) drop(other.points, depth_m, T_last_cam.inverse());
 }
 
-void UrbanMapper::add(SemanticSight sight) {
-  const auto same = std::find_if(sights_.begin(), sights_.end(), [&](const SemanticSight& other) {
-    return other.keyframe == sight.keyframe;
+void UrbanMapper::add(KeyframeSemantics observation) {
+  const auto same = std::find_if(observations_.begin(), observations_.end(), [&](const KeyframeSemantics& other) {
+    return other.keyframe == observation.keyframe;
   });
-  if (same != sights_.end())
-    *same = std::move(sight);
+  if (same != observations_.end())
+    *same = std::move(observation);
   else
-    sights_.push_back(std::move(sight));
+    observations_.push_back(std::move(observation));
 }
 
 SemanticMap UrbanMapper::fuse(const Map& map) const {
@@ -83,12 +83,12 @@ SemanticMap UrbanMapper::fuse(const KeyframePoses& T_map_cam, const Eigen::Vecto
     none.outcome = Outcome::failure(Outcome::Code::kTooFewData, "two eyes are needed");
     return none;
   }
-  std::vector<std::pair<const SemanticSight*, SE3>> placed;
+  std::vector<std::pair<const KeyframeSemantics*, SE3>> placed;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const SemanticSight& sight : sights_)
-    if (const std::optional<SE3> T = T_map_cam(sight.keyframe)) {
-      placed.emplace_back(&sight, *T);
-      sum += T->rotation().matrix() * sight.down.cast<double>();
+  for (const KeyframeSemantics& observation : observations_)
+    if (const std::optional<SE3> T = T_map_cam(observation.keyframe)) {
+      placed.emplace_back(&observation, *T);
+      sum += T->rotation().matrix() * observation.down.cast<double>();
     }
   if (!down.isZero()) sum = down;
   if (placed.empty() || sum.norm() < 1e-6) {
@@ -103,14 +103,14 @@ SemanticMap UrbanMapper::fuse(const KeyframePoses& T_map_cam, const Eigen::Vecto
   Eigen::Matrix3d R_plan_map;
   R_plan_map << x.transpose(), y.transpose(), x.cross(y).transpose();
   SemanticGrid grid(options_.grid, urban_.classes, SO3(Eigen::Quaterniond(R_plan_map)));
-  for (const auto& [sight, T] : placed) grid.add(*sight, T);
+  for (const auto& [observation, T] : placed) grid.add(*observation, T);
   return grid.map();
 }
 
 void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions& options,
                    const std::function<Frame(const Keyframe&)>& frame_of,
                    const std::function<void(std::size_t, std::size_t)>& progress) {
-  const auto chosen = keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_turn_deg));
+  const auto chosen = keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_rotation_deg));
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const KeyframeId id = chosen[i]->id;
     mapper.add(id, frame_of(*chosen[i]), camera_pose(map, id));
@@ -121,13 +121,13 @@ void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions
 std::vector<std::vector<float>> class_shares(const UrbanMapper& mapper, const Map& map) {
   const std::size_t n = mapper.classes().size();
   std::map<PlaceId, std::vector<float>> by_place;
-  for (const SemanticSight& sight : mapper.sights()) {
-    const Keyframe* keyframe = map.find_keyframe(sight.keyframe);
+  for (const KeyframeSemantics& observation : mapper.observations()) {
+    const Keyframe* keyframe = map.find_keyframe(observation.keyframe);
     if (!keyframe) continue;
     std::vector<float>& sum = by_place[keyframe->place];
     sum.resize(n, 0);
-    for (const SemanticPoint& point : sight.points)
-      for (std::size_t c = 0; c < n; ++c) sum[c] += sight.shares[point.region * n + c];
+    for (const SemanticPoint& point : observation.points)
+      for (std::size_t c = 0; c < n; ++c) sum[c] += observation.shares[point.region * n + c];
   }
   std::vector<std::vector<float>> shares;
   for (const Place& place : map.place_graph.places) {

@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/internal/floor_plan/indoor_surfaces.h>
-#include <placegraph/frontend/internal/scene/urban_sight.h>
+#include <placegraph/frontend/internal/scene/street_labelling.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
@@ -26,8 +26,8 @@ class UrbanMapper {
   /// Takes the images of a keyframe; what was told of it before is replaced. `T_map_cam` serves
   /// only for the motion since the keyframe that was added last.
   void add(KeyframeId keyframe, const Frame& frame, const SE3& T_map_cam);
-  void add(SemanticSight sight);
-  const std::vector<SemanticSight>& sights() const { return sights_; }
+  void add(KeyframeSemantics observation);
+  const std::vector<KeyframeSemantics>& observations() const { return observations_; }
   const std::vector<std::string>& classes() const { return urban_.classes; }
 
   /// The map by the poses of `map` (its first component and what is joined to it).
@@ -39,11 +39,11 @@ class UrbanMapper {
                                  const Eigen::Vector3d& down = Eigen::Vector3d::Zero()) const;
 
  private:
-  void drop_seen_through(SemanticSight& sight, const Image& depth_m, const SE3& T_map_cam);
+  void drop_seen_through(KeyframeSemantics& observation, const Image& depth_m, const SE3& T_map_cam);
   UrbanMapperOptions options_;
   Calibration calibration_;
   SceneModel urban_, surfaces_;
-  std::vector<SemanticSight> sights_;
+  std::vector<KeyframeSemantics> observations_;
   struct Last {
     KeyframeId keyframe;
     Image depth_m;

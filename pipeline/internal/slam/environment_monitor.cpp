@@ -8,7 +8,7 @@ namespace placegraph {
 bool EnvironmentMonitor::classify(KeyframeId keyframe, const Frame& frame,
                                   const SurfaceShares* shares,
                                   const std::vector<Eigen::Vector3d>& points_cam, bool metric) {
-  EnvironmentSight observation{keyframe, frame.id, {}, {}, {}};
+  EnvironmentObservation observation{keyframe, frame.id, {}, {}, {}};
   if (shares) observation.evidence.see(*shares);
   const auto [edges, camera] = edges_of(frame.image, camera_);
   observation.evidence.see(edges, camera);
@@ -28,7 +28,7 @@ void EnvironmentMonitor::label(std::vector<Place>& places) const {
     for (const PlaceMember& member : place.members) {
       const auto seen = std::lower_bound(
           observations_.begin(), observations_.end(), member.keyframe,
-          [](const EnvironmentSight& o, KeyframeId id) { return o.keyframe < id; });
+          [](const EnvironmentObservation& o, KeyframeId id) { return o.keyframe < id; });
       if (seen == observations_.end() || seen->keyframe != member.keyframe) continue;
       if (seen->kind)
         ++votes[static_cast<std::size_t>(*seen->kind)];

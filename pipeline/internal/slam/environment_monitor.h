@@ -3,7 +3,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/slam/environment_sight.h>
+#include <placegraph/pipeline/slam/environment_observation.h>
 
 #include <array>
 #include <optional>
@@ -24,14 +24,14 @@ class EnvironmentMonitor {
                 const std::vector<Eigen::Vector3d>& points_cam, bool metric);
   /// The kind that holds now; nothing while it is unknown.
   std::optional<Environment> kind() const { return filter_.kind(); }
-  const std::vector<EnvironmentSight>& observations() const { return observations_; }
+  const std::vector<EnvironmentObservation>& observations() const { return observations_; }
   /// Labels places by the kind that most of their keyframes had; not where that is unknown.
   void label(std::vector<Place>& places) const;
 
  private:
   EnvironmentFilter filter_;
   Camera camera_;
-  std::vector<EnvironmentSight> observations_;  // of keyframes, ascending
+  std::vector<EnvironmentObservation> observations_;  // of keyframes, ascending
 };
 
 }  // namespace placegraph

@@ -78,7 +78,7 @@ std::optional<LocatedFrame> TrackRecovery::locate(const std::optional<LocatedFra
 bool TrackRecovery::needed(const OdometryUpdate& update, const KnownMap& known) const {
   if (update.state == TrackingState::kLost) return true;
   const bool mapped = known.recorder.newest_keyframe().has_value();
-  return update.state == TrackingState::kWaiting && mapped && !anchor_;
+  return update.state == TrackingState::kInitializing && mapped && !anchor_;
 }
 
 OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedFrame> located,
@@ -121,7 +121,7 @@ OdometryUpdate TrackRecovery::restart(const Frame& frame, std::optional<LocatedF
 std::optional<LocatedFrame> TrackRecovery::pose_without_tracking(
     const Frame& frame, const std::optional<LocatedFrame>& located, const OdometryUpdate& update,
     const KnownMap& known, const Odometry& odometry) {
-  const bool waits = update.state == TrackingState::kWaiting;
+  const bool waits = update.state == TrackingState::kInitializing;
   if (!anchor_ || !waits || (!located && lost_in_a_row_ == 0)) return by_motion(frame, known);
   const LocatedFrame at = located ? *located : *anchor_;
   if (motion_ && !odometry.started()) anchor_.reset();

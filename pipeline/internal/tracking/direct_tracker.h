@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
-#include <placegraph/pipeline/internal/cues/surface_cue.h>
+#include <placegraph/pipeline/internal/cues/direct_cue.h>
 #include <placegraph/pipeline/internal/tracking/frame_tracker.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>
 
@@ -37,11 +37,11 @@ class DirectTracker : public FrameTracker {
   DirectMotion align(const LocalMap& map, const MotionModel& motion) const;
   bool keyframe_due(const DirectMotion& motion, double median_depth) const;
 
-  SurfaceCueOptions options_;
+  DirectCueOptions options_;
   int max_interval_;  // frames between keyframes
   LogSink log_;
   StageTimes& times_;
-  SurfaceCue surfaces_;
+  DirectCue surfaces_;
   std::optional<FrameId> seen_;  // frame that the surfaces have seen last
   std::optional<ManhattanCue> manhattan_;
   DirectMotion newest_;                      // of the last posed frame, from the last keyframe

@@ -73,7 +73,7 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
     return tracked;
   }
   points_.keep(keep);
-  const auto heading = heading_of(frame, tracked.T_odom_cam, tracked.inliers, map);
+  const auto heading = rotation_from_manhattan(frame, tracked.T_odom_cam, tracked.inliers, map);
   tracked.T_odom_cam = with_heading(tracked.T_odom_cam, information, heading, window);
   selector_.count_frame();
   tracked.keyframe_due = keyframe_due(tracked.T_odom_cam, tracked.inliers, map);
@@ -85,7 +85,7 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
 }
 
 /// What a frame that few points pose sees of Manhattan frames.
-std::optional<ManhattanCue::Heading> FeatureTracker::heading_of(const Frame& frame,
+std::optional<ManhattanCue::RotationEstimate> FeatureTracker::rotation_from_manhattan(const Frame& frame,
                                                                 const SE3& T_odom_cam, int inliers,
                                                                 const LocalMap& map) const {
   if (!manhattan() || inliers >= options_.manhattan.few_points) return std::nullopt;
@@ -122,7 +122,7 @@ std::optional<SE3> FeatureTracker::prepare_keyframe(const KeyframeImages& images
   if (!cues_.points) return T_odom_cam;
   const auto span = times_.measure("point detection");
   intermediate_.correct_drift(points_.anchor());
-  if (images.labels) points_.leave_moving_objects(images.labels->masks.still);
+  if (images.labels) points_.drop_tracks_on_movable_objects(images.labels->masks.still);
   points_.detect(images.frame.mask, images.masked_by_labels(), images.given_mask);
   return T_odom_cam;
 }
@@ -210,8 +210,8 @@ Outcome FeatureTracker::enough_to_begin(const LocalMap& map) const {
 }
 
 void FeatureTracker::assume(const std::optional<Assumptions>& assumptions) {
-  manhattan_trusted_ = !assumptions || assumptions->manhattan_world;
-  if (assumptions && assumptions->manhattan_world && !manhattan_ && cues_.points)
+  manhattan_trusted_ = !assumptions || assumptions->manhattan_frame_id;
+  if (assumptions && assumptions->manhattan_frame_id && !manhattan_ && cues_.points)
     manhattan_.emplace(options_.manhattan, calibration_.camera, seed_, log_);
 }
 

@@ -51,7 +51,7 @@ class FeatureTracker : public FrameTracker {
   void start_selection(int landmarks);
 
  private:
-  std::optional<ManhattanCue::Heading> heading_of(const Frame& frame, const SE3& T_odom_cam,
+  std::optional<ManhattanCue::RotationEstimate> rotation_from_manhattan(const Frame& frame, const SE3& T_odom_cam,
                                                   int inliers, const LocalMap& map) const;
   bool keyframe_due(const SE3& T_odom_cam, int inliers, const LocalMap& map) const;
   void observe_planes(const Frame& frame, LocalMap& map);
@@ -66,7 +66,7 @@ class FeatureTracker : public FrameTracker {
   std::optional<LineCue> lines_;
   std::optional<ManhattanCue> manhattan_;
   bool manhattan_trusted_ = true;  // Manhattan frames are assumed to be there
-  std::optional<PlaneLandmarks> planes_;
+  std::optional<PlaneCue> planes_;
   std::optional<KeyframeAlignment> surfaces_;
   KeyframeSelector selector_;
   IntermediateFrames intermediate_;

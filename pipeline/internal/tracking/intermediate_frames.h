@@ -23,7 +23,7 @@ class IntermediateFrames {
     FrameId frame;
     SE3 T_keyframe_cam;  ///< from the last keyframe
     std::vector<std::pair<LandmarkId, Eigen::Vector2d>> landmark_px;
-    std::optional<ManhattanCue::Heading> heading;  ///< what it sees of a Manhattan frame
+    std::optional<ManhattanCue::RotationEstimate> heading;  ///< what it sees of a Manhattan frame
   };
   void remember(Tracked frame) { frames_.push_back(std::move(frame)); }
   /// Reference patches show at the next keyframe how far tracks have drifted since the last one: by

@@ -16,7 +16,7 @@ namespace placegraph {
 struct NewKeyframe {
   KeyframeId id;
   Frame frame;
-  std::shared_ptr<const SceneSight> labels = nullptr;  ///< of its surfaces, where they are labelled
+  std::shared_ptr<const SurfaceLabels> labels = nullptr;  ///< of its surfaces, where they are labelled
 };
 
 /// A monocular camera has only rotated since an earlier frame.
@@ -30,7 +30,7 @@ using PosedFrame = std::pair<FrameId, SE3>;
 
 /// What one frame brought.
 struct OdometryUpdate {
-  TrackingState state = TrackingState::kWaiting;
+  TrackingState state = TrackingState::kInitializing;
   SE3 T_odom_cam;                      ///< if tracking, or the first of the two views
   std::optional<KeyframeId> keyframe;  ///< reference keyframe, if tracking
   int inliers = 0;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace synthetic;
 
-PoseGraphReport optimize_from(const PoseGraph& graph, PoseGraphStart start) {
+PoseGraphReport optimize_from(const PoseGraph& graph, PoseGraphInitialization start) {
   PoseGraphOptions options;
   options.start = start;
   return optimize_pose_graph(graph, options);
@@ -23,10 +23,10 @@ PoseGraphReport optimize_from(const PoseGraph& graph, PoseGraphStart start) {
 /// Auto gets as low as the certified start, and that is certified.
 template <class Group>
 void expect_certified_optimum(const PoseGraph& graph) {
-  const PoseGraphReport found = optimize_from(graph, PoseGraphStart::kAuto);
+  const PoseGraphReport found = optimize_from(graph, PoseGraphInitialization::kAuto);
   EXPECT_TRUE(found.outcome) << found.outcome.reason;
-  const PoseGraphReport certified = optimize_from(graph, PoseGraphStart::kCertified);
-  EXPECT_LT(found.chi2_final, certified.chi2_final * (1 + 1e-6)) << to_string(found.start_used);
+  const PoseGraphReport certified = optimize_from(graph, PoseGraphInitialization::kCertified);
+  EXPECT_LT(found.chi2_final, certified.chi2_final * (1 + 1e-6)) << to_string(found.initialization_used);
   const ChordalIsotropicCertificate certificate =
       certify_chordal_isotropic(pack<Group>(found.graph), RotationError::kLog);
   EXPECT_TRUE(certificate.certified) << certificate.relative_gap;
@@ -55,14 +55,14 @@ class ScatteredStart : public testing::TestWithParam<const char*> {};
 TEST_P(ScatteredStart, EndsInTheSameOptimumAsTheFile) {
   PLACEGRAPH_DATA_OR_SKIP(path, std::string("posegraphs/") + GetParam() + ".g2o");
   PoseGraph graph = read_g2o(path);
-  const double best = optimize_from(graph, PoseGraphStart::kAuto).chi2_final;
+  const double best = optimize_from(graph, PoseGraphInitialization::kAuto).chi2_final;
   scatter_poses(graph, 100, 3);
-  const PoseGraphReport scattered = optimize_from(graph, PoseGraphStart::kAuto);
+  const PoseGraphReport scattered = optimize_from(graph, PoseGraphInitialization::kAuto);
   EXPECT_TRUE(scattered.outcome) << scattered.outcome.reason;
   EXPECT_NEAR(scattered.chi2_final, best, 1e-6 * best);
   for (PoseNode& node : graph.nodes)
     node.T_world_node = graph.kind() == PoseKind::kSE2 ? Pose(SE2()) : Pose(SE3());
-  EXPECT_NEAR(optimize_from(graph, PoseGraphStart::kAuto).chi2_final, best, 1e-6 * best);
+  EXPECT_NEAR(optimize_from(graph, PoseGraphInitialization::kAuto).chi2_final, best, 1e-6 * best);
 }
 
 INSTANTIATE_TEST_SUITE_P(Published, ScatteredStart,

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 /// One short flight, rendered once for all tests.
-class HoverCli : public CliTest {
+class FlightCli : public CliTest {
  protected:
   static void SetUpTestSuite() {
     rendered() = std::make_unique<TemporaryFolder>();
@@ -37,7 +37,7 @@ class HoverCli : public CliTest {
   }
 };
 
-TEST_F(HoverCli, KnowsWhereItIsToCentimetres) {
+TEST_F(FlightCli, KnowsWhereItIsToCentimetres) {
   const CommandResult ran = run("hover " + flight() + " --out out --profile");
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("81 of 81 frames answered"));
@@ -56,13 +56,13 @@ TEST_F(HoverCli, KnowsWhereItIsToCentimetres) {
   EXPECT_TRUE(fs::exists(dir / "out/frames.csv"));
 }
 
-TEST_F(HoverCli, RepeatsItselfToTheBit) {
+TEST_F(FlightCli, RepeatsItselfToTheBit) {
   ASSERT_EQ(run("hover " + flight() + " --out a").code, 0);
   ASSERT_EQ(run("hover " + flight() + " --out b").code, 0);
   EXPECT_EQ(read_file(dir / "a/states.csv"), read_file(dir / "b/states.csv"));
 }
 
-TEST_F(HoverCli, GoesOnWithoutMarkersFromWhatItKnew) {
+TEST_F(FlightCli, GoesOnWithoutMarkersFromWhatItKnew) {
   ASSERT_EQ(run("hover " + flight() + " --out until --markers-until 1").code, 0);
   const json until = result("until");
   EXPECT_LE(until["frames_with_markers"].get<int>(), 20);
@@ -75,7 +75,7 @@ TEST_F(HoverCli, GoesOnWithoutMarkersFromWhatItKnew) {
   EXPECT_LT(result("truth")["error"]["end_error_m"].get<double>(), 0.05);
 }
 
-TEST_F(HoverCli, SmoothsTheSameMeasurements) {
+TEST_F(FlightCli, SmoothsTheSameMeasurements) {
   ASSERT_EQ(run("hover " + flight() + " --out smooth --smooth").code, 0);
   const json smoother = result("smooth")["smoother"];
   EXPECT_EQ(smoother["compared"], 81);  // from the first image on
@@ -85,14 +85,14 @@ TEST_F(HoverCli, SmoothsTheSameMeasurements) {
   expect_usage_error("hover " + flight() + " --out x --smooth --predict-ahead-ms 50", "--smooth");
 }
 
-TEST_F(HoverCli, TellsWhereItWillBe) {
+TEST_F(FlightCli, TellsWhereItWillBe) {
   ASSERT_EQ(run("hover " + flight() + " --out ahead --predict-ahead-ms 100").code, 0);
   const json ahead = result("ahead");
   EXPECT_LT(ahead["error"]["position_rmse_m"].get<double>(), 0.03);
   EXPECT_EQ(ahead["error"]["compared"], 79);  // the truth ends before the last two
 }
 
-TEST_F(HoverCli, MapsMarkersWhosePlaceIsNotKnown) {
+TEST_F(FlightCli, MapsMarkersWhosePlaceIsNotKnown) {
   const MarkerLayout truth = read_marker_layout(flight() + "/markers.yaml");
   MarkerLayout partly = truth;
   partly.beacons_world.clear();
@@ -125,14 +125,14 @@ TEST_F(HoverCli, MapsMarkersWhosePlaceIsNotKnown) {
   expect_usage_error(command + "--out x --predict-ahead-ms 50", "--map-markers");
 }
 
-TEST_F(HoverCli, SaysNothingWithoutAStart) {
+TEST_F(FlightCli, SaysNothingWithoutAStart) {
   const CommandResult ran = run("hover " + flight() + " --out out --no-markers");
   EXPECT_EQ(ran.code, 1);
   EXPECT_THAT(ran.err, HasSubstr("no image could be told a state"));
   EXPECT_EQ(result("out")["answered"], 0);
 }
 
-TEST_F(HoverCli, RefusesBrokenFlightsWithFileAndLine) {
+TEST_F(FlightCli, RefusesBrokenFlightsWithFileAndLine) {
   expect_usage_error("hover " + dir.path() + " --out out", "EuRoC's layout");
   const std::string at = copy();
   const auto with = [&](const std::string& file, const std::string& text,
@@ -154,7 +154,7 @@ TEST_F(HoverCli, RefusesBrokenFlightsWithFileAndLine) {
   EXPECT_FALSE(fs::exists(dir / "out"));
 }
 
-TEST_F(HoverCli, RefusesOptionsThatMakeNoSense) {
+TEST_F(FlightCli, RefusesOptionsThatMakeNoSense) {
   const std::string command = "hover " + flight() + " --out out ";
   expect_usage_error(command + "--blind 3", "FROM:TO");
   expect_usage_error(command + "--blind 3:2", "FROM:TO");
@@ -167,7 +167,7 @@ TEST_F(HoverCli, RefusesOptionsThatMakeNoSense) {
   expect_usage_error(command, "--force");
 }
 
-TEST_F(HoverCli, WorldsOfOtherKindsHaveNoFlight) {
+TEST_F(FlightCli, WorldsOfOtherKindsHaveNoFlight) {
   expect_usage_error("synth town-loop --out town --duration 5", "duration_s");
   expect_usage_error("synth hover --out town --stereo", "has one eye");
 }

@@ -67,7 +67,7 @@ TEST_F(IndoorCli, DrawsTheFloorPlanOfARun) {
   EXPECT_EQ(read_file(dir / "plan/floor_plan.json"), read_file(dir / "out/floor_plan.json"));
 }
 
-TEST_F(IndoorCli, OneEyeHasItsMetreFromTheFloorBetweenWalls) {
+TEST_F(IndoorCli, MonocularHasItsMetreFromTheFloorBetweenWalls) {
   const CommandResult result =
       run("run " + walk() + " --sensor mono --camera-height 1.4 --scene geometry --out out --json");
   ASSERT_EQ(result.code, 0) << result.err;

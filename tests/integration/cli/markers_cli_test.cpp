@@ -102,11 +102,11 @@ TEST(SimulatedTags, CornersAndPosesAreThoseOfTheFile) {
   const test::SimulatedTags truth = read_apriltag_sim(folder);
   const auto found = MarkerDetector({}, "apriltag_36h11").detect(truth.image);
   ASSERT_EQ(found.size(), 5u);
-  for (const MarkerSighting& sighting : found) {
-    SCOPED_TRACE(sighting.id);
-    const SimulatedTag& tag = truth.tags.at(sighting.id);
-    EXPECT_LT(worst_corner_px(sighting.corners_px, tag.corners_px), 0.3);
-    const MarkerPoses poses = estimate_marker_poses(sighting, tag.side_m, truth.camera);
+  for (const MarkerObservation& observation : found) {
+    SCOPED_TRACE(observation.id);
+    const SimulatedTag& tag = truth.tags.at(observation.id);
+    EXPECT_LT(worst_corner_px(observation.corners_px, tag.corners_px), 0.3);
+    const MarkerPoses poses = estimate_marker_poses(observation, tag.side_m, truth.camera);
     ASSERT_TRUE(poses.outcome);
     const SE3& T = poses.poses[0].T_cam_marker;
     EXPECT_LT(distance_m(T, tag.T_cam_marker), 0.01 * tag.T_cam_marker.translation().norm());

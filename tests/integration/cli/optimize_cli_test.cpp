@@ -33,16 +33,16 @@ constexpr double kThreePosesCost = 0.2 * 0.2 / 3;
 std::string ring(int n, int first = 0, const std::vector<std::pair<int, int>>& false_loops = {}) {
   std::ostringstream out;
   out.precision(15);
-  const double turn = 2 * std::numbers::pi / n;
+  const double rotation = 2 * std::numbers::pi / n;
   const char* information = " 100 0 0 100 0 400\n";
-  const double radius = 1.1 * 0.5 / std::sin(turn / 2);
+  const double radius = 1.1 * 0.5 / std::sin(rotation / 2);
   for (int i = 0; i < n; ++i)
-    out << "VERTEX_SE2 " << first + i << " " << radius * std::sin(i * turn) << " "
-        << radius * (1 - std::cos(i * turn)) << " " << i * turn << "\n";
+    out << "VERTEX_SE2 " << first + i << " " << radius * std::sin(i * rotation) << " "
+        << radius * (1 - std::cos(i * rotation)) << " " << i * rotation << "\n";
   for (int i = 0; i < n; ++i) {
-    out << "EDGE_SE2 " << first + i << " " << first + (i + 1) % n << " 1 0 " << turn << information;
-    out << "EDGE_SE2 " << first + i << " " << first + (i + 2) % n << " " << 1 + std::cos(turn)
-        << " " << std::sin(turn) << " " << 2 * turn << information;
+    out << "EDGE_SE2 " << first + i << " " << first + (i + 1) % n << " 1 0 " << rotation << information;
+    out << "EDGE_SE2 " << first + i << " " << first + (i + 2) % n << " " << 1 + std::cos(rotation)
+        << " " << std::sin(rotation) << " " << 2 * rotation << information;
   }
   for (const auto& [from, to] : false_loops)
     out << "EDGE_SE2 " << first + from << " " << first + to << " 0 0 0" << information;

@@ -23,7 +23,7 @@ TEST_F(SynthCli, HelpBeginsWithAnExample) {
   EXPECT_THAT(result.out, StartsWith("Example: placegraph synth town-loop --out"));
 }
 
-TEST_F(SynthCli, WritesBothEyesOutdoorsAndDepthIndoors) {
+TEST_F(SynthCli, WritesBothCamerasOutdoorsAndDepthIndoors) {
   const std::string small = " --frames 2 --size 96x48 --threads 1";
   ASSERT_EQ(run("synth town-loop --out town" + small).code, 0);
   EXPECT_TRUE(fs::exists(dir / "town/image_0/000001.png"));

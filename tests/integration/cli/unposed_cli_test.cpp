@@ -36,7 +36,7 @@ class Unposed : public test::CliTest {
   }
 };
 
-TEST_F(Unposed, OneEyeSaysWhatItLacks) {
+TEST_F(Unposed, MonocularSaysWhatItLacks) {
   write_blank("");
   expect_reason("0 points to track, ");
   EXPECT_THAT(run("run s --cues lines --out out --force").err, HasSubstr("0 lines to follow, "));
@@ -72,7 +72,7 @@ TEST_F(Unposed, OneFrameWaitsForASecond) {
   EXPECT_THAT(result.err, HasSubstr(" (1 of 1 frame)"));
 }
 
-TEST_F(Unposed, TwoEyesSayWhatTheyLack) {
+TEST_F(Unposed, StereoSayWhatTheyLack) {
   write_blank("baseline_m: 0.1\n", true);
   expect_reason("0 of 0 tracked points found in the right eye's image");
 }

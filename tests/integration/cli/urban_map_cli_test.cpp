@@ -87,7 +87,7 @@ TEST_F(UrbanMapCli, SaysWhatIsMissing) {
       "Tram");
 }
 
-TEST_F(UrbanMapCli, NeedsTwoEyes) {
+TEST_F(UrbanMapCli, NeedsStereo) {
   const CommandResult result =
       run("run " + at("town") +
           " --sensor mono --camera-height 1.65 --set max_frames=6 --scene semantics --out other "

@@ -73,7 +73,7 @@ bool is_of(const Cuboid& cuboid, const Solid& solid, const CloudPlanesResult& pl
 }
 
 /// The largest angle between an axis of a cuboid and the solid's nearest one [deg].
-double turn_deg(const Cuboid& cuboid, const Solid& solid) {
+double rotation_deg(const Cuboid& cuboid, const Solid& solid) {
   const Eigen::Matrix3d cosines = (cuboid.T_sensor_cuboid.rotation().matrix().transpose() *
                                    solid.T_sensor_solid.rotation().matrix())
                                       .cwiseAbs();
@@ -96,7 +96,7 @@ TEST(Cuboids, OfFurnishedRoomsAreFoundAndHardlyAnyOther) {
   Random random = test::seeded_random(5);
   constexpr int kScenes = 40, kFewest = 150;
   int boxes = 0, boxes_found = 0, rooms = 0, rooms_found = 0, found = 0, right = 0;
-  std::vector<double> turns_deg, sides_m;
+  std::vector<double> rotations_deg, sides_m;
   for (int k = 0; k < kScenes; ++k) {
     const std::vector<Solid> solids = furnished_room(random);
     const LabelledCloud seen = synthetic::take_cloud(
@@ -118,7 +118,7 @@ TEST(Cuboids, OfFurnishedRoomsAreFoundAndHardlyAnyOther) {
       const bool there = it != cuboids.end();
       right += there;
       if (there) {
-        turns_deg.push_back(turn_deg(*it, solid));
+        rotations_deg.push_back(rotation_deg(*it, solid));
         add_sides_off(*it, solid, sides_m);
       }
       if (faces < 3) continue;
@@ -128,19 +128,19 @@ TEST(Cuboids, OfFurnishedRoomsAreFoundAndHardlyAnyOther) {
   }
   ASSERT_GE(boxes, 8);
   ASSERT_GE(rooms, 12);
-  ASSERT_FALSE(turns_deg.empty());
-  std::sort(turns_deg.begin(), turns_deg.end());
+  ASSERT_FALSE(rotations_deg.empty());
+  std::sort(rotations_deg.begin(), rotations_deg.end());
   std::sort(sides_m.begin(), sides_m.end());
   std::cout << boxes_found << " of " << boxes << " boxes and " << rooms_found << " of " << rooms
             << " rooms with three faces found; " << right << " of " << found
-            << " cuboids right, turned by " << turns_deg[turns_deg.size() / 2]
+            << " cuboids right, turned by " << rotations_deg[rotations_deg.size() / 2]
             << " deg (median), seen sides off by " << sides_m[sides_m.size() / 2]
             << " m (median)\n";
   EXPECT_LT(sides_m[sides_m.size() / 2], 0.01);
   EXPECT_GE(boxes_found, 0.85 * boxes);
   EXPECT_GE(rooms_found, 0.7 * rooms);
   EXPECT_GE(right, 0.9 * found);
-  EXPECT_LT(turns_deg[turns_deg.size() / 2], 0.3);
+  EXPECT_LT(rotations_deg[rotations_deg.size() / 2], 0.3);
 }
 
 }  // namespace

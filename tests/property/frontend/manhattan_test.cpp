@@ -21,7 +21,7 @@ TEST(Manhattan, CovarianceOfTheFrameIsThatOfItsError) {
     double sum = 0;
     constexpr int kScenes = 40;
     for (int k = 0; k < kScenes; ++k) {
-      const SO3 R = test::random_turn(std::numbers::pi, random);
+      const SO3 R = test::random_rotation(std::numbers::pi, random);
       const auto segments = test::manhattan_segments(camera, R, 30, 30, noise_px, random);
       const auto frame = estimate_manhattan_frame(segments, camera, {}, {}, random);
       ASSERT_TRUE(frame.outcome) << frame.outcome.reason;
@@ -41,10 +41,10 @@ TEST(Manhattan, CovarianceOfATrackedFrameIsThatOfItsError) {
   double sum = 0;
   constexpr int kScenes = 80;
   for (int k = 0; k < kScenes; ++k) {
-    const SO3 R = test::random_turn(std::numbers::pi, random);
+    const SO3 R = test::random_rotation(std::numbers::pi, random);
     const auto segments = test::manhattan_segments(camera, R, 30, 30, 0.3, random);
     const auto frame =
-        track_manhattan_frame(segments, camera, R * test::random_turn(0.05, random), 0.03, {}, {});
+        track_manhattan_frame(segments, camera, R * test::random_rotation(0.05, random), 0.03, {}, {});
     ASSERT_TRUE(frame.outcome) << frame.outcome.reason;
     const Eigen::Vector3d e = (frame.R_cam_manhattan.inverse() * R).log();
     sum += e.dot(frame.information * e) / 3;
@@ -59,7 +59,7 @@ TEST(Manhattan, CovarianceOfAVanishingPointIsThatOfItsError) {
   double sum = 0;
   constexpr int kScenes = 60;
   for (int k = 0; k < kScenes; ++k) {
-    const Eigen::Vector3d v = test::random_turn(std::numbers::pi, random).matrix().col(2);
+    const Eigen::Vector3d v = test::random_rotation(std::numbers::pi, random).matrix().col(2);
     std::vector<LineSegment> segments;
     test::add_edges(camera, v, 40, 0.3, random, segments);
     test::add_clutter(camera, 20, random, segments);
@@ -122,7 +122,7 @@ TEST(Manhattan, AxesThatAreNotQuiteAtRightAnglesWidenTheCovariance) {
   int within = 0;
   constexpr int kScenes = 60;
   for (int k = 0; k < kScenes; ++k) {
-    const SO3 R = test::random_turn(std::numbers::pi, random);
+    const SO3 R = test::random_rotation(std::numbers::pi, random);
     std::vector<LineSegment> segments;
     for (int a = 0; a < 3; ++a) {
       // each axis off its right angle by a degree, at random

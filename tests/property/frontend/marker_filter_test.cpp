@@ -15,18 +15,18 @@ namespace {
 using namespace test;
 
 /// Corners of a marker of 0.2 m with noise of this deviation, as a detector would tell them.
-MarkerSighting sighting_of(const PlacedMarker& placed, const SE3& T_world_cam, double sigma_px,
+MarkerObservation observation_of(const PlacedMarker& placed, const SE3& T_world_cam, double sigma_px,
                            Random& random) {
   const Camera camera = MarkerScene::usual_camera();
-  MarkerSighting sighting;
-  sighting.id = placed.id;
+  MarkerObservation observation;
+  observation.id = placed.id;
   for (int k = 0; k < 4; ++k)
-    sighting.corners_px[k] =
+    observation.corners_px[k] =
         *camera.project(T_world_cam.inverse() * placed.T_world_marker *
                         placed.corners_marker()[k]) +
         Eigen::Vector2d(random.normal(0, sigma_px), random.normal(0, sigma_px));
-  sighting.covariance *= sigma_px * sigma_px;
-  return sighting;
+  observation.covariance *= sigma_px * sigma_px;
+  return observation;
 }
 
 /// Over tilts from 0 to 75 degrees, ranges up to 5 m and noise up to a third of a pixel; corners
@@ -48,22 +48,22 @@ TEST(MarkerFilterProperty, ChoosesTheMirroredPoseInNoViewAndDecidesMostNearOnes)
                                         random.uniform(0, 2 * std::numbers::pi));
     MarkerView seen;
     seen.stamp_ns = 1;
-    seen.markers = {sighting_of(layout.markers[0], truth, sigma_px, random)};
-    const MarkerAnswer answer = MarkerFilter(options, layout, camera, SE3()).observe(seen);
+    seen.markers = {observation_of(layout.markers[0], truth, sigma_px, random)};
+    const MarkerPoseEstimate answer = MarkerFilter(options, layout, camera, SE3()).observe(seen);
     near += range < 1.2 && sigma_px < 0.1;
     if (!answer.outcome) continue;
     near_decided += range < 1.2 && sigma_px < 0.1;
     ++decided;
-    const SE3& found = answer.sighting.T_world_body;
+    const SE3& found = answer.observation.T_world_body;
     const Vector6d error = (found.inverse() * truth).log();
-    nees += error.dot(answer.sighting.covariance.ldlt().solve(error)) / 6;
+    nees += error.dot(answer.observation.covariance.ldlt().solve(error)) / 6;
     const MarkerPoses both =
-        estimate_marker_poses(sighting_of(layout.markers[0], truth, 1e-3, random), 0.2, camera);
+        estimate_marker_poses(observation_of(layout.markers[0], truth, 1e-3, random), 0.2, camera);
     if (both.poses.size() < 2) continue;
     const SE3 rival = both.poses[1].T_cam_marker.inverse();
     // From right above both are one within the noise: an answer between them chooses neither.
     constexpr double kRefuted = 22.5;  // 99.9 % of chi^2 with six degrees of freedom
-    const bool truth_refuted = error.dot(answer.sighting.covariance.ldlt().solve(error)) > kRefuted;
+    const bool truth_refuted = error.dot(answer.observation.covariance.ldlt().solve(error)) > kRefuted;
     wrong += truth_refuted && angle_rad(found, rival) < angle_rad(found, truth);
   }
   std::cout << "decided " << decided << " of " << kViews << ", near ones " << near_decided << " of "

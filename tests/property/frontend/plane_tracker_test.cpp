@@ -77,7 +77,7 @@ TEST(PlaneTracker, SaysThatTheTemplateIsGoneAndFindsItAgainElsewhere) {
       const PlaneTrack track = tracker.track(
           disturbed(board.picture(there ? std::optional<Matrix3d>(H) : std::nullopt), 2, random));
       if (!there) {
-        EXPECT_FALSE(track.outcome) << "frame " << frame << ", likeness " << track.likeness;
+        EXPECT_FALSE(track.outcome) << "frame " << frame << ", likeness " << track.robust_similarity;
         continue;
       }
       EXPECT_TRUE(track.outcome || frame >= kGone) << track.outcome.reason;
@@ -199,7 +199,7 @@ TEST(PlaneTracker, GivesTheSameBitsOnAnyNumberOfThreads) {
   }
   ASSERT_EQ(tracks[0].outcome.code, tracks[1].outcome.code);
   EXPECT_EQ(tracks[0].H_cur_ref, tracks[1].H_cur_ref);
-  EXPECT_EQ(tracks[0].likeness, tracks[1].likeness);
+  EXPECT_EQ(tracks[0].robust_similarity, tracks[1].robust_similarity);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using synthetic::Glyph;
-using synthetic::HoverSetting;
+using synthetic::FlightSetting;
 
 SyntheticWorld hover(std::uint64_t seed, double duration_s) {
   SyntheticOptions options;
@@ -22,7 +22,7 @@ SyntheticWorld hover(std::uint64_t seed, double duration_s) {
 }
 
 SE3 T_world_cam(const SyntheticWorld& world, std::size_t index) {
-  const HoverSetting& setting = *world.hover();
+  const FlightSetting& setting = *world.hover();
   return setting.flight.at_image(index).T_world_body * setting.T_body_cam;
 }
 
@@ -45,7 +45,7 @@ bool sees_marks(const SyntheticWorld& world, std::size_t index) {
   return false;
 }
 
-TEST(HoverWorld, ShowsEveryCellOfItsMarkersWhereTheLayoutSaysIt) {
+TEST(FlightWorld, ShowsEveryCellOfItsMarkersWhereTheLayoutSaysIt) {
   const SyntheticWorld world = hover(2, 3);
   const Camera camera = world.calibration().camera;
   const Image image = world.render(0, {}).frame.image;
@@ -71,7 +71,7 @@ TEST(HoverWorld, ShowsEveryCellOfItsMarkersWhereTheLayoutSaysIt) {
   EXPECT_GT(cells, 100);
 }
 
-TEST(HoverWorld, LosesItsMarkersForFiveSecondsAgainAndAgain) {
+TEST(FlightWorld, LosesItsMarkersForFiveSecondsAgainAndAgain) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const SyntheticWorld world = hover(seed, 120);
     int outages = 0, blind = 0;
@@ -87,11 +87,11 @@ TEST(HoverWorld, LosesItsMarkersForFiveSecondsAgainAndAgain) {
   }
 }
 
-TEST(HoverWorld, StaysInTheAirAndOverItsFloor) {
+TEST(FlightWorld, StaysInTheAirAndOverItsFloor) {
   for (const std::uint64_t seed : {1, 2, 3}) {
-    synthetic::HoverFlightOptions options;
+    synthetic::SimulatedFlightOptions options;
     options.seed = seed;
-    for (const BodyState& state : synthetic::fly_hover(options).truth) {
+    for (const BodyState& state : synthetic::simulate_flight(options).truth) {
       const Vector3d& p = state.T_world_body.translation();
       ASSERT_GT(p.z(), 0.7) << "seed " << seed;
       ASSERT_LT(p.z(), 2.5) << "seed " << seed;
@@ -101,7 +101,7 @@ TEST(HoverWorld, StaysInTheAirAndOverItsFloor) {
   }
 }
 
-TEST(HoverWorld, FlowLeadsToWhereTheFloorIsInTheNextImage) {
+TEST(FlightWorld, FlowLeadsToWhereTheFloorIsInTheNextImage) {
   const SyntheticWorld world = hover(5, 6);
   const Camera camera = world.calibration().camera;
   SyntheticContents contents;

@@ -26,7 +26,7 @@ TEST(MapDatabaseProperty, ReadAfterWriteIsIdentity) {
     ASSERT_EQ(read.map.landmarks.size(), stored.map.landmarks.size());
     EXPECT_EQ(read.map.landmarks[1234].point_cam, stored.map.landmarks[1234].point_cam);
     for (std::size_t i = 0; i < stored.map.keyframes.size(); ++i) {
-      EXPECT_EQ(read.map.keyframes[i].view.glance, stored.map.keyframes[i].view.glance);
+      EXPECT_EQ(read.map.keyframes[i].view.thumbnail, stored.map.keyframes[i].view.thumbnail);
       EXPECT_EQ(read.map.keyframes[i].view.gabor.values, stored.map.keyframes[i].view.gabor.values);
       EXPECT_EQ(read.map.keyframes[i].view.colour.energy,
                 stored.map.keyframes[i].view.colour.energy);

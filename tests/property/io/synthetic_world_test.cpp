@@ -98,7 +98,7 @@ TEST_P(World, DepthAndPosesCarryPixelsOntoEqualDepthInOtherFrames) {
   }
 }
 
-TEST_P(World, RightEyeSeesEachPointBaselineTimesFocalLengthOverDepthFurtherLeft) {
+TEST_P(World, RightCameraSeesEachPointBaselineTimesFocalLengthOverDepthFurtherLeft) {
   const SyntheticWorld world = open(GetParam());
   const Tour& tour = world.tour();
   const std::size_t at = world.size() / 3;

@@ -61,8 +61,8 @@ struct Motion {
     const FloorFlow floor({}, kCamera, kBodyCam, floor_z_m);
     const auto found = floor.measure(flow, body(T_world_a), 50'000'000,
                                      {T_1_2().rotation(), Eigen::Matrix3d::Zero()});
-    EXPECT_TRUE(found.sighting) << found.outcome.reason;
-    return found.sighting ? found.sighting->over_distance : Vector3d(Vector3d::Zero());
+    EXPECT_TRUE(found.observation) << found.outcome.reason;
+    return found.observation ? found.observation->over_distance : Vector3d(Vector3d::Zero());
   }
 };
 

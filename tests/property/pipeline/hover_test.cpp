@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/internal/trajectory/body_state_error.h>
 
-#include "tests/support/scenes/hover_sights.h"
+#include "tests/support/scenes/flight_measurements.h"
 
 namespace placegraph {
 namespace {
@@ -12,18 +12,18 @@ synthetic::Tour tour_of(std::uint64_t seed, double duration_s) {
   synthetic::TourRequest request;
   request.seed = seed;
   request.duration_s = duration_s;
-  return synthetic::make_hover(request);
+  return synthetic::make_flight_world(request);
 }
 
-std::vector<BodyState> answers(const std::vector<HoverFrame>& frames) {
+std::vector<BodyState> answers(const std::vector<FlightFrame>& frames) {
   std::vector<BodyState> states;
-  for (const HoverFrame& frame : frames)
+  for (const FlightFrame& frame : frames)
     if (frame.outcome) states.push_back(frame.state);
   return states;
 }
 
 /// Errors divided by what the filter says of them, over flights with the markers lost on the way.
-TEST(HoverConsistency, ErrsAsItsCovarianceSaysThroughOutages) {
+TEST(FlightConsistency, ErrsAsItsCovarianceSaysThroughOutages) {
   constexpr int kFlights = 8;
   double anees = 0, position = 0, velocity = 0, attitude = 0;
   for (std::uint64_t seed = 1; seed <= kFlights; ++seed) {
@@ -44,7 +44,7 @@ TEST(HoverConsistency, ErrsAsItsCovarianceSaysThroughOutages) {
   }
 }
 
-TEST(HoverConsistency, GoesOnByFlowAloneAfterItsLastMarker) {
+TEST(FlightConsistency, GoesOnByFlowAloneAfterItsLastMarker) {
   const synthetic::Tour tour = tour_of(31, 20);
   const auto frames = fly_without_images(tour, {}, {}, 5, [](double t) { return t < 2; });
   const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
@@ -53,9 +53,9 @@ TEST(HoverConsistency, GoesOnByFlowAloneAfterItsLastMarker) {
   EXPECT_LT(error.end_error_m, 0.02 * error.way_m);
 }
 
-TEST(HoverConsistency, MarkersThatComeLateAreWorthAlmostAsMuch) {
+TEST(FlightConsistency, MarkersThatComeLateAreWorthAlmostAsMuch) {
   const synthetic::Tour tour = tour_of(32, 12);
-  HoverOptions late;
+  FlightOptions late;
   late.marker_delay_s = 0.2;
   const auto frames = fly_without_images(tour, late, {}, 6, [](double) { return true; });
   const BodyStateError error = body_state_error(tour.hover->flight.truth, answers(frames));
@@ -66,11 +66,11 @@ TEST(HoverConsistency, MarkersThatComeLateAreWorthAlmostAsMuch) {
 
 /// Once all has come, it is as if it had come in time: but for the turns that were taken out of
 /// flow while the gyro's bias was known otherwise.
-TEST(HoverConsistency, OnceLateMarkersHaveComeTheStateIsThatOfMarkersInTime) {
+TEST(FlightConsistency, OnceLateMarkersHaveComeTheStateIsThatOfMarkersInTime) {
   for (const std::uint64_t seed : {41, 42, 43}) {
     const synthetic::Tour tour = tour_of(seed, 8);
     const auto until_six = [](double t) { return t < 6; };
-    HoverOptions late;
+    FlightOptions late;
     late.marker_delay_s = 0.3;
     const auto in_time = fly_without_images(tour, {}, {}, seed, until_six),
                delayed = fly_without_images(tour, late, {}, seed, until_six);
@@ -87,7 +87,7 @@ TEST(HoverConsistency, OnceLateMarkersHaveComeTheStateIsThatOfMarkersInTime) {
   }
 }
 
-TEST(HoverConsistency, ErrsAsItsCovarianceSaysWhereImagesAreDropped) {
+TEST(FlightConsistency, ErrsAsItsCovarianceSaysWhereImagesAreDropped) {
   double anees = 0;
   constexpr int kFlights = 4;
   for (std::uint64_t seed = 1; seed <= kFlights; ++seed) {
@@ -114,7 +114,7 @@ TEST(HoverConsistency, ErrsAsItsCovarianceSaysWhereImagesAreDropped) {
 /// states are, too, and what the filter accepts stays the same.
 TEST(HoverLaw, RotatingTheWorldAboutTheVerticalRotatesTheStates) {
   const synthetic::Tour tour = tour_of(61, 6);
-  const synthetic::HoverSetting& setting = *tour.hover;
+  const synthetic::FlightSetting& setting = *tour.hover;
   const SE3 T_other_world(SO3::exp({0, 0, 2.1}), Eigen::Vector3d(3, -2, 0));
   MarkerLayout other = setting.layout;
   for (PlacedMarker& marker : other.markers)
@@ -122,7 +122,7 @@ TEST(HoverLaw, RotatingTheWorldAboutTheVerticalRotatesTheStates) {
   for (Eigen::Vector3d& beacon : other.beacons_world) beacon = T_other_world * beacon;
   FlightEstimator here({}, tour.camera, setting.T_body_cam, setting.layout),
       there({}, tour.camera, setting.T_body_cam, other);
-  test::HoverSightsSource source(tour, {}, 3);
+  test::FlightMeasurementsSource source(tour, {}, 3);
   std::size_t sample = 0;
   int answered = 0;
   for (std::size_t i = 0; i < setting.flight.images.size(); ++i) {
@@ -130,8 +130,8 @@ TEST(HoverLaw, RotatingTheWorldAboutTheVerticalRotatesTheStates) {
       (void)here.add(setting.flight.imu.samples[sample]);
       (void)there.add(setting.flight.imu.samples[sample]);
     }
-    const HoverSights sights = source.look(i, i % 60 < 30);
-    const HoverFrame a = here.add(sights), b = there.add(sights);
+    const FlightMeasurements observations = source.look(i, i % 60 < 30);
+    const FlightFrame a = here.add(observations), b = there.add(observations);
     ASSERT_EQ(a.outcome.code, b.outcome.code) << i;
     ASSERT_EQ(a.flow.code, b.flow.code) << i;
     ASSERT_EQ(a.markers.code, b.markers.code) << i;

@@ -53,12 +53,12 @@ TEST(InertialWindowConsistency, IsAsGoodAsTheFilterAtOnceAndBetterASecondLater) 
       ASSERT_TRUE(filter.add(sample));
       ASSERT_TRUE(window.add(sample));
       if (i % 10 == 0) {
-        const FlowSighting flow = flight.flow(t - 0.05, t, random);
+        const FlowMeasurement flow = flight.flow(t - 0.05, t, random);
         (void)filter.add(flow);
         (void)window.add(flow);
       }
       if (i % 40 == 0 && (t < 2 || t > 4)) {
-        const PoseSighting marker = flight.marker(t, random);
+        const PoseMeasurement marker = flight.marker(t, random);
         (void)filter.add(marker);
         (void)window.add(marker);
       }

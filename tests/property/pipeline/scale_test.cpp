@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-// GroundScale -------------------------------------------------------------------------------------
+// GroundPlaneScale -------------------------------------------------------------------------------------
 
 /// Two pictures of a road from 1.2 to 2 m above it, a step of random length apart.
 struct Road {
@@ -39,7 +39,7 @@ struct Road {
   /// Where lengths are measured in units of `unit` metres, and the camera is thought to stand
   /// `height` above the road.
   double factor(double unit, double height, bool backwards = false) const {
-    GroundScale scale({}, camera, height);
+    GroundPlaneScale scale({}, camera, height);
     const SE3 T = T_old_new.scaled(1 / unit);
     const auto length =
         backwards ? scale.find(old_view, new_view, T.inverse()) : scale.find(new_view, old_view, T);
@@ -79,7 +79,7 @@ TEST(GroundScaleLaws, ExchangedViewsTellTheSameLength) {
   }
 }
 
-// FloorScale --------------------------------------------------------------------------------------
+// FloorLineScale --------------------------------------------------------------------------------------
 
 /// Lines of a corridor in units of `unit` metres, as a camera at `T_odom_cam` sees them that stands
 /// at `T_corridor_cam` [m], placed with an error of their tangents.
@@ -107,8 +107,8 @@ std::vector<PlacedLine> placed(const SE3& T_corridor_cam, const SE3& T_odom_cam,
 /// The factor after three views that agree on it.
 double floor_factor(double height_m, double unit, const SE3& T_odom_corridor,
                     const Random& random) {
-  FloorScale scale({}, LineScene().camera, height_m);
-  std::optional<GroundScale::Length> length;
+  FloorLineScale scale({}, LineScene().camera, height_m);
+  std::optional<GroundPlaneScale::ScaleMeasurement> length;
   for (int view = 0; view < 3; ++view) {
     const SE3 T_corridor_cam = pose({0.02, 0.05, 0}, {0.1, 0, 0.2 * view});
     const SE3 T_odom_cam = T_odom_corridor * T_corridor_cam.scaled(1 / unit);

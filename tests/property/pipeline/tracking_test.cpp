@@ -142,9 +142,9 @@ TEST(KeyframeSelectorLaws, ARotationIsNoParallax) {
       EXPECT_LT(px, 0.01);
     // On its way the parallax is that of the way alone.
     const auto straight = flow(parallax, first, tracks_of(points, step), SO3()),
-               turned = flow(parallax, first, tracks_of(points, step * SE3(R, {0, 0, 0})), R);
-    ASSERT_EQ(straight.size(), turned.size());
-    for (std::size_t i = 0; i < straight.size(); ++i) EXPECT_NEAR(straight[i], turned[i], 0.05);
+               rotated = flow(parallax, first, tracks_of(points, step * SE3(R, {0, 0, 0})), R);
+    ASSERT_EQ(straight.size(), rotated.size());
+    for (std::size_t i = 0; i < straight.size(); ++i) EXPECT_NEAR(straight[i], rotated[i], 0.05);
   }
 }
 
@@ -153,15 +153,15 @@ TEST(KeyframeSelectorLaws, ARotationIsNoParallax) {
 TEST(LensEstimatorLaws, TheOrderOfWindowsDoesNotMatter) {
   Random random = seeded_random(5);
   for (int trial = 0; trial < kTrials; ++trial) {
-    std::vector<LensEvidence> windows;
+    std::vector<DistortionEvidence> windows;
     for (int i = 0; i < 8; ++i) {
       const double information = random.uniform(1e4, 1e6);
       windows.push_back({information * random.normal(0.01, 0.003), information, 500});
     }
     LensEstimator forwards, backwards;
-    for (const LensEvidence& window : windows) forwards.add(window);
+    for (const DistortionEvidence& window : windows) forwards.add(window);
     std::reverse(windows.begin(), windows.end());
-    for (const LensEvidence& window : windows) backwards.add(window);
+    for (const DistortionEvidence& window : windows) backwards.add(window);
     EXPECT_NEAR(forwards.k1(), backwards.k1(), 1e-12);
     EXPECT_NEAR(forwards.effect(), backwards.effect(), 1e-12);
     if (std::isfinite(forwards.sigma_k1())) {

@@ -21,7 +21,7 @@ inline Camera vanishing_camera() {
   return camera;
 }
 
-inline SO3 random_turn(double max_rad, Random& random) {
+inline SO3 random_rotation(double max_rad, Random& random) {
   const Eigen::Vector3d axis(random.normal(), random.normal(), random.normal());
   return SO3::exp(axis.normalized() * random.uniform(0, max_rad));
 }

@@ -15,10 +15,10 @@ namespace placegraph::test {
 
 /// The picture of a marker as somebody reads it, without white around it, 0 or 255.
 inline Image marker_picture(const std::string& dictionary, int id, int cell_px) {
-  const MarkerFamily family = marker_family(dictionary);
-  const cv::aruco::Dictionary codes(family.codes, family.bits_per_side, family.correctable_bits);
+  const MarkerFamily cluster = marker_family(dictionary);
+  const cv::aruco::Dictionary codes(cluster.codes, cluster.bits_per_side, cluster.correctable_bits);
   Image picture;
-  codes.drawMarker(id, (family.bits_per_side + 2) * cell_px, picture, 1);
+  codes.drawMarker(id, (cluster.bits_per_side + 2) * cell_px, picture, 1);
   return picture;
 }
 

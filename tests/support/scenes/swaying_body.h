@@ -65,26 +65,26 @@ struct SwayingBody {
         accel_bias + normal(noise.accel_noise / std::sqrt(dt));
     return sample;
   }
-  FlowSighting flow(double from, double to, Random& random) const {
+  FlowMeasurement flow(double from, double to, Random& random) const {
     const SE3 T_first = pose(from) * T_body_cam, T_second = pose(to) * T_body_cam;
-    FlowSighting sighting;
-    sighting.from_ns = stamp(from);
-    sighting.to_ns = stamp(to);
-    sighting.over_distance =
+    FlowMeasurement observation;
+    observation.from_ns = stamp(from);
+    observation.to_ns = stamp(to);
+    observation.over_distance =
         (T_first.inverse() * T_second).translation() / T_first.translation().z();
-    for (int i = 0; i < 3; ++i) sighting.over_distance[i] += random.normal(0, flow_sigma);
-    sighting.covariance = flow_sigma * flow_sigma * Eigen::Matrix3d::Identity();
-    return sighting;
+    for (int i = 0; i < 3; ++i) observation.over_distance[i] += random.normal(0, flow_sigma);
+    observation.covariance = flow_sigma * flow_sigma * Eigen::Matrix3d::Identity();
+    return observation;
   }
-  PoseSighting marker(double t, Random& random) const {
-    PoseSighting sighting;
-    sighting.stamp_ns = stamp(t);
+  PoseMeasurement marker(double t, Random& random) const {
+    PoseMeasurement observation;
+    observation.stamp_ns = stamp(t);
     Vector6d sigma, e;
     sigma << Eigen::Vector3d::Constant(marker_sigma_m), Eigen::Vector3d::Constant(marker_sigma_rad);
     for (int i = 0; i < 6; ++i) e[i] = sigma[i] * random.normal();
-    sighting.T_world_body = pose(t).plus(e);
-    sighting.covariance = sigma.cwiseAbs2().asDiagonal();
-    return sighting;
+    observation.T_world_body = pose(t).plus(e);
+    observation.covariance = sigma.cwiseAbs2().asDiagonal();
+    return observation;
   }
 };
 

@@ -36,10 +36,10 @@ class StepAcrossPlaneFactor final : public SizedFactor<1, SE3, SE3, Plane3> {
 /// Four keyframes on a curve, a plane and a rectangular world.
 struct FactorScene {
   static constexpr PlaneId kPlane{10};
-  static constexpr ManhattanFrameId kWorld{20};
+  static constexpr ManhattanFrameId kManhattanFrame{20};
   std::vector<SE3> T_map_cam;
   Plane3 plane{{0.3, 1, 0.2}, 1.5};
-  SO3 R_map_world = SO3::exp({0.2, -0.3, 0.1});
+  SO3 R_map_manhattan = SO3::exp({0.2, -0.3, 0.1});
 
   FactorScene() {
     for (int k = 0; k < 4; ++k)
@@ -61,7 +61,7 @@ struct FactorScene {
                           T_map_cam[k] * random_motion(random, 0.1 * share, 0.01 * share));
     }
     result.add_plane(kPlane, plane);
-    result.add_world(kWorld, R_map_world);
+    result.add_manhattan_frame(kManhattanFrame, R_map_manhattan);
     return result;
   }
 };
@@ -95,9 +95,9 @@ inline std::vector<std::pair<std::string, WindowFactor>> factors_of_every_kind(
       {"plane",
        window_factor(PlaneObservation{KeyframeId(1), FactorScene::kPlane, plane_cam, information})},
       {"pose prior", window_factor(PosePrior{KeyframeId(1), T.plus(off), motion_information()})},
-      {"world", window_factor(WorldObservation{
-                    KeyframeId(1), FactorScene::kWorld,
-                    T.rotation().inverse() * scene.R_map_world * SO3::exp({0.01, 0.005, -0.01}),
+      {"world", window_factor(ManhattanObservation{
+                    KeyframeId(1), FactorScene::kManhattanFrame,
+                    T.rotation().inverse() * scene.R_map_manhattan * SO3::exp({0.01, 0.005, -0.01}),
                     information})},
       {"motion",
        window_factor(MotionObservation{KeyframeId(1), KeyframeId(2), scene.motion(1, 2).plus(off),

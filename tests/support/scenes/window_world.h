@@ -94,8 +94,8 @@ inline void add_lines(WindowWorld& world, const WindowWorldOptions& options, Ran
 /// Planes about the way, measured in every keyframe.
 inline void add_planes(WindowWorld& world, const WindowWorldOptions& options, Random& random) {
   for (int i = 0; i < options.planes; ++i) {
-    const double turn = 0.2 + 2.4 * i / options.planes;
-    const Plane3 plane({std::cos(turn), 0.1 * (i + 1), std::sin(turn)}, -4 - 2 * i);
+    const double rotation = 0.2 + 2.4 * i / options.planes;
+    const Plane3 plane({std::cos(rotation), 0.1 * (i + 1), std::sin(rotation)}, -4 - 2 * i);
     world.planes.push_back(plane);
     for (int k = 0; k < options.keyframes; ++k) {
       const Plane3 plane_cam = transform_to(world.T_map_cam[static_cast<std::size_t>(k)], plane);

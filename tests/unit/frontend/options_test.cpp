@@ -9,7 +9,7 @@
 #include <placegraph/frontend/internal/lines/pose_from_lines.h>
 #include <placegraph/frontend/internal/markers/marker_filter.h>
 #include <placegraph/frontend/internal/places/classifiers/place_classifier.h>
-#include <placegraph/frontend/internal/places/code_memory.h>
+#include <placegraph/frontend/internal/places/code_database.h>
 #include <placegraph/frontend/internal/places/place_database.h>
 #include <placegraph/frontend/internal/places/verification/loop_verifier.h>
 #include <placegraph/frontend/internal/planes/dominant_surface.h>

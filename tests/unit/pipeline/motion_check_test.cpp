@@ -8,14 +8,14 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A drive of `speed` at 10 Hz that turns by `turn_deg` about `axis` of the camera in all.
-Trajectory drive(double speed, const Eigen::Vector3d& axis, double turn_deg) {
+/// A drive of `speed` at 10 Hz that turns by `rotation_deg` about `axis` of the camera in all.
+Trajectory drive(double speed, const Eigen::Vector3d& axis, double rotation_deg) {
   Trajectory trajectory;
   SE3 T_world_cam;
   constexpr int kFrames = 200;
   for (int i = 0; i < kFrames; ++i) {
     trajectory.poses.push_back({i * 100'000'000LL + 7, T_world_cam.isometry()});
-    T_world_cam = T_world_cam * SE3(SO3::exp(deg_to_rad(turn_deg / kFrames) * axis),
+    T_world_cam = T_world_cam * SE3(SO3::exp(deg_to_rad(rotation_deg / kFrames) * axis),
                                     Eigen::Vector3d(0, 0, 0.1 * speed));
   }
   return trajectory;
@@ -32,25 +32,25 @@ Camera camera(int width, int height) {
 
 const Eigen::Vector3d kX = Eigen::Vector3d::UnitX(), kY = Eigen::Vector3d::UnitY();
 
-TEST(Turns, AreSummedByAxis) {
-  const Turns turns = turns_of(drive(10, kY, 90));
-  EXPECT_NEAR(turns.about_y_deg, 88, 2);
-  EXPECT_NEAR(turns.about_x_deg, 0, 1e-6);
+TEST(Rotations, AreSummedByAxis) {
+  const Rotations rotations = rotations_of(drive(10, kY, 90));
+  EXPECT_NEAR(rotations.about_y_deg, 88, 2);
+  EXPECT_NEAR(rotations.about_x_deg, 0, 1e-6);
 }
 
 TEST(OddPosture, IsThatOfACameraOnItsSide) {
-  EXPECT_FALSE(odd_posture(camera(640, 480), turns_of(drive(10, kY, 90))));
-  EXPECT_FALSE(odd_posture(camera(640, 480), turns_of(drive(10, kY, 0))));
-  const auto side = odd_posture(camera(640, 480), turns_of(drive(10, kX, 90)));
+  EXPECT_FALSE(odd_posture(camera(640, 480), rotations_of(drive(10, kY, 90))));
+  EXPECT_FALSE(odd_posture(camera(640, 480), rotations_of(drive(10, kY, 0))));
+  const auto side = odd_posture(camera(640, 480), rotations_of(drive(10, kX, 90)));
   ASSERT_TRUE(side);
   EXPECT_TRUE(side->doubts_scale);
   EXPECT_THAT(side->text, HasSubstr("as if it lay on its side"));
 }
 
 TEST(OddPosture, OfHighImagesIsToldUnlessTheyTurnUpright) {
-  EXPECT_THAT(odd_posture(camera(480, 640), turns_of(drive(10, kY, 0)))->text,
+  EXPECT_THAT(odd_posture(camera(480, 640), rotations_of(drive(10, kY, 0)))->text,
               HasSubstr("higher than wide"));
-  EXPECT_FALSE(odd_posture(camera(480, 640), turns_of(drive(10, kY, 60))));
+  EXPECT_FALSE(odd_posture(camera(480, 640), rotations_of(drive(10, kY, 60))));
 }
 
 /// A drive of ten keyframes ahead, with forty points on each of three sides at these distances [m].
@@ -82,10 +82,10 @@ TEST(NearestSides, AreThoseOfAStreetOrOfACameraOnItsSide) {
   EXPECT_NEAR(street.nearest_other, 5 / 1.65, 1e-9);
   EXPECT_TRUE(street.are_upright());
   EXPECT_FALSE(odd_sides(street));
-  const NearestSides turned = nearest_sides(map_with(1.2, 0.4, 6), 1.65);
-  EXPECT_FALSE(turned.are_upright());
-  ASSERT_TRUE(odd_sides(turned));
-  EXPECT_TRUE(odd_sides(turned)->doubts_scale);
+  const NearestSides rotated = nearest_sides(map_with(1.2, 0.4, 6), 1.65);
+  EXPECT_FALSE(rotated.are_upright());
+  ASSERT_TRUE(odd_sides(rotated));
+  EXPECT_TRUE(odd_sides(rotated)->doubts_scale);
   // A corridor: walls nearer than the floor, which is where it is to be.
   EXPECT_FALSE(odd_sides(nearest_sides(map_with(1.65, 0.8, 0.9), 1.65)));
   EXPECT_FALSE(odd_sides(nearest_sides(Map(), 1.65)));

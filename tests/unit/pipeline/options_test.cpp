@@ -9,7 +9,7 @@ namespace {
 
 template <class Options>
 class PipelineOptions : public testing::Test {};
-using All = testing::Types<GroundScaleOptions, KeyframeOptions, OdometryOptions, LoopOptions,
+using All = testing::Types<GroundPlaneScaleOptions, KeyframeOptions, OdometryOptions, LoopOptions,
                            PlaceOptions, SlamOptions, RunOptions>;
 TYPED_TEST_SUITE(PipelineOptions, All);
 

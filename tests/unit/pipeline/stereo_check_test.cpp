@@ -30,7 +30,7 @@ class WarpedStreet : public test::StreetDataset {
 
 const Camera kCamera = test::street_camera();
 
-cv::Mat turned(double angle_deg, double zoom, double down_px) {
+cv::Mat rotated(double angle_deg, double zoom, double down_px) {
   cv::Mat warp = cv::getRotationMatrix2D(
       {static_cast<float>(kCamera.cx), static_cast<float>(kCamera.cy)}, angle_deg, zoom);
   warp.at<double>(1, 2) += down_px;
@@ -39,31 +39,31 @@ cv::Mat turned(double angle_deg, double zoom, double down_px) {
 
 std::optional<DataNote> note_of(const cv::Mat& warp) {
   const WarpedStreet street(warp);
-  return odd_rows(look_at_rows(street), kCamera);
+  return odd_rows(check_rows(street), kCamera);
 }
 
 TEST(StereoCheck, SaysNothingOfARectifiedPair) {
-  EXPECT_FALSE(odd_rows(look_at_rows(test::StreetDataset(4)), kCamera));
-  EXPECT_FALSE(note_of(turned(0, 1, 0.2)));
+  EXPECT_FALSE(odd_rows(check_rows(test::StreetDataset(4)), kCamera));
+  EXPECT_FALSE(note_of(rotated(0, 1, 0.2)));
 }
 
 TEST(StereoCheck, SaysHowFarRowsAreOffAndWhy) {
-  const auto rolled = note_of(turned(1, 1, 0));
+  const auto rolled = note_of(rotated(1, 1, 0));
   ASSERT_TRUE(rolled);
   EXPECT_TRUE(rolled->doubts_scale);
   EXPECT_THAT(rolled->text, HasSubstr("as if the right eye were rolled by"));
   EXPECT_THAT(rolled->text, HasSubstr("rectify the pair first"));
-  const auto lower = note_of(turned(0, 1, 3));
+  const auto lower = note_of(rotated(0, 1, 3));
   ASSERT_TRUE(lower);
   EXPECT_THAT(lower->text, HasSubstr("px off their rows"));
   EXPECT_THAT(lower->text, HasSubstr("rows too low"));
-  const auto zoomed = note_of(turned(0, 1.02, 0));
+  const auto zoomed = note_of(rotated(0, 1.02, 0));
   ASSERT_TRUE(zoomed);
   EXPECT_THAT(zoomed->text, HasSubstr("% larger"));
-  EXPECT_TRUE(note_of(turned(0, 1, 30)));
+  EXPECT_TRUE(note_of(rotated(0, 1, 30)));
 }
 
-TEST(StereoCheck, TellsSwappedEyes) {
+TEST(StereoCheck, TellsSwappedCameras) {
   class Swapped : public test::StreetDataset {
    public:
     using StreetDataset::StreetDataset;
@@ -73,13 +73,13 @@ TEST(StereoCheck, TellsSwappedEyes) {
       return frame;
     }
   };
-  const auto note = odd_rows(look_at_rows(Swapped(4)), kCamera);
+  const auto note = odd_rows(check_rows(Swapped(4)), kCamera);
   ASSERT_TRUE(note);
   EXPECT_THAT(note->text, HasSubstr("are the eyes swapped?"));
 }
 
 TEST(StereoCheck, DoesNotJudgeWhatShowsNothing) {
-  EXPECT_FALSE(odd_rows(look_at_rows(test::StreetDataset(4, 0, 4)), kCamera));
+  EXPECT_FALSE(odd_rows(check_rows(test::StreetDataset(4, 0, 4)), kCamera));
 }
 
 }  // namespace

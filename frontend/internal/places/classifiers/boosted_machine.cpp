@@ -10,16 +10,16 @@ namespace {
 /// What one least-squares machine per cue says of each place: cues x places columns.
 class CueOpinions {
  public:
-  CueOpinions(const PlaceLesson& lesson, const PlaceClassifierOptions& options)
-      : places_(lesson.places) {
-    const Eigen::MatrixXd targets = targets_of(lesson);
-    for (std::size_t m = 0; m < lesson.distances.size(); ++m) {
-      if (lesson.distances[m].size() == 0) continue;
+  CueOpinions(const PlaceTrainingSet& training_set, const PlaceClassifierOptions& options)
+      : places_(training_set.places) {
+    const Eigen::MatrixXd targets = targets_of(training_set);
+    for (std::size_t m = 0; m < training_set.distances.size(); ++m) {
+      if (training_set.distances[m].size() == 0) continue;
       PerCue alone{};
       alone[m] = 1;
-      const Eigen::MatrixXd kernel = kernel_of(lesson, alone);
+      const Eigen::MatrixXd kernel = kernel_of(training_set, alone);
       cues_.push_back({m, alone, solve_kernel(kernel, targets, options.ridge)});
-      const Eigen::MatrixXd said = left_out_outputs(lesson, kernel, options);
+      const Eigen::MatrixXd said = left_out_outputs(training_set, kernel, options);
       const Eigen::Index column = left_out_.cols();
       left_out_.conservativeResize(targets.rows(), column + places_);
       left_out_.rightCols(places_) = said;
@@ -64,7 +64,7 @@ using Ensemble = std::vector<Stump>;
 
 /// AdaBoost (Freund & Schapire 1997): votes alpha_t = log((1 - e_t) / e_t) / 2.
 Ensemble boost(const Eigen::MatrixXd& opinions, const std::vector<Eigen::Index>& views,
-               const PlaceLesson& lesson, int place, int rounds) {
+               const PlaceTrainingSet& training_set, int place, int rounds) {
   cv::Mat samples(static_cast<int>(views.size()), static_cast<int>(opinions.cols()), CV_32F);
   cv::Mat answers(samples.rows, 1, CV_32S);
   int positives = 0;
@@ -72,7 +72,7 @@ Ensemble boost(const Eigen::MatrixXd& opinions, const std::vector<Eigen::Index>&
     const Eigen::Index view = views[static_cast<std::size_t>(i)];
     for (int k = 0; k < samples.cols; ++k)
       samples.at<float>(i, k) = static_cast<float>(opinions(view, k));
-    const bool here = lesson.labels[static_cast<std::size_t>(view)] == place;
+    const bool here = training_set.labels[static_cast<std::size_t>(view)] == place;
     answers.at<int>(i) = here;
     positives += here;
   }
@@ -118,11 +118,11 @@ double vote(const Ensemble& ensemble, const Eigen::Ref<const Eigen::VectorXd>& o
 }
 
 std::vector<Ensemble> boost_all(const Eigen::MatrixXd& opinions,
-                                const std::vector<Eigen::Index>& views, const PlaceLesson& lesson,
+                                const std::vector<Eigen::Index>& views, const PlaceTrainingSet& training_set,
                                 int rounds) {
   std::vector<Ensemble> ensembles;
-  for (int place = 0; place < lesson.places; ++place)
-    ensembles.push_back(boost(opinions, views, lesson, place, rounds));
+  for (int place = 0; place < training_set.places; ++place)
+    ensembles.push_back(boost(opinions, views, training_set, place, rounds));
   return ensembles;
 }
 
@@ -161,21 +161,21 @@ PerCue weights_of(const std::vector<Ensemble>& ensembles, const CueOpinions& opi
 
 }  // namespace
 
-TrainedPlaceMachine train_boosted_machine(const PlaceLesson& lesson,
+TrainedPlaceMachine train_boosted_machine(const PlaceTrainingSet& training_set,
                                           const PlaceClassifierOptions& options) {
-  CueOpinions opinions(lesson, options);
+  CueOpinions opinions(training_set, options);
   const Eigen::MatrixXd& said = opinions.left_out();
   TrainedPlaceMachine result;
-  result.left_out = Eigen::MatrixXd::Zero(said.rows(), lesson.places);
+  result.left_out = Eigen::MatrixXd::Zero(said.rows(), training_set.places);
   for (int fold = 0; fold < options.folds; ++fold) {
-    const auto [in, out] = split_fold(lesson, fold);
+    const auto [in, out] = split_fold(training_set, fold);
     if (in.empty() || out.empty()) continue;
-    const std::vector<Ensemble> ensembles = boost_all(said, in, lesson, options.rounds);
+    const std::vector<Ensemble> ensembles = boost_all(said, in, training_set, options.rounds);
     for (const Eigen::Index i : out)
       result.left_out.row(i) = votes(ensembles, said.row(i).transpose());
   }
   std::vector<Ensemble> ensembles =
-      boost_all(said, split_fold(lesson, -1).in, lesson, options.rounds);
+      boost_all(said, split_fold(training_set, -1).in, training_set, options.rounds);
   result.weights = weights_of(ensembles, opinions);
   result.machine = std::make_shared<BoostedMachine>(std::move(opinions), std::move(ensembles));
   return result;

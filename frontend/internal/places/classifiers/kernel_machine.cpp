@@ -14,7 +14,7 @@ double sum_of(const PerCue& weights) {
 }
 
 /// All of {0, 1/2, 1} per cue there is, with at least one 1.
-std::vector<PerCue> weights_to_try(const PlaceLesson& lesson) {
+std::vector<PerCue> weights_to_try(const PlaceTrainingSet& training_set) {
   std::vector<PerCue> result;
   int codes = 1;
   for (int m = 0; m < kClassifierCues; ++m) codes *= 3;
@@ -24,7 +24,7 @@ std::vector<PerCue> weights_to_try(const PlaceLesson& lesson) {
     bool known = true;
     for (std::size_t m = 0; m < weights.size(); ++m, rest /= 3) {
       weights[m] = 0.5 * (rest % 3);
-      known = known && (weights[m] == 0 || lesson.distances[m].size() > 0);
+      known = known && (weights[m] == 0 || training_set.distances[m].size() > 0);
     }
     if (known && *std::max_element(weights.begin(), weights.end()) == 1) result.push_back(weights);
   }
@@ -47,11 +47,11 @@ class KernelMachine final : public PlaceMachine {
 
 }  // namespace
 
-Eigen::MatrixXd kernel_of(const PlaceLesson& lesson, const PerCue& weights) {
-  const auto count = static_cast<Eigen::Index>(lesson.labels.size());
+Eigen::MatrixXd kernel_of(const PlaceTrainingSet& training_set, const PerCue& weights) {
+  const auto count = static_cast<Eigen::Index>(training_set.labels.size());
   Eigen::MatrixXd exponent = Eigen::MatrixXd::Zero(count, count);
   for (std::size_t m = 0; m < weights.size(); ++m)
-    if (weights[m] > 0) exponent += weights[m] / sum_of(weights) * lesson.distances[m];
+    if (weights[m] > 0) exponent += weights[m] / sum_of(weights) * training_set.distances[m];
   return (-exponent.array()).exp();
 }
 
@@ -66,18 +66,18 @@ Eigen::VectorXd kernel_of(const std::array<Eigen::VectorXd, kClassifierCues>& di
   return (-exponent.array()).exp();
 }
 
-Eigen::MatrixXd targets_of(const PlaceLesson& lesson) {
+Eigen::MatrixXd targets_of(const PlaceTrainingSet& training_set) {
   Eigen::MatrixXd targets =
-      Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(lesson.labels.size()), lesson.places, -1);
-  for (std::size_t i = 0; i < lesson.labels.size(); ++i)
-    targets(static_cast<Eigen::Index>(i), lesson.labels[i]) = 1;
+      Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(training_set.labels.size()), training_set.places, -1);
+  for (std::size_t i = 0; i < training_set.labels.size(); ++i)
+    targets(static_cast<Eigen::Index>(i), training_set.labels[i]) = 1;
   return targets;
 }
 
-FoldSplit split_fold(const PlaceLesson& lesson, int fold) {
+FoldSplit split_fold(const PlaceTrainingSet& training_set, int fold) {
   FoldSplit split;
-  for (std::size_t i = 0; i < lesson.fold.size(); ++i)
-    (lesson.fold[i] == fold ? split.out : split.in).push_back(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < training_set.fold.size(); ++i)
+    (training_set.fold[i] == fold ? split.out : split.in).push_back(static_cast<Eigen::Index>(i));
   return split;
 }
 
@@ -86,12 +86,12 @@ Eigen::MatrixXd solve_kernel(Eigen::MatrixXd kernel, const Eigen::MatrixXd& targ
   return kernel.ldlt().solve(targets);
 }
 
-Eigen::MatrixXd left_out_outputs(const PlaceLesson& lesson, const Eigen::MatrixXd& kernel,
+Eigen::MatrixXd left_out_outputs(const PlaceTrainingSet& training_set, const Eigen::MatrixXd& kernel,
                                  const PlaceClassifierOptions& options) {
-  const Eigen::MatrixXd targets = targets_of(lesson);
+  const Eigen::MatrixXd targets = targets_of(training_set);
   Eigen::MatrixXd outputs = Eigen::MatrixXd::Zero(targets.rows(), targets.cols());
   for (int f = 0; f < options.folds; ++f) {
-    const auto [in, out] = split_fold(lesson, f);
+    const auto [in, out] = split_fold(training_set, f);
     if (in.empty() || out.empty()) continue;
     outputs(out, Eigen::all) =
         kernel(out, in) * solve_kernel(kernel(in, in), targets(in, Eigen::all), options.ridge);
@@ -99,13 +99,13 @@ Eigen::MatrixXd left_out_outputs(const PlaceLesson& lesson, const Eigen::MatrixX
   return outputs;
 }
 
-PerCue best_kernel_weights(const PlaceLesson& lesson, const PlaceClassifierOptions& options) {
-  const Eigen::MatrixXd targets = targets_of(lesson);
+PerCue best_kernel_weights(const PlaceTrainingSet& training_set, const PlaceClassifierOptions& options) {
+  const Eigen::MatrixXd targets = targets_of(training_set);
   double least = std::numeric_limits<double>::infinity();
   PerCue best{};
-  for (const PerCue& weights : weights_to_try(lesson)) {
+  for (const PerCue& weights : weights_to_try(training_set)) {
     const double error =
-        (left_out_outputs(lesson, kernel_of(lesson, weights), options) - targets).squaredNorm();
+        (left_out_outputs(training_set, kernel_of(training_set, weights), options) - targets).squaredNorm();
     if (error >= least) continue;
     least = error;
     best = weights;
@@ -113,14 +113,14 @@ PerCue best_kernel_weights(const PlaceLesson& lesson, const PlaceClassifierOptio
   return best;
 }
 
-TrainedPlaceMachine train_kernel_machine(const PlaceLesson& lesson,
+TrainedPlaceMachine train_kernel_machine(const PlaceTrainingSet& training_set,
                                          const PlaceClassifierOptions& options) {
   TrainedPlaceMachine result;
-  result.weights = best_kernel_weights(lesson, options);
-  const Eigen::MatrixXd kernel = kernel_of(lesson, result.weights);
-  result.left_out = left_out_outputs(lesson, kernel, options);
+  result.weights = best_kernel_weights(training_set, options);
+  const Eigen::MatrixXd kernel = kernel_of(training_set, result.weights);
+  result.left_out = left_out_outputs(training_set, kernel, options);
   result.machine = std::make_shared<KernelMachine>(
-      result.weights, solve_kernel(kernel, targets_of(lesson), options.ridge));
+      result.weights, solve_kernel(kernel, targets_of(training_set), options.ridge));
   return result;
 }
 

@@ -87,13 +87,13 @@ PlaceClassifier PlaceClassifier::train(std::vector<PlaceCueVectors> views,
   check(views, labels);
   const auto count = static_cast<Eigen::Index>(views.size());
   PlaceClassifier result;
-  PlaceLesson lesson;
-  lesson.labels = labels;
-  lesson.places = *std::max_element(labels.begin(), labels.end()) + 1;
-  lesson.fold = folds_of(labels, options.folds);
-  for (std::size_t m = 0; m < lesson.distances.size(); ++m) {
+  PlaceTrainingSet training_set;
+  training_set.labels = labels;
+  training_set.places = *std::max_element(labels.begin(), labels.end()) + 1;
+  training_set.fold = folds_of(labels, options.folds);
+  for (std::size_t m = 0; m < training_set.distances.size(); ++m) {
     if (views.front()[m].size() == 0) continue;
-    Eigen::MatrixXd& distances = lesson.distances[m];
+    Eigen::MatrixXd& distances = training_set.distances[m];
     distances = Eigen::MatrixXd::Zero(count, count);
     for (Eigen::Index j = 0; j < count; ++j)
       for (Eigen::Index i = 0; i < j; ++i)
@@ -102,12 +102,12 @@ PlaceClassifier PlaceClassifier::train(std::vector<PlaceCueVectors> views,
     result.median_[m] = median_above_diagonal(distances);
     distances /= result.median_[m];
   }
-  TrainedPlaceMachine trained = train_place_machine(lesson, options);
+  TrainedPlaceMachine trained = train_place_machine(training_set, options);
   result.weights_ = trained.weights;
   result.machine_ = std::move(trained.machine);
-  for (int place = 0; place < lesson.places; ++place)
+  for (int place = 0; place < training_set.places; ++place)
     result.scaling_.push_back(
-        fit_platt_scaling(trained.left_out.col(place), targets_of(lesson).col(place).array() > 0));
+        fit_platt_scaling(trained.left_out.col(place), targets_of(training_set).col(place).array() > 0));
   int right = 0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::VectorXd probabilities = result.calibrated(trained.left_out.row(i));

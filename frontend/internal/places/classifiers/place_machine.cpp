@@ -11,17 +11,17 @@ void visit(OptionVisitor& field, PlaceClassifierOptions& o) {
   field("rounds", o.rounds, "stumps of one boosted machine", {1, 10000});
 }
 
-TrainedPlaceMachine train_place_machine(const PlaceLesson& lesson,
+TrainedPlaceMachine train_place_machine(const PlaceTrainingSet& training_set,
                                         const PlaceClassifierOptions& options) {
   switch (options.machine) {
     case PlaceMachineKind::kSvm:
-      return train_support_vectors(lesson, options);
+      return train_support_vectors(training_set, options);
     case PlaceMachineKind::kAdaboost:
-      return train_boosted_machine(lesson, options);
+      return train_boosted_machine(training_set, options);
     case PlaceMachineKind::kKernel:
       break;
   }
-  return train_kernel_machine(lesson, options);
+  return train_kernel_machine(training_set, options);
 }
 
 }  // namespace placegraph

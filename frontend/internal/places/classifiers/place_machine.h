@@ -31,7 +31,7 @@ struct PlaceClassifierOptions {
 void visit(OptionVisitor& field, PlaceClassifierOptions& options);
 
 /// Labelled views by their distances to each other.
-struct PlaceLesson {
+struct PlaceTrainingSet {
   /// Squared distances in each cue over their median; empty for a cue that there is not.
   std::array<Eigen::MatrixXd, kClassifierCues> distances;
   std::vector<int> labels;
@@ -55,15 +55,15 @@ struct TrainedPlaceMachine {
 };
 
 /// The machine of `options.machine`. Same lesson, same bits.
-TrainedPlaceMachine train_place_machine(const PlaceLesson& lesson,
+TrainedPlaceMachine train_place_machine(const PlaceTrainingSet& training_set,
                                         const PlaceClassifierOptions& options);
 
 /// Each kind by itself.
-TrainedPlaceMachine train_kernel_machine(const PlaceLesson& lesson,
+TrainedPlaceMachine train_kernel_machine(const PlaceTrainingSet& training_set,
                                          const PlaceClassifierOptions& options);
-TrainedPlaceMachine train_support_vectors(const PlaceLesson& lesson,
+TrainedPlaceMachine train_support_vectors(const PlaceTrainingSet& training_set,
                                           const PlaceClassifierOptions& options);
-TrainedPlaceMachine train_boosted_machine(const PlaceLesson& lesson,
+TrainedPlaceMachine train_boosted_machine(const PlaceTrainingSet& training_set,
                                           const PlaceClassifierOptions& options);
 
 }  // namespace placegraph

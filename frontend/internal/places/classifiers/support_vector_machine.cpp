@@ -30,12 +30,12 @@ struct Decision {
 };
 
 Decision train_one(const Eigen::MatrixXd& kernel, const std::vector<Eigen::Index>& views,
-                   const PlaceLesson& lesson, int place, double cost) {
+                   const PlaceTrainingSet& training_set, int place, double cost) {
   cv::Mat samples(static_cast<int>(views.size()), 1, CV_32F), answers(samples.size(), CV_32S);
   bool some = false, others = false;
   for (int i = 0; i < samples.rows; ++i) {
     const Eigen::Index view = views[static_cast<std::size_t>(i)];
-    const bool here = lesson.labels[static_cast<std::size_t>(view)] == place;
+    const bool here = training_set.labels[static_cast<std::size_t>(view)] == place;
     samples.at<float>(i) = static_cast<float>(view);
     answers.at<int>(i) = here ? 1 : -1;
     (here ? some : others) = true;
@@ -67,11 +67,11 @@ Decision train_one(const Eigen::MatrixXd& kernel, const std::vector<Eigen::Index
 
 class SupportVectors final : public PlaceMachine {
  public:
-  SupportVectors(const PlaceLesson& lesson, const Eigen::MatrixXd& kernel,
+  SupportVectors(const PlaceTrainingSet& training_set, const Eigen::MatrixXd& kernel,
                  const std::vector<Eigen::Index>& views, double cost, const PerCue& weights)
-      : weights_(weights), coefficients_(kernel.rows(), lesson.places), constants_(lesson.places) {
-    for (int place = 0; place < lesson.places; ++place) {
-      const Decision decision = train_one(kernel, views, lesson, place, cost);
+      : weights_(weights), coefficients_(kernel.rows(), training_set.places), constants_(training_set.places) {
+    for (int place = 0; place < training_set.places; ++place) {
+      const Decision decision = train_one(kernel, views, training_set, place, cost);
       coefficients_.col(place) = decision.coefficients;
       constants_[place] = decision.constant;
     }
@@ -90,13 +90,13 @@ class SupportVectors final : public PlaceMachine {
   Eigen::VectorXd constants_;
 };
 
-Eigen::MatrixXd left_out(const PlaceLesson& lesson, const Eigen::MatrixXd& kernel, double cost,
+Eigen::MatrixXd left_out(const PlaceTrainingSet& training_set, const Eigen::MatrixXd& kernel, double cost,
                          const PerCue& weights, int folds) {
-  Eigen::MatrixXd outputs = Eigen::MatrixXd::Zero(kernel.rows(), lesson.places);
+  Eigen::MatrixXd outputs = Eigen::MatrixXd::Zero(kernel.rows(), training_set.places);
   for (int fold = 0; fold < folds; ++fold) {
-    const auto [in, out] = split_fold(lesson, fold);
+    const auto [in, out] = split_fold(training_set, fold);
     if (in.empty() || out.empty()) continue;
-    const SupportVectors machine(lesson, kernel, in, cost, weights);
+    const SupportVectors machine(training_set, kernel, in, cost, weights);
     for (const Eigen::Index i : out) outputs.row(i) = machine.outputs_of(kernel.col(i));
   }
   return outputs;
@@ -109,22 +109,22 @@ double hinge_loss(const Eigen::MatrixXd& outputs, const Eigen::MatrixXd& targets
 
 }  // namespace
 
-TrainedPlaceMachine train_support_vectors(const PlaceLesson& lesson,
+TrainedPlaceMachine train_support_vectors(const PlaceTrainingSet& training_set,
                                           const PlaceClassifierOptions& options) {
   TrainedPlaceMachine result;
-  result.weights = best_kernel_weights(lesson, options);
-  const Eigen::MatrixXd kernel = kernel_of(lesson, result.weights);
+  result.weights = best_kernel_weights(training_set, options);
+  const Eigen::MatrixXd kernel = kernel_of(training_set, result.weights);
   double least = std::numeric_limits<double>::infinity(), best = 1;
   for (const double cost : {0.5, 2.0, 8.0, 32.0, 128.0}) {
-    Eigen::MatrixXd outputs = left_out(lesson, kernel, cost, result.weights, options.folds);
-    const double loss = hinge_loss(outputs, targets_of(lesson));
+    Eigen::MatrixXd outputs = left_out(training_set, kernel, cost, result.weights, options.folds);
+    const double loss = hinge_loss(outputs, targets_of(training_set));
     if (loss >= least) continue;
     least = loss;
     best = cost;
     result.left_out = std::move(outputs);
   }
-  const FoldSplit all = split_fold(lesson, -1);
-  result.machine = std::make_shared<SupportVectors>(lesson, kernel, all.in, best, result.weights);
+  const FoldSplit all = split_fold(training_set, -1);
+  result.machine = std::make_shared<SupportVectors>(training_set, kernel, all.in, best, result.weights);
   return result;
 }
 

@@ -100,7 +100,7 @@ PoseGraph long_loop(const LongLoopOptions& options) {
 }
 
 template <class Group>
-void turn_odometry(PoseGraph& graph, double sigma_rad, Random& random) {
+void rotation_odometry(PoseGraph& graph, double sigma_rad, Random& random) {
   for (Constraint& constraint : graph.constraints) {
     auto* relative = std::get_if<RelativePoseConstraint>(&constraint);
     if (!relative || relative->source != ConstraintSource::kOdometry) continue;
@@ -219,9 +219,9 @@ void add_rotation_noise(PoseGraph& graph, double sigma_rad, std::uint64_t seed) 
   require(graph.kind() != PoseKind::kSim3, "graph", "must be SE2 or SE3");
   Random random(seed);
   if (graph.kind() == PoseKind::kSE2)
-    turn_odometry<SE2>(graph, sigma_rad, random);
+    rotation_odometry<SE2>(graph, sigma_rad, random);
   else
-    turn_odometry<SE3>(graph, sigma_rad, random);
+    rotation_odometry<SE3>(graph, sigma_rad, random);
   integrate_odometry(graph);
 }
 

@@ -40,19 +40,19 @@ float octave(const Spot& spot, float wavelength, std::uint32_t seed) {
 
 float fractal(const Spot& spot, float longest, float shortest, float gain, std::uint32_t seed) {
   float sum = 0, amplitude = 1;
-  Spot turned = spot;
+  Spot rotated = spot;
   for (float wavelength = longest; wavelength >= 0.99F * shortest; wavelength *= 0.5F) {
     if (spot.minor > 0.5F * wavelength) break;
-    sum += amplitude * octave(turned, wavelength, seed);
+    sum += amplitude * octave(rotated, wavelength, seed);
     amplitude *= gain;
     seed += 0x68bc21ebU;
     // Each octave is turned by the angle of the 3-4-5 triangle: no lattice direction shows.
-    const double s = turned.s, t = turned.t;
-    const float a = turned.major_s, b = turned.major_t;
-    turned.s = 0.8 * s - 0.6 * t;
-    turned.t = 0.6 * s + 0.8 * t;
-    turned.major_s = 0.8F * a - 0.6F * b;
-    turned.major_t = 0.6F * a + 0.8F * b;
+    const double s = rotated.s, t = rotated.t;
+    const float a = rotated.major_s, b = rotated.major_t;
+    rotated.s = 0.8 * s - 0.6 * t;
+    rotated.t = 0.6 * s + 0.8 * t;
+    rotated.major_s = 0.8F * a - 0.6F * b;
+    rotated.major_t = 0.6F * a + 0.8F * b;
   }
   return sum;
 }

@@ -74,7 +74,7 @@ SE3 pose_at(const Eigen::Vector3d& position, const Eigen::Vector3d& turn) {
 }
 
 /// Upright things stand turned about y by chance; others lie anyhow.
-Eigen::Vector3d random_turn(Random& random, bool upright) {
+Eigen::Vector3d random_rotation(Random& random, bool upright) {
   if (upright) return {0, random.uniform(-std::numbers::pi, std::numbers::pi), 0};
   return {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
 }
@@ -129,7 +129,7 @@ class SceneMaker {
                                    random_.uniform(least, most));
   }
   void add_thing() {
-    const SE3 T = pose_at(position(), random_turn(random_, random_.uniform() < 0.7));
+    const SE3 T = pose_at(position(), random_rotation(random_, random_.uniform() < 0.7));
     const double kind = random_.uniform();
     if (kind < 0.4) {
       add(SolidKind::kBox, T, sides(0.03, 0.25), 6);
@@ -142,7 +142,7 @@ class SceneMaker {
     } else {  // a heap
       for (int i = 0; i < 25; ++i) {
         const Eigen::Vector3d near = sides(-0.1, 0.1);
-        add(SolidKind::kBall, pose_at(T.translation() + near, random_turn(random_, false)),
+        add(SolidKind::kBall, pose_at(T.translation() + near, random_rotation(random_, false)),
             sides(0.01, 0.04), 0);
       }
     }

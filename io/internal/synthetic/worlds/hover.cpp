@@ -124,27 +124,27 @@ SE3 camera_mounting() {
 
 }  // namespace
 
-SE3 HoverSetting::T_world_scene() { return synthetic::T_scene_world().inverse(); }
+SE3 FlightSetting::T_world_scene() { return synthetic::T_scene_world().inverse(); }
 
-Tour make_hover(const TourRequest& request) {
+Tour make_flight_world(const TourRequest& request) {
   Random random(request.seed, 51);
   Tour tour;
   tour.name = "hover";
   tour.scene.outdoor = false;
   tour.scene.seed = mix_bits(static_cast<std::uint32_t>(request.seed) * 2654435761U + 277U);
   lay_floor(tour.scene, random);
-  HoverSetting setting;
+  FlightSetting setting;
   setting.layout = make_layout(random);
   place(setting.layout, tour.scene);
   setting.T_body_cam = camera_mounting();
-  HoverFlightOptions options;
+  SimulatedFlightOptions options;
   options.seed = request.seed;
   if (request.duration_s > 0) options.duration_s = request.duration_s;
-  setting.flight = fly_hover(options);
+  setting.flight = simulate_flight(options);
 
   tour.camera = {.width = 640, .height = 480, .fx = 400, .fy = 400, .cx = 319.5, .cy = 239.5};
   const Matrix3d R_cam_body = setting.T_body_cam.rotation().inverse().matrix();
-  const HoverFlight& flight = setting.flight;
+  const SimulatedFlight& flight = setting.flight;
   for (const std::size_t at : flight.images) {
     const BodyState& state = flight.truth[at];
     tour.time_s.push_back(1e-9 * static_cast<double>(state.stamp_ns));
@@ -156,7 +156,7 @@ Tour make_hover(const TourRequest& request) {
         R_cam_body * rate;
     tour.velocity_cam.push_back(velocity);
   }
-  tour.hover = std::make_shared<const HoverSetting>(std::move(setting));
+  tour.hover = std::make_shared<const FlightSetting>(std::move(setting));
   return tour;
 }
 

@@ -1,14 +1,14 @@
 #pragma once
 #include <placegraph/graph/internal/measurements/marker_layout.h>
-#include <placegraph/io/internal/synthetic/worlds/hover_flight.h>
+#include <placegraph/io/internal/synthetic/worlds/simulated_flight.h>
 #include <placegraph/io/internal/synthetic/worlds/tours.h>
 
 namespace placegraph::synthetic {
 
 /// What there is to know of a hover world beside its images. The scene's axes are turned from the
 /// world's (z up).
-struct HoverSetting {
-  HoverFlight flight;
+struct FlightSetting {
+  SimulatedFlight flight;
   MarkerLayout layout;
   SE3 T_body_cam;
   static SE3 T_world_scene();
@@ -16,6 +16,6 @@ struct HoverSetting {
 
 /// A quadrotor over a level floor of several materials with AprilTags and lamps in its middle,
 /// camera downwards (640 x 480, 77 degrees wide, 20 Hz). Away from the middle it sees none of them.
-Tour make_hover(const TourRequest& request);
+Tour make_flight_world(const TourRequest& request);
 
 }  // namespace placegraph::synthetic

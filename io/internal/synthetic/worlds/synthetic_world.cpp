@@ -24,7 +24,7 @@ constexpr BuiltIn kWorlds[] = {{"town-loop", synthetic::make_town_loop},
                                {"repeated-blocks", synthetic::make_repeated_blocks},
                                {"corridor-loop", synthetic::make_corridor_loop},
                                {"warehouse", synthetic::make_warehouse},
-                               {"hover", synthetic::make_hover}};
+                               {"hover", synthetic::make_flight_world}};
 
 Tour make_tour(const SyntheticOptions& options) {
   const TourRequest request{options.seed, synthetic::sensor_model(options.difficulty),
@@ -245,7 +245,7 @@ LabelledMesh SyntheticWorld::static_mesh() const {
 }
 
 const std::string& SyntheticWorld::floor_plan() const { return tour_->floor_plan; }
-const synthetic::HoverSetting* SyntheticWorld::hover() const { return tour_->hover.get(); }
+const synthetic::FlightSetting* SyntheticWorld::hover() const { return tour_->hover.get(); }
 bool SyntheticWorld::is_indoor() const { return !tour_->scene.outdoor; }
 
 }  // namespace placegraph

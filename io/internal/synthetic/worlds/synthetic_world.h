@@ -13,7 +13,7 @@
 namespace placegraph {
 
 namespace synthetic {
-struct HoverSetting;
+struct FlightSetting;
 struct Tour;
 }  // namespace synthetic
 
@@ -80,7 +80,7 @@ class SyntheticWorld {
   LabelledMesh static_mesh() const;
   bool is_indoor() const;
   /// Flight, markers and camera mounting of the hover world; null of others.
-  const synthetic::HoverSetting* hover() const;
+  const synthetic::FlightSetting* hover() const;
   const SyntheticOptions& options() const { return options_; }
   /// The scene and the camera's way through it, in the scene's own frame (y down, level).
   const synthetic::Tour& tour() const { return *tour_; }

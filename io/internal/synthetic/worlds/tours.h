@@ -10,7 +10,7 @@
 
 namespace placegraph::synthetic {
 
-struct HoverSetting;
+struct FlightSetting;
 
 /// A scene together with a camera's way through it: what a world file makes.
 struct Tour {
@@ -26,7 +26,7 @@ struct Tour {
   /// Of the camera in its own axes, [translation, rotation], where it is known better than from the
   /// poses; else empty.
   std::vector<Vector6d> velocity_cam;
-  std::shared_ptr<const HoverSetting> hover;  ///< of the hover world only
+  std::shared_ptr<const FlightSetting> hover;  ///< of the hover world only
 };
 
 struct TourRequest {

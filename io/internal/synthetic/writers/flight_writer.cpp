@@ -13,8 +13,8 @@
 
 namespace placegraph {
 
-using synthetic::HoverFlight;
-using synthetic::HoverSetting;
+using synthetic::SimulatedFlight;
+using synthetic::FlightSetting;
 using synthetic::SequenceFolder;
 
 namespace {
@@ -26,7 +26,7 @@ std::string camera_yaml(const Camera& camera, const SE3& T_body_cam) {
          fmt::format(
              "rate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
              "intrinsics: [{}, {}, {}, {}]\ndistortion_model: none\ndistortion_coefficients: []\n",
-             HoverFlight::kImageHz, camera.width, camera.height, camera.fx, camera.fy, camera.cx,
+             SimulatedFlight::kImageHz, camera.width, camera.height, camera.fx, camera.fy, camera.cx,
              camera.cy);
 }
 
@@ -51,7 +51,7 @@ std::string readme(const SyntheticContents& contents) {
   return text;
 }
 
-void write_recordings(const HoverSetting& setting, std::int64_t last_ns,
+void write_recordings(const FlightSetting& setting, std::int64_t last_ns,
                       const SequenceFolder& folder) {
   ImuRecording imu = setting.flight.imu;
   std::vector<BodyState> truth = setting.flight.truth;
@@ -68,7 +68,7 @@ void write_recordings(const HoverSetting& setting, std::int64_t last_ns,
 void write_flight(const SyntheticWorld& world, const std::string& path,
                   const SequenceWriterOptions& options,
                   const std::function<void(std::size_t)>& progress) {
-  const HoverSetting* setting = world.hover();
+  const FlightSetting* setting = world.hover();
   require(setting != nullptr, world.name() + ": is no flight");
   SequenceFolder folder(path, options.force);
   SyntheticContents contents;

@@ -138,7 +138,7 @@ TEST(ConvertText, CountsWhatAGraphHas) {
   result.nodes = 3, result.constraints = 4;
   EXPECT_EQ(to_text(result), "a.graph: 3 nodes, 4 constraints, written to a.g2o\n");
   result.poses_alone = false;
-  result.priors = 1, result.landmarks = 2, result.sights = 5;
+  result.priors = 1, result.landmarks = 2, result.observations = 5;
   EXPECT_EQ(to_text(result),
             "a.graph: 3 nodes, 4 constraints, 1 priors, 2 landmarks seen 5 times, written to "
             "a.g2o\n");

@@ -29,10 +29,10 @@ std::vector<BodyState> truth() {
 
 /// Images at the seconds 0 to 11: no state at first, markers at 1, 2 and 8, then an error that
 /// grows by 0.1 m a second.
-HoverRun drifting_flight() {
-  HoverRun run;
+FlightRun drifting_flight() {
+  FlightRun run;
   for (int i = 0; i < 12; ++i) {
-    HoverFrame frame;
+    FlightFrame frame;
     frame.stamp_ns = i * kSecond;
     frame.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no marker yet");
     frame.flow = frame.markers = frame.outcome;
@@ -75,7 +75,7 @@ TEST(DescribeDrift, IsTheErrorSinceTheLastMarker) {
 }
 
 TEST(DescribeDrift, IsNothingWhereAMarkerWasSeenLast) {
-  HoverRun run = drifting_flight();
+  FlightRun run = drifting_flight();
   run.frames.back().markers = Outcome::ok();
   EXPECT_TRUE(describe_drift(truth(), run).is_null());
 }

@@ -28,37 +28,37 @@ TEST(ParseSpan, TakesTwoTimesInOrder) {
                 HasSubstr("--blind: '" + std::string(wrong) + "' is not of the form FROM:TO"));
 }
 
-TEST(HoverOptionsOfArguments, TakeTheNoiseOfTheSensorUnlessAnotherIsSet) {
+TEST(FlightOptionsOfArguments, TakeTheNoiseOfTheSensorUnlessAnotherIsSet) {
   const ImuNoise noise = some_noise();
-  HoverArguments arguments;
-  EXPECT_EQ(hover_options(arguments, noise).hover.filter.gyro_noise, 0.001);
+  FlightArguments arguments;
+  EXPECT_EQ(flight_options(arguments, noise).hover.filter.gyro_noise, 0.001);
   arguments.settings = {"filter.gyro_noise=0.004"};
-  const HoverRunOptions options = hover_options(arguments, noise);
+  const FlightRunOptions options = flight_options(arguments, noise);
   EXPECT_EQ(options.hover.filter.gyro_noise, 0.004);
   EXPECT_EQ(options.hover.filter.accel_noise, 0.02);
 }
 
-TEST(HoverOptionsOfArguments, KnowWhenMarkersAreNotLookedFor) {
-  HoverArguments arguments;
+TEST(FlightOptionsOfArguments, KnowWhenMarkersAreNotLookedFor) {
+  FlightArguments arguments;
   arguments.blind = {"1:2", "5:6"};
   arguments.markers_until_s = 9;
   arguments.predict_ahead_ms = 20;
-  const HoverRunOptions options = hover_options(arguments, some_noise());
+  const FlightRunOptions options = flight_options(arguments, some_noise());
   ASSERT_EQ(options.blind.size(), 3u);
   EXPECT_EQ(options.blind[1].from_s, 5);
   EXPECT_EQ(options.blind[2].from_s, 9);
   EXPECT_GT(options.blind[2].to_s, 1e9);
   EXPECT_NEAR(options.predict_ahead_s, 0.02, 1e-12);
   arguments.no_markers = true;
-  ASSERT_EQ(hover_options(arguments, some_noise()).blind.size(), 1u);
-  EXPECT_LT(hover_options(arguments, some_noise()).blind[0].from_s, -1e9);
+  ASSERT_EQ(flight_options(arguments, some_noise()).blind.size(), 1u);
+  EXPECT_LT(flight_options(arguments, some_noise()).blind[0].from_s, -1e9);
 }
 
-TEST(HoverOptionsOfArguments, RefuseWhatDoesNotGoTogether) {
-  const auto message = [](const HoverArguments& arguments) {
-    return message_of<ArgumentError>([&] { hover_options(arguments, some_noise()); });
+TEST(FlightOptionsOfArguments, RefuseWhatDoesNotGoTogether) {
+  const auto message = [](const FlightArguments& arguments) {
+    return message_of<ArgumentError>([&] { flight_options(arguments, some_noise()); });
   };
-  HoverArguments arguments;
+  FlightArguments arguments;
   arguments.smooth = true;
   arguments.predict_ahead_ms = 10;
   EXPECT_THAT(message(arguments), HasSubstr("--smooth: what is told ahead is not smoothed"));
@@ -72,7 +72,7 @@ TEST(HoverOptionsOfArguments, RefuseWhatDoesNotGoTogether) {
 
 TEST(OpenFlight, RefusesAFolderOfAnotherLayout) {
   const test::TemporaryFolder folder;
-  HoverArguments arguments;
+  FlightArguments arguments;
   arguments.flight = folder.path();
   EXPECT_THAT(message_of<ArgumentError>([&] { open_flight(arguments); }),
               HasSubstr("is no folder with mav0/cam0/data.csv"));

@@ -19,7 +19,7 @@ using test::message_of;
 using testing::HasSubstr;
 
 /// A rendered flight of a second, made once: 21 images.
-class HoverCommand : public testing::Test {
+class FlightCommand : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     made = new test::TemporaryFolder;
@@ -30,18 +30,18 @@ class HoverCommand : public testing::Test {
     write_flight(SyntheticWorld(options), *made / "flight", {});
   }
   static void TearDownTestSuite() { delete made; }
-  HoverCommand() {
+  FlightCommand() {
     arguments.flight = *made / "flight";
     arguments.out = folder / "out";
   }
   static test::TemporaryFolder* made;
   test::TemporaryFolder folder;
-  HoverArguments arguments;
+  FlightArguments arguments;
 };
-test::TemporaryFolder* HoverCommand::made = nullptr;
+test::TemporaryFolder* FlightCommand::made = nullptr;
 
-TEST_F(HoverCommand, KnowsWhereItIsToCentimetresAndWritesIt) {
-  const HoverResult result = hover(arguments);
+TEST_F(FlightCommand, KnowsWhereItIsToCentimetresAndWritesIt) {
+  const FlightResult result = hover(arguments);
   EXPECT_FALSE(result.no_answer);
   EXPECT_EQ(result.summary["frames"], 21);
   EXPECT_EQ(result.summary["answered"], 21);
@@ -54,7 +54,7 @@ TEST_F(HoverCommand, KnowsWhereItIsToCentimetresAndWritesIt) {
   EXPECT_FALSE(fs::exists(folder / "out/smoothed.csv"));
 }
 
-TEST_F(HoverCommand, SmoothsIfAskedAndIsAsSureThen) {
+TEST_F(FlightCommand, SmoothsIfAskedAndIsAsSureThen) {
   arguments.smooth = true;
   const json summary = hover(arguments).summary;
   EXPECT_TRUE(fs::exists(folder / "out/smoothed.csv"));
@@ -65,9 +65,9 @@ TEST_F(HoverCommand, SmoothsIfAskedAndIsAsSureThen) {
   EXPECT_FALSE(fs::exists(folder / "out/smoothed.csv"));  // of the run before
 }
 
-TEST_F(HoverCommand, HasNoAnswerWithoutMarkersToBeginWith) {
+TEST_F(FlightCommand, HasNoAnswerWithoutMarkersToBeginWith) {
   arguments.no_markers = true;
-  const HoverResult result = hover(arguments);
+  const FlightResult result = hover(arguments);
   ASSERT_TRUE(result.no_answer);
   EXPECT_THAT(*result.no_answer, HasSubstr("flight: no image could be told a state ("));
   EXPECT_EQ(result.summary["answered"], 0);
@@ -75,7 +75,7 @@ TEST_F(HoverCommand, HasNoAnswerWithoutMarkersToBeginWith) {
               HasSubstr("holds no poses"));
 }
 
-TEST_F(HoverCommand, NamesWhatIsMissingAndMakesNoFolder) {
+TEST_F(FlightCommand, NamesWhatIsMissingAndMakesNoFolder) {
   arguments.markers = folder / "none.yaml";
   EXPECT_THAT(message_of([&] { hover(arguments); }), HasSubstr("none.yaml"));
   arguments.markers.clear();
@@ -88,7 +88,7 @@ TEST_F(HoverCommand, NamesWhatIsMissingAndMakesNoFolder) {
 }
 
 TEST(HoverText, SaysHowWellItIsKnown) {
-  HoverResult result;
+  FlightResult result;
   result.out = "out";
   result.summary = {{"sequence", "flight"},
                     {"frames", 80},

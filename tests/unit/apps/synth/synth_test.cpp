@@ -29,7 +29,7 @@ class SynthCommand : public testing::Test {
   SynthArguments arguments;
 };
 
-TEST_F(SynthCommand, WritesBothEyesOutdoorsAndSaysHowFarTheCameraCame) {
+TEST_F(SynthCommand, WritesBothCamerasOutdoorsAndSaysHowFarTheCameraCame) {
   arguments.world.frames = 3;
   const SynthResult result = synth(arguments);
   EXPECT_EQ(result.frames, 3u);
@@ -46,7 +46,7 @@ TEST_F(SynthCommand, WritesBothEyesOutdoorsAndSaysHowFarTheCameraCame) {
   EXPECT_EQ(image.size(), cv::Size(96, 48));
 }
 
-TEST_F(SynthCommand, WritesOneEyeAndDepthIndoors) {
+TEST_F(SynthCommand, WritesMonocularAndDepthIndoors) {
   arguments.world.world = "corridor-loop";
   EXPECT_FALSE(synth(arguments).stereo);
   EXPECT_FALSE(wrote("image_1"));

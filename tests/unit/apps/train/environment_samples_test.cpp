@@ -23,7 +23,7 @@ class EnvironmentSamples : public testing::Test {
     test::write_drawn_set(folder);
     const TrainSceneArguments training = test::drawn_set_training(folder, "surfaces.pgscene");
     train_scene(training, SceneModel::Kind::kSurfaces);
-    eye = new SceneEye(std::make_shared<const SceneModel>(read_scene_model(training.out)), {});
+    eye = new SurfaceLabeller(std::make_shared<const SceneModel>(read_scene_model(training.out)), {});
   }
   static void TearDownTestSuite() { delete eye; }
   /// A picture of a set of which such a share is buildings.
@@ -34,10 +34,10 @@ class EnvironmentSamples : public testing::Test {
     labels.rowRange(0, static_cast<int>(std::lround(180 * share))).setTo(1);
     test::write_image(folder, "set/labels" + name, labels);
   }
-  static SceneEye* eye;
+  static SurfaceLabeller* eye;
   test::TemporaryFolder folder;
 };
-SceneEye* EnvironmentSamples::eye = nullptr;
+SurfaceLabeller* EnvironmentSamples::eye = nullptr;
 
 TEST_F(EnvironmentSamples, APictureIsAStreetOrARoadByItsBuildings) {
   folder.write("set/CLASSES.txt", "0 Road ground\n1 Building vertical\n");

@@ -40,10 +40,10 @@ test::DrawnModels* TrainEnvironmentCommand::models = nullptr;
 TEST_F(TrainEnvironmentCommand, LearnsFromAStreetAndFromRooms) {
   const TrainEnvironmentResult result = train_environment(arguments);
   const auto street = static_cast<std::size_t>(Environment::kStreet);
-  EXPECT_EQ(result.lesson.views[street], 1);
-  EXPECT_GT(sum(result.lesson.views), 2);
+  EXPECT_EQ(result.training_set.views[street], 1);
+  EXPECT_GT(sum(result.training_set.views), 2);
   // So few views are told apart easily.
-  EXPECT_GE(sum(result.lesson.right), sum(result.lesson.views) - 1);
+  EXPECT_GE(sum(result.training_set.right), sum(result.training_set.views) - 1);
   EXPECT_EQ(sum(result.left_out.views), 0);
   const EnvironmentModel model = parse_environments(test::read_file(arguments.out), arguments.out);
   EXPECT_NE(model.weights[street], decltype(EnvironmentModel::weights){}[street]);
@@ -52,8 +52,8 @@ TEST_F(TrainEnvironmentCommand, LearnsFromAStreetAndFromRooms) {
 TEST_F(TrainEnvironmentCommand, JudgesWorldsThatWereLeftOut) {
   arguments.left_out = {1};  // the same again
   const TrainEnvironmentResult result = train_environment(arguments);
-  EXPECT_EQ(result.left_out.views, result.lesson.views);
-  EXPECT_EQ(result.left_out.right, result.lesson.right);
+  EXPECT_EQ(result.left_out.views, result.training_set.views);
+  EXPECT_EQ(result.left_out.right, result.training_set.right);
 }
 
 TEST_F(TrainEnvironmentCommand, NamesWhatIsMissing) {
@@ -69,8 +69,8 @@ TEST_F(TrainEnvironmentCommand, NamesWhatIsMissing) {
 TEST(TrainEnvironmentText, HasALineForEveryKindThatOccurs) {
   TrainEnvironmentResult result;
   result.out = "e.txt";
-  result.lesson.views = {30, 0, 12, 0, 0};
-  result.lesson.right = {29, 0, 12, 0, 0};
+  result.training_set.views = {30, 0, 12, 0, 0};
+  result.training_set.right = {29, 0, 12, 0, 0};
   result.left_out.views = {0, 0, 0, 7, 0};
   result.left_out.right = {0, 0, 0, 5, 0};
   EXPECT_EQ(to_text(result),

@@ -82,7 +82,7 @@ TEST_F(FlowCommand, TellsTheTimeToContactWithoutTheTurn) {
   // The same in images, the turn as a rotation vector.
   arguments.dt_s = 0;
   arguments.gyro.clear();
-  arguments.turn = {0, 0.02, 0};
+  arguments.rotation = {0, 0.02, 0};
   EXPECT_NEAR(flow(arguments).cues["time_to_contact"]["time"].get<double>(), 19, 1);
 }
 

@@ -52,12 +52,12 @@ TEST_F(MarkersDetectCommand, FindsTheCornersAndThePoseOfAMarkerOfKnownSide) {
   ASSERT_EQ(result.markers.size(), 2u);
   const DetectedMarker& marker = result.markers[0];
   const PlacedMarker placed = scene().layout.markers[0];
-  EXPECT_EQ(marker.sighting.id, 5);
+  EXPECT_EQ(marker.observation.id, 5);
   EXPECT_EQ(marker.side_m, 0.2);
   const SE3 T_cam_marker = T_world_cam().inverse() * placed.T_world_marker;
   for (int k = 0; k < 4; ++k) {
     const auto truth = *scene().camera.project(T_cam_marker * placed.corners_marker()[k]);
-    EXPECT_LT((marker.sighting.corners_px[k] - truth).norm(), 0.15);
+    EXPECT_LT((marker.observation.corners_px[k] - truth).norm(), 0.15);
   }
   ASSERT_TRUE(marker.poses.outcome);
   // A tenth of a pixel of the 100 that the side has, at 0.9 m.
@@ -84,7 +84,7 @@ TEST_F(MarkersDetectCommand, TakesTheSidesOfTheLayoutAndFindsTheCameraInIt) {
   EXPECT_EQ(result.markers[1].side_m, 0.1);
   ASSERT_TRUE(result.camera && result.camera->outcome);
   EXPECT_LT(
-      (result.camera->sighting.T_world_body.translation() - T_world_cam().translation()).norm(),
+      (result.camera->observation.T_world_body.translation() - T_world_cam().translation()).norm(),
       0.01);
   EXPECT_EQ(test::read_file(arguments.out), to_json(result));
   EXPECT_NEAR(nlohmann::json::parse(to_json(result))["T_world_cam"][2][3].get<double>(),

@@ -41,7 +41,7 @@ class MotionCommand : public testing::Test {
     arguments.calib = folder.write("K.txt", calib.str());
   }
   void expect_true_motion(const MotionResult& result) {
-    const MotionAnswer& answer = result.answer;
+    const MotionEstimate& answer = result.answer;
     ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
     EXPECT_FALSE(result.no_answer);
     const Eigen::Vector3d t = answer.metric ? T_ref_cur.translation()
@@ -136,11 +136,11 @@ TEST_F(MotionCommand, TellsMetresByPointsOfKnownPlace) {
 }
 
 TEST_F(MotionCommand, TellsATurnWithoutATranslation) {
-  const SE3 turn = test::pose({0, 0.05, 0}, {0, 0, 0});
+  const SE3 rotation = test::pose({0, 0.05, 0}, {0, 0, 0});
   std::ostringstream matches;
   matches.precision(10);
   for (const Eigen::Vector3d& p : scene.points_ref)
-    if (const auto px = scene.camera.project(turn.inverse() * p))
+    if (const auto px = scene.camera.project(rotation.inverse() * p))
       matches << scene.camera.project(p)->transpose() << ' ' << px->transpose() << '\n';
   arguments.in = folder.write("turn.txt", matches.str());
   const MotionResult result = motion(arguments);

@@ -106,7 +106,7 @@ TEST(LineReprojectionFactor, HasTheJacobiansOfFiniteDifferences) {
         1e-6);
 }
 
-TEST(LineReprojectionFactor, OfASecondEyeIsThatOfACameraThere) {
+TEST(LineReprojectionFactor, OfASecondCameraIsThatOfACameraThere) {
   const Eigen::Vector3d eye(0.4, -0.1, 0);
   const Line3 line = Line3::from_direction(kT_world_a * Eigen::Vector3d(1, -0.5, 8), {1, 0.7, 0.3});
   const LineReprojectionFactor beside(test::window_camera(), {500, 100}, {800, 200}, 0.7, eye);
@@ -236,9 +236,9 @@ TEST(NonHolonomicFactor, IsZeroOnAnArcOfTheRearAxle) {
   const SE3 T_axle_cam(SO3(), Eigen::Vector3d(-0.3, -1, 1.5));
   const Eigen::Vector3d axle_cam = -T_axle_cam.translation();
   const NonHolonomicFactor factor(Eigen::Vector3d::UnitX(), axle_cam, 0.02);
-  const double turn_rad = 0.4, radius_m = 8;
-  const SE3 step(SO3::exp({0, turn_rad, 0}), Eigen::Vector3d(radius_m * (1 - std::cos(turn_rad)), 0,
-                                                             radius_m * std::sin(turn_rad)));
+  const double rotation_rad = 0.4, radius_m = 8;
+  const SE3 step(SO3::exp({0, rotation_rad, 0}), Eigen::Vector3d(radius_m * (1 - std::cos(rotation_rad)), 0,
+                                                             radius_m * std::sin(rotation_rad)));
   const SE3 T_cam_next = T_axle_cam.inverse() * step * T_axle_cam;
   EXPECT_NEAR(evaluate(factor, {kT_world_a, kT_world_a * T_cam_next})[0], 0, 1e-12);
   // Slipping 4 cm sideways in a straight step counts as two sigmas.

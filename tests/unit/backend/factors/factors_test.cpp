@@ -140,7 +140,7 @@ TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesForPlanesAndWorldsTo
   prior.planes = {PlaneId(0)};
   prior.plane_lin = {Plane3(Eigen::Vector3d(0.1, -0.9, 0.2), 1.6)};
   prior.worlds = {ManhattanFrameId(3)};
-  prior.R_map_world_lin = {SO3::exp({0.3, -1, 0.2})};
+  prior.R_map_manhattan_lin = {SO3::exp({0.3, -1, 0.2})};
   prior.J = Eigen::MatrixXd::Zero(7, 12);
   for (Eigen::Index i = 0; i < prior.J.size(); ++i) prior.J.data()[i] = random.normal();
   prior.e = Eigen::VectorXd::LinSpaced(7, -1, 1);
@@ -151,7 +151,7 @@ TEST(MarginalPriorFactor, HasTheJacobiansOfFiniteDifferencesForPlanesAndWorldsTo
       MarginalPriorFactor(prior),
       {pose_block(prior.T_map_cam_lin[0] * random_element<SE3>(random, 0.1, 0.1), pose),
        pose_block(Plane3(Eigen::Vector3d(0.2, -0.8, 0.1), 1.5), plane),
-       pose_block(prior.R_map_world_lin[0] * SO3::exp({0.2, 0.1, -0.3}), world)});
+       pose_block(prior.R_map_manhattan_lin[0] * SO3::exp({0.2, 0.1, -0.3}), world)});
 }
 
 TEST(KernelLoss, GivesTheKernelsValues) {

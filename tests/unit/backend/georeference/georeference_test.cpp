@@ -112,7 +112,7 @@ TEST(Georeference, GivesAMapWithoutScaleItsScale) {
   EXPECT_LT(largest_error(result, truth), 1e-2);
 }
 
-TEST(Georeference, TurnsAPlanarMapAboutTheVertical) {
+TEST(Georeference, RotationsAPlanarMapAboutTheVertical) {
   GeoreferenceInput in;
   in.origin = kOrigin;
   const SE2 T_enu_map(50, -30, 2.0);

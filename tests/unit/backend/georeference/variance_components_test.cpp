@@ -39,13 +39,13 @@ PoseGraph walk(double claimed_t, double claimed_r, Random random) {
     graph.constraints.emplace_back(position);
   }
   PoseGraphOptions options;
-  options.start = PoseGraphStart::kFile;
+  options.start = PoseGraphInitialization::kFile;
   return optimize_pose_graph(graph, options).graph;
 }
 
-TEST(OdometryScatter, FindsNothingWrongWithTrueClaims) {
+TEST(VarianceComponents, FindsNothingWrongWithTrueClaims) {
   const Random random = test::seeded_random(3);
-  const OdometryScatter found = odometry_scatter(walk(kSigma, kSigma, random));
+  const VarianceComponents found = odometry_variance_components(walk(kSigma, kSigma, random));
   EXPECT_LT(std::abs(found.translation.deviations), 4.5);
   EXPECT_LT(std::abs(found.rotation.deviations), 4.5);
   EXPECT_NEAR(found.translation.factor, 1, 0.3);
@@ -55,21 +55,21 @@ TEST(OdometryScatter, FindsNothingWrongWithTrueClaims) {
   EXPECT_GT(found.translation.redundancy, 100);
 }
 
-TEST(OdometryScatter, ConvergesToTheScatterWhateverWasClaimed) {
+TEST(VarianceComponents, ConvergesToTheScatterWhateverWasClaimed) {
   const Random random = test::seeded_random(3);
   for (const double wrong : {0.2, 5.0}) {
     PoseGraph graph = walk(wrong * kSigma, wrong * kSigma, random);
     double translation = 1, rotation = 1;
-    const OdometryScatter first = odometry_scatter(graph);
+    const VarianceComponents first = odometry_variance_components(graph);
     EXPECT_EQ(first.translation.deviations > 0, wrong < 1);
     EXPECT_GT(std::abs(first.translation.deviations), 3);
     for (int round = 0; round < 15; ++round) {
-      const OdometryScatter found = odometry_scatter(graph);
+      const VarianceComponents found = odometry_variance_components(graph);
       translation *= found.translation.factor;
       rotation *= found.rotation.factor;
       scale_odometry(graph, found.translation.factor, found.rotation.factor);
       PoseGraphOptions options;
-      options.start = PoseGraphStart::kFile;
+      options.start = PoseGraphInitialization::kFile;
       graph = optimize_pose_graph(graph, options).graph;
     }
     EXPECT_NEAR(std::log(translation * wrong), 0, 0.35);
@@ -77,7 +77,7 @@ TEST(OdometryScatter, ConvergesToTheScatterWhateverWasClaimed) {
   }
 }
 
-TEST(OdometryScatter, SaysNothingWhereNothingIsChecked) {
+TEST(VarianceComponents, SaysNothingWhereNothingIsChecked) {
   PoseGraph graph;
   graph.nodes = {{NodeId(0), SE2(0, 0, 0)}, {NodeId(1), SE2(3, 4, 1)}};
   RelativePoseConstraint edge;
@@ -85,7 +85,7 @@ TEST(OdometryScatter, SaysNothingWhereNothingIsChecked) {
   edge.T_from_to = SE2(3, 4, 1);
   edge.information = Information::Identity(3, 3);
   graph.constraints.emplace_back(edge);
-  const OdometryScatter found = odometry_scatter(graph);
+  const VarianceComponents found = odometry_variance_components(graph);
   EXPECT_EQ(found.translation.factor, 1);
   EXPECT_EQ(found.translation.deviations, 0);
   // Two variances of 1; one of 1 at a radius of half of the distance of 5.

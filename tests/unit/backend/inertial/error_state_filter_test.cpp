@@ -51,7 +51,7 @@ TEST(PositionFilter, HoldsThePositionByFlowAndMarkersThroughAnOutage) {
   EXPECT_LT(flown.worst_m, 0.05);
 }
 
-TEST(PositionFilter, TurnsFromItsStartAsTheFirstSampleSays) {
+TEST(PositionFilter, RotationsFromItsStartAsTheFirstSampleSays) {
   PositionFilter filter({}, SE3());
   BodyState start;
   start.covariance = 1e-4 * Eigen::Matrix<double, 15, 15>::Identity();
@@ -70,14 +70,14 @@ TEST(PositionFilter, IsTheSameInWhateverOrderMeasurementsArrive) {
   const BodyState start = flight.start(random);
   in_time.start(start);
   late.start(start);
-  std::vector<PoseSighting> waiting;
+  std::vector<PoseMeasurement> waiting;
   for (int i = 1; i <= 200; ++i) {
     const double t = i / flight.imu_hz;
     const ImuSample sample = flight.imu(t, random);
     ASSERT_TRUE(in_time.add(sample));
     ASSERT_TRUE(late.add(sample));
     if (i % 20 == 0) {
-      const PoseSighting seen = flight.marker(t, random);
+      const PoseMeasurement seen = flight.marker(t, random);
       ASSERT_TRUE(in_time.add(seen));
       waiting.push_back(seen);
     }
@@ -99,7 +99,7 @@ TEST(PositionFilter, TakesFlowAndMarkersInAnyOrderWithinItsHistory) {
     const BodyState start = flight.start(random);
     in_time.start(start);
     late.start(start);
-    std::vector<std::variant<PoseSighting, FlowSighting>> waiting;
+    std::vector<std::variant<PoseMeasurement, FlowMeasurement>> waiting;
     for (int i = 1; i <= 160; ++i) {
       const double t = i / flight.imu_hz;
       const ImuSample sample = flight.imu(t, random);
@@ -131,7 +131,7 @@ TEST(PositionFilter, DoesNotBelieveWhatIsFarFromExpected) {
   const SwayingBody flight;
   Random random(4);
   Flown flown = fly({.duration_s = 2}, 0.2);
-  PoseSighting flipped = flight.marker(2.0, random);
+  PoseMeasurement flipped = flight.marker(2.0, random);
   flipped.T_world_body = SE3(flipped.T_world_body.rotation() * SO3::exp({0.6, 0, 0}),
                              flipped.T_world_body.translation());
   EXPECT_GT(flown.filter.deviation2(flipped).value(), 50);
@@ -157,10 +157,10 @@ TEST(PositionFilter, RefusesRatherThanGuessWhereItsInputsStop) {
   EXPECT_EQ(filter.add(flight.marker(0.2, random)).code, Outcome::Code::kTooFewData);
   EXPECT_EQ(filter.add(flight.marker(1.6, random)).code, Outcome::Code::kTooFewData);
   EXPECT_EQ(filter.add(flight.imu(0.9, random)).code, Outcome::Code::kInconsistent);
-  PoseSighting broken = flight.marker(1.0, random);
+  PoseMeasurement broken = flight.marker(1.0, random);
   broken.covariance(0, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(filter.add(broken).code, Outcome::Code::kInconsistent);
-  FlowSighting backwards = flight.flow(0.9, 1.0, random);
+  FlowMeasurement backwards = flight.flow(0.9, 1.0, random);
   std::swap(backwards.from_ns, backwards.to_ns);
   EXPECT_EQ(filter.add(backwards).code, Outcome::Code::kInconsistent);
   // Nothing but inertial samples: the position is less and less known, until it is no answer.

@@ -77,10 +77,10 @@ TEST(InertialFactors, DerivativesAreThoseOfFiniteDifferences) {
   expect_jacobians(
       [&](const BodyState& a, const BodyState& b) { return inertial_error(motion, a, b); }, first,
       second);
-  const PoseSighting seen = flight.marker(1, random);
+  const PoseMeasurement seen = flight.marker(1, random);
   expect_jacobians([&](const BodyState& a, const BodyState&) { return pose_error(seen, a); }, first,
                    second);
-  const FlowSighting flow = flight.flow(1, 1.2, random);
+  const FlowMeasurement flow = flight.flow(1, 1.2, random);
   expect_jacobians(
       [&](const BodyState& a, const BodyState& b) {
         return *flow_error(flow, flight.T_body_cam, 0.1, a, b);
@@ -89,16 +89,16 @@ TEST(InertialFactors, DerivativesAreThoseOfFiniteDifferences) {
 }
 
 /// Flow from which a turn was taken out that is wrong by `wrong`.
-FlowSighting with_turn(const SwayingBody& flight, double from, double to,
+FlowMeasurement with_rotation(const SwayingBody& flight, double from, double to,
                        const Eigen::Vector3d& wrong, Random& random) {
-  FlowSighting flow = flight.flow(from, to, random);
+  FlowMeasurement flow = flight.flow(from, to, random);
   Eigen::Matrix3d J;
   J << 0.1, 1.1, 0, -0.9, 0, 0.2, 0.05, 0, 0.1;
   const SE3 T_first = flight.pose(from) * flight.T_body_cam;
   const SE3 T_second = flight.pose(to) * flight.T_body_cam;
   flow.R_from_to = T_first.rotation().inverse() * T_second.rotation() * SO3::exp(wrong);
   flow.over_distance += J * wrong;
-  flow.J_turn = J;
+  flow.J_rotation = J;
   return flow;
 }
 
@@ -107,7 +107,7 @@ TEST(InertialFactors, TakeAWrongTurnOutOfTheFlowAgain) {
   SwayingBody flight;
   flight.flow_sigma = 1e-12;
   const BodyState first = truth(flight, 2), second = truth(flight, 2.1);
-  const FlowSighting flow = with_turn(flight, 2, 2.1, {0.02, -0.01, 0.015}, random);
+  const FlowMeasurement flow = with_rotation(flight, 2, 2.1, {0.02, -0.01, 0.015}, random);
   EXPECT_LT(flow_error(flow, flight.T_body_cam, 0, first, second)->r.norm(), 1e-9);
   const BodyState a = moved(first, random_step(random, 0.05));
   const BodyState b = moved(second, random_step(random, 0.05));

@@ -44,14 +44,14 @@ TEST(InertialWindow, HoldsThePosition) {
   }
 }
 
-TEST(InertialWindow, TurnsFromItsStartAsTheFirstSampleSays) {
+TEST(InertialWindow, RotationsFromItsStartAsTheFirstSampleSays) {
   InertialWindow window({}, SE3());
   BodyState start;
   start.covariance = 1e-4 * Eigen::Matrix<double, 15, 15>::Identity();
   window.start(start);
   for (const double t : {0.01, 0.02})
     ASSERT_TRUE(window.add(ImuSample{SwayingBody::stamp(t), {0, 0, 1}, {0, 0, 9.80665}}));
-  PoseSighting vague;  // makes the state
+  PoseMeasurement vague;  // makes the state
   vague.stamp_ns = SwayingBody::stamp(0.02);
   vague.covariance = 1e6 * Matrix6d::Identity();
   ASSERT_TRUE(window.add(vague));
@@ -65,11 +65,11 @@ TEST(InertialWindow, DoesNotBelieveWhatIsFarFromExpected) {
   Random random = test::seeded_random(2);
   const SwayingBody flight;
   InertialWindow window = after_two_seconds(flight, random);
-  PoseSighting wrong = flight.marker(2, random);
+  PoseMeasurement wrong = flight.marker(2, random);
   wrong.T_world_body =
       SE3(wrong.T_world_body.rotation() * SO3::exp({0.5, 0, 0}), wrong.T_world_body.translation());
   EXPECT_EQ(window.add(wrong).code, Code::kInconsistent);
-  FlowSighting flow = flight.flow(1.95, 2, random);
+  FlowMeasurement flow = flight.flow(1.95, 2, random);
   flow.over_distance[0] += 0.05;
   EXPECT_EQ(window.add(flow).code, Code::kInconsistent);
   flow.over_distance[0] = NAN;

@@ -38,7 +38,7 @@ TYPED_TEST(CertificateOf, AnExactGraphIsCertifiedAtItsTruth) {
 TYPED_TEST(CertificateOf, ANoisyGraphIsCertifiedNearItsMinimum) {
   const Walk<TypeParam> walk(30, 0.05);
   PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
-  chordal_start(graph);
+  chordal_initialization(graph);
   const ChordalIsotropicCertificate certificate = certificate_of(graph);
   EXPECT_TRUE(certificate.certified) << certificate.relative_gap;
   EXPECT_GT(certificate.cost, 1);
@@ -131,7 +131,7 @@ TYPED_TEST(CertificateOf, TheCertifiedStartUnwindsARing) {
   for (const int n : {6, 30}) {
     PackedGraph<TypeParam> graph = pack<TypeParam>(ring<TypeParam>(n, true));
     const TypeParam first = graph.poses[0];
-    const CertifiedStartReport report = certified_start(graph);
+    const CertifiedInitializationReport report = certified_initialization_of(graph);
     EXPECT_TRUE(report.tight);
     EXPECT_GT(report.rank, kSpaceDim<TypeParam>);
     EXPECT_LT(robust_cost(graph, RotationError::kLog), 1e-6);
@@ -157,8 +157,8 @@ TYPED_TEST(CertificateOf, TheCertifiedStartKeepsHeldNodesAndComponentsWhereTheyA
     both.constraints.emplace_back(moved);
   }
   PackedGraph<TypeParam> graph = pack<TypeParam>(both);
-  chordal_start(graph);  // for the scales, which the certified start takes as they are
-  EXPECT_TRUE(certified_start(graph).tight);
+  chordal_initialization(graph);  // for the scales, which the certified start takes as they are
+  EXPECT_TRUE(certified_initialization_of(graph).tight);
   for (std::size_t i = 0; i < walk.truth.size(); ++i)
     EXPECT_LT(test::difference(graph.poses[i], walk.truth[i]), 1e-5);
   EXPECT_EQ(graph.poses[16].matrix(), TypeParam().matrix());
@@ -196,12 +196,12 @@ TYPED_TEST(CertificateOf, WindingsAreSettledAtTheTruthAndNotAtAWoundMinimum) {
 TYPED_TEST(CertificateOf, AutoLeavesAWoundMinimumAndSaysHow) {
   LocalSolver<TypeParam> solver({});
   PackedGraph<TypeParam> graph = pack<TypeParam>(ring<TypeParam>(40, true));
-  const StartSolution found =
-      solve_from_start(graph, PoseGraphStart::kAuto, RotationError::kLog, solver);
+  const InitializedSolution found =
+      solve_from_initialization(graph, PoseGraphInitialization::kAuto, RotationError::kLog, solver);
   EXPECT_TRUE(found.solution.outcome) << found.solution.outcome.reason;
   EXPECT_LT(found.solution.cost_final, 1e-9);
-  EXPECT_NE(found.used, PoseGraphStart::kFile);
-  EXPECT_EQ(found.refined_from_certified, found.used == PoseGraphStart::kCertified);
+  EXPECT_NE(found.used, PoseGraphInitialization::kFile);
+  EXPECT_EQ(found.refined_from_certified, found.used == PoseGraphInitialization::kCertified);
 }
 
 TYPED_TEST(CertificateOf, AutoKeepsAGoodFile) {
@@ -209,26 +209,26 @@ TYPED_TEST(CertificateOf, AutoKeepsAGoodFile) {
   PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
   LocalSolver<TypeParam> first({}), second({});
   const double lowest =
-      solve_from_start(graph, PoseGraphStart::kChordal, RotationError::kLog, first)
+      solve_from_initialization(graph, PoseGraphInitialization::kChordal, RotationError::kLog, first)
           .solution.cost_final;
-  const StartSolution again =
-      solve_from_start(graph, PoseGraphStart::kAuto, RotationError::kLog, second);
-  EXPECT_EQ(again.used, PoseGraphStart::kFile);
+  const InitializedSolution again =
+      solve_from_initialization(graph, PoseGraphInitialization::kAuto, RotationError::kLog, second);
+  EXPECT_EQ(again.used, PoseGraphInitialization::kFile);
   EXPECT_NEAR(again.solution.cost_final, lowest, 1e-7 * lowest);
 }
 
-TEST(PoseGraphStart, EveryStartEndsInTheSameMinimumOfAnEasyGraph) {
+TEST(PoseGraphInitialization, EveryStartEndsInTheSameMinimumOfAnEasyGraph) {
   const Walk<SE3> walk(40, 0.02);
   double lowest = 0;
-  for (const PoseGraphStart start :
-       {PoseGraphStart::kAuto, PoseGraphStart::kFile, PoseGraphStart::kOdometry,
-        PoseGraphStart::kChordal, PoseGraphStart::kCertified}) {
+  for (const PoseGraphInitialization start :
+       {PoseGraphInitialization::kAuto, PoseGraphInitialization::kFile, PoseGraphInitialization::kOdometry,
+        PoseGraphInitialization::kChordal, PoseGraphInitialization::kCertified}) {
     PackedGraph<SE3> graph = pack<SE3>(walk.graph);
     LocalSolver<SE3> solver({});
-    const StartSolution found = solve_from_start(graph, start, RotationError::kLog, solver);
+    const InitializedSolution found = solve_from_initialization(graph, start, RotationError::kLog, solver);
     if (lowest == 0) lowest = found.solution.cost_final;
     EXPECT_NEAR(found.solution.cost_final, lowest, 1e-6 * lowest) << to_string(start);
-    if (start != PoseGraphStart::kAuto) {
+    if (start != PoseGraphInitialization::kAuto) {
       EXPECT_EQ(found.used, start);
     }
   }

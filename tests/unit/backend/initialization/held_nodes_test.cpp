@@ -9,17 +9,17 @@ namespace {
 using test::Walk;
 
 template <class Group>
-class TiedProblemOf : public testing::Test {};
+class HeldNodeConstraintsOf : public testing::Test {};
 using Groups = testing::Types<SE2, SE3, Sim3>;
-TYPED_TEST_SUITE(TiedProblemOf, Groups);
+TYPED_TEST_SUITE(HeldNodeConstraintsOf, Groups);
 
-TYPED_TEST(TiedProblemOf, TiesTheHeldNodesOfAComponentAsTheyStand) {
+TYPED_TEST(HeldNodeConstraintsOf, TiesTheHeldNodesOfAComponentAsTheyStand) {
   constexpr int dim = kSpaceDim<TypeParam>;
   const Walk<TypeParam> walk(12, 0.1);
   PoseGraph fixed = walk.graph;
   for (const int i : {2, 5, 9}) fixed.nodes[i].fixed = true;
   const PackedGraph<TypeParam> graph = pack<TypeParam>(fixed);
-  const auto problem = tied_problem(graph, find_anchors(graph), RotationError::kLog);
+  const auto problem = held_node_constraints(graph, find_anchors(graph), RotationError::kLog);
   const std::size_t edges = graph.edges.size();
   ASSERT_EQ(problem.edges.size(), edges + 2);
   double heaviest_rotation = 0, heaviest_translation = 0;
@@ -43,18 +43,18 @@ TYPED_TEST(TiedProblemOf, TiesTheHeldNodesOfAComponentAsTheyStand) {
   }
 }
 
-TYPED_TEST(TiedProblemOf, TiesCostNothingAtTheHeldPoses) {
+TYPED_TEST(HeldNodeConstraintsOf, TiesCostNothingAtTheHeldPoses) {
   const Walk<TypeParam> walk(12, 0.1);
   PoseGraph fixed = walk.graph;
   for (const int i : {0, 4, 7}) fixed.nodes[i].fixed = true;
   const PackedGraph<TypeParam> graph = pack<TypeParam>(fixed);
-  auto problem = tied_problem(graph, find_anchors(graph), RotationError::kLog);
+  auto problem = held_node_constraints(graph, find_anchors(graph), RotationError::kLog);
   const double tied = isotropic_cost(problem, graph.poses);
   problem.edges.resize(graph.edges.size());
   EXPECT_NEAR(tied, isotropic_cost(problem, graph.poses), 1e-9 * tied);
 }
 
-TYPED_TEST(TiedProblemOf, TiesNothingAcrossComponentsNorWhereOneNodeIsHeld) {
+TYPED_TEST(HeldNodeConstraintsOf, TiesNothingAcrossComponentsNorWhereOneNodeIsHeld) {
   PoseGraph two = Walk<TypeParam>(6, 0.1).graph;
   const PoseGraph other = Walk<TypeParam>(6, 0.1, 2).graph;
   for (PoseNode node : other.nodes) {
@@ -69,7 +69,7 @@ TYPED_TEST(TiedProblemOf, TiesNothingAcrossComponentsNorWhereOneNodeIsHeld) {
   }
   two.nodes[1].fixed = two.nodes[8].fixed = true;
   const PackedGraph<TypeParam> graph = pack<TypeParam>(two);
-  EXPECT_EQ(tied_problem(graph, find_anchors(graph), RotationError::kLog).edges.size(),
+  EXPECT_EQ(held_node_constraints(graph, find_anchors(graph), RotationError::kLog).edges.size(),
             graph.edges.size());
 }
 

@@ -34,10 +34,10 @@ TYPED_TEST_SUITE(InitializationOf, Groups);
 TYPED_TEST(InitializationOf, BothStartsAreExactWhereTheMeasurementsAgree) {
   const Walk<TypeParam> walk(40, 0);
   PackedGraph<TypeParam> graph = without_poses<TypeParam>(walk.graph);
-  spanning_tree_start(graph);
+  spanning_tree_initialization(graph);
   expect_truth(graph, walk.truth, 1e-10);
   graph = without_poses<TypeParam>(walk.graph);
-  chordal_start(graph);
+  chordal_initialization(graph);
   expect_truth(graph, walk.truth, 1e-8);
 }
 
@@ -45,7 +45,7 @@ TYPED_TEST(InitializationOf, ChordalStartLiesNearTheMinimumOfANoisyGraph) {
   const Walk<TypeParam> walk(40, 0.03);
   PackedGraph<TypeParam> graph = without_poses<TypeParam>(walk.graph);
   const double before = robust_cost(graph, RotationError::kLog);
-  chordal_start(graph);
+  chordal_initialization(graph);
   const double chordal = robust_cost(graph, RotationError::kLog);
   EXPECT_LT(chordal, 1e-3 * before);
   LocalSolver<TypeParam> solver({});
@@ -64,9 +64,9 @@ TYPED_TEST(InitializationOf, HeldNodesStayAndPlaceTheRest) {
     PackedGraph<TypeParam> graph = without_poses<TypeParam>(walk.graph);
     EXPECT_FALSE(graph.held[0]);
     if (chordal)
-      chordal_start(graph);
+      chordal_initialization(graph);
     else
-      spanning_tree_start(graph);
+      spanning_tree_initialization(graph);
     EXPECT_EQ(graph.poses[13].matrix(), walk.truth[13].matrix());
     expect_truth(graph, walk.truth, 1e-8);
   }
@@ -88,9 +88,9 @@ TYPED_TEST(InitializationOf, MeasuredPositionsPlaceWhatNothingHolds) {
     PackedGraph<TypeParam> graph = without_poses<TypeParam>(walk.graph);
     EXPECT_FALSE(graph.held[0]);
     if (chordal)
-      chordal_start(graph);
+      chordal_initialization(graph);
     else
-      spanning_tree_start(graph);
+      spanning_tree_initialization(graph);
     // Of the scale only the lever arms tell, besides the positions' spread: it is not exact there.
     EXPECT_LT(test::difference(graph.poses[7], walk.truth[7]), TypeParam::kDof == 7 ? 1 : 1e-7);
   }
@@ -101,7 +101,7 @@ TYPED_TEST(InitializationOf, EdgesWithoutWeightAreLeftOut) {
   walk.graph.constraints.emplace_back(test::constraint<TypeParam>(12, 25, TypeParam()));  // false
   PackedGraph<TypeParam> graph = without_poses<TypeParam>(walk.graph);
   graph.edges.back().weight = 0;
-  chordal_start(graph);
+  chordal_initialization(graph);
   expect_truth(graph, walk.truth, 1e-8);
 }
 
@@ -113,7 +113,7 @@ TYPED_TEST(InitializationOf, InformationMayLeaveDirectionsOpen) {
     information(kSpaceDim<TypeParam>, kSpaceDim<TypeParam>) = 0;
   }
   PackedGraph<TypeParam> graph = without_poses<TypeParam>(walk.graph);
-  chordal_start(graph);
+  chordal_initialization(graph);
   expect_truth(graph, walk.truth, 1e-6);
 }
 
@@ -121,8 +121,8 @@ TYPED_TEST(InitializationOf, TheScaleOfTheInformationDoesNotMatter) {
   const Walk<TypeParam> walk(20, 0.05);
   PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph), scaled = graph;
   for (auto& edge : scaled.edges) edge.information *= 1e7;
-  chordal_start(graph);
-  chordal_start(scaled);
+  chordal_initialization(graph);
+  chordal_initialization(scaled);
   expect_truth(scaled, graph.poses, 1e-9);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 /// A turn by `angle_rad` about the last axis.
 template <class Group>
-Group turn(double angle_rad) {
+Group rotation(double angle_rad) {
   typename Group::Tangent xi = Group::Tangent::Zero();
   xi[Group::kDof == 3 ? 2 : 5] = angle_rad;
   return Group::exp(xi);
@@ -26,8 +26,8 @@ TYPED_TEST(RotationAgreementOf, AgreesUpToThreeTenthsOfARadianAndNoFurther) {
   std::vector<TypeParam> a, near, far;
   for (int i = 0; i < 5; ++i) {
     a.push_back(test::random_element<TypeParam>(random, 5, 2));
-    near.push_back(a.back() * turn<TypeParam>(i == 3 ? 0.29 : 0));
-    far.push_back(a.back() * turn<TypeParam>(i == 3 ? -0.32 : 0));
+    near.push_back(a.back() * rotation<TypeParam>(i == 3 ? 0.29 : 0));
+    far.push_back(a.back() * rotation<TypeParam>(i == 3 ? -0.32 : 0));
   }
   EXPECT_TRUE(rotations_agree(a, a));
   EXPECT_TRUE(rotations_agree(a, near));
@@ -48,7 +48,7 @@ TYPED_TEST(RotationAgreementOf, IsNotDisturbedByATurnOfTheWholeNorByTranslations
 TYPED_TEST(RotationAgreementOf, WhatIsNotFiniteAgreesWithNothing) {
   // Turned by next to nothing, but by an angle that is not a number.
   std::vector<TypeParam> a(2), b(2);
-  b[1] = turn<TypeParam>(std::numeric_limits<double>::quiet_NaN());
+  b[1] = rotation<TypeParam>(std::numeric_limits<double>::quiet_NaN());
   EXPECT_FALSE(rotations_agree(a, b));
 }
 

@@ -79,8 +79,8 @@ TEST(LoopGate, IsTwentyTimesAsWideForALoopThatSaysNearlyTheRightThing) {
   PackedGraph<SE2> graph = graph_of_loops(1);
   const LoopGate<SE2> gate = gate_of(graph);
   const SE2 T_to_from = graph.edges[0].T_to_from;
-  const auto of_loop_off_by = [&](double along_m, double turn_rad) {
-    graph.edges[0].T_to_from = SE2::exp({along_m, 0, turn_rad}) * T_to_from;
+  const auto of_loop_off_by = [&](double along_m, double rotation_rad) {
+    graph.edges[0].T_to_from = SE2::exp({along_m, 0, rotation_rad}) * T_to_from;
     return gate.of_loop(graph, 0);
   };
   // A hundredth of the square's diagonal is 0.141 m, of half a turn 0.0314 rad.

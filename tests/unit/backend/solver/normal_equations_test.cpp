@@ -6,7 +6,7 @@ namespace placegraph {
 namespace {
 
 template <class Group>
-class Sights : public testing::Test {
+class Observations : public testing::Test {
  protected:
   static constexpr int kDof = Group::kDof, kDim = Group::kDof == 3 ? 2 : 3;
 
@@ -25,7 +25,7 @@ class Sights : public testing::Test {
     Eigen::Matrix3d information;
     information << 4, 1, 0.5, 1, 3, -0.2, 0.5, -0.2, 2;
     if (kDim == 2) information.row(2).setZero(), information.col(2).setZero();
-    graph.sights = {{0, 2, {2, 1, 1}, information},
+    graph.observations = {{0, 2, {2, 1, 1}, information},
                     {0, 3, {-1, 1, 1}, 2 * information},
                     {1, 3, {-2, 2, 0}, information},
                     {1, 4, {0, -3, 0}, information}};
@@ -34,9 +34,9 @@ class Sights : public testing::Test {
 };
 
 using Groups = testing::Types<SE2, SE3, Sim3>;
-TYPED_TEST_SUITE(Sights, Groups);
+TYPED_TEST_SUITE(Observations, Groups);
 
-TYPED_TEST(Sights, HaveTheGradientAndCurvatureOfFiniteDifferences) {
+TYPED_TEST(Observations, HaveTheGradientAndCurvatureOfFiniteDifferences) {
   using Group = TypeParam;
   constexpr int dof = TestFixture::kDof, dim = TestFixture::kDim;
   PackedGraph<Group> graph = TestFixture::graph();
@@ -69,12 +69,12 @@ TYPED_TEST(Sights, HaveTheGradientAndCurvatureOfFiniteDifferences) {
     }
 }
 
-TYPED_TEST(Sights, AreSolvedToTheLastWhereTheyAgree) {
+TYPED_TEST(Observations, AreSolvedToTheLastWhereTheyAgree) {
   using Group = TypeParam;
   PackedGraph<Group> graph = TestFixture::graph();
   graph.held[0] = graph.held[1] = 1;
   // Every point is where one pose sees it.
-  graph.sights.erase(graph.sights.begin() + 2);
+  graph.observations.erase(graph.observations.begin() + 2);
   const LocalSolution solution = LocalSolver<Group>({}).solve(graph);
   EXPECT_TRUE(solution.outcome);
   EXPECT_GT(solution.cost_initial, 1);

@@ -63,29 +63,29 @@ SlidingWindow look_about(double k1, bool depth, int views) {
   return window;
 }
 
-double found(const LensEvidence& evidence) { return -evidence.gradient / evidence.information; }
+double found(const DistortionEvidence& evidence) { return -evidence.gradient / evidence.information; }
 
-TEST(LensEvidence, TellsTheDistortionThatTheImagesHave) {
+TEST(DistortionEvidence, TellsTheDistortionThatTheImagesHave) {
   for (const bool depth : {false, true})
     for (const double k1 : {0.02, -0.02}) {
-      const LensEvidence evidence = lens_evidence(look_about(k1, depth, 6).state());
+      const DistortionEvidence evidence = lens_evidence(look_about(k1, depth, 6).state());
       EXPECT_GT(evidence.residuals, 500);
       EXPECT_NEAR(found(evidence), k1, 0.1 * std::abs(k1)) << depth;
       EXPECT_GT(evidence.information, 1 / (0.004 * 0.004)) << depth;
     }
 }
 
-TEST(LensEvidence, FindsNoneWhereThereIsNone) {
+TEST(DistortionEvidence, FindsNoneWhereThereIsNone) {
   EXPECT_NEAR(found(lens_evidence(look_about(0, false, 6).state())), 0, 1e-5);
 }
 
-TEST(LensEvidence, DepthsAddToIt) {
+TEST(DistortionEvidence, DepthsAddToIt) {
   EXPECT_GT(lens_evidence(look_about(0, true, 6).state()).information,
             lens_evidence(look_about(0, false, 6).state()).information);
 }
 
-TEST(LensEvidence, PointsInTwoViewsTellNothing) {
-  const LensEvidence evidence = lens_evidence(look_about(0.02, false, 2).state());
+TEST(DistortionEvidence, PointsInTwoViewsTellNothing) {
+  const DistortionEvidence evidence = lens_evidence(look_about(0.02, false, 2).state());
   EXPECT_EQ(evidence.residuals, 0);
   EXPECT_EQ(evidence.information, 0);
 }

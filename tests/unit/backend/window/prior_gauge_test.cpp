@@ -25,7 +25,7 @@ MarginalPrior full_prior() {
   prior.planes = {PlaneId(7)};
   prior.plane_lin = {Plane3({0, 1, 0.2}, 1.5)};
   prior.worlds = {ManhattanFrameId(9)};
-  prior.R_map_world_lin = {SO3::exp({-0.2, 0.1, 0})};
+  prior.R_map_manhattan_lin = {SO3::exp({-0.2, 0.1, 0})};
   prior.J = random_matrix(random, 18, 18);
   prior.e = random_matrix(random, 18, 1);
   return prior;
@@ -35,7 +35,7 @@ MarginalPrior full_prior() {
 MarginalPrior floating_prior() {
   MarginalPrior prior = full_prior();
   prior.planes.clear(), prior.plane_lin.clear();
-  prior.worlds.clear(), prior.R_map_world_lin.clear();
+  prior.worlds.clear(), prior.R_map_manhattan_lin.clear();
   const SE3 T_from_to = prior.T_map_cam_lin[0].inverse() * prior.T_map_cam_lin[1];
   prior.J.resize(6, 12);
   prior.J << -T_from_to.inverse().adjoint(), Matrix6d::Identity();
@@ -68,9 +68,9 @@ TEST(PriorGauge, HoldsTheWindowInTheMapIfItResistsEveryCommonMotion) {
 TEST(PriorGauge, HoldsTheUnitIfItResistsGrowth) {
   const Eigen::Vector3d center(1, 2, 3);
   EXPECT_TRUE(holds_scale(floating_prior(), center)) << "the length of the motion is measured";
-  MarginalPrior turning = floating_prior();
-  turning.J = turning.J.bottomRows(3).eval();
-  EXPECT_FALSE(holds_scale(turning, center)) << "a rotation has no unit";
+  MarginalPrior rotating = floating_prior();
+  rotating.J = rotating.J.bottomRows(3).eval();
+  EXPECT_FALSE(holds_scale(rotating, center)) << "a rotation has no unit";
   EXPECT_FALSE(holds_scale(MarginalPrior(), center));
 }
 
@@ -104,7 +104,7 @@ TEST(PriorGauge, RelativeToItsFirstKeyframeNoLongerResistsCommonMotions) {
                            prior.keyframe_columns(1) * T_second_first.adjoint() -
                            prior.plane_columns(0) * J_plane * T_first.adjoint();
   common.J.middleCols<3>(3) +=
-      prior.world_columns(0) * (prior.R_map_world_lin[0].inverse() * T_first.rotation()).matrix();
+      prior.manhattan_columns(0) * (prior.R_map_manhattan_lin[0].inverse() * T_first.rotation()).matrix();
   const auto [H, b] = without(common, 0, 6);
   hold_first(prior);
   EXPECT_EQ(prior.keyframes, test::ids<KeyframeId>({4}));

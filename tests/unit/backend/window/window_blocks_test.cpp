@@ -12,7 +12,7 @@ using test::FactorScene;
 
 SlidingWindow window_with_landmarks() {
   SlidingWindow window = FactorScene().window({});
-  window.add_world(ManhattanFrameId(3), SO3::exp({0.5, 0, 0}));
+  window.add_manhattan_frame(ManhattanFrameId(3), SO3::exp({0.5, 0, 0}));
   window.add_line(LineId(8), Line3::from_direction({1, 2, 3}, {0, 1, 0}));
   window.add_line(LineId(5), Line3::from_direction({-1, 2, 4}, {1, 1, 0}));
   window.add_landmark(LandmarkId(30), {1, 2, 9});
@@ -48,9 +48,9 @@ TEST(WindowBlocks, LieInOneArrayWhoseAddressesDecideTheOrderOfElimination) {
   for (int k = 0; k < 3; ++k)
     EXPECT_EQ(blocks.at(keyframe_variable(KeyframeId(k))) + 7,
               blocks.at(keyframe_variable(KeyframeId(k + 1))));
-  EXPECT_EQ(blocks.at(keyframe_variable(KeyframeId(3))) + 7, blocks.at(world_variable(ManhattanFrameId(3))));
-  EXPECT_EQ(blocks.at(world_variable(ManhattanFrameId(3))) + 4, blocks.at(world_variable(FactorScene::kWorld)));
-  EXPECT_EQ(blocks.at(world_variable(FactorScene::kWorld)) + 4, blocks.line(0));
+  EXPECT_EQ(blocks.at(keyframe_variable(KeyframeId(3))) + 7, blocks.at(manhattan_variable(ManhattanFrameId(3))));
+  EXPECT_EQ(blocks.at(manhattan_variable(ManhattanFrameId(3))) + 4, blocks.at(manhattan_variable(FactorScene::kManhattanFrame)));
+  EXPECT_EQ(blocks.at(manhattan_variable(FactorScene::kManhattanFrame)) + 4, blocks.line(0));
   EXPECT_EQ(blocks.line(1) + 5, blocks.at(plane_variable(FactorScene::kPlane)));
 }
 
@@ -61,7 +61,7 @@ TEST(WindowBlocks, AreFiniteUnlessANumberIsNot) {
   *blocks.point(1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(blocks.finite());
   *blocks.point(1) = 0;
-  blocks.at(world_variable(ManhattanFrameId(3)))[2] = std::numeric_limits<double>::infinity();
+  blocks.at(manhattan_variable(ManhattanFrameId(3)))[2] = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(blocks.finite());
 }
 

@@ -17,7 +17,7 @@ void move(WindowState& state, const WindowVariable& variable, const Eigen::Vecto
     case WindowVariable::Kind::kPlane:
       state.planes.at(PlaneId(variable.id)) = state.planes.at(PlaneId(variable.id)).plus(xi);
       break;
-    case WindowVariable::Kind::kWorld:
+    case WindowVariable::Kind::kManhattanFrame:
       state.worlds.at(ManhattanFrameId(variable.id)) = state.worlds.at(ManhattanFrameId(variable.id)).plus(xi);
       break;
     default:
@@ -50,7 +50,7 @@ TEST(WindowEquations, AreTheNormalEquationsOfAFactorOfEveryKind) {
   const SlidingWindow window = scene.window(options);
   const WindowState& state = window.state();
   const std::vector<WindowVariable> variables{
-      world_variable(FactorScene::kWorld), keyframe_variable(KeyframeId(2)),
+      manhattan_variable(FactorScene::kManhattanFrame), keyframe_variable(KeyframeId(2)),
       plane_variable(FactorScene::kPlane), keyframe_variable(KeyframeId(1)),
       keyframe_variable(KeyframeId(0))};
   for (const auto& [name, factor] : factors_of_every_kind(scene)) {
@@ -99,16 +99,16 @@ TEST(WindowEquations, TakeDerivativesAtTheFirstEstimateAndResidualsAtTheLast) {
     state.prior.plane_lin = {scene.plane};
     const WindowState first = state;
     const Vector6d xi = (Vector6d() << 0.05, -0.02, 0.03, 0.01, 0.02, -0.01).finished();
-    const Eigen::Vector3d turn(0.01, -0.02, 0.01);
+    const Eigen::Vector3d rotation(0.01, -0.02, 0.01);
     move(state, keyframe, xi);
-    move(state, plane, turn);
+    move(state, plane, rotation);
     WindowEquations equations(state, variables, true);
     WindowFactor plain = factor;
     plain.robust = false;
     equations.add(plain);
     const Eigen::MatrixXd J = numeric_jacobian(first, factor, variables);
     Eigen::VectorXd delta(9);
-    delta << xi, turn;
+    delta << xi, rotation;
     const Eigen::VectorXd b = J.transpose() * (*residual(state, factor) - J * delta);
     EXPECT_LT((equations.form.b - b).norm(), 1e-5 * (J.transpose() * J * delta).norm() + 1e-6)
         << name;

@@ -38,15 +38,15 @@ void add_chain(SlidingWindow& window, const FactorScene& scene) {
 }
 
 /// What ties the plane and the world to the last keyframes, so that they stay.
-void add_sightings(SlidingWindow& window, const FactorScene& scene) {
+void add_observations(SlidingWindow& window, const FactorScene& scene) {
   const Eigen::Matrix3d I = 1e4 * Eigen::Matrix3d::Identity();
   for (const std::size_t k : {2, 3}) {
     const auto id = static_cast<std::int64_t>(k);
     const SE3& T = scene.T_map_cam[k];
     add_plane_observation(window,
                           {KeyframeId(id), FactorScene::kPlane, transform_to(T, scene.plane), I});
-    add_world_observation(window, {KeyframeId(id), FactorScene::kWorld,
-                                   T.rotation().inverse() * scene.R_map_world, I});
+    add_manhattan_observation(window, {KeyframeId(id), FactorScene::kManhattanFrame,
+                                   T.rotation().inverse() * scene.R_map_manhattan, I});
   }
 }
 
@@ -107,7 +107,7 @@ TEST(WindowFactor, OfEveryKindIsInTheCostOnceItIsAdded) {
   for (const auto& [name, factor] : factors_of_every_kind(scene)) {
     SlidingWindow window = scene.window(exact_options());
     add_chain(window, scene);
-    add_sightings(window, scene);
+    add_observations(window, scene);
     const std::size_t before = window.factors().size();
     window.add(factor);
     ASSERT_EQ(window.factors().size(), before + 1) << name;
@@ -127,7 +127,7 @@ TEST(WindowFactor, IsUnderTheKernelIfItIsRobust) {
     options.huber_px = 0.5;
     SlidingWindow window = scene.window(options);
     add_chain(window, scene);
-    add_sightings(window, scene);
+    add_observations(window, scene);
     window.add(factor);
     const double r = residual_sigmas(window, factor)->norm();
     ASSERT_GT(r, 0.5) << name;
@@ -163,7 +163,7 @@ TEST(WindowFactor, OfEveryKindGoesIntoThePriorWithTheFirstOfItsKeyframesThatLeav
     SlidingWindow few = scene.window(exact_options(2), 1);
     for (SlidingWindow* const window : {&all, &few}) {
       add_chain(*window, scene);
-      add_sightings(*window, scene);
+      add_observations(*window, scene);
       window->add(factor);
       ASSERT_TRUE(window->optimize().outcome);
     }

@@ -115,14 +115,14 @@ TEST(WindowPlanes, LeaveWithTheLastKeyframeThatMeasuredThemUnlessTheyAreKept) {
   Random random(43);
   const WindowWorld world = make_window_world(stereo_world(), random);
   for (const bool kept : {false, true}) {
-    WindowWorld short_sight = world;
-    std::erase_if(short_sight.planes_seen,
+    WindowWorld short_range = world;
+    std::erase_if(short_range.planes_seen,
                   [](const PlaneObservation& o) { return o.keyframe > KeyframeId(3); });
     Random disturbance(3);
     SlidingWindow window(WindowDrive::exact(5).options, world.camera);
     for (std::int64_t id = 0; id < 12; ++id) {
       window.add_keyframe(KeyframeId(id), world.T_map_cam[static_cast<std::size_t>(id)]);
-      add_view(window, short_sight, KeyframeId(id), 0.1, disturbance);
+      add_view(window, short_range, KeyframeId(id), 0.1, disturbance);
       if (id == 0) window.keep(plane_variable(PlaneId(kPlane)), kept);
       if (id > 0) {
         EXPECT_TRUE(window.optimize().outcome);

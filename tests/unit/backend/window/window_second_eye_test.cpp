@@ -8,15 +8,15 @@
 namespace placegraph {
 namespace {
 
-const Eigen::Vector3d kRightEye(0.5, 0, 0);
+const Eigen::Vector3d kRightCamera(0.5, 0, 0);
 
 /// What a segment around a point of a line looks like from an eye.
-std::pair<Eigen::Vector2d, Eigen::Vector2d> ends_of(const Camera& camera, const SE3& T_map_eye,
+std::pair<Eigen::Vector2d, Eigen::Vector2d> ends_of(const Camera& camera, const SE3& T_map_second,
                                                     const Eigen::Vector3d& middle,
                                                     const Eigen::Vector3d& direction) {
-  const SE3 T_eye_map = T_map_eye.inverse();
-  return {*camera.project(T_eye_map * (middle - direction)),
-          *camera.project(T_eye_map * (middle + direction))};
+  const SE3 T_second_map = T_map_second.inverse();
+  return {*camera.project(T_second_map * (middle - direction)),
+          *camera.project(T_second_map * (middle + direction))};
 }
 
 /// Keyframes of a short drive that see lines with both eyes.
@@ -40,9 +40,9 @@ Drive make_drive(int keyframes, Random& random) {
     for (int k = 0; k < keyframes; ++k) {
       const SE3& T = drive.T_map_cam[static_cast<std::size_t>(k)];
       const auto [a, b] = ends_of(drive.camera, T, middle, direction);
-      const auto [c, d] = ends_of(drive.camera, T * SE3(SO3(), kRightEye), middle, direction);
+      const auto [c, d] = ends_of(drive.camera, T * SE3(SO3(), kRightCamera), middle, direction);
       LineObservation o{KeyframeId(k), LineId(i), a, b, 0.5, {}};
-      o.second = LineObservation::SecondEye{kRightEye, c, d, 0.5};
+      o.second = LineObservation::SecondCamera{kRightCamera, c, d, 0.5};
       drive.observations.push_back(o);
     }
   }
@@ -63,7 +63,7 @@ SlidingWindow stretched(const Drive& drive, double scale,
   return window;
 }
 
-TEST(SlidingWindowLines, OfTwoEyesGiveTheScaleFromTwoKeyframes) {
+TEST(SlidingWindowLines, OfStereoGiveTheScaleFromTwoKeyframes) {
   Random random = test::seeded_random(50);
   const Drive drive = make_drive(2, random);
   SlidingWindow window = stretched(drive, 1.15);
@@ -74,7 +74,7 @@ TEST(SlidingWindowLines, OfTwoEyesGiveTheScaleFromTwoKeyframes) {
   EXPECT_THROW(window.rescale(2), ArgumentError) << "measured already";
 }
 
-TEST(SlidingWindowLines, OfOneEyeSayNothingFromTwoKeyframes) {
+TEST(SlidingWindowLines, OfMonocularSayNothingFromTwoKeyframes) {
   Random random = test::seeded_random(51);
   Drive drive = make_drive(2, random);
   for (LineObservation& o : drive.observations) o.second.reset();
@@ -82,7 +82,7 @@ TEST(SlidingWindowLines, OfOneEyeSayNothingFromTwoKeyframes) {
   EXPECT_FALSE(window.optimize().outcome) << "two views of lines";
 }
 
-TEST(SlidingWindowLines, OfTwoEyesStayMetricWhenTheyAreMarginalized) {
+TEST(SlidingWindowLines, OfStereoStayMetricWhenTheyAreMarginalized) {
   Random random = test::seeded_random(52);
   Drive drive = make_drive(6, random);
   // The last keyframe no longer sees half of the lines: they leave with the oldest.
@@ -98,14 +98,14 @@ TEST(SlidingWindowLines, OfTwoEyesStayMetricWhenTheyAreMarginalized) {
   EXPECT_LT(residual_px(window, window.line_observations(LineId(0)).back())->norm(), 0.05);
 }
 
-TEST(SlidingWindowLines, ASecondEyeMustLieElsewhereAndBeFinite) {
+TEST(SlidingWindowLines, ASecondCameraMustLieElsewhereAndBeFinite) {
   Random random = test::seeded_random(53);
   const Drive drive = make_drive(2, random);
   SlidingWindow window({}, drive.camera);
   window.add_keyframe(KeyframeId(0), SE3());
   window.add_line(LineId(0), drive.lines[0]);
   LineObservation o = drive.observations[0];
-  o.second->eye_cam.setZero();
+  o.second->second_in_cam.setZero();
   EXPECT_THROW(window.add_line_observation(o), ArgumentError);
   o = drive.observations[0];
   o.second->sigma_px = 0;

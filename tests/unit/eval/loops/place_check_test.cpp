@@ -19,10 +19,10 @@ Rounds drive(int stations, int rounds, PlaceOf place_of) {
   Rounds result;
   const double step = 2 * std::numbers::pi / stations, radius = 10 / step;
   for (int i = 0; i < stations * rounds; ++i) {
-    const Eigen::AngleAxisd turn(step * i, Eigen::Vector3d::UnitY());
+    const Eigen::AngleAxisd rotation(step * i, Eigen::Vector3d::UnitY());
     Eigen::Isometry3d T_world_cam = Eigen::Isometry3d::Identity();
-    T_world_cam.linear() = turn.toRotationMatrix();
-    T_world_cam.translation() = turn * Eigen::Vector3d(-radius, 0, 0);
+    T_world_cam.linear() = rotation.toRotationMatrix();
+    T_world_cam.translation() = rotation * Eigen::Vector3d(-radius, 0, 0);
     result.truth.poses.push_back({i, T_world_cam});
     Keyframe keyframe;
     keyframe.id = KeyframeId(i);

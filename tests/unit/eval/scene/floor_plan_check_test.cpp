@@ -51,7 +51,7 @@ IndoorMap told_plan() {
 }
 
 /// Turning in the middle of the room.
-std::vector<SE3> turning() {
+std::vector<SE3> rotating() {
   std::vector<SE3> poses;
   for (int i = 0; i < 24; ++i)
     poses.emplace_back(SO3::exp({0, i * std::numbers::pi / 12, 0}), Eigen::Vector3d(2, 0, 3));
@@ -59,7 +59,7 @@ std::vector<SE3> turning() {
 }
 
 TEST(FloorPlanCheck, TellsErrorsOfWallsRoomsAndDoors) {
-  const FloorPlanCheck check = check_floor_plan(told_plan(), one_room(), SE3(), turning());
+  const FloorPlanCheck check = check_floor_plan(told_plan(), one_room(), SE3(), rotating());
   EXPECT_LT(check.truth_to_plan_median_m, 1e-9);
   // The corner beside the wall that is off, and what stands before the door.
   EXPECT_NEAR(check.truth_found_share, 1, 0.02);
@@ -74,7 +74,7 @@ TEST(FloorPlanCheck, TellsErrorsOfWallsRoomsAndDoors) {
 
 TEST(FloorPlanCheck, CountsWhatIsNotTold) {
   IndoorMap empty;
-  const FloorPlanCheck check = check_floor_plan(empty, one_room(), SE3(), turning());
+  const FloorPlanCheck check = check_floor_plan(empty, one_room(), SE3(), rotating());
   EXPECT_EQ(check.truth_to_plan_median_m, 1);
   EXPECT_EQ(check.doors_found, 0);
   EXPECT_EQ(check.rooms.at(0).iou, 0);

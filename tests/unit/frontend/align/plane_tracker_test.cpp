@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/align/chance_likeness.h>
+#include <placegraph/frontend/internal/align/null_distribution.h>
 #include <placegraph/frontend/internal/align/plane_tracker.h>
 #include <placegraph/graph/core/error.h>
 
@@ -89,8 +89,8 @@ TEST(PlaneNormal, IsOpenWithoutViewsOrAfterATurn) {
   EXPECT_EQ(estimator.estimate().outcome.code, Code::kTooFewData);
   EXPECT_FALSE(estimator.add(Matrix3d::Identity()));
   for (int i = 1; i <= 3; ++i) {
-    const SE3 turn(SO3::exp(0.05 * i * Vector3d(0.5, 1, 0.2)), Vector3d::Zero());
-    EXPECT_TRUE(estimator.add(homography_from_plane(calibration(), turn, {Vector3d::UnitZ(), 1})));
+    const SE3 rotation(SO3::exp(0.05 * i * Vector3d(0.5, 1, 0.2)), Vector3d::Zero());
+    EXPECT_TRUE(estimator.add(homography_from_plane(calibration(), rotation, {Vector3d::UnitZ(), 1})));
   }
   EXPECT_EQ(estimator.estimate().outcome.code, Code::kDegenerate);
 }
@@ -162,7 +162,7 @@ TEST(PlaneTracker, RefusesCornersThatAreNoQuadrilateralAndModelsWithoutACamera) 
                ArgumentError);
 }
 
-TEST(ChanceLikeness, KnowsATextureThatRepeats) {
+TEST(NullDistribution, KnowsATextureThatRepeats) {
   Random random = seeded_random(112);
   SmallBoard board(random);
   const std::vector<Vector2d>& corners = board.corners;
@@ -176,15 +176,15 @@ TEST(ChanceLikeness, KnowsATextureThatRepeats) {
   AlignOptions esm = options.align;
   esm.optimizer = AlignOptimizer::kEsm;
   const auto of = [&](const Image& image) {
-    return chance_likeness(image, corners, PlanarTemplate(image, corners, 2, 3000), esm, 3);
+    return null_distribution(image, corners, PlanarTemplate(image, corners, 2, 3000), esm, 3);
   };
-  const ChanceLikeness unique = of(once);
+  const NullDistribution unique = of(once);
   EXPECT_LT(unique.rival, 0.6);
   EXPECT_LT(unique.bound(2), 0.7);
   EXPECT_EQ(unique.trials, 3);
   EXPECT_GT(of(often).rival, 0.9);
   EXPECT_THROW(
-      std::ignore = chance_likeness(once, corners, PlanarTemplate(once, corners, 2, 3000), esm, 1),
+      std::ignore = null_distribution(once, corners, PlanarTemplate(once, corners, 2, 3000), esm, 1),
       ArgumentError);
 }
 

@@ -31,12 +31,12 @@ int faces_seen(const Cuboid& cuboid) {
       std::count_if(cuboid.faces.begin(), cuboid.faces.end(), [](int f) { return f >= 0; }));
 }
 
-const SO3 kTurn = SO3::exp({0.5, 0, 0}) * SO3::exp({0, 0.6, 0});
+const SO3 kRotation = SO3::exp({0.5, 0, 0}) * SO3::exp({0, 0.6, 0});
 const Eigen::Vector3d kMiddle(0.1, 0, 2.2), kHalf(0.4, 0.3, 0.5);
 
 /// A box in the air before a far wall.
 Seen see_box(const Eigen::Vector3d& ray) {
-  const Eigen::Vector3d from = kTurn.inverse() * -kMiddle, way = kTurn.inverse() * ray;
+  const Eigen::Vector3d from = kRotation.inverse() * -kMiddle, way = kRotation.inverse() * ray;
   double enter = 0, leave = 1e9;
   int label = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -58,7 +58,7 @@ TEST(Cuboids, ABoxHasItsPlaceAndItsSides) {
   for (int i = 0; i < 3; ++i) {
     Eigen::Index which = 0;
     const double cosine =
-        (kTurn.matrix().transpose() * box.T_sensor_cuboid.rotation().matrix().col(i))
+        (kRotation.matrix().transpose() * box.T_sensor_cuboid.rotation().matrix().col(i))
             .cwiseAbs()
             .maxCoeff(&which);
     EXPECT_GT(cosine, 0.9999);

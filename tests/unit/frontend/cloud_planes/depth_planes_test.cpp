@@ -10,7 +10,7 @@ namespace placegraph {
 namespace {
 
 /// What a depth camera of 320x240 sees of the nearest of planes n^T X = d.
-struct Sight {
+struct Observation {
   double sigma_inverse_depth = 0;
   int block_px = 1;  ///< pixels that err alike
   std::uint64_t seed = 1;
@@ -20,21 +20,21 @@ Camera camera() {
   return {.width = 320, .height = 240, .fx = 280, .fy = 280, .cx = 159.5, .cy = 119.5};
 }
 
-Image look(const std::vector<Eigen::Vector4d>& planes, const Sight& sight) {
+Image look(const std::vector<Eigen::Vector4d>& planes, const Observation& observation) {
   const Camera c = camera();
-  Random random(sight.seed);
+  Random random(observation.seed);
   Image depth(c.height, c.width, CV_32FC1, cv::Scalar(0));
-  Image noise(c.height / sight.block_px + 1, c.width / sight.block_px + 1, CV_32FC1);
+  Image noise(c.height / observation.block_px + 1, c.width / observation.block_px + 1, CV_32FC1);
   for (int y = 0; y < noise.rows; ++y)
     for (int x = 0; x < noise.cols; ++x)
-      noise.at<float>(y, x) = static_cast<float>(sight.sigma_inverse_depth * random.normal());
+      noise.at<float>(y, x) = static_cast<float>(observation.sigma_inverse_depth * random.normal());
   for (int y = 0; y < c.height; ++y)
     for (int x = 0; x < c.width; ++x) {
       const test::Seen seen = test::see_planes({(x - c.cx) / c.fx, (y - c.cy) / c.fy, 1}, planes);
       if (!(seen.depth > 0) || !std::isfinite(seen.depth)) continue;
       depth.at<float>(y, x) =
           static_cast<float>(1 / (1 / seen.depth + static_cast<double>(noise.at<float>(
-                                                       y / sight.block_px, x / sight.block_px))));
+                                                       y / observation.block_px, x / observation.block_px))));
     }
   return depth;
 }
@@ -76,11 +76,11 @@ TEST(DepthPlanes, AreThoseOfACorner) {
 }
 
 /// Normalized squared errors against the truth over many images, per degree of freedom.
-double anees(const Sight& sight, const DepthPlanesOptions& options, int* missing) {
+double anees(const Observation& observation, const DepthPlanesOptions& options, int* missing) {
   double sum = 0;
   int count = 0;
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    Sight one = sight;
+    Observation one = observation;
     one.seed = seed;
     const auto planes = find_depth_planes(look(kCorner, one), camera(), options);
     for (const Eigen::Vector4d& truth : kCorner) {
@@ -104,10 +104,10 @@ TEST(DepthPlanes, AreAsFarOffAsTheirCovariancesSay) {
   EXPECT_GT(independent, 0.3);
   EXPECT_LT(independent, 2);
   // Blocks of pixels that err alike: noise that does not average out over neighbours.
-  const double alike = anees({.sigma_inverse_depth = 0.002, .block_px = 11}, small(), &missing);
+  const double similar = anees({.sigma_inverse_depth = 0.002, .block_px = 11}, small(), &missing);
   EXPECT_EQ(missing, 0);
-  EXPECT_GT(alike, 0.2);
-  EXPECT_LT(alike, 2.5);
+  EXPECT_GT(similar, 0.2);
+  EXPECT_LT(similar, 2.5);
 }
 
 TEST(DepthPlanes, AreNeverSurerThanTheFloor) {

@@ -12,12 +12,12 @@ using Code = Outcome::Code;
 const Camera kCamera = pinhole(640, 480, 500);
 const SE3 kSecond = pose({0, -0.05, 0}, {1, 0, 0}), kThird = pose({0, -0.1, 0.1}, {1.5, 0.4, 0.3});
 
-std::vector<Sighting> sightings_of(const Eigen::Vector3d& point_ref,
+std::vector<PointMeasurement> observations_of(const Eigen::Vector3d& point_ref,
                                    const std::vector<SE3>& T_ref_cam) {
-  std::vector<Sighting> sightings;
+  std::vector<PointMeasurement> observations;
   for (const SE3& T : T_ref_cam)
-    sightings.push_back({T, *kCamera.project(T.inverse() * point_ref)});
-  return sightings;
+    observations.push_back({T, *kCamera.project(T.inverse() * point_ref)});
+  return observations;
 }
 
 TEST(Triangulation, IsExactWithoutNoise) {
@@ -25,7 +25,7 @@ TEST(Triangulation, IsExactWithoutNoise) {
   const PointScene scene = make_scene(kCamera, {SE3(), kSecond, kThird}, 30, random);
   for (const Eigen::Vector3d& point : scene.points_ref)
     for (const auto& poses : {std::vector<SE3>{SE3(), kSecond}, {SE3(), kSecond, kThird}}) {
-      const auto result = triangulate(kCamera, sightings_of(point, poses), 0.01, 0.5);
+      const auto result = triangulate(kCamera, observations_of(point, poses), 0.01, 0.5);
       ASSERT_TRUE(result.outcome) << result.outcome.reason;
       EXPECT_LT((result.point_ref - point).norm(), 1e-8);
       EXPECT_LT(result.max_error_px, 1e-8);
@@ -39,10 +39,10 @@ TEST(Triangulation, LeavesTheErrorThatTheNoiseAllows) {
   PointScene scene = make_scene(kCamera, {SE3(), kSecond, kThird}, 200, random, 6, 6);
   double sum2 = 0;
   for (std::size_t i = 0; i < scene.points_ref.size(); ++i) {
-    auto sightings = sightings_of(scene.points_ref[i], {SE3(), kSecond, kThird});
-    for (Sighting& s : sightings)
+    auto observations = observations_of(scene.points_ref[i], {SE3(), kSecond, kThird});
+    for (PointMeasurement& s : observations)
       s.px += kNoisePx * Eigen::Vector2d(random.normal(), random.normal());
-    const auto result = triangulate(kCamera, sightings, 0.01, 10 * kNoisePx);
+    const auto result = triangulate(kCamera, observations, 0.01, 10 * kNoisePx);
     ASSERT_TRUE(result.outcome);
     sum2 += (result.point_ref - scene.points_ref[i]).squaredNorm();
   }
@@ -51,13 +51,13 @@ TEST(Triangulation, LeavesTheErrorThatTheNoiseAllows) {
   EXPECT_GT(std::sqrt(sum2 / 200), 0.005);
 }
 
-TEST(Triangulation, RefusesOneSightingAlone) {
+TEST(Triangulation, RefusesOneObservationAlone) {
   EXPECT_EQ(triangulate(kCamera, {{SE3(), {100, 100}}}, 0, 1).outcome.code, Code::kTooFewData);
   EXPECT_EQ(triangulate(kCamera, {}, 0, 1).outcome.code, Code::kTooFewData);
 }
 
 TEST(Triangulation, RefusesLittleParallax) {
-  const auto result = triangulate(kCamera, sightings_of({0, 0, 500}, {SE3(), kSecond}), 0.01, 1);
+  const auto result = triangulate(kCamera, observations_of({0, 0, 500}, {SE3(), kSecond}), 0.01, 1);
   EXPECT_EQ(result.outcome.code, Code::kDegenerate);
   EXPECT_NEAR(result.parallax_rad, 1.0 / 500, 1e-5);
   // Parallel rays meet nowhere, whatever parallax is asked for.
@@ -69,15 +69,15 @@ TEST(Triangulation, RefusesLittleParallax) {
 
 TEST(Triangulation, RefusesAPointBehindTheCameras) {
   // Rays that diverge meet behind both cameras.
-  std::vector<Sighting> sightings = sightings_of({0.5, 0, 5}, {SE3(), pose({0, 0, 0}, {1, 0, 0})});
-  std::swap(sightings[0].px, sightings[1].px);
-  EXPECT_EQ(triangulate(kCamera, sightings, 0.01, 1).outcome.code, Code::kDegenerate);
+  std::vector<PointMeasurement> observations = observations_of({0.5, 0, 5}, {SE3(), pose({0, 0, 0}, {1, 0, 0})});
+  std::swap(observations[0].px, observations[1].px);
+  EXPECT_EQ(triangulate(kCamera, observations, 0.01, 1).outcome.code, Code::kDegenerate);
 }
 
-TEST(Triangulation, RefusesSightingsThatContradictEachOther) {
-  auto sightings = sightings_of({0.5, 0.2, 5}, {SE3(), kSecond, kThird});
-  sightings[1].px.y() += 20;
-  const auto result = triangulate(kCamera, sightings, 0.01, 2);
+TEST(Triangulation, RefusesObservationsThatContradictEachOther) {
+  auto observations = observations_of({0.5, 0.2, 5}, {SE3(), kSecond, kThird});
+  observations[1].px.y() += 20;
+  const auto result = triangulate(kCamera, observations, 0.01, 2);
   EXPECT_EQ(result.outcome.code, Code::kInconsistent);
   EXPECT_GT(result.max_error_px, 2);
 }

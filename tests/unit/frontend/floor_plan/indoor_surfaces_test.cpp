@@ -53,17 +53,17 @@ struct TwoRooms {
     for (int i = 0; i < static_cast<int>(path.size()); ++i) look(i);
   }
   /// Rays to what is nearest: outer walls, the wall between (but through the door), floor, ceiling.
-  void look(int sight) {
-    const Eigen::Vector3d from = path[static_cast<std::size_t>(sight)];
+  void look(int observation) {
+    const Eigen::Vector3d from = path[static_cast<std::size_t>(observation)];
     for (int a = 0; a < 90; ++a)
       for (int e = -15; e <= 15; ++e) {
-        const double turn = a * std::numbers::pi / 45, pitch = e * 0.08;
-        const Eigen::Vector3d way(std::cos(turn) * std::cos(pitch),
-                                  std::sin(turn) * std::cos(pitch), std::sin(pitch));
-        cast(from, way, sight);
+        const double rotation = a * std::numbers::pi / 45, pitch = e * 0.08;
+        const Eigen::Vector3d way(std::cos(rotation) * std::cos(pitch),
+                                  std::sin(rotation) * std::cos(pitch), std::sin(pitch));
+        cast(from, way, observation);
       }
   }
-  void cast(const Eigen::Vector3d& from, const Eigen::Vector3d& way, int sight) {
+  void cast(const Eigen::Vector3d& from, const Eigen::Vector3d& way, int observation) {
     double best = 1e9;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     const auto plane = [&](int axis, double at, bool door) {
@@ -80,7 +80,7 @@ struct TwoRooms {
     const Eigen::Vector3d to = from + best * way;
     const bool between = normal[0] != 0 && std::abs(to[0] - 4) < 0.1;
     if (!between || (to[1] > options.told_from_m && to[1] < options.told_to_m))
-      points.push_back({to.cast<float>(), normal.cast<float>(), 0.005F, sight});
+      points.push_back({to.cast<float>(), normal.cast<float>(), 0.005F, observation});
     voxels.add_ray(from, to, 0.1, true);
   }
 };

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kNoise_m = 0.01;
 constexpr WallTolerance kTolerance{
-    .band_m = 0.05, .max_turn_deg = 15, .max_gap_m = 0.3, .max_step_m = 0.07};
+    .band_m = 0.05, .max_rotation_deg = 15, .max_gap_m = 0.3, .max_step_m = 0.07};
 
 /// Points of a wall of one side.
 struct WallPoints {
@@ -71,18 +71,18 @@ TEST_P(FitWallOfAxis, TellsItsExtentHeightAndNumberOfPoints) {
   EXPECT_EQ(piece.count, static_cast<int>(wall.points.size()));
 }
 
-TEST(FitWall, OfSightsThatAgreeIsBetterKnown) {
+TEST(FitWall, OfObservationsThatAgreeIsBetterKnown) {
   WallPoints wall;
   wall.add(0, 4, 2, 0);
   WallPiece one = wall.piece(0, 4, 2), sixteen = one;
   ASSERT_TRUE(fit_wall(wall.all(), kTolerance, one));
   for (std::size_t i = 0; i < wall.points.size(); ++i)
-    wall.points[i].sight = i % 2 == 0 ? 7 : static_cast<int>(i % 32);
+    wall.points[i].observation = i % 2 == 0 ? 7 : static_cast<int>(i % 32);
   ASSERT_TRUE(fit_wall(wall.all(), kTolerance, sixteen));
   EXPECT_NEAR(one.sigma_m, std::hypot(0.003, kNoise_m), 0.001);
   // Sixteen odd numbers, 7 among them.
   EXPECT_NEAR(sixteen.sigma_m, std::hypot(0.003, kNoise_m / 4), 0.0005);
-  EXPECT_EQ(sixteen.sight, 7);
+  EXPECT_EQ(sixteen.observation, 7);
 }
 
 TEST(FitWall, OfAShortPieceDoesNotSlope) {
@@ -98,13 +98,13 @@ TEST(FitWall, FailsWithoutPointsOrWithAWallThatTurns) {
   wall.add(0, 4, 2, 0);
   WallPiece elsewhere = wall.piece(0, 4, 2.5);
   EXPECT_FALSE(fit_wall(wall.all(), kTolerance, elsewhere));
-  for (const auto& [turn_deg, fits] : {std::pair(12.0, true), {18.0, false}}) {
-    WallPoints turned;
-    const double slope = std::tan(turn_deg * M_PI / 180);
-    turned.add(0, 4, 2, slope);
-    WallPiece piece = turned.piece(0, 4, 2);
+  for (const auto& [rotation_deg, fits] : {std::pair(12.0, true), {18.0, false}}) {
+    WallPoints rotated;
+    const double slope = std::tan(rotation_deg * M_PI / 180);
+    rotated.add(0, 4, 2, slope);
+    WallPiece piece = rotated.piece(0, 4, 2);
     piece.slope = slope;
-    EXPECT_EQ(fit_wall(turned.all(), kTolerance, piece), fits) << turn_deg;
+    EXPECT_EQ(fit_wall(rotated.all(), kTolerance, piece), fits) << rotation_deg;
   }
 }
 

@@ -49,15 +49,15 @@ TEST(VentralMotion, IsExactForLongWaysAndAnyTurn) {
 
 TEST(VentralMotion, ErrsAsItsCovarianceSaysFromFlowAndTurn) {
   const SE3 T_1_2(SO3::exp({0.01, 0.02, -0.03}), Vector3d(0.05, 0.02, 0.01));
-  const double turn_sigma = 0.001;
+  const double rotation_sigma = 0.001;
   Random random(5);
   double nees = 0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    const SO3 believed =
+    const SO3 is_within_gate =
         T_1_2.rotation() *
-        SO3::exp(turn_sigma * Vector3d(random.normal(), random.normal(), random.normal()));
-    const KnownRotation turn{believed, turn_sigma * turn_sigma * Eigen::Matrix3d::Identity()};
+        SO3::exp(rotation_sigma * Vector3d(random.normal(), random.normal(), random.normal()));
+    const KnownRotation turn{is_within_gate, rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity()};
     const auto flow =
         derotate(kCamera, plane_flow(Vector3d::UnitZ(), 1.5, T_1_2, kPixelNoise, 100 + run), turn);
     const VentralMotion motion = ventral_motion(flow, Vector3d::UnitZ(), turn.covariance);
@@ -112,27 +112,27 @@ TEST(AffineFlow, DivergesWithTheShareOfTheDistanceLeftBehind) {
   EXPECT_LT(flow.centre.norm(), 1e-9);
 }
 
-/// Flow beside a plane whose believed turn errs as `turn_sigma` says.
-std::vector<DerotatedFlow> misturned(const SE3& T_1_2, double turn_sigma, int run, Random& random) {
-  const SO3 believed =
+/// Flow beside a plane whose believed turn errs as `rotation_sigma` says.
+std::vector<DerotatedFlow> misturned(const SE3& T_1_2, double rotation_sigma, int run, Random& random) {
+  const SO3 is_within_gate =
       T_1_2.rotation() *
-      SO3::exp(turn_sigma * Vector3d(random.normal(), random.normal(), random.normal()));
+      SO3::exp(rotation_sigma * Vector3d(random.normal(), random.normal(), random.normal()));
   return derotate(kCamera, plane_flow(Vector3d::UnitZ(), 1.5, T_1_2, kPixelNoise, 100 + run),
-                  {believed});
+                  {is_within_gate});
 }
 
 TEST(AffineFlow, ErrsAsItsCovarianceSaysFromFlowAndTurn) {
   // Small enough that the second order, which it leaves out, does not count.
   const SE3 T_1_2(SO3::exp({0.01, 0.02, -0.03}), Vector3d(0.02, 0.01, 0.002));
-  const double turn_sigma = 1e-3;
-  const Eigen::Matrix3d turn = turn_sigma * turn_sigma * Eigen::Matrix3d::Identity();
+  const double rotation_sigma = 1e-3;
+  const Eigen::Matrix3d turn = rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity();
   const AffineFlow exact =
       affine_flow(derotate(kCamera, plane_flow(Vector3d::UnitZ(), 1.5, T_1_2), {T_1_2.rotation()}));
   Random random(6);
   double divergence2 = 0, centre2 = 0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    const AffineFlow flow = affine_flow(misturned(T_1_2, turn_sigma, run, random), turn);
+    const AffineFlow flow = affine_flow(misturned(T_1_2, rotation_sigma, run, random), turn);
     ASSERT_TRUE(flow.outcome);
     const double error = flow.divergence() - exact.divergence();
     divergence2 += error * error / flow.divergence_variance();
@@ -146,15 +146,15 @@ TEST(AffineFlow, ErrsAsItsCovarianceSaysFromFlowAndTurn) {
 
 TEST(LateralBalance, ErrsAsItsSigmaSaysFromFlowAndTurn) {
   const SE3 T_1_2(SO3(), Vector3d(0.1, 0.02, 0));
-  const double turn_sigma = 1e-3;
-  const Eigen::Matrix3d turn = turn_sigma * turn_sigma * Eigen::Matrix3d::Identity();
+  const double rotation_sigma = 1e-3;
+  const Eigen::Matrix3d turn = rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity();
   const LateralBalance exact =
       lateral_balance(derotate(kCamera, plane_flow(Vector3d::UnitZ(), 1.5, T_1_2), {}));
   Random random(7);
   double sum2 = 0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    const LateralBalance balance = lateral_balance(misturned(T_1_2, turn_sigma, run, random), turn);
+    const LateralBalance balance = lateral_balance(misturned(T_1_2, rotation_sigma, run, random), turn);
     ASSERT_TRUE(balance.outcome);
     const double error = balance.balance - exact.balance;
     sum2 += error * error / (balance.sigma * balance.sigma);

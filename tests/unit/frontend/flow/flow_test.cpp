@@ -31,7 +31,7 @@ Pair shifted(const Vector2d& flow, const Texture& texture = kFine) {
 }
 
 /// The second is the first turned about the centre, u towards v.
-Pair turned(double angle) {
+Pair rotated(double angle) {
   Pair pair{test::texture_image(kSide, kSide, kFine), Image(kSide, kSide, CV_8UC1)};
   const double c = std::cos(angle), s = std::sin(angle), middle = kSide / 2;
   for (int v = 0; v < kSide; ++v)
@@ -123,7 +123,7 @@ TEST(InterpolationFlow, FindsShiftsUpToFourPixelsToATwentiethOfAPixel) {
 TEST(InterpolationFlow, FindsTheTurnOfAPatchAndItsShiftAtOnce) {
   const InterpolationFlow method({});
   for (const double angle : {-0.12, 0.04, 0.15}) {
-    const Pair pair = turned(angle);
+    const Pair pair = rotated(angle);
     const auto motion = method.measure(method.pyramid(pair.from), method.pyramid(pair.to), kMiddle);
     ASSERT_TRUE(motion);
     EXPECT_NEAR(motion->rotation, angle, 0.005);

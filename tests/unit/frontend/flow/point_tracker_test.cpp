@@ -112,9 +112,9 @@ TEST(PointTracker, KnowsATrackTheWorseTheOftenerItsLookWasLost) {
   PointTrackerOptions options;
   options.min_anchor_correlation = 1;  // with noise nothing looks so alike
   PointTracker tracker = started(options);
-  std::vector<bool> has_look;
-  for (const PointTrack& track : tracker.tracks()) has_look.push_back(track.anchor != nullptr);
-  tracker.keep(has_look);
+  std::vector<bool> has_template;
+  for (const PointTrack& track : tracker.tracks()) has_template.push_back(track.anchor != nullptr);
+  tracker.keep(has_template);
   const float begin = tracker.tracks().front().covariance(0, 0);
   EXPECT_FLOAT_EQ(begin, 0.25f * 0.25f);
   const float step = 0.7f * 0.7f, most = 1.5f * 1.5f;

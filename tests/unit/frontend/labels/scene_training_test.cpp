@@ -12,21 +12,21 @@ namespace placegraph {
 namespace {
 
 /// Rows of two bytes; the class is whether their sum exceeds 255. In five blocks.
-ForestLesson diagonal_lesson(int rows) {
+ForestTrainingSet diagonal_training_set(int rows) {
   Random random(3);
-  ForestLesson lesson;
-  lesson.classes = 2;
-  lesson.blocks = 5;
-  lesson.columns.resize(2);
+  ForestTrainingSet training_set;
+  training_set.classes = 2;
+  training_set.blocks = 5;
+  training_set.columns.resize(2);
   for (int i = 0; i < rows; ++i) {
     const int x = random.index(256), y = random.index(256);
-    lesson.columns[0].push_back(static_cast<std::uint8_t>(x));
-    lesson.columns[1].push_back(static_cast<std::uint8_t>(y));
-    lesson.label.push_back(x + y > 255 ? 1 : 0);
-    lesson.weight.push_back(1);
-    lesson.block.push_back(i % 5);
+    training_set.columns[0].push_back(static_cast<std::uint8_t>(x));
+    training_set.columns[1].push_back(static_cast<std::uint8_t>(y));
+    training_set.label.push_back(x + y > 255 ? 1 : 0);
+    training_set.weight.push_back(1);
+    training_set.block.push_back(i % 5);
   }
-  return lesson;
+  return training_set;
 }
 
 ForestOptions small_forest() {
@@ -39,40 +39,40 @@ ForestOptions small_forest() {
 }
 
 TEST(ForestTraining, LearnsABorderThatNoSingleByteShows) {
-  const ForestLesson lesson = diagonal_lesson(1000);
-  const TrainedForest trained = train_forest(lesson, small_forest(), 1);
+  const ForestTrainingSet training_set = diagonal_training_set(1000);
+  const TrainedForest trained = train_forest(training_set, small_forest(), 1);
   ASSERT_FALSE(trained.forest.problem());
   int right = 0, right_unseen = 0;
-  for (std::size_t i = 0; i < lesson.label.size(); ++i) {
-    const std::array<std::uint8_t, 2> row = {lesson.columns[0][i], lesson.columns[1][i]};
+  for (std::size_t i = 0; i < training_set.label.size(); ++i) {
+    const std::array<std::uint8_t, 2> row = {training_set.columns[0][i], training_set.columns[1][i]};
     std::array<float, 2> shares;
     trained.forest.predict(row.data(), shares.data());
     EXPECT_NEAR(shares[0] + shares[1], 1, 1e-5);
-    right += (shares[1] > 0.5f) == (lesson.label[i] == 1) ? 1 : 0;
-    right_unseen += (trained.unseen[2 * i + 1] > 0.5f) == (lesson.label[i] == 1) ? 1 : 0;
+    right += (shares[1] > 0.5f) == (training_set.label[i] == 1) ? 1 : 0;
+    right_unseen += (trained.unseen[2 * i + 1] > 0.5f) == (training_set.label[i] == 1) ? 1 : 0;
   }
   EXPECT_GT(right, 960);
   EXPECT_GT(right_unseen, 930);  // judged by trees that did not see the row
 }
 
 TEST(ForestTraining, GivesTheSameBitsForAnyNumberOfThreads) {
-  const ForestLesson lesson = diagonal_lesson(500);
-  const TrainedForest one = train_forest(lesson, small_forest(), 1),
-                      three = train_forest(lesson, small_forest(), 3);
+  const ForestTrainingSet training_set = diagonal_training_set(500);
+  const TrainedForest one = train_forest(training_set, small_forest(), 1),
+                      three = train_forest(training_set, small_forest(), 3);
   EXPECT_EQ(one.forest.leaves, three.forest.leaves);
   EXPECT_EQ(one.forest.roots, three.forest.roots);
   EXPECT_EQ(one.unseen, three.unseen);
 }
 
 TEST(ForestTraining, LearnsNothingFromVoidRowsAndRefusesWhatDoesNotAgree) {
-  ForestLesson lesson = diagonal_lesson(100);
-  lesson.label[0] = ForestLesson::kVoid;
-  EXPECT_EQ(train_forest(lesson, small_forest(), 1).unseen.size(), 200u);
-  lesson.label.assign(100, ForestLesson::kVoid);
-  EXPECT_THROW((void)train_forest(lesson, small_forest(), 1), ArgumentError);
-  lesson = diagonal_lesson(100);
-  lesson.columns[1].pop_back();
-  EXPECT_THROW((void)train_forest(lesson, small_forest(), 1), ArgumentError);
+  ForestTrainingSet training_set = diagonal_training_set(100);
+  training_set.label[0] = ForestTrainingSet::kVoid;
+  EXPECT_EQ(train_forest(training_set, small_forest(), 1).unseen.size(), 200u);
+  training_set.label.assign(100, ForestTrainingSet::kVoid);
+  EXPECT_THROW((void)train_forest(training_set, small_forest(), 1), ArgumentError);
+  training_set = diagonal_training_set(100);
+  training_set.columns[1].pop_back();
+  EXPECT_THROW((void)train_forest(training_set, small_forest(), 1), ArgumentError);
 }
 
 /// Three regions, one above the other.

@@ -51,20 +51,20 @@ TEST(LineDepth, SaysNothingWhereThereIsNoDepth) {
   EXPECT_FALSE(lookup_depth_along(none, kCamera, depth_camera(), {{{80, 100}, {80, 20}}})[0]);
 }
 
-TEST(LineDepth, AMadeUpEyeSeesTheLineOfThoseDepths) {
+TEST(LineDepth, AMadeUpCameraSeesTheLineOfThoseDepths) {
   const Line3 line = Line3::from_direction({0.2, -0.3, 3}, {0.5, 1, 0.4});
   const auto on_line = [&](double s) -> Eigen::Vector3d {
     return line.nearest_point() + s * line.direction();
   };
   const Eigen::Vector3d a = on_line(0.5), b = on_line(1.5);
   const LineSegment segment{*kCamera.project(a), *kCamera.project(b)};
-  const MadeUpEye eye = eye_from_depth(kCamera, segment, {1 / a.z(), 1 / b.z(), 0.005});
+  const VirtualCamera eye = virtual_camera_from_depth(kCamera, segment, {1 / a.z(), 1 / b.z(), 0.005});
   const auto r =
-      line_residual_px(kCamera, SE3(SO3(), eye.eye_cam), line, eye.seen.first, eye.seen.second);
+      line_residual_px(kCamera, SE3(SO3(), eye.second_in_cam), line, eye.seen.first, eye.seen.second);
   ASSERT_TRUE(r);
   EXPECT_LT(r->norm(), 1e-9);
   EXPECT_GT(eye.seen.sigma_px, 0);
-  EXPECT_GT(eye.eye_cam.norm(), 0);
+  EXPECT_GT(eye.second_in_cam.norm(), 0);
 }
 
 }  // namespace

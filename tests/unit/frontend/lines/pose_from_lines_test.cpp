@@ -12,7 +12,7 @@ using namespace test;
 using Code = Outcome::Code;
 const SE3 kTruth = pose({0.05, -0.1, 0.03}, {0.4, -0.2, 0.5});
 
-std::vector<SeenLine> sightings(const LineScene& scene, const SE3& T_ref_cam, double noise_px,
+std::vector<SeenLine> observations(const LineScene& scene, const SE3& T_ref_cam, double noise_px,
                                 Random& random) {
   std::vector<SeenLine> lines;
   for (std::size_t i = 0; i < scene.from.size(); ++i)
@@ -33,7 +33,7 @@ TEST(TriangulateLine, IsExactWithoutNoiseAndTellsItsTurn) {
     ++known;
     EXPECT_NEAR(std::abs(line.line_ref.direction().dot(scene.line(i).direction())), 1, 1e-6);
     EXPECT_LT(line.line_ref.distance_to(scene.from[i]), 1e-3);
-    EXPECT_GE(line.turn_rad, deg_to_rad(1.5));
+    EXPECT_GE(line.rotation_rad, deg_to_rad(1.5));
   }
   EXPECT_GT(known, 5);
 }
@@ -57,24 +57,24 @@ TEST(TriangulateLine, RefusesALineAlongTheEpipolarPlane) {
                   .outcome);
 }
 
-TEST(TriangulateLine, RefusesTooFewAndContradictingSightings) {
+TEST(TriangulateLine, RefusesTooFewAndContradictingObservations) {
   LineScene scene;
   scene.from = {{0, -1, 5}};
   scene.to = {{0.2, 1, 5}};
   Random random(2);
   const auto at = [&](double x) {
     const SE3 T(SO3(), Eigen::Vector3d(x, 0, 0));
-    return LineSighting{T, *scene.seen(0, T, 0.1, random)};
+    return LineMeasurement{T, *scene.seen(0, T, 0.1, random)};
   };
   EXPECT_EQ(triangulate_line(scene.camera, {at(0)}, {}).outcome.code, Code::kTooFewData);
   EXPECT_TRUE(triangulate_line(scene.camera, {at(0), at(0.3), at(0.6)}, {}).outcome);
-  LineSighting wrong = at(0.3);
+  LineMeasurement wrong = at(0.3);
   wrong.seen.first.x() += 5;
   EXPECT_EQ(triangulate_line(scene.camera, {at(0), wrong, at(0.6)}, {}).outcome.code,
             Code::kInconsistent);
-  LineSighting swapped = at(0);  // the eyes exchanged: the line would lie behind them
+  LineMeasurement swapped = at(0);  // the eyes exchanged: the line would lie behind them
   swapped.T_ref_cam = at(0.6).T_ref_cam;
-  LineSighting other = at(0.6);
+  LineMeasurement other = at(0.6);
   other.T_ref_cam = SE3();
   EXPECT_EQ(triangulate_line(scene.camera, {swapped, other}, {}).outcome.code, Code::kInconsistent);
 }
@@ -107,7 +107,7 @@ TEST(SolveThreeLines, FindsTheTruePoseAmongItsSolutions) {
 
 TEST(PoseFromLines, IsExactWithoutNoiseAndWithoutAGuess) {
   Random random = seeded_random(22);
-  const auto lines = sightings(random_lines(25, random), kTruth, 0, random);
+  const auto lines = observations(random_lines(25, random), kTruth, 0, random);
   const auto result = estimate_pose_from_lines(pinhole(640, 480, 500), lines, {}, random);
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
   EXPECT_LT((kTruth.inverse() * result.T_ref_cam).log().norm(), 1e-5);
@@ -115,7 +115,7 @@ TEST(PoseFromLines, IsExactWithoutNoiseAndWithoutAGuess) {
 
 TEST(PoseFromLines, FindsThePoseAmongFortyPercentOutliers) {
   Random random = seeded_random(23);
-  auto lines = sightings(random_lines(60, random), kTruth, 0.3, random);
+  auto lines = observations(random_lines(60, random), kTruth, 0.3, random);
   int outliers = 0;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (i % 5 < 2) {
@@ -135,7 +135,7 @@ TEST(PoseFromLines, ClaimsACovarianceThatItsErrorsBearOut) {
   constexpr int kRuns = 40;
   double nees = 0;
   for (int run = 0; run < kRuns; ++run) {
-    const auto lines = sightings(random_lines(40, random), kTruth, 0.4, random);
+    const auto lines = observations(random_lines(40, random), kTruth, 0.4, random);
     const PoseGuess guess{kTruth};
     const auto result = estimate_pose_from_lines(pinhole(640, 480, 500), lines, {}, random, &guess);
     ASSERT_TRUE(result.outcome);
@@ -154,7 +154,7 @@ TEST(PoseFromLines, OfLinesOfOneDirectionLeavesTheWayAlongThemOpen) {
     scene.from.push_back(p - Eigen::Vector3d::UnitY());
     scene.to.push_back(p + Eigen::Vector3d::UnitY());
   }
-  const auto lines = sightings(scene, SE3(), 0.3, random);
+  const auto lines = observations(scene, SE3(), 0.3, random);
   PoseGuess guess;
   EXPECT_EQ(estimate_pose_from_lines(scene.camera, lines, {}, random, &guess).outcome.code,
             Code::kDegenerate);
@@ -167,7 +167,7 @@ TEST(PoseFromLines, OfLinesOfOneDirectionLeavesTheWayAlongThemOpen) {
 
 TEST(PoseFromLines, RefusesTooFewLinesAndLinesThatAgreeOnNothing) {
   Random random = seeded_random(26);
-  auto lines = sightings(random_lines(30, random), kTruth, 0, random);
+  auto lines = observations(random_lines(30, random), kTruth, 0, random);
   for (SeenLine& line : lines) {
     line.seen.first = {random.uniform(0, 639), random.uniform(0, 479)};
     line.seen.second = {random.uniform(0, 639), random.uniform(0, 479)};

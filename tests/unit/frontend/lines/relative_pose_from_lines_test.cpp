@@ -170,9 +170,9 @@ TEST(TranslationFromTwoViews, IsNeverTold) {
 }
 
 /// Lines on a floor 1.4 m below, seen from two places.
-std::vector<PlaneLineSighting> floor_lines(const std::vector<double>& headings, const SE3& T_12,
+std::vector<PlaneLineObservation> floor_lines(const std::vector<double>& headings, const SE3& T_12,
                                            double sigma, Random& random) {
-  std::vector<PlaneLineSighting> lines;
+  std::vector<PlaneLineObservation> lines;
   for (const double heading : headings) {
     const Eigen::Vector3d p(random.uniform(-2, 2), 1.4, random.uniform(3, 6));
     const Line3 line = Line3::from_direction(p, {std::cos(heading), 0, std::sin(heading)});

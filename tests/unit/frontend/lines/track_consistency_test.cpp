@@ -13,16 +13,16 @@ Camera camera() {
 }
 
 /// An upright line at (x, ., 5) seen from a camera that moves to the right by 0.1 m a frame.
-LineSighting upright(double x, int frame) {
+LineMeasurement upright(double x, int frame) {
   const double from_x = 0.1 * frame, u = 320 + 500 * (x - from_x) / 5;
-  LineSighting s;
+  LineMeasurement s;
   s.T_ref_cam = SE3(SO3(), Eigen::Vector3d(from_x, 0, 0));
   s.seen = {{u, 140}, {u, 340}, 0.2};
   return s;
 }
 
-TEST(TrackConsistency, ATrackOfOneLineHasNoWrongSighting) {
-  std::vector<LineSighting> track;
+TEST(TrackConsistency, ATrackOfOneLineHasNoWrongObservation) {
+  std::vector<LineMeasurement> track;
   for (int k = 0; k < 20; ++k) track.push_back(upright(0.3, k));
   const TrackConsistency judged = judge_line_track(camera(), track);
   EXPECT_TRUE(judged.judged);
@@ -30,7 +30,7 @@ TEST(TrackConsistency, ATrackOfOneLineHasNoWrongSighting) {
 }
 
 TEST(TrackConsistency, SightingsAfterAJumpToAnotherEdgeAreWrong) {
-  std::vector<LineSighting> track;
+  std::vector<LineMeasurement> track;
   for (int k = 0; k < 20; ++k) track.push_back(upright(k < 13 ? 0.3 : 1.1, k));
   const TrackConsistency judged = judge_line_track(camera(), track);
   EXPECT_TRUE(judged.judged);
@@ -40,13 +40,13 @@ TEST(TrackConsistency, SightingsAfterAJumpToAnotherEdgeAreWrong) {
 }
 
 TEST(TrackConsistency, ACameraThatDoesNotMoveTellsNothing) {
-  std::vector<LineSighting> track(5, upright(0.3, 0));
+  std::vector<LineMeasurement> track(5, upright(0.3, 0));
   const TrackConsistency judged = judge_line_track(camera(), track);
   EXPECT_FALSE(judged.judged);
   EXPECT_EQ(judged.wrong(), 0);
 }
 
-TEST(TrackConsistency, TwoSightingsAlwaysAgree) {
+TEST(TrackConsistency, TwoObservationsAlwaysAgree) {
   EXPECT_FALSE(judge_line_track(camera(), {upright(0.3, 0), upright(0.9, 1)}).judged);
 }
 

@@ -21,10 +21,10 @@ MarkerScene lamps() {
 }
 const SE3 kPose = looking_at_origin(1.8, 0.4, 0.3, 0.9);
 
-std::vector<BeaconSighting> exact_spots(const MarkerScene& scene, const SE3& T_world_cam) {
-  std::vector<BeaconSighting> spots;
+std::vector<BeaconObservation> exact_spots(const MarkerScene& scene, const SE3& T_world_cam) {
+  std::vector<BeaconObservation> spots;
   for (const Eigen::Vector3d& beacon : scene.layout.beacons_world) {
-    BeaconSighting spot;
+    BeaconObservation spot;
     spot.px = *scene.camera.project(T_world_cam.inverse() * beacon);
     spot.covariance *= 0.1 * 0.1;
     spots.push_back(spot);
@@ -38,9 +38,9 @@ TEST(BeaconDetector, FindsSpotsThatBloomBelowATenthOfAPixel) {
   const auto spots = detect_beacons(scene.render(kPose, random));
   ASSERT_EQ(spots.size(), 5u);
   double squared = 0;
-  for (const BeaconSighting& spot : spots) {
+  for (const BeaconObservation& spot : spots) {
     double nearest = 1e9;
-    for (const BeaconSighting& exact : exact_spots(scene, kPose))
+    for (const BeaconObservation& exact : exact_spots(scene, kPose))
       nearest = std::min(nearest, (exact.px - spot.px).norm());
     EXPECT_LT(nearest, 0.15);
     EXPECT_LT(nearest * nearest, 16 * spot.covariance.trace());
@@ -63,11 +63,11 @@ TEST(BeaconDetector, LeavesOutWhatIsNoSpot) {
   EXPECT_THROW((void)detect_beacons(Image()), ArgumentError);
 }
 
-TEST(BeaconPose, FindsThePoseFromSpotsThatAllLookAlike) {
+TEST(BeaconPose, FindsThePoseFromSpotsThatAllLookTheSame) {
   Random random = seeded_random(2);
   const MarkerScene scene = lamps();
   auto spots = detect_beacons(scene.render(kPose, random));
-  BeaconSighting other;  // something else that shines
+  BeaconObservation other;  // something else that shines
   other.px = {50, 60};
   other.covariance *= 0.01;
   spots.push_back(other);

@@ -34,15 +34,15 @@ MarkerView view_from(const MarkerLayout& layout, const SE3& T_world_cam, int cou
   view.stamp_ns = 1'000'000'000;
   for (int i = 0; i < count; ++i) {
     const PlacedMarker& placed = layout.markers[i];
-    MarkerSighting sighting;
-    sighting.id = placed.id;
+    MarkerObservation observation;
+    observation.id = placed.id;
     for (int k = 0; k < 4; ++k)
-      sighting.corners_px[k] =
+      observation.corners_px[k] =
           *kCamera.project(T_world_cam.inverse() * placed.T_world_marker *
                            placed.corners_marker()[k]) +
           Eigen::Vector2d(random.normal(0, kSigma_px), random.normal(0, kSigma_px));
-    sighting.covariance *= kSigma_px * kSigma_px;
-    view.markers.push_back(sighting);
+    observation.covariance *= kSigma_px * kSigma_px;
+    view.markers.push_back(observation);
   }
   return view;
 }
@@ -55,12 +55,12 @@ TEST(MarkerFilter, KnowsThePoseWhereTheMarkerIsNear) {
   Random random = seeded_random(1);
   const MarkerLayout layout = layout_of(1);
   const SE3 T_world_cam = looking_at_origin(0.6, 0.5, 0.2, 0.4);
-  const MarkerAnswer answer = filter_for(layout).observe(view_from(layout, T_world_cam, 1, random));
+  const MarkerPoseEstimate answer = filter_for(layout).observe(view_from(layout, T_world_cam, 1, random));
   ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
   const SE3 truth = T_world_cam * kBodyCam.inverse();
-  const Vector6d error = (answer.sighting.T_world_body.inverse() * truth).log();
+  const Vector6d error = (answer.observation.T_world_body.inverse() * truth).log();
   // 99.99 % of a chi-squared variable with six degrees of freedom.
-  EXPECT_LT(error.dot(answer.sighting.covariance.ldlt().solve(error)), 27.9);
+  EXPECT_LT(error.dot(answer.observation.covariance.ldlt().solve(error)), 27.9);
   EXPECT_EQ(answer.markers, 1);
   EXPECT_EQ(answer.hypotheses.size(), 1u);
 }
@@ -71,7 +71,7 @@ const SE3 kFar = looking_at_origin(4, 0.35, 0.2, 0.4);
 TEST(MarkerFilter, SaysNothingWhileTwoPosesArePossible) {
   Random random = seeded_random(2);
   const MarkerLayout layout = layout_of(1);
-  const MarkerAnswer answer = filter_for(layout).observe(view_from(layout, kFar, 1, random));
+  const MarkerPoseEstimate answer = filter_for(layout).observe(view_from(layout, kFar, 1, random));
   EXPECT_EQ(answer.outcome.code, Code::kInconsistent);
   EXPECT_EQ(answer.hypotheses.size(), 2u);
 }
@@ -81,29 +81,29 @@ TEST(MarkerFilter, DecidesByTheTurnBetweenViews) {
   const MarkerLayout layout = layout_of(1);
   MarkerFilter filter = filter_for(layout);
   SE3 before;
-  MarkerAnswer answer;
+  MarkerPoseEstimate answer;
   int views = 0;
   for (; views < 40 && !answer.outcome; ++views) {
     const SE3 T_world_cam = looking_at_origin(4, 0.35 + 0.03 * views, 0.2, 0.4);
     MarkerView view = view_from(layout, T_world_cam, 1, random);
     view.stamp_ns += 50'000'000LL * views;
     const SE3 T_world_body = T_world_cam * kBodyCam.inverse();
-    if (views > 0) view.turn_body = before.rotation().inverse() * T_world_body.rotation();
+    if (views > 0) view.rotation_body = before.rotation().inverse() * T_world_body.rotation();
     before = T_world_body;
     answer = filter.observe(view);
   }
   ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
   EXPECT_GT(views, 1);
-  EXPECT_LT(angle_rad(answer.sighting.T_world_body, before), 0.2);
+  EXPECT_LT(angle_rad(answer.observation.T_world_body, before), 0.2);
 }
 
 TEST(MarkerFilter, DecidesByAllMarkersInView) {
   Random random = seeded_random(4);
   const MarkerLayout layout = layout_of(3);
-  const MarkerAnswer answer = filter_for(layout).observe(view_from(layout, kFar, 3, random));
+  const MarkerPoseEstimate answer = filter_for(layout).observe(view_from(layout, kFar, 3, random));
   ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
   EXPECT_EQ(answer.markers, 3);
-  EXPECT_LT(angle_rad(answer.sighting.T_world_body, kFar * kBodyCam.inverse()), 0.03);
+  EXPECT_LT(angle_rad(answer.observation.T_world_body, kFar * kBodyCam.inverse()), 0.03);
 }
 
 TEST(MarkerFilter, LeavesOutAMarkerThatWasMoved) {
@@ -112,10 +112,10 @@ TEST(MarkerFilter, LeavesOutAMarkerThatWasMoved) {
   MarkerLayout moved = layout;
   moved.markers[2].T_world_marker = moved.markers[2].T_world_marker * SE3(SO3(), {0.1, 0, 0});
   const SE3 T = looking_at_origin(2, 0.3, 0.2, 0.4);
-  const MarkerAnswer answer = filter_for(layout).observe(view_from(moved, T, 3, random));
+  const MarkerPoseEstimate answer = filter_for(layout).observe(view_from(moved, T, 3, random));
   ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
   EXPECT_EQ(answer.markers, 2);
-  EXPECT_LT(distance_m(answer.sighting.T_world_body, T * kBodyCam.inverse()), 0.02);
+  EXPECT_LT(distance_m(answer.observation.T_world_body, T * kBodyCam.inverse()), 0.02);
 }
 
 TEST(MarkerFilter, DecidesByWhatThePositionFilterExpects) {
@@ -129,9 +129,9 @@ TEST(MarkerFilter, DecidesByWhatThePositionFilterExpects) {
   filter.start(state);
   const MarkerView view = view_from(layout, kFar, 1, random);
   const BodyExpectation expected = filter.expectation(view.stamp_ns);
-  const MarkerAnswer answer = filter_for(layout).observe(view, &expected);
+  const MarkerPoseEstimate answer = filter_for(layout).observe(view, &expected);
   ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
-  EXPECT_LT(angle_rad(answer.sighting.T_world_body, kFar * kBodyCam.inverse()), 0.1);
+  EXPECT_LT(angle_rad(answer.observation.T_world_body, kFar * kBodyCam.inverse()), 0.1);
 }
 
 TEST(MarkerFilter, DecidesSoonerWhereUpIsKnown) {
@@ -139,14 +139,14 @@ TEST(MarkerFilter, DecidesSoonerWhereUpIsKnown) {
   const MarkerLayout layout = layout_of(1);
   MarkerView view = view_from(layout, kFar, 1, random);
   MarkerFilter blind = filter_for(layout), upright = filter_for(layout);
-  const MarkerAnswer without = blind.observe(view);
+  const MarkerPoseEstimate without = blind.observe(view);
   view.force_body = (kFar * kBodyCam.inverse()).rotation().inverse() * Eigen::Vector3d(0, 0, 9.8);
-  const MarkerAnswer with = upright.observe(view);
+  const MarkerPoseEstimate with = upright.observe(view);
   ASSERT_EQ(without.hypotheses.size(), 2u);
   const SE3 truth = kFar * kBodyCam.inverse();
   EXPECT_LT(angle_rad(with.hypotheses[0].T_world_body, truth), 0.3);
   if (with.hypotheses.size() == 2) {
-    EXPECT_LT(with.hypotheses[1].nats, -5);
+    EXPECT_LT(with.hypotheses[1].log_likelihood_sum, -5);
   }
 }
 
@@ -161,10 +161,10 @@ TEST(MarkerFilter, BeginsByBeaconsWhereThereIsNoMarker) {
   view.stamp_ns = 1;
   view.beacons = detect_beacons(scene.render(T, random));
   MarkerFilter filter({}, scene.layout, kCamera, kBodyCam);
-  const MarkerAnswer answer = filter.observe(view);
+  const MarkerPoseEstimate answer = filter.observe(view);
   ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
   EXPECT_EQ(answer.beacons, 5);
-  EXPECT_LT(distance_m(answer.sighting.T_world_body, T * kBodyCam.inverse()), 0.01);
+  EXPECT_LT(distance_m(answer.observation.T_world_body, T * kBodyCam.inverse()), 0.01);
   // Three are enough where a filter expects the camera there.
   PositionFilter other({}, kBodyCam);
   BodyState state;
@@ -175,7 +175,7 @@ TEST(MarkerFilter, BeginsByBeaconsWhereThereIsNoMarker) {
   view.stamp_ns = 2;
   EXPECT_EQ(filter.observe(view).outcome.code, Code::kTooFewData);
   const BodyExpectation expected = other.expectation(view.stamp_ns);
-  const MarkerAnswer helped = filter.observe(view, &expected);
+  const MarkerPoseEstimate helped = filter.observe(view, &expected);
   ASSERT_TRUE(helped.outcome) << helped.outcome.reason;
   EXPECT_EQ(helped.beacons, 3);
 }
@@ -192,7 +192,7 @@ TEST(MarkerFilter, SaysWhatItDoesNotKnow) {
   EXPECT_EQ(filter.observe(view).outcome.code, Code::kTooFewData);
   EXPECT_THROW(filter_for(MarkerLayout()), ArgumentError);
   MarkerFilterOptions options;
-  options.decided_nats = 0;
+  options.decided_log_ratio = 0;
   EXPECT_THROW(MarkerFilter(options, layout, kCamera, kBodyCam), ArgumentError);
 }
 

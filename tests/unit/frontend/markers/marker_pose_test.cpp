@@ -16,23 +16,23 @@ const Camera kCamera = MarkerScene::usual_camera();
 constexpr double kSide_m = 0.2;
 
 /// What an exact detector with deviation `sigma_px` would say; noise by `random` if given.
-MarkerSighting sighting_from(const SE3& T_cam_marker, double sigma_px, Random* random = nullptr) {
-  MarkerSighting sighting;
+MarkerObservation observation_from(const SE3& T_cam_marker, double sigma_px, Random* random = nullptr) {
+  MarkerObservation observation;
   PlacedMarker marker;
   marker.side_m = kSide_m;
   for (int k = 0; k < 4; ++k) {
-    sighting.corners_px[k] = *kCamera.project(T_cam_marker * marker.corners_marker()[k]);
+    observation.corners_px[k] = *kCamera.project(T_cam_marker * marker.corners_marker()[k]);
     if (random)
-      sighting.corners_px[k] +=
+      observation.corners_px[k] +=
           Eigen::Vector2d(random->normal(0, sigma_px), random->normal(0, sigma_px));
   }
-  sighting.covariance *= sigma_px * sigma_px;
-  return sighting;
+  observation.covariance *= sigma_px * sigma_px;
+  return observation;
 }
 
 TEST(MarkerPose, IsExactWithoutNoiseAndKeepsTheMirroredPose) {
   const SE3 truth = looking_at_origin(1.2, 0.6, 0.4, 0.2).inverse();
-  const MarkerPoses found = estimate_marker_poses(sighting_from(truth, 0.05), kSide_m, kCamera);
+  const MarkerPoses found = estimate_marker_poses(observation_from(truth, 0.05), kSide_m, kCamera);
   ASSERT_TRUE(found.outcome) << found.outcome.reason;
   ASSERT_EQ(found.poses.size(), 2u);
   EXPECT_LT(distance_m(found.poses[0].T_cam_marker, truth), 1e-6);
@@ -49,7 +49,7 @@ TEST(MarkerPose, CovarianceIsThatOfManyTrials) {
   double sum = 0;
   constexpr int kTrials = 200;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const auto found = estimate_marker_poses(sighting_from(truth, 0.1, &random), kSide_m, kCamera);
+    const auto found = estimate_marker_poses(observation_from(truth, 0.1, &random), kSide_m, kCamera);
     ASSERT_TRUE(found.outcome);
     const Vector6d error = (found.poses[0].T_cam_marker.inverse() * truth).log();
     sum += error.dot(found.poses[0].covariance.ldlt().solve(error)) / 6;
@@ -59,17 +59,17 @@ TEST(MarkerPose, CovarianceIsThatOfManyTrials) {
 }
 
 TEST(MarkerPose, RefusesCornersThatAreNoFace) {
-  MarkerSighting sighting = sighting_from(looking_at_origin(1, 0.3, 0, 0).inverse(), 0.1);
-  MarkerSighting behind = sighting;
+  MarkerObservation observation = observation_from(looking_at_origin(1, 0.3, 0, 0).inverse(), 0.1);
+  MarkerObservation behind = observation;
   std::swap(behind.corners_px[1], behind.corners_px[3]);  // seen from its back
   EXPECT_EQ(estimate_marker_poses(behind, kSide_m, kCamera).outcome.code, Code::kDegenerate);
-  MarkerSighting line = sighting;
+  MarkerObservation line = observation;
   for (int k = 0; k < 4; ++k) line.corners_px[k] = Eigen::Vector2d(100 + 10 * k, 100);
   EXPECT_EQ(estimate_marker_poses(line, kSide_m, kCamera).outcome.code, Code::kDegenerate);
-  MarkerSighting unknown = sighting;
+  MarkerObservation unknown = observation;
   unknown.covariance.setZero();
   EXPECT_EQ(estimate_marker_poses(unknown, kSide_m, kCamera).outcome.code, Code::kDegenerate);
-  EXPECT_THROW((void)estimate_marker_poses(sighting, 0, kCamera), ArgumentError);
+  EXPECT_THROW((void)estimate_marker_poses(observation, 0, kCamera), ArgumentError);
 }
 
 }  // namespace

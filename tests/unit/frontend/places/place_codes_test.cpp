@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
-#include <placegraph/frontend/internal/places/code_memory.h>
+#include <placegraph/frontend/internal/places/code_database.h>
 #include <placegraph/frontend/internal/places/dense_index.h>
 #include <placegraph/frontend/internal/places/float_vocabulary.h>
-#include <placegraph/frontend/internal/places/word_index.h>
+#include <placegraph/frontend/internal/places/inverted_index.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/random.h>
 
@@ -103,20 +103,20 @@ TEST(Landmarks, GroupKeyPointsThatStandTogether) {
   EXPECT_THROW((void)group_positions(positions, 0), ArgumentError);
 }
 
-TEST(Landmarks, AreAlikeWhereTheyStandNearEnough) {
+TEST(Landmarks, AreSimilarWhereTheyStandNearEnough) {
   const auto landmark = [](int word, int features, float x) {
     return ImageLandmark{Eigen::VectorXf::Unit(4, word), Eigen::Vector2f(x, 0), features};
   };
   const std::vector<ImageLandmark> query = {landmark(0, 9, 0), landmark(1, 4, 0)};
-  EXPECT_DOUBLE_EQ(landmark_likeness(query, {landmark(1, 3, 0.2f), landmark(0, 3, 0)}, 0.25), 1);
-  EXPECT_DOUBLE_EQ(landmark_likeness(query, {landmark(0, 3, 0), landmark(1, 3, 0.3f)}, 0.25),
+  EXPECT_DOUBLE_EQ(landmark_similarity(query, {landmark(1, 3, 0.2f), landmark(0, 3, 0)}, 0.25), 1);
+  EXPECT_DOUBLE_EQ(landmark_similarity(query, {landmark(0, 3, 0), landmark(1, 3, 0.3f)}, 0.25),
                    3.0 / 5);
-  EXPECT_DOUBLE_EQ(landmark_likeness(query, {}, 1), 0);
-  EXPECT_DOUBLE_EQ(landmark_likeness({}, query, 1), 0);
+  EXPECT_DOUBLE_EQ(landmark_similarity(query, {}, 1), 0);
+  EXPECT_DOUBLE_EQ(landmark_similarity({}, query, 1), 0);
 }
 
-TEST(WordIndex, WeighsWordsByHowFewViewsHaveThem) {
-  WordIndex index({1, 1, 3});
+TEST(InvertedIndex, WeighsWordsByHowFewViewsHaveThem) {
+  InvertedIndex index({1, 1, 3});
   EXPECT_EQ(index.add({0, 0, 1}), 0);
   EXPECT_EQ(index.add({2}), 1);
   // Of {0, 2}: weights 1/4 and 3/4; view 0 has word 0 at 2/3, view 1 word 2 at 1.
@@ -128,19 +128,19 @@ TEST(WordIndex, WeighsWordsByHowFewViewsHaveThem) {
   EXPECT_EQ(index.query({2, 0}, 1, 0, 0).front().view, 0);
   EXPECT_TRUE(index.query({}, 9, 0, 9).empty());
   EXPECT_THROW(index.add({3}), ArgumentError);
-  EXPECT_THROW(WordIndex({}), ArgumentError);
+  EXPECT_THROW(InvertedIndex({}), ArgumentError);
 }
 
-TEST(WordIndex, LearnsTheWeightsFromTheViewsItSaw) {
-  WordIndex index({1, 1, 1, 1});
+TEST(InvertedIndex, LearnsTheWeightsFromTheViewsItSaw) {
+  InvertedIndex index({1, 1, 1, 1});
   for (std::uint32_t view = 0; view < 20; ++view) index.add({0, 1 + view % 3});
   // Word 0 is in all views and tells nothing: log(21/21) = 0.
   EXPECT_TRUE(index.query({0}, 9, 0, 19).empty());
   const auto list = index.query({0, 2}, 20, 0, 19);
   ASSERT_EQ(list.size(), 7u);
-  for (const PlaceLikeness& likeness : list) {
-    EXPECT_EQ(likeness.view % 3, 1);
-    EXPECT_NEAR(likeness.score, 1, 1e-6);
+  for (const PlaceSimilarity& similarity : list) {
+    EXPECT_EQ(similarity.view % 3, 1);
+    EXPECT_NEAR(similarity.score, 1, 1e-6);
   }
 }
 
@@ -162,10 +162,10 @@ TEST(DenseIndex, FindsInTheGraphWhatLookingAtAllFinds) {
     const auto all = exact.query(row(i), 10, 50, 349);
     const auto followed = graph.query(row(i), 10, 50, 349);
     ASSERT_EQ(all.size(), 10u);
-    for (const PlaceLikeness& likeness : followed) {
-      EXPECT_TRUE(likeness.view >= 50 && likeness.view < 350);
+    for (const PlaceSimilarity& similarity : followed) {
+      EXPECT_TRUE(similarity.view >= 50 && similarity.view < 350);
       same += std::any_of(all.begin(), all.end(),
-                          [&](const auto& other) { return other.view == likeness.view; });
+                          [&](const auto& other) { return other.view == similarity.view; });
     }
     EXPECT_NEAR(graph.query(row(i), 1, 0, kViews).front().score, 1, 1e-5);
   }
@@ -174,7 +174,7 @@ TEST(DenseIndex, FindsInTheGraphWhatLookingAtAllFinds) {
   EXPECT_THROW(exact.add(std::span<const float>(vectors.data(), 3)), ArgumentError);
 }
 
-TEST(FloatVocabulary, SendsAlikeDescriptorsToOneWord) {
+TEST(FloatVocabulary, SendsSimilarDescriptorsToOneWord) {
   Random random(5);
   const FloatDescriptors centres = 5 * random_rows(9, 6, random);
   FloatDescriptors descriptors(90, 6);
@@ -229,11 +229,11 @@ WordTree words_of(bool binary) {
       .tree();
 }
 
-TEST(CodeMemory, FindsThePlaceSeenFromBesideByEveryCode) {
+TEST(CodeDatabase, FindsThePlaceSeenFromBesideByEveryCode) {
   const WordTree binary = words_of(true), real = words_of(false);
   for (const PlaceCode code :
        {PlaceCode::kBow, PlaceCode::kBowFloat, PlaceCode::kLlc, PlaceCode::kLandmarks}) {
-    const auto memory = make_code_memory(code, small(), code == PlaceCode::kBow ? binary : real, 1);
+    const auto memory = make_code_database(code, small(), code == PlaceCode::kBow ? binary : real, 1);
     for (int place = 0; place < 3; ++place)
       EXPECT_TRUE(memory->look_up_and_add(picture(place), {}).empty());
     const auto list = memory->look_up_and_add(picture(1, 6), ViewRange{0, 2});
@@ -243,21 +243,21 @@ TEST(CodeMemory, FindsThePlaceSeenFromBesideByEveryCode) {
   }
 }
 
-TEST(CodeMemory, AnswersNothingForABlankImage) {
+TEST(CodeDatabase, AnswersNothingForABlankImage) {
   const WordTree real = words_of(false);
   const Image blank(120, 160, CV_8UC1, cv::Scalar(90));
   for (const PlaceCode code : {PlaceCode::kBowFloat, PlaceCode::kLandmarks}) {
-    const auto memory = make_code_memory(code, small(), real, 1);
+    const auto memory = make_code_database(code, small(), real, 1);
     memory->look_up_and_add(blank, {});
-    for (const PlaceLikeness& likeness : memory->look_up_and_add(blank, ViewRange{0, 0}))
-      EXPECT_EQ(likeness.score, 0);
+    for (const PlaceSimilarity& similarity : memory->look_up_and_add(blank, ViewRange{0, 0}))
+      EXPECT_EQ(similarity.score, 0);
   }
 }
 
-TEST(CodeMemory, RefusesAVocabularyOfAnotherKind) {
-  EXPECT_THROW((void)make_code_memory(PlaceCode::kLlc, small(), {}, 1), ArgumentError);
-  EXPECT_THROW((void)make_code_memory(PlaceCode::kLlc, small(), words_of(true), 1), ArgumentError);
-  EXPECT_THROW((void)make_code_memory(PlaceCode::kBow, small(), words_of(false), 1), ArgumentError);
+TEST(CodeDatabase, RefusesAVocabularyOfAnotherKind) {
+  EXPECT_THROW((void)make_code_database(PlaceCode::kLlc, small(), {}, 1), ArgumentError);
+  EXPECT_THROW((void)make_code_database(PlaceCode::kLlc, small(), words_of(true), 1), ArgumentError);
+  EXPECT_THROW((void)make_code_database(PlaceCode::kBow, small(), words_of(false), 1), ArgumentError);
 }
 
 }  // namespace

@@ -144,9 +144,9 @@ TEST(CornerAgreement, CountsTheCornersOfOneSimilarity) {
   const std::vector<Feature> corners = corners_of_view(image, options);
   ASSERT_GT(corners.size(), 100u);
   const cv::Mat motion = cv::getRotationMatrix2D({160, 120}, 8, 1.1);
-  Image turned;
-  cv::warpAffine(image, turned, motion, image.size());
-  const int same = corner_agreement(corners_of_view(turned, options), corners, options);
+  Image rotated;
+  cv::warpAffine(image, rotated, motion, image.size());
+  const int same = corner_agreement(corners_of_view(rotated, options), corners, options);
   const int other =
       corner_agreement(corners_of_view(random_image(320, 240, 1, 5), options), corners, options);
   EXPECT_GT(same, 40);

@@ -97,8 +97,8 @@ TEST(PlaceRecognizer, RefusesWhatIsNoImage) {
 }
 
 /// The list of a query at `place` of `views`, with a second view that looks better still.
-std::vector<PlaceLikeness> seen(int place, int views, int impostor = -1) {
-  std::vector<PlaceLikeness> list;
+std::vector<PlaceSimilarity> seen(int place, int views, int impostor = -1) {
+  std::vector<PlaceSimilarity> list;
   for (int view = 0; view < views; ++view)
     list.push_back({view, view == place ? 2.0 : view == impostor ? 2.3 : 1.0});
   return list;

@@ -78,7 +78,7 @@ TEST(Vocabulary, IsTheSameForTheSameSeed) {
   for (const BinaryDescriptor& d : sample) EXPECT_EQ(a.word(d), b.word(d));
 }
 
-TEST(Vocabulary, HasOneWordWhereAllIsAlikeAndNoneWithoutTraining) {
+TEST(Vocabulary, HasOneWordWhereAllIsEqualAndNoneWithoutTraining) {
   Random random = seeded_random(83);
   const BinaryDescriptor d = random_descriptor(random);
   const Vocabulary vocabulary = Vocabulary::train({50, d}, {4, 3, 3}, random);

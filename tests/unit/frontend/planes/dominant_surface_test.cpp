@@ -48,7 +48,7 @@ TEST(DominantSurface, IsFoundFromAMountingThatIsDegreesAndDecimetresOff) {
   Random random = seeded_random(81);
   const Plane truth = tilted(0.06, -0.02);
   DominantSurface surface({}, kCamera, {Eigen::Vector3d::UnitY(), 1.4});
-  SurfaceLook look;
+  SurfaceAppearance look;
   for (int i = 0; i < 3; ++i) look = surface.look(sensor(truth, random), SE3(), {}, random);
   ASSERT_TRUE(look.outcome) << look.outcome.reason;
   EXPECT_EQ(look.region, SurfaceRegion::kAhead);
@@ -68,7 +68,7 @@ TEST(DominantSurface, TellsVehiclesFromTheRoad) {
     return std::nullopt;
   };
   DominantSurface surface({}, kCamera, tilted(0));
-  const SurfaceLook look = surface.look(sensor(truth, random, lorry), SE3(), {}, random);
+  const SurfaceAppearance look = surface.look(sensor(truth, random, lorry), SE3(), {}, random);
   ASSERT_TRUE(look.outcome) << look.outcome.reason;
   EXPECT_LT(angle_deg(look.plane_cam, truth), 0.5);
   ASSERT_FALSE(look.off_px.empty());
@@ -89,7 +89,7 @@ TEST(DominantSurface, IsLookedAtElsewhereWhereTheRoadAheadIsHidden) {
   Image mask(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(255));
   mask.colRange(kCamera.width / 2 + 60, kCamera.width).setTo(0);
   DominantSurface surface({}, kCamera, truth);
-  const SurfaceLook look = surface.look(sensor(truth, random, car), SE3(), mask, random);
+  const SurfaceAppearance look = surface.look(sensor(truth, random, car), SE3(), mask, random);
   ASSERT_TRUE(look.outcome) << look.outcome.reason;
   EXPECT_EQ(look.region, SurfaceRegion::kLeft) << to_string(look.region);
   EXPECT_LT(angle_deg(look.plane_cam, truth), 0.5);
@@ -102,10 +102,10 @@ TEST(DominantSurface, FollowsASlopeFromTheSecondLookOn) {
   for (int i = 0; i < 10; ++i)
     ASSERT_TRUE(surface.look(sensor(tilted(0), random), SE3(), {}, random).outcome);
   const Plane slope = tilted(0.05);
-  const SurfaceLook first = surface.look(sensor(slope, random), SE3(), {}, random);
+  const SurfaceAppearance first = surface.look(sensor(slope, random), SE3(), {}, random);
   EXPECT_EQ(first.outcome.code, Code::kInconsistent);
   EXPECT_LT(angle_deg(first.plane_cam, tilted(0)), 0.5);  // not believed yet
-  SurfaceLook look;
+  SurfaceAppearance look;
   for (int i = 0; i < 2; ++i) look = surface.look(sensor(slope, random), SE3(), {}, random);
   ASSERT_TRUE(look.outcome) << look.outcome.reason;
   EXPECT_LT(angle_deg(look.plane_cam, slope), 0.5);
@@ -121,7 +121,7 @@ TEST(DominantSurface, IsCarriedAlongByTheMotion) {
   const auto blind = [](const std::vector<Eigen::Vector2f>& px, const std::vector<double>&) {
     return std::vector<std::optional<InverseDepth>>(px.size());
   };
-  const SurfaceLook look = surface.look(blind, T_cur_last, {}, random);
+  const SurfaceAppearance look = surface.look(blind, T_cur_last, {}, random);
   EXPECT_EQ(look.outcome.code, Code::kTooFewData);
   EXPECT_LT(angle_deg(look.plane_cam, expected), 1e-6);
   EXPECT_NEAR(look.plane_cam.distance_m, expected.distance_m, 1e-9);

@@ -88,9 +88,9 @@ TEST(HomographyThrough, RefusesThreeInALineAndTurnedTriangles) {
   const PointMatches line{{{0, 0}, {10, 10}, {20, 20}, {0, 30}},
                           {{0, 0}, {10, 10}, {20, 20}, {0, 30}}};
   EXPECT_FALSE(homography_through(line, {0, 1, 2, 3}));
-  const PointMatches turned{{{0, 0}, {10, 0}, {10, 10}, {0, 10}},
+  const PointMatches rotated{{{0, 0}, {10, 0}, {10, 10}, {0, 10}},
                             {{0, 0}, {-10, 0}, {-10, 10}, {0, 10}}};
-  EXPECT_FALSE(homography_through(turned, {0, 1, 2, 3}));
+  EXPECT_FALSE(homography_through(rotated, {0, 1, 2, 3}));
   const PointMatches once{{{0, 0}, {0, 0}, {10, 10}, {0, 10}}, {{0, 0}, {0, 0}, {10, 10}, {0, 10}}};
   EXPECT_FALSE(homography_through(once, {0, 1, 2, 3}));
 }

@@ -106,9 +106,9 @@ TEST(RelativePoseOfTwoViews, SaysWhyThereIsNone) {
   scene = make_scene(kCamera, {SE3(), kTruth}, 100, random);
   RelativePoseOptions options;
   options.model = Model::kRotation;
-  const auto turned = estimate_relative_pose(kCamera, scene.px[0], scene.px[1], options, random);
-  EXPECT_FALSE(turned.outcome);
-  EXPECT_FALSE(turned.R_ref_cur);
+  const auto rotated = estimate_relative_pose(kCamera, scene.px[0], scene.px[1], options, random);
+  EXPECT_FALSE(rotated.outcome);
+  EXPECT_FALSE(rotated.R_ref_cur);
   for (auto& px : scene.px[1])
     px = {random.uniform(0, kCamera.width), random.uniform(0, kCamera.height)};
   EXPECT_EQ(estimate_relative_pose(kCamera, scene.px[0], scene.px[1], {}, random).outcome.code,

@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 using Code = Outcome::Code;
 const Camera kCamera = pinhole(640, 480, 500);
-const SE3 kTurn = pose({0.05, -0.2, 0.03}, {0, 0, 0});  // T_ref_cur
+const SE3 kRotation = pose({0.05, -0.2, 0.03}, {0, 0, 0});  // T_ref_cur
 
 double error_rad(const SO3& R, const SE3& truth) {
   return (R.inverse() * truth.rotation()).log().norm();
@@ -19,10 +19,10 @@ double error_rad(const SO3& R, const SE3& truth) {
 
 TEST(Rotation2d2d, IsExactWhereTheViewsShareTheirCentre) {
   Random random = seeded_random(51);
-  const PointScene scene = make_scene(kCamera, {SE3(), kTurn}, 80, random);
+  const PointScene scene = make_scene(kCamera, {SE3(), kRotation}, 80, random);
   const auto result = estimate_rotation_2d2d(kCamera, scene.px[0], scene.px[1], {}, random);
   ASSERT_TRUE(result.outcome) << result.outcome.reason;
-  EXPECT_LT(error_rad(result.R_ref_cur, kTurn), 1e-9);
+  EXPECT_LT(error_rad(result.R_ref_cur, kRotation), 1e-9);
   EXPECT_EQ(result.inliers.size(), 80u);
   EXPECT_LT(result.rmse_px, 1e-6);
 }
@@ -32,12 +32,12 @@ TEST(Rotation2d2d, ErrsByNoMoreThanItSaysWithNoiseAndWrongMatches) {
   double nees = 0;
   constexpr int kTrials = 100;
   for (int trial = 0; trial < kTrials; ++trial) {
-    PointScene scene = make_scene(kCamera, {SE3(), kTurn}, 80, random);
+    PointScene scene = make_scene(kCamera, {SE3(), kRotation}, 80, random);
     add_noise(scene.px[1], 0.4, random);
     spoil(kCamera, scene.px[1], 0, 10, random);
     const auto result = estimate_rotation_2d2d(kCamera, scene.px[0], scene.px[1], {}, random);
     ASSERT_TRUE(result.outcome) << result.outcome.reason;
-    const Eigen::Vector3d e = (result.R_ref_cur.inverse() * kTurn.rotation()).log();
+    const Eigen::Vector3d e = (result.R_ref_cur.inverse() * kRotation.rotation()).log();
     nees += e.dot(result.covariance.ldlt().solve(e)) / (3 * kTrials);
   }
   EXPECT_LT(nees, 1.5);
@@ -47,7 +47,7 @@ TEST(Rotation2d2d, ErrsByNoMoreThanItSaysWithNoiseAndWrongMatches) {
 TEST(Rotation2d2d, RefusesViewsBetweenWhichWayWasMade) {
   Random random = seeded_random(53);
   const PointScene scene =
-      make_scene(kCamera, {SE3(), kTurn * pose({0, 0, 0}, {0.4, 0, 0.1})}, 80, random);
+      make_scene(kCamera, {SE3(), kRotation * pose({0, 0, 0}, {0.4, 0, 0.1})}, 80, random);
   const auto result = estimate_rotation_2d2d(kCamera, scene.px[0], scene.px[1], {}, random);
   EXPECT_FALSE(result.outcome);
   Rotation2d2dOptions few;
@@ -64,7 +64,7 @@ TEST(Rotation2d2d, SaysNothingOfPointsThatLieInOneDirection) {
 
 TEST(Rotation2d2d, RefusesTooFewPointsAndListsOfUnequalLength) {
   Random random = seeded_random(54);
-  const PointScene scene = make_scene(kCamera, {SE3(), kTurn}, 10, random);
+  const PointScene scene = make_scene(kCamera, {SE3(), kRotation}, 10, random);
   EXPECT_EQ(estimate_rotation_2d2d(kCamera, scene.px[0], scene.px[1], {}, random).outcome.code,
             Code::kTooFewData);
   std::vector<Eigen::Vector2d> shorter = scene.px[1];

@@ -69,10 +69,10 @@ TEST(EdgeRefiner, CovarianceIsHonestUnderNoise) {
     const auto edge = EdgeRefiner(image, {}).refine({middle - 25 * along, middle + 25 * along});
     ASSERT_TRUE(edge);
     const Vector2d m = edge->line.normal().dot(n) > 0 ? edge->line.normal() : -edge->line.normal();
-    const double turn = std::atan2(n.x() * m.y() - n.y() * m.x(), n.dot(m));
+    const double rotation = std::atan2(n.x() * m.y() - n.y() * m.x(), n.dot(m));
     const double shift = n.dot(edge->line.anchor - middle);
     squared +=
-        turn * turn / edge->line.covariance(0, 0) + shift * shift / edge->line.covariance(1, 1);
+        rotation * rotation / edge->line.covariance(0, 0) + shift * shift / edge->line.covariance(1, 1);
   }
   const double per_degree_of_freedom = squared / (2 * kTrials);
   // Known to 4 %; some 1.5 as it is, deviations are 1.2 times too small.

@@ -13,8 +13,8 @@ TEST(ManhattanFrame, NearestOfTheTwentyFourFrames) {
   const SO3 like = SO3::exp({0.1, -0.2, 0.3});
   Eigen::Matrix3d P;  // x -> y, y -> -x
   P << 0, -1, 0, 1, 0, 0, 0, 0, 1;
-  const SO3 turned = like * SO3::from_matrix(P);
-  EXPECT_LT((nearest_axes(turned, like).inverse() * like).log().norm(), 1e-9);
+  const SO3 rotated = like * SO3::from_matrix(P);
+  EXPECT_LT((nearest_axes(rotated, like).inverse() * like).log().norm(), 1e-9);
   P << 0, 0, 1, 0, -1, 0, 1, 0, 0;
   EXPECT_LT((nearest_axes(like * SO3::from_matrix(P), like).inverse() * like).log().norm(), 1e-9);
 }

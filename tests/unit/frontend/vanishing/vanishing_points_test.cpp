@@ -43,12 +43,12 @@ TEST(VanishingEvidence, VarianceIsThatOfTheEndsAndOfTheScene) {
   noise.parallel_deg = 0.1;
   const Eigen::Vector3d far(1, 0, 0);  // at infinity to the right
   const VanishingEvidence evidence({{{100, 200}, {150, 200}}}, camera, noise);
-  const double turn = std::sqrt(2.0) * 0.5 / 50, parallel = deg_to_rad(0.1);
-  EXPECT_NEAR(evidence.error(0, far).variance, turn * turn + parallel * parallel, 1e-12);
+  const double rotation = std::sqrt(2.0) * 0.5 / 50, parallel = deg_to_rad(0.1);
+  EXPECT_NEAR(evidence.error(0, far).variance, rotation * rotation + parallel * parallel, 1e-12);
   // 175 px from the middle: the middle's own shift of 0.5 / sqrt(2) px is seen as an angle, too
   const Eigen::Vector3d near = camera.unproject({300, 200})->normalized();
   const double shift = 0.5 / std::sqrt(2.0) / 175;
-  EXPECT_NEAR(evidence.error(0, near).variance, turn * turn + parallel * parallel + shift * shift,
+  EXPECT_NEAR(evidence.error(0, near).variance, rotation * rotation + parallel * parallel + shift * shift,
               1e-10);
 }
 

@@ -92,7 +92,7 @@ TEST(ForeignCalibration, OfEightCoefficientsIsRational) {
   }
 }
 
-TEST(ForeignCalibration, OfTwoCamerasHasARightEyeIfAskedFor) {
+TEST(ForeignCalibration, OfTwoCamerasHasARightCameraIfAskedFor) {
   const TemporaryFolder folder;
   const std::string camera =
       "  camera_model: pinhole\n  distortion_coeffs: [-0.1, 0.0, 0.0, 0.0]\n"
@@ -145,12 +145,12 @@ const std::string kCam1 = "cam1:\n  camera_model: pinhole\n  intrinsics: [260, 2
 
 TEST(ForeignCalibration, TakesTheRotationOfOpenCVAsMatrixOrVector) {
   const TemporaryFolder folder;
-  const std::string eyes =
+  const std::string kitti_cameras =
       "K1: [262, 0, 159, 0, 263, 119, 0, 0, 1]\nD1: [-0.1, 0, 0, 0, 0]\n"
       "K2: [260, 0, 158, 0, 261, 118, 0, 0, 1]\nD2: [-0.2, 0, 0, 0, 0]\n";
   for (const char* R : {"R: [0, -1, 0, 1, 0, 0, 0, 0, 1]\n", "R: [0, 0, 1.5707963267948966]\n"}) {
     const auto read =
-        read_foreign_calibration(folder.write("c.yaml", eyes + R + "T: [-0.1, 0, 0]\n"), true);
+        read_foreign_calibration(folder.write("c.yaml", kitti_cameras + R + "T: [-0.1, 0, 0]\n"), true);
     ASSERT_TRUE(read && read->right);
     EXPECT_EQ(read->raw.camera.coefficients[0], -0.1);
     EXPECT_EQ(read->right->raw.camera.coefficients[0], -0.2);
@@ -160,7 +160,7 @@ TEST(ForeignCalibration, TakesTheRotationOfOpenCVAsMatrixOrVector) {
   }
 }
 
-TEST(ForeignCalibration, NamesWhatTheRightEyeLacks) {
+TEST(ForeignCalibration, NamesWhatTheRightCameraLacks) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::string& text) {
     const std::string path = folder.write("c.yaml", text);

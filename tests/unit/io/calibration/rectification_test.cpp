@@ -110,7 +110,7 @@ TEST(UndistortCamera, IsTheIdentityWithoutDistortion) {
   EXPECT_EQ(undistorted.remap.nearest(image).data, image.data);
 }
 
-TEST(RectifyStereo, PutsEveryPointOnTheSameRowOfBothEyesAtTheDisparityOfItsDepth) {
+TEST(RectifyStereo, PutsEveryPointOnTheSameRowOfBothCamerasAtTheDisparityOfItsDepth) {
   for (const bool fisheye : {false, true}) {
     const Camera left = fisheye ? equidistant() : radial_tangential();
     Camera right = left;
@@ -144,7 +144,7 @@ TEST(RectifyStereo, PutsEveryPointOnTheSameRowOfBothEyesAtTheDisparityOfItsDepth
   }
 }
 
-TEST(RectifyStereo, RefusesSwappedEyesStackedEyesAndUnlikeLenses) {
+TEST(RectifyStereo, RefusesSwappedCamerasStackedCamerasAndUnlikeLenses) {
   const Camera camera = radial_tangential();
   const SE3 right(SO3(), Eigen::Vector3d(0.1, 0, 0)), left(SO3(), Eigen::Vector3d(-0.1, 0, 0));
   const SE3 below(SO3(), Eigen::Vector3d(0, 0.1, 0));

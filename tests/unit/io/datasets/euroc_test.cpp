@@ -50,7 +50,7 @@ void write_sequence(const TemporaryFolder& folder) {
                "350,20,0,0,0.70710678118654757,0,0,0.70710678118654757,1,2,3\n");
 }
 
-TEST(Euroc, PairsTheEyesByStampAndRectifiesThem) {
+TEST(Euroc, PairsTheCamerasByStampAndRectifiesThem) {
   const TemporaryFolder folder;
   write_sequence(folder);
   for (const char* path : {"s", "s/mav0"}) {
@@ -113,7 +113,7 @@ TEST(Euroc, WithoutListsTakesTheStampsFromTheNames) {
               HasSubstr("cam0/data.csv: is missing; there are 3 images in frames/"));
 }
 
-TEST(Euroc, WithOneEyeIsUndistortedMono) {
+TEST(Euroc, WithMonocularIsUndistortedMono) {
   const TemporaryFolder folder;
   write_sequence(folder);
   std::filesystem::remove_all(folder / "s/mav0/cam1");

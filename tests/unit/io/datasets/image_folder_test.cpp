@@ -48,7 +48,7 @@ TEST(ImageFolder, OpensInNaturalOrderAtTheRateItNames) {
   EXPECT_TRUE(test::same_pixels(dataset->frame(2, Sensor::kMono).image, tiny_grey(8, 6, 10)));
 }
 
-TEST(ImageFolder, TakesRightEyesDepthTimesAndTruth) {
+TEST(ImageFolder, TakesRightCamerasDepthTimesAndTruth) {
   const TemporaryFolder folder;
   write_images(folder);
   write_images(folder, "s/right/");
@@ -215,7 +215,7 @@ TEST(ImageFolder, RectifiesAPairThatKalibrCalibrated) {
   EXPECT_THAT(message_of([&] { open_dataset(folder / "s"); }), HasSubstr("calibration.yaml"));
 }
 
-TEST(ImageFolder, TurnsTheTruthWithTheRectifiedEye) {
+TEST(ImageFolder, RotationsTheTruthWithTheRectifiedCamera) {
   const TemporaryFolder folder;
   // Eyes that are rolled against each other by 0.05 rad: truth turns with the left one.
   for (const char* eye : {"s/left/0.png", "s/right/0.png"})

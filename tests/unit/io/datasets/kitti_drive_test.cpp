@@ -27,8 +27,8 @@ class KittiDrive : public testing::Test {
                           std::to_string(number) + ".png",
                       tiny_grey(8, 6, number));
   }
-  void write_drive(int eyes) {
-    for (int eye = 0; eye < eyes; ++eye)
+  void write_drive(int kitti_cameras) {
+    for (int eye = 0; eye < kitti_cameras; ++eye)
       for (int number = 0; number < 4; ++number) write_image(eye, number);
     folder.write("day/calib_cam_to_cam.txt", kCalibration);
     folder.write("day/drive_sync/image_00/timestamps.txt",
@@ -39,7 +39,7 @@ class KittiDrive : public testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(KittiDrive, IsTwoGreyEyesWithTheirTimes) {
+TEST_F(KittiDrive, IsTwoGreyCamerasWithTheirTimes) {
   write_drive(2);
   const auto dataset = open();
   EXPECT_EQ(dataset->format(), "kitti_raw");
@@ -51,7 +51,7 @@ TEST_F(KittiDrive, IsTwoGreyEyesWithTheirTimes) {
   EXPECT_TRUE(test::same_pixels(dataset->frame(3, Sensor::kStereo).right, tiny_grey(8, 6, 3)));
 }
 
-TEST_F(KittiDrive, LeavesOutWhatOneEyeLacksAndKeepsTheTimes) {
+TEST_F(KittiDrive, LeavesOutWhatMonocularLacksAndKeepsTheTimes) {
   write_drive(2);
   fs::remove(folder / "day/drive_sync/image_01/data/0000000001.png");
   folder.write("day/drive_sync/poses.txt",

@@ -97,7 +97,7 @@ TEST(KittiOdometry, FindsTheTruthOfTheBenchmarksOwnLayout) {
   }
 }
 
-TEST(KittiOdometry, TakesTheColourEyesWhereTheGreyOnesAreAbsent) {
+TEST(KittiOdometry, TakesTheColourCamerasWhereTheGreyOnesAreAbsent) {
   const TemporaryFolder folder;
   // Camera 2 stands 0.06 m left of camera 0 (its P[3] = +0.6 = fx * 0.06), camera 3 0.54 m to its
   // right.

@@ -15,7 +15,7 @@ using test::message_of;
 using test::TemporaryFolder;
 using testing::HasSubstr;
 
-TEST(EulerAngles, TurnAboutTheFixedAxesXThenYThenZ) {
+TEST(EulerAngles, RotationAboutTheFixedAxesXThenYThenZ) {
   const double right_angle = std::numbers::pi / 2;
   // Roll takes y to z, then pitch z to x, then yaw x to y.
   const SO3 R = rotation_of_euler_angles(right_angle, right_angle, right_angle);

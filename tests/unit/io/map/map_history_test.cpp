@@ -33,19 +33,19 @@ StoredMap map_with_history() {
     keyframe.link->sigma_log_scale = random.uniform(0.1, 1);
     keyframe.link->scale = random.uniform(0.5, 2);
   }
-  for (PlaceHistory::Part& part : history.parts)
-    part.S_place_part =
-        Sim3(part.S_place_part.rotation(), part.S_place_part.translation(), random.uniform(0.5, 2));
+  for (PlaceHistory::Segment& segment : history.segments)
+    segment.S_place_segment =
+        Sim3(segment.S_place_segment.rotation(), segment.S_place_segment.translation(), random.uniform(0.5, 2));
   const KeyframeId last = stored.map.keyframes.back().id;
   history.loops.front().scale_match_query = 1.25;
   history.loops.push_back(
       {last, KeyframeId(1), test::random_pose(random), test::random_information<7>(random), 0.75});
-  history.motions.push_back({history.parts[2].anchor, history.parts[4].anchor,
+  history.motions.push_back({history.segments[2].anchor, history.segments[4].anchor,
                              test::random_pose(random), test::random_information<6>(random)});
-  history.merged.push_back({history.parts[3].anchor,
-                            {{history.parts[1].anchor, test::random_information<7>(random)},
-                             {history.parts[4].anchor, test::random_information<7>(random)}}});
-  history.parted.insert({history.parts[1].anchor, history.parts[2].anchor});
+  history.merged.push_back({history.segments[3].anchor,
+                            {{history.segments[1].anchor, test::random_information<7>(random)},
+                             {history.segments[4].anchor, test::random_information<7>(random)}}});
+  history.separated.insert({history.segments[1].anchor, history.segments[2].anchor});
   return stored;
 }
 
@@ -73,7 +73,7 @@ TEST_F(MapHistory, KeyframesComeBackWithTheirLinks) {
     const PlaceHistory::Keyframe &a = history.keyframes[i], &b = written.keyframes[i];
     SCOPED_TRACE(i);
     EXPECT_EQ(a.id, b.id);
-    EXPECT_EQ(a.part, b.part);
+    EXPECT_EQ(a.segment, b.segment);
     EXPECT_EQ(a.run, b.run);
     ASSERT_EQ(a.link.has_value(), b.link.has_value());
     if (!a.link) continue;
@@ -84,19 +84,19 @@ TEST_F(MapHistory, KeyframesComeBackWithTheirLinks) {
     EXPECT_EQ(a.link->sigma_log_scale, b.link->sigma_log_scale);
     EXPECT_EQ(a.link->scale, b.link->scale);
   }
-  EXPECT_EQ(history.unit_measured, written.unit_measured);
+  EXPECT_EQ(history.scale_measured, written.scale_measured);
 }
 
 TEST_F(MapHistory, PartsAndPlacesComeBack) {
   const PlaceHistory history = read();
-  ASSERT_EQ(history.parts.size(), written.parts.size());
-  for (std::size_t i = 0; i < history.parts.size(); ++i) {
+  ASSERT_EQ(history.segments.size(), written.segments.size());
+  for (std::size_t i = 0; i < history.segments.size(); ++i) {
     SCOPED_TRACE(i);
-    EXPECT_EQ(history.parts[i].anchor, written.parts[i].anchor);
-    EXPECT_EQ(history.parts[i].place, written.parts[i].place);
-    expect_similarity(history.parts[i].S_place_part, written.parts[i].S_place_part);
-    EXPECT_EQ(history.parts[i].covariance, written.parts[i].covariance);
-    EXPECT_EQ(history.parts[i].motion_covariance, written.parts[i].motion_covariance);
+    EXPECT_EQ(history.segments[i].anchor, written.segments[i].anchor);
+    EXPECT_EQ(history.segments[i].place, written.segments[i].place);
+    expect_similarity(history.segments[i].S_place_segment, written.segments[i].S_place_segment);
+    EXPECT_EQ(history.segments[i].covariance, written.segments[i].covariance);
+    EXPECT_EQ(history.segments[i].motion_covariance, written.segments[i].motion_covariance);
   }
   ASSERT_EQ(history.places.size(), written.places.size());
   for (std::size_t i = 0; i < history.places.size(); ++i) {
@@ -132,9 +132,9 @@ TEST_F(MapHistory, MergersAndWhatIsPartedComeBack) {
   ASSERT_EQ(history.merged.size(), written.merged.size());
   for (std::size_t i = 0; i < history.merged.size(); ++i) {
     EXPECT_EQ(history.merged[i].anchor, written.merged[i].anchor);
-    EXPECT_EQ(history.merged[i].covariance_of_part, written.merged[i].covariance_of_part);
+    EXPECT_EQ(history.merged[i].covariance_of_segment, written.merged[i].covariance_of_segment);
   }
-  EXPECT_EQ(history.parted, written.parted);
+  EXPECT_EQ(history.separated, written.separated);
 }
 
 TEST_F(MapHistory, MergersThatAreUndoneLeaveTheFile) {
@@ -148,7 +148,7 @@ TEST_F(MapHistory, MergersThatAreUndoneLeaveTheFile) {
   database.finish(changes);
   const PlaceHistory history = read_map(dir / "steps.db").history;
   ASSERT_EQ(history.merged.size(), 1u);
-  EXPECT_EQ(history.merged[0].covariance_of_part, written.merged[0].covariance_of_part);
+  EXPECT_EQ(history.merged[0].covariance_of_segment, written.merged[0].covariance_of_segment);
 }
 
 TEST_F(MapHistory, AMapWithoutHistoryIsRead) {
@@ -157,7 +157,7 @@ TEST_F(MapHistory, AMapWithoutHistoryIsRead) {
   write_map(path, bare);
   const PlaceHistory history = read();
   EXPECT_TRUE(history.keyframes.empty());
-  EXPECT_TRUE(history.parts.empty());
+  EXPECT_TRUE(history.segments.empty());
   EXPECT_TRUE(history.merged.empty());
 }
 

@@ -24,7 +24,7 @@ SemanticCell cell_at(int x, int y, int z, int label, float height_m = 0) {
   cell.confidence = 0.75F;
   cell.height_m = height_m;
   cell.weight = 6;
-  cell.sights = 3;
+  cell.observations = 3;
   return cell;
 }
 
@@ -60,7 +60,7 @@ TEST_F(SemanticMapFile, ReadsTheCellsItWrote) {
     EXPECT_EQ(read.cells[i].at, map.cells[i].at);
     EXPECT_EQ(read.cells[i].label, map.cells[i].label);
     EXPECT_EQ(read.cells[i].confidence, 0.75F);
-    EXPECT_EQ(read.cells[i].sights, 3);
+    EXPECT_EQ(read.cells[i].observations, 3);
     EXPECT_NEAR((read.cells[i].mean - map.cells[i].mean).norm(), 0, 1e-5);
   }
 }

@@ -34,7 +34,7 @@ struct Keyframe0 {
 TEST(ManhattanCueGround, IsTheLevelFloorBetweenWalls) {
   Keyframe0 keyframe;
   keyframe.see(keyframe.corridor.segments);
-  const GroundSight ground = keyframe.cue.ground(keyframe.lane(2));
+  const GroundMask ground = keyframe.cue.ground(keyframe.lane(2));
   ASSERT_TRUE(ground.level);
   const Eigen::Vector3d down = keyframe.corridor.R_cam_manhattan * Eigen::Vector3d::UnitY();
   EXPECT_LT(std::acos(std::min(1.0, ground.level->dot(down))), deg_to_rad(0.1));
@@ -56,7 +56,7 @@ TEST(ManhattanCueGround, IsTheLevelFloorBetweenWalls) {
 TEST(ManhattanCueGround, IsNothingSpecialWhereNoWallsStandOnIt) {
   Keyframe0 keyframe;
   keyframe.see(keyframe.corridor.segments);
-  const GroundSight narrow = keyframe.cue.ground(keyframe.lane(0.5));
+  const GroundMask narrow = keyframe.cue.ground(keyframe.lane(0.5));
   EXPECT_TRUE(narrow.mask.empty());
   EXPECT_FALSE(narrow.level);
   EXPECT_TRUE(keyframe.cue.ground({{-900, 10}, {-800, 10}, {-850, 90}}).mask.empty());
@@ -98,17 +98,17 @@ struct Walk {
     }
     cue.settle(window);
   }
-  std::optional<ManhattanCue::Heading> heading(int frame, const SO3& R_odom_cam) const {
+  std::optional<ManhattanCue::RotationEstimate> heading(int frame, const SO3& R_odom_cam) const {
     return cue.heading(boards_view(frame), R_odom_cam, window, window.keyframes().back());
   }
 };
 
 TEST(ManhattanCue, EdgesOfSeveralKeyframesBeginAManhattanFrame) {
   Walk walk(1);
-  EXPECT_TRUE(walk.window.worlds().empty());
+  EXPECT_TRUE(walk.window.manhattan_frames().empty());
   for (int k = 1; k < kBegins; ++k) walk.see(k);
-  ASSERT_FALSE(walk.window.worlds().empty());
-  const SO3 R = *walk.window.world(walk.window.worlds().back());
+  ASSERT_FALSE(walk.window.manhattan_frames().empty());
+  const SO3 R = *walk.window.manhattan_frame(walk.window.manhattan_frames().back());
   // The corridor's axes are those of the odometry, up to their names.
   EXPECT_LT((R.matrix() - R.matrix().array().round().matrix()).norm(), 0.02);
   int along[3] = {0, 0, 0};
@@ -123,7 +123,7 @@ TEST(ManhattanCue, AFrameIsTurnedToWhereItsEdgesPoint) {
   for (const Eigen::Vector3d& off : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.005, -0.01, 0)}) {
     const auto heading = walk.heading(4, truth * SO3::exp(off));
     ASSERT_TRUE(heading);
-    const SO3 R_odom_cam = *walk.window.world(heading->world) * heading->R_cam_world.inverse();
+    const SO3 R_odom_cam = *walk.window.manhattan_frame(heading->manhattan_frame) * heading->R_cam_frame.inverse();
     EXPECT_LT((R_odom_cam.inverse() * truth).log().norm(), deg_to_rad(0.3));
     // A deviation between a hundredth of a degree and one degree about each axis.
     const Eigen::Vector3d sigma = heading->information.inverse().diagonal().cwiseSqrt();
@@ -172,68 +172,68 @@ TEST(ManhattanCue, RefusesFaultyOptions) {
 }
 
 /// A pose and a heading that disagrees with it by `off` in the camera's axes.
-struct Turned {
+struct Rotated {
   SlidingWindow window{SlidingWindowOptions{}, test::boards_camera()};
   SE3 T_odom_cam = test::pose({0.1, 0.4, -0.2}, {1, 2, 3});
-  ManhattanCue::Heading heading;
+  ManhattanCue::RotationEstimate heading;
 
-  explicit Turned(const Eigen::Vector3d& off, double information) {
+  explicit Rotated(const Eigen::Vector3d& off, double information) {
     window.add_keyframe(KeyframeId(0), SE3());
-    const SO3 R_odom_world = SO3::exp({0, 0.3, 0});
-    window.add_world(ManhattanFrameId(7), R_odom_world);
-    heading.world = ManhattanFrameId(7);
-    heading.R_cam_world = (T_odom_cam.rotation() * SO3::exp(off)).inverse() * R_odom_world;
+    const SO3 R_odom_manhattan = SO3::exp({0, 0.3, 0});
+    window.add_manhattan_frame(ManhattanFrameId(7), R_odom_manhattan);
+    heading.manhattan_frame = ManhattanFrameId(7);
+    heading.R_cam_frame = (T_odom_cam.rotation() * SO3::exp(off)).inverse() * R_odom_manhattan;
     heading.information = information * Eigen::Matrix3d::Identity();
   }
 };
 
 TEST(WithHeading, APoseGoesAsFarAsItsInformationLetsIt) {
   const Eigen::Vector3d off(0.01, -0.02, 0.005);
-  const Turned turned(off, 300);
+  const Rotated rotated(off, 300);
   const SE3 T =
-      with_heading(turned.T_odom_cam, 100 * Matrix6d::Identity(), turned.heading, turned.window);
+      with_heading(rotated.T_odom_cam, 100 * Matrix6d::Identity(), rotated.heading, rotated.window);
   // Three parts of four towards the heading; the position has no reason to move.
-  const Eigen::Vector3d step = (turned.T_odom_cam.rotation().inverse() * T.rotation()).log();
+  const Eigen::Vector3d step = (rotated.T_odom_cam.rotation().inverse() * T.rotation()).log();
   EXPECT_LT((step - 0.75 * off).norm(), 1e-4);
-  EXPECT_LT((T.translation() - turned.T_odom_cam.translation()).norm(), 1e-9);
+  EXPECT_LT((T.translation() - rotated.T_odom_cam.translation()).norm(), 1e-9);
 }
 
 TEST(WithHeading, ThePositionFollowsTheRotation) {
-  const Turned turned({0, 0.01, 0}, 1e9);
+  const Rotated rotated({0, 0.01, 0}, 1e9);
   // x and the turn about y are known as their sum alone: what one gains the other loses.
   Matrix6d information = 1e-3 * Matrix6d::Identity();
   Vector6d sum = Vector6d::Zero();
   sum[0] = 1, sum[4] = 2;
   information += 100 * sum * sum.transpose();
-  const SE3 T = with_heading(turned.T_odom_cam, information, turned.heading, turned.window);
+  const SE3 T = with_heading(rotated.T_odom_cam, information, rotated.heading, rotated.window);
   const Eigen::Vector3d moved =
-      turned.T_odom_cam.rotation().inverse() * (T.translation() - turned.T_odom_cam.translation());
+      rotated.T_odom_cam.rotation().inverse() * (T.translation() - rotated.T_odom_cam.translation());
   EXPECT_NEAR(moved.x(), -0.02, 1e-4);
 }
 
 TEST(WithHeading, HeadingsKnownAboutOneAxisTurnAboutThatAlone) {
   const Eigen::Vector3d off(0.01, 0.01, 0.01);
-  Turned turned(off, 0);
+  Rotated rotated(off, 0);
   // In the Manhattan frame's axes; the camera's y is what it knows.
-  const Eigen::Vector3d y = turned.heading.R_cam_world.inverse() * Eigen::Vector3d::UnitY();
-  turned.heading.information = 1e9 * y * y.transpose();
+  const Eigen::Vector3d y = rotated.heading.R_cam_frame.inverse() * Eigen::Vector3d::UnitY();
+  rotated.heading.information = 1e9 * y * y.transpose();
   const SE3 T =
-      with_heading(turned.T_odom_cam, Matrix6d::Identity(), turned.heading, turned.window);
-  const Eigen::Vector3d step = (turned.T_odom_cam.rotation().inverse() * T.rotation()).log();
+      with_heading(rotated.T_odom_cam, Matrix6d::Identity(), rotated.heading, rotated.window);
+  const Eigen::Vector3d step = (rotated.T_odom_cam.rotation().inverse() * T.rotation()).log();
   EXPECT_LT((step - Eigen::Vector3d(0, 0.01, 0)).norm(), 2e-4);
 }
 
 TEST(WithHeading, WithoutAHeadingOrItsManhattanFrameAPoseStays) {
-  Turned turned({0, 0.1, 0}, 1e6);
+  Rotated rotated({0, 0.1, 0}, 1e6);
   const Matrix6d information = Matrix6d::Identity();
-  const auto moved = [&](const std::optional<ManhattanCue::Heading>& heading) {
-    const SE3 T = with_heading(turned.T_odom_cam, information, heading, turned.window);
-    return (turned.T_odom_cam.inverse() * T).log().norm();
+  const auto moved = [&](const std::optional<ManhattanCue::RotationEstimate>& heading) {
+    const SE3 T = with_heading(rotated.T_odom_cam, information, heading, rotated.window);
+    return (rotated.T_odom_cam.inverse() * T).log().norm();
   };
-  EXPECT_GT(moved(turned.heading), 0.05);
+  EXPECT_GT(moved(rotated.heading), 0.05);
   EXPECT_EQ(moved(std::nullopt), 0);
-  turned.heading.world = ManhattanFrameId(8);
-  EXPECT_EQ(moved(turned.heading), 0);
+  rotated.heading.manhattan_frame = ManhattanFrameId(8);
+  EXPECT_EQ(moved(rotated.heading), 0);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ struct Patch {
 struct Drive {
   WindowWorld world;
   SlidingWindow window;
-  PlaneLandmarks planes;
+  PlaneCue planes;
   Random random{5};
   std::int64_t next = 0;
 
@@ -84,7 +84,7 @@ const Patch kAhead{{0, 0, 12}, kX, kY, 2, 1.5};
 const Patch kLeft{{-3, 0, 9}, kZ, kY, 2, 1.5};
 const Patch kFarRight{{9, 0, 12}, kX, kY, 2, 1.5};
 
-TEST(PlaneLandmarks, BeginWithTheSecondSighting) {
+TEST(PlaneCue, BeginWithTheSecondObservation) {
   Drive drive;
   EXPECT_EQ(drive.see({kAhead, kLeft}), (Seen{std::nullopt, std::nullopt}));
   EXPECT_TRUE(drive.planes.landmarks().empty());
@@ -95,7 +95,7 @@ TEST(PlaneLandmarks, BeginWithTheSecondSighting) {
   for (int k = 0; k < 8; ++k) EXPECT_EQ(drive.see({kAhead, kLeft}), (Seen{PlaneId(2), PlaneId(1)}));
 }
 
-TEST(PlaneLandmarks, OneSeenOnceIsNone) {
+TEST(PlaneCue, OneSeenOnceIsNone) {
   Drive drive;
   drive.see({kAhead});
   for (int k = 0; k < 7; ++k) EXPECT_EQ(drive.see({}), Seen{});
@@ -104,7 +104,7 @@ TEST(PlaneLandmarks, OneSeenOnceIsNone) {
   EXPECT_TRUE(drive.window.planes().empty());
 }
 
-TEST(PlaneLandmarks, ACoplanarSurfaceElsewhereIsAnotherOne) {
+TEST(PlaneCue, ACoplanarSurfaceElsewhereIsAnotherOne) {
   Drive drive;
   drive.see({kAhead});
   EXPECT_EQ(drive.see({kAhead}), Seen{PlaneId(1)});
@@ -112,11 +112,11 @@ TEST(PlaneLandmarks, ACoplanarSurfaceElsewhereIsAnotherOne) {
   EXPECT_EQ(drive.see({kFarRight, kAhead}), (Seen{PlaneId(2), PlaneId(1)}));
 }
 
-TEST(PlaneLandmarks, TheOtherSideOfAThinWallIsAnotherOne) {
+TEST(PlaneCue, TheOtherSideOfAThinWallIsAnotherOne) {
   Patch back = kAhead;
   back.middle.z() += 0.01;
   std::vector<DepthPlane> seen{Drive::seen_from(SE3(), kAhead)};
-  PlaneLandmarks planes({});
+  PlaneCue planes({});
   SlidingWindow window(Drive::window_options(), test::window_camera());
   const Matrix6d sure = 1e8 * Matrix6d::Identity();
   // Two keyframes before the wall, two behind it that look back.
@@ -138,7 +138,7 @@ TEST(PlaneLandmarks, TheOtherSideOfAThinWallIsAnotherOne) {
   EXPECT_EQ(results[3], Seen{PlaneId(2)});
 }
 
-TEST(PlaneLandmarks, ALeafBeforeItsWallIsToldFromItWhereBothAreSeenAndElseLeftAlone) {
+TEST(PlaneCue, ALeafBeforeItsWallIsToldFromItWhereBothAreSeenAndElseLeftAlone) {
   Patch leaf = kAhead;
   leaf.middle.z() -= 0.03;
   leaf.half_u = 0.5;
@@ -153,7 +153,7 @@ TEST(PlaneLandmarks, ALeafBeforeItsWallIsToldFromItWhereBothAreSeenAndElseLeftAl
   EXPECT_EQ(drive.planes.landmarks(), (std::vector{PlaneId(1), PlaneId(2)}));
 }
 
-TEST(PlaneLandmarks, AreRememberedForAWhile) {
+TEST(PlaneCue, AreRememberedForAWhile) {
   PlaneLandmarkOptions options;
   options.patience = 8;
   Drive patient(options);
@@ -171,7 +171,7 @@ TEST(PlaneLandmarks, AreRememberedForAWhile) {
   EXPECT_TRUE(hasty.window.planes().empty());
 }
 
-TEST(PlaneLandmarks, TheOneUnseenForLongestMakesRoom) {
+TEST(PlaneCue, TheOneUnseenForLongestMakesRoom) {
   PlaneLandmarkOptions options;
   options.max_landmarks = 1;
   Drive drive(options);
@@ -182,7 +182,7 @@ TEST(PlaneLandmarks, TheOneUnseenForLongestMakesRoom) {
   EXPECT_EQ(drive.planes.landmarks(), std::vector{PlaneId(2)});
 }
 
-TEST(PlaneLandmarks, BeginAnewAfterAReset) {
+TEST(PlaneCue, BeginAnewAfterAReset) {
   Drive drive;
   drive.see({kAhead});
   drive.see({kAhead});
@@ -190,13 +190,13 @@ TEST(PlaneLandmarks, BeginAnewAfterAReset) {
   EXPECT_TRUE(drive.planes.landmarks().empty());
 }
 
-TEST(PlaneLandmarks, RefuseOptionsThatCannotBe) {
+TEST(PlaneCue, RefuseOptionsThatCannotBe) {
   PlaneLandmarkOptions options;
   options.min_overlap = 2;
-  EXPECT_THROW(PlaneLandmarks{options}, ArgumentError);
+  EXPECT_THROW(PlaneCue{options}, ArgumentError);
   options = {};
   options.depth.cell_px = 0;
-  EXPECT_THROW(PlaneLandmarks{options}, ArgumentError);
+  EXPECT_THROW(PlaneCue{options}, ArgumentError);
 }
 
 }  // namespace

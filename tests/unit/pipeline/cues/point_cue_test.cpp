@@ -182,11 +182,11 @@ TEST(PointCue, MasksFromLabelsAreIgnoredWhereTheyLeaveTooFewPoints) {
   street.points.detect(nowhere, true, {});
   EXPECT_GT(street.points.tracks().size(), 150u);
   const std::size_t all = street.points.tracks().size();
-  street.points.leave_moving_objects(nowhere);
+  street.points.drop_tracks_on_movable_objects(nowhere);
   EXPECT_EQ(street.points.tracks().size(), all);
   Image left_half = Image::zeros(camera.height, camera.width, CV_8UC1);
   left_half.colRange(0, camera.width * 4 / 5).setTo(255);
-  street.points.leave_moving_objects(left_half);
+  street.points.drop_tracks_on_movable_objects(left_half);
   EXPECT_LT(street.points.tracks().size(), all);
   for (const PointTrack& track : street.points.tracks())
     EXPECT_LT(track.px.x(), camera.width * 4.0 / 5);

@@ -36,8 +36,8 @@ struct Scene {
   Vector2d seen(const Vector3d& p_world, std::int64_t stamp_ns) const {
     return *kCamera.project(T_world_cam(stamp_ns).inverse() * p_world);
   }
-  HoverSights sights(int image, bool markers = true) const {
-    HoverSights result;
+  FlightMeasurements observations(int image, bool markers = true) const {
+    FlightMeasurements result;
     result.stamp_ns = kBegin_ns + image * kImage_ns;
     for (double x = -0.6; image > 0 && x < 0.7; x += 0.2)
       for (double y = -0.4; y < 0.5; y += 0.2) {
@@ -50,13 +50,13 @@ struct Scene {
       }
     for (const PlacedMarker& marker : layout.markers) {
       if (!markers) break;
-      MarkerSighting sighting;
-      sighting.id = marker.id;
-      sighting.covariance *= 0.01;
+      MarkerObservation observation;
+      observation.id = marker.id;
+      observation.covariance *= 0.01;
       const auto corners = marker.corners_marker();
       for (std::size_t i = 0; i < 4; ++i)
-        sighting.corners_px[i] = seen(marker.T_world_marker * corners[i], result.stamp_ns);
-      result.markers.push_back(sighting);
+        observation.corners_px[i] = seen(marker.T_world_marker * corners[i], result.stamp_ns);
+      result.markers.push_back(observation);
     }
     return result;
   }
@@ -75,9 +75,9 @@ TEST(FlightEstimator, SaysNothingBeforeItsFirstMarker) {
   const Scene scene;
   FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
   Scene::feel(estimator, 0);
-  EXPECT_EQ(estimator.add(scene.sights(0, false)).outcome.code, Code::kNotAttempted);
+  EXPECT_EQ(estimator.add(scene.observations(0, false)).outcome.code, Code::kNotAttempted);
   Scene::feel(estimator, 1);
-  const HoverFrame begun = estimator.add(scene.sights(1));
+  const FlightFrame begun = estimator.add(scene.observations(1));
   ASSERT_TRUE(begun.outcome) << begun.outcome.reason;
   EXPECT_LT((begun.state.T_world_body.translation() - Vector3d(0, 0, 1.5)).norm(), 1e-3);
 }
@@ -85,7 +85,7 @@ TEST(FlightEstimator, SaysNothingBeforeItsFirstMarker) {
 TEST(FlightEstimator, DoesNotBeginWithoutItsInertialSensor) {
   const Scene scene;
   FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
-  const HoverFrame frame = estimator.add(scene.sights(0));
+  const FlightFrame frame = estimator.add(scene.observations(0));
   EXPECT_EQ(frame.outcome.code, Code::kNotAttempted);
   EXPECT_EQ(frame.markers.code, Code::kTooFewData);
 }
@@ -93,10 +93,10 @@ TEST(FlightEstimator, DoesNotBeginWithoutItsInertialSensor) {
 TEST(FlightEstimator, GoesOnByFlowWhereNoMarkerIsSeen) {
   const Scene scene{.speed_mps = 0.5};
   FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
-  HoverFrame last;
+  FlightFrame last;
   for (int image = 0; image < 20; ++image) {
     Scene::feel(estimator, image);
-    last = estimator.add(scene.sights(image, image < 5));
+    last = estimator.add(scene.observations(image, image < 5));
   }
   ASSERT_TRUE(last.outcome);
   EXPECT_TRUE(last.flow);
@@ -109,10 +109,10 @@ TEST(FlightEstimator, GoesOnByFlowWhereNoMarkerIsSeen) {
 TEST(FlightEstimator, FallsSilentWhenTheInertialSensorStops) {
   const Scene scene;
   FlightEstimator estimator({}, kCamera, kBodyCam, scene.layout);
-  HoverFrame last;
+  FlightFrame last;
   for (int image = 0; image < 20; ++image) {
     if (image < 5) Scene::feel(estimator, image);
-    last = estimator.add(scene.sights(image));
+    last = estimator.add(scene.observations(image));
     if (image < 5) {
       ASSERT_TRUE(last.outcome);
     }
@@ -122,7 +122,7 @@ TEST(FlightEstimator, FallsSilentWhenTheInertialSensorStops) {
 
 TEST(FlightEstimator, BeginsAnewWhereMarkersContradictItPersistently) {
   const Scene scene;
-  HoverOptions options;
+  FlightOptions options;
   options.marker_sensor.restart_after = 3;
   options.flow.enabled = false;
   FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
@@ -134,7 +134,7 @@ TEST(FlightEstimator, BeginsAnewWhereMarkersContradictItPersistently) {
   estimator.start(wrong);
   for (int image = 1; image <= 5; ++image) {
     Scene::feel(estimator, image);
-    const HoverFrame frame = estimator.add(scene.sights(image));
+    const FlightFrame frame = estimator.add(scene.observations(image));
     ASSERT_TRUE(frame.outcome);
     EXPECT_EQ(static_cast<bool>(frame.markers), image > 3) << image;
     EXPECT_NEAR(frame.state.T_world_body.translation().x(), image > 3 ? 0 : 1, 1e-2) << image;
@@ -143,13 +143,13 @@ TEST(FlightEstimator, BeginsAnewWhereMarkersContradictItPersistently) {
 
 TEST(FlightEstimator, TakesMarkersThatComeLate) {
   const Scene scene;
-  HoverOptions options;
+  FlightOptions options;
   options.marker_delay_s = 0.1;
   FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
-  HoverFrame last;
+  FlightFrame last;
   for (int image = 0; image < 10; ++image) {
     Scene::feel(estimator, image);
-    last = estimator.add(scene.sights(image));
+    last = estimator.add(scene.observations(image));
   }
   EXPECT_TRUE(last.markers) << last.markers.reason;
   EXPECT_LT((last.state.T_world_body.translation() - Vector3d(0, 0, 1.5)).norm(), 1e-3);
@@ -158,7 +158,7 @@ TEST(FlightEstimator, TakesMarkersThatComeLate) {
   FlightEstimator slow(options, kCamera, kBodyCam, scene.layout);
   for (int image = 0; image < 20; ++image) {
     Scene::feel(slow, image);
-    last = slow.add(scene.sights(image));
+    last = slow.add(scene.observations(image));
   }
   EXPECT_EQ(last.markers.code, Code::kTooFewData);
 }
@@ -170,8 +170,8 @@ TEST(FlightEstimator, RefusesImagesOfAnotherSizeOrOrderAndSamplesOutOfOrder) {
   frame.stamp_ns = kBegin_ns;
   frame.image = Image(100, 100, CV_8UC1, cv::Scalar(0));
   EXPECT_THROW((void)estimator.add(frame), ArgumentError);
-  (void)estimator.add(scene.sights(1, false));
-  EXPECT_THROW((void)estimator.add(scene.sights(1, false)), ArgumentError);
+  (void)estimator.add(scene.observations(1, false));
+  EXPECT_THROW((void)estimator.add(scene.observations(1, false)), ArgumentError);
   Scene::feel(estimator, 2);
   EXPECT_EQ(estimator.add(ImuSample{kBegin_ns, {}, {}}).code, Code::kInconsistent);
   EXPECT_EQ(estimator.add(ImuSample{9 * kBegin_ns, Vector3d(NAN, 0, 0), {}}).code,
@@ -180,7 +180,7 @@ TEST(FlightEstimator, RefusesImagesOfAnotherSizeOrOrderAndSamplesOutOfOrder) {
 
 TEST(FlightEstimator, KeepsTheBiasesItKnowsWhereItBeginsAnew) {
   const Scene scene;
-  HoverOptions options;
+  FlightOptions options;
   options.marker_sensor.restart_after = 1;
   FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
   BodyState wrong;
@@ -190,10 +190,10 @@ TEST(FlightEstimator, KeepsTheBiasesItKnowsWhereItBeginsAnew) {
   wrong.covariance.diagonal().setConstant(1e-8);
   Scene::feel(estimator, 0);
   estimator.start(wrong);
-  HoverFrame frame;
+  FlightFrame frame;
   for (int image = 1; image <= 2; ++image) {
     Scene::feel(estimator, image);
-    frame = estimator.add(scene.sights(image));
+    frame = estimator.add(scene.observations(image));
   }
   ASSERT_TRUE(frame.markers) << frame.markers.reason;
   EXPECT_NEAR(frame.state.T_world_body.translation().x(), 0, 1e-2);
@@ -202,47 +202,47 @@ TEST(FlightEstimator, KeepsTheBiasesItKnowsWhereItBeginsAnew) {
 
 TEST(FlightEstimator, ForgetsThePosesOnTheWayWhereItStartsAnew) {
   const Scene scene;
-  HoverOptions options;
+  FlightOptions options;
   options.marker_delay_s = 0.1;
   FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
   for (int image = 0; image < 5; ++image) {
     Scene::feel(estimator, image);
-    ASSERT_TRUE(estimator.add(scene.sights(image)).outcome);
+    ASSERT_TRUE(estimator.add(scene.observations(image)).outcome);
   }
   BodyState state = estimator.at(kBegin_ns + 4 * kImage_ns).state;
   estimator.start(state);
   // A pose of before the start would be refused now, and this image's with it.
   for (int image = 5; image < 10; ++image) {
     Scene::feel(estimator, image);
-    EXPECT_TRUE(estimator.add(scene.sights(image)).markers) << image;
+    EXPECT_TRUE(estimator.add(scene.observations(image)).markers) << image;
   }
 }
 
 TEST(FlightEstimator, SaysWhereTheFilterRefusesALatePose) {
   const Scene scene;
-  HoverOptions options;
+  FlightOptions options;
   options.marker_delay_s = 0.1;
   FlightEstimator estimator(options, kCamera, kBodyCam, scene.layout);
-  const auto add = [&](int image, HoverSights sights) {
+  const auto add = [&](int image, FlightMeasurements observations) {
     Scene::feel(estimator, image);
-    return estimator.add(sights);
+    return estimator.add(observations);
   };
-  for (int image = 0; image < 4; ++image) ASSERT_TRUE(add(image, scene.sights(image)).markers);
+  for (int image = 0; image < 4; ++image) ASSERT_TRUE(add(image, scene.observations(image)).markers);
   // An image shows the markers as if the body were 30 cm beside: its pose comes with the second
   // image after it.
-  HoverSights wrong = scene.sights(4);
-  for (MarkerSighting& marker : wrong.markers)
+  FlightMeasurements wrong = scene.observations(4);
+  for (MarkerObservation& marker : wrong.markers)
     for (Vector2d& px : marker.corners_px) px.x() += 80;
   EXPECT_TRUE(add(4, wrong).markers);
-  EXPECT_TRUE(add(5, scene.sights(5)).markers);
-  EXPECT_EQ(add(6, scene.sights(6)).markers.code, Code::kInconsistent);
-  EXPECT_TRUE(add(7, scene.sights(7)).markers);
+  EXPECT_TRUE(add(5, scene.observations(5)).markers);
+  EXPECT_EQ(add(6, scene.observations(6)).markers.code, Code::kInconsistent);
+  EXPECT_TRUE(add(7, scene.observations(7)).markers);
 }
 
 TEST(FlightEstimator, TakesAFirstImageAtTimeZero) {
   FlightEstimator estimator({}, kCamera, kBodyCam, {});
-  EXPECT_EQ(estimator.add(HoverSights{}).markers.code, Code::kNotAttempted);
-  EXPECT_THROW((void)estimator.add(HoverSights{}), ArgumentError);
+  EXPECT_EQ(estimator.add(FlightMeasurements{}).markers.code, Code::kNotAttempted);
+  EXPECT_THROW((void)estimator.add(FlightMeasurements{}), ArgumentError);
 }
 
 /// A body that slides along x and pitches: its specific force and the flow of the floor.
@@ -257,8 +257,8 @@ struct Pitching {
     return {stamp_ns, Vector3d(0, kRate_rad_s, 0),
             T_world_body(stamp_ns).rotation().inverse() * Vector3d(-gravity())};
   }
-  static HoverSights sights(std::int64_t from_ns, std::int64_t to_ns) {
-    HoverSights result;
+  static FlightMeasurements observations(std::int64_t from_ns, std::int64_t to_ns) {
+    FlightMeasurements result;
     result.stamp_ns = to_ns;
     const SE3 T_world_1 = T_world_body(from_ns) * kBodyCam;
     const SE3 T_2_world = (T_world_body(to_ns) * kBodyCam).inverse();
@@ -290,13 +290,13 @@ struct Pitching {
 TEST(FlightEstimator, LearnsItsVelocityFromFlowWithoutTheRotationOfTheGyro) {
   FlightEstimator estimator({}, kCamera, kBodyCam, {});
   estimator.start(Pitching::start());
-  HoverFrame last = estimator.add(HoverSights{.stamp_ns = kBegin_ns});
+  FlightFrame last = estimator.add(FlightMeasurements{.stamp_ns = kBegin_ns});
   ASSERT_TRUE(last.outcome);
   for (std::int64_t now_ns = kBegin_ns + kImage_ns; now_ns <= kBegin_ns + 20 * kImage_ns;
        now_ns += kImage_ns) {
     for (std::int64_t at_ns = now_ns - kImage_ns + kSample_ns; at_ns <= now_ns; at_ns += kSample_ns)
       ASSERT_TRUE(estimator.add(Pitching::sample(at_ns)));
-    last = estimator.add(Pitching::sights(now_ns - kImage_ns, now_ns));
+    last = estimator.add(Pitching::observations(now_ns - kImage_ns, now_ns));
     EXPECT_TRUE(last.flow) << last.flow.reason;
   }
   ASSERT_TRUE(last.outcome) << last.outcome.reason;
@@ -310,7 +310,7 @@ TEST(FlightEstimator, CatchesUpWithTheSamplesThatCameAfterTheStateItStartsWith) 
   for (std::int64_t at_ns = kBegin_ns - kImage_ns; at_ns <= now_ns; at_ns += kSample_ns)
     EXPECT_EQ(estimator.add(Pitching::sample(at_ns)).code, Code::kNotAttempted);
   estimator.start(Pitching::start());
-  const PositionFilter::Answer now = estimator.at(now_ns);
+  const PositionFilter::StateEstimate now = estimator.at(now_ns);
   ASSERT_TRUE(now.outcome) << now.outcome.reason;
   const SO3 truth = Pitching::T_world_body(now_ns).rotation();
   EXPECT_LT((now.state.T_world_body.rotation().inverse() * truth).log().norm(), 1e-6);
@@ -330,7 +330,7 @@ TEST(FlightEstimator, StartsWithTheMarkersOfAnImageWhereItMayLookForThem) {
   EXPECT_EQ(estimator.add(frame, false).outcome.code, Code::kNotAttempted);
   Scene::feel(estimator, 1);
   frame.stamp_ns += kImage_ns;
-  const HoverFrame begun = estimator.add(frame);
+  const FlightFrame begun = estimator.add(frame);
   ASSERT_TRUE(begun.outcome) << begun.outcome.reason;
   EXPECT_EQ(begun.markers_seen, 3);
   // Corners are fitted to a tenth of a pixel, a third of a millimetre on the floor.

@@ -181,15 +181,15 @@ TEST(FloorFlow, MeasuresTheCamerasTranslationOverItsHeight) {
   ASSERT_TRUE(found.outcome) << found.outcome.reason;
   EXPECT_EQ(found.inliers, static_cast<int>(step.flow.size()));
   EXPECT_LT(found.chi2_per_dof, 1e-6);
-  ASSERT_TRUE(found.sighting);
+  ASSERT_TRUE(found.observation);
   const double height = (step.a.T_world_body * kBodyCam).translation().z() - kFloor_m;
   const Vector3d expected = step.T_1_2().translation() / height;
-  EXPECT_LT((found.sighting->over_distance - expected).norm(), 1e-6);
-  EXPECT_EQ(found.sighting->from_ns, 1000);
-  EXPECT_EQ(found.sighting->to_ns, 51'000'000);
-  EXPECT_EQ(found.sighting->gyro_bias, step.a.gyro_bias);
-  EXPECT_LT((found.sighting->R_from_to.inverse() * step.rotation.R_1_2).log().norm(), 1e-12);
-  ASSERT_TRUE(found.sighting->J_turn);
+  EXPECT_LT((found.observation->over_distance - expected).norm(), 1e-6);
+  EXPECT_EQ(found.observation->from_ns, 1000);
+  EXPECT_EQ(found.observation->to_ns, 51'000'000);
+  EXPECT_EQ(found.observation->gyro_bias, step.a.gyro_bias);
+  EXPECT_LT((found.observation->R_from_to.inverse() * step.rotation.R_1_2).log().norm(), 1e-12);
+  ASSERT_TRUE(found.observation->J_rotation);
 }
 
 /// What the measurement says of a wrong rotation: its Jacobian against a rotation that is wrong by
@@ -198,14 +198,14 @@ TEST(FloorFlow, MeasuresTheCamerasTranslationOverItsHeight) {
 TEST(FloorFlow, TellsHowAWrongRotationChangesTheMeasurement) {
   const Step step;
   const FloorFlow flow = floor_flow();
-  const FlowSighting exact =
-      *flow.measure(step.flow, step.a, step.b.stamp_ns, step.rotation).sighting;
+  const FlowMeasurement exact =
+      *flow.measure(step.flow, step.a, step.b.stamp_ns, step.rotation).observation;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d wrong = 1e-5 * Vector3d::Unit(axis);
     const KnownRotation rotation{step.rotation.R_1_2 * SO3::exp(wrong), Matrix3d::Zero()};
-    const FlowSighting found = *flow.measure(step.flow, step.a, step.b.stamp_ns, rotation).sighting;
+    const FlowMeasurement found = *flow.measure(step.flow, step.a, step.b.stamp_ns, rotation).observation;
     const Vector3d change = found.over_distance - exact.over_distance;
-    EXPECT_LT((change - *exact.J_turn * wrong).norm(), 0.05 * wrong.norm()) << axis;
+    EXPECT_LT((change - *exact.J_rotation * wrong).norm(), 0.05 * wrong.norm()) << axis;
   }
 }
 
@@ -214,7 +214,7 @@ TEST(FloorFlow, AddsTheErrorCommonToAllVectors) {
   const auto covariance = [&](double common_px) {
     return Matrix3d(floor_flow({.common_px = common_px})
                         .measure(step.flow, step.a, step.b.stamp_ns, step.rotation)
-                        .sighting->covariance);
+                        .observation->covariance);
   };
   const double sigma = 0.5 / kCamera.fx;
   EXPECT_LT((covariance(0.5) - covariance(0) - sigma * sigma * Matrix3d::Identity()).norm(), 1e-12);
@@ -231,11 +231,11 @@ TEST(FloorFlow, SaysWhyThereIsNoMeasurement) {
   const FloorFlowMeasurement few = measured({}, step.a);
   EXPECT_EQ(few.outcome.code, Code::kTooFewData);
   EXPECT_EQ(few.inliers, 11);
-  EXPECT_FALSE(few.sighting);
-  EXPECT_TRUE(measured({.min_points = 11}, step.a).sighting);
+  EXPECT_FALSE(few.observation);
+  EXPECT_TRUE(measured({.min_points = 11}, step.a).observation);
   const FloorFlowMeasurement disabled = measured({.min_points = 11, .enabled = false}, step.a);
   EXPECT_TRUE(disabled.outcome);
-  EXPECT_FALSE(disabled.sighting);
+  EXPECT_FALSE(disabled.observation);
 }
 
 }  // namespace

@@ -42,17 +42,17 @@ struct Walk {
     }
   }
   void look(const PlacedMarker& marker, const SE3& T, Random& random, MarkerFrame& frame) const {
-    MarkerSighting sighting;
-    sighting.id = marker.id;
+    MarkerObservation observation;
+    observation.id = marker.id;
     for (int k = 0; k < 4; ++k) {
       const auto px =
           camera.project(T.inverse() * marker.T_world_marker * marker.corners_marker()[k]);
       if (!px || !camera.contains(*px, 5)) return;
-      sighting.corners_px[k] =
+      observation.corners_px[k] =
           *px + Eigen::Vector2d(random.normal(0, kCorner_px), random.normal(0, kCorner_px));
     }
-    sighting.covariance *= kCorner_px * kCorner_px;
-    frame.markers.push_back(sighting);
+    observation.covariance *= kCorner_px * kCorner_px;
+    frame.markers.push_back(observation);
   }
 };
 
@@ -115,7 +115,7 @@ TEST(MarkerMap, IsAsUncertainAsTheOdometryBetweenMarkersThatNoFrameShowsTogether
   for (const std::size_t i : {5, 6, 20, 21}) {
     MarkerFrame frame = walk.frames[i];
     std::erase_if(frame.markers,
-                  [&](const MarkerSighting& sighting) { return sighting.id != (i < 10 ? 4 : 9); });
+                  [&](const MarkerObservation& observation) { return observation.id != (i < 10 ? 4 : 9); });
     ASSERT_EQ(frame.markers.size(), 1u) << i;
     frame.T_odom_cam = walk.T_world_cam[i];
     const double sigma_m = i == 20 ? 0.1 : 1e-3;

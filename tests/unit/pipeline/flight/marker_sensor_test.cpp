@@ -57,7 +57,7 @@ MarkerSensor sensor_of(const MarkerLayout& layout, const MarkerSensorOptions& op
 
 std::vector<int> ids(const MarkerDetections& found) {
   std::vector<int> result;
-  for (const MarkerSighting& marker : found.markers) result.push_back(marker.id);
+  for (const MarkerObservation& marker : found.markers) result.push_back(marker.id);
   std::sort(result.begin(), result.end());
   return result;
 }
@@ -202,16 +202,16 @@ TEST(MarkerSensor, AsksTheExpectedStateUntilItIsRefuted) {
   MarkerLayout layout;
   layout.markers = {{5, 0.1, SE3()}};
   const SE3 T_world_body = test::looking_at_origin(2, 0.35, 0.5, 0.2) * kBodyCam.inverse();
-  MarkerSighting sighting;
-  sighting.id = 5;
-  sighting.covariance *= 0.04;
+  MarkerObservation observation;
+  observation.id = 5;
+  observation.covariance *= 0.04;
   const auto corners = layout.markers[0].corners_marker();
   for (std::size_t i = 0; i < 4; ++i)
-    sighting.corners_px[i] = *camera.project((T_world_body * kBodyCam).inverse() * corners[i]);
-  MarkerView view{1'000'000'000, {sighting}, {}, std::nullopt, std::nullopt};
+    observation.corners_px[i] = *camera.project((T_world_body * kBodyCam).inverse() * corners[i]);
+  MarkerView view{1'000'000'000, {observation}, {}, std::nullopt, std::nullopt};
   BodyExpectation expectation;
   expectation.state = state_at(T_world_body, 0.05, 0.05);
-  expectation.deviation2 = [&](const PoseSighting& pose) -> std::optional<double> {
+  expectation.deviation2 = [&](const PoseMeasurement& pose) -> std::optional<double> {
     const Vector6d error = (T_world_body.inverse() * pose.T_world_body).log();
     return error.squaredNorm() / (0.05 * 0.05);
   };
@@ -222,11 +222,11 @@ TEST(MarkerSensor, AsksTheExpectedStateUntilItIsRefuted) {
     view.stamp_ns *= 2;
     return view;
   };
-  const MarkerAnswer answer = sensor.estimate(later(), expectation);
+  const MarkerPoseEstimate answer = sensor.estimate(later(), expectation);
   ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
   EXPECT_EQ(answer.markers, 1);
   // The corners are exact; the expectation does not shift the pose.
-  EXPECT_LT((answer.sighting.T_world_body.inverse() * T_world_body).log().norm(), 1e-3);
+  EXPECT_LT((answer.observation.T_world_body.inverse() * T_world_body).log().norm(), 1e-3);
   for (int i = 0; i < 2; ++i) sensor.report(kRefuted, true);
   EXPECT_EQ(sensor.estimate(later(), expectation).outcome.code, Code::kInconsistent);
 }

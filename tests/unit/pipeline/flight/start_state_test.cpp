@@ -11,8 +11,8 @@ using Eigen::Vector3d;
 
 constexpr double kRounding = 1e-12;
 
-PoseSighting pose_by_markers() {
-  PoseSighting pose;
+PoseMeasurement pose_by_markers() {
+  PoseMeasurement pose;
   pose.stamp_ns = 42;
   // Faces along the world's y.
   pose.T_world_body = SE3(SO3::exp({0, 0, std::numbers::pi / 2}), Vector3d(1, 2, 3));
@@ -23,8 +23,8 @@ PoseSighting pose_by_markers() {
   return pose;
 }
 
-TEST(StartState, TurnsThePositionsCovarianceIntoTheAxesOfTheWorld) {
-  const PoseSighting pose = pose_by_markers();
+TEST(StartState, RotationsThePositionsCovarianceIntoTheAxesOfTheWorld) {
+  const PoseMeasurement pose = pose_by_markers();
   const BodyState state = start_state(pose, {});
   EXPECT_EQ(state.stamp_ns, 42);
   EXPECT_EQ(state.T_world_body.translation(), pose.T_world_body.translation());
@@ -38,7 +38,7 @@ TEST(StartState, TurnsThePositionsCovarianceIntoTheAxesOfTheWorld) {
 }
 
 TEST(StartState, KnowsOfVelocityAndBiasesWhatTheOptionsSay) {
-  const HoverStartOptions options{
+  const FlightInitializationOptions options{
       .velocity_sigma_mps = 2, .gyro_bias_sigma = 0.03, .accel_bias_sigma = 0.4};
   const BodyState state = start_state(pose_by_markers(), options);
   EXPECT_EQ(state.velocity_world.norm() + state.gyro_bias.norm() + state.accel_bias.norm(), 0);

@@ -84,11 +84,11 @@ TEST(LineCompass, LearnsTheDirectionsThatEdgesShareInTheWindowsFrame) {
     EXPECT_GT(direction.sigma_rad, 0);
   }
   // Learned by the pose that the window has: in a turned window they are turned.
-  Walk turned;
+  Walk rotated;
   const SE3 T_map_world = test::pose({0.1, 0.5, 0}, {1, 2, 3});
-  turned.cue.use_compass();
-  turned.keyframe(0, T_map_world);
-  const auto others = turned.cue.shared_directions();
+  rotated.cue.use_compass();
+  rotated.keyframe(0, T_map_world);
+  const auto others = rotated.cue.shared_directions();
   ASSERT_EQ(others.size(), shared.size());
   for (const SharedDirection& direction : others)
     EXPECT_LT(off_the_axes_rad(T_map_world.rotation().inverse() * direction.d_ref), 0.02);
@@ -99,16 +99,16 @@ TEST(LineCompass, SteersAKeyframeThatTheWindowHasTurned) {
   walk.cue.use_compass();
   walk.keyframe(0, way(0));
   EXPECT_TRUE(walk.window.factors().empty());  // nothing was known of directions before
-  const SE3 turned = way(1) * test::pose({0.004, 0.01, -0.006}, {0, 0, 0});
-  walk.keyframe(1, turned);
+  const SE3 rotated = way(1) * test::pose({0.004, 0.01, -0.006}, {0, 0, 0});
+  walk.keyframe(1, rotated);
   ASSERT_EQ(walk.window.factors().size(), 1u);
   const WindowFactor& prior = walk.window.factors().front();
   EXPECT_EQ(prior.variables, std::vector{keyframe_variable(KeyframeId(1))});
   // A deviation of what is known is well below a degree, so the truth is much more probable.
-  EXPECT_GT(chi2(prior, {turned}), 10 * chi2(prior, {way(1)}));
+  EXPECT_GT(chi2(prior, {rotated}), 10 * chi2(prior, {way(1)}));
   // Where the keyframe stands is not told.
-  const SE3 aside(turned.rotation(), turned.translation() + Eigen::Vector3d(3, 2, 1));
-  EXPECT_NEAR(chi2(prior, {aside}), chi2(prior, {turned}), 1e-6 * chi2(prior, {turned}));
+  const SE3 aside(rotated.rotation(), rotated.translation() + Eigen::Vector3d(3, 2, 1));
+  EXPECT_NEAR(chi2(prior, {aside}), chi2(prior, {rotated}), 1e-6 * chi2(prior, {rotated}));
 }
 
 TEST(LineCompass, EarlierKeyframesAreSteeredInOrder) {

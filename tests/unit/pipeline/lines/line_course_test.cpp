@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 /// `way` apart, the second rolled by `roll_rad`. The window holds the second one with an error.
 struct Corridor {
   SlidingWindow window{{}, line_camera()};
-  LineSightings sightings;
-  std::vector<DirectionCompass::Family> families{
+  LineObservations observations;
+  std::vector<VanishingDirectionTracker::DirectionCluster> clusters{
       {Vector3d::UnitZ(), 1e-3, {LineId(1), LineId(2), LineId(3), LineId(4)}}};
 
   explicit Corridor(const Vector3d& way, const Vector3d& error = Vector3d::Zero(),
@@ -30,13 +30,13 @@ struct Corridor {
       for (int k = 0; k < 2; ++k) {
         const LineTrack track =
             track_of(LineId(i), k ? second : first, Vector3d(x, y, 6), Vector3d(x, y, 20));
-        sightings[LineId(i)].push_back(
+        observations[LineId(i)].push_back(
             {KeyframeId(k), track.edge.line.carriers(0.1), std::nullopt});
       }
     }
   }
   std::vector<MotionObservation> course(double depth = 3) const {
-    return course_along_lines(window, line_camera(), families, sightings, KeyframeId(1), depth,
+    return course_along_lines(window, line_camera(), clusters, observations, KeyframeId(1), depth,
                               deg_to_rad(2.0));
   }
 };
@@ -65,9 +65,9 @@ TEST(LineCourse, InformationIsThatOfTheNewestKeyframesAxes) {
   ASSERT_EQ(b.size(), 1u);
   const Eigen::Matrix3d R = SO3::exp({0, 0, roll_rad}).matrix();
   const Eigen::Matrix3d wanted = a[0].information.topLeftCorner<3, 3>();
-  const Eigen::Matrix3d turned = R * b[0].information.topLeftCorner<3, 3>() * R.transpose();
+  const Eigen::Matrix3d rotated = R * b[0].information.topLeftCorner<3, 3>() * R.transpose();
   EXPECT_GT(wanted(0, 0) / wanted(1, 1) + wanted(1, 1) / wanted(0, 0), 2.5);  // the axes differ
-  EXPECT_LT((turned - wanted).norm(), 0.05 * wanted.norm());
+  EXPECT_LT((rotated - wanted).norm(), 0.05 * wanted.norm());
 }
 
 TEST(LineCourse, TwiceAsDeepIsHalfAsWellKnown) {
@@ -92,9 +92,9 @@ TEST(LineCourse, LinesOfTheWindowAndLinesThatTurnedDoNotCount) {
   EXPECT_TRUE(Corridor({0.3, 0, 2}, {-0.3, 0, 0}).course().empty());
 }
 
-TEST(LineCourse, OnlyTheLastSightingInTheNewestKeyframeCounts) {
+TEST(LineCourse, OnlyTheLastObservationInTheNewestKeyframeCounts) {
   Corridor corridor({0, 0, 1});
-  for (auto& [id, seen] : corridor.sightings) seen.pop_back();
+  for (auto& [id, seen] : corridor.observations) seen.pop_back();
   EXPECT_TRUE(corridor.course().empty());
 }
 

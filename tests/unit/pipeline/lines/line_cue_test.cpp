@@ -32,7 +32,7 @@ struct Pair {
         const auto right = [&](double v) {
           return Eigen::Vector2d(u - d - error.at({(u - 320) / 500, (v - 240) / 500}), v);
         };
-        o.second = LineObservation::SecondEye{{0.5, 0, 0}, right(150), right(330), 0.2};
+        o.second = LineObservation::SecondCamera{{0.5, 0, 0}, right(150), right(330), 0.2};
         window.add_line_observation(o);
       }
     }
@@ -40,7 +40,7 @@ struct Pair {
   LineCue cue() const { return LineCue({}, calibration, {}); }
 };
 
-TEST(LineCue, DisparitiesOfLinesShowWhatARightEyeIsOffBy) {
+TEST(LineCue, DisparitiesOfLinesShowWhatARightCameraIsOffBy) {
   const RectificationError error{-0.4, 0.3, 0};
   const Pair pair(error);
   LineCue cue = pair.cue();
@@ -51,11 +51,11 @@ TEST(LineCue, DisparitiesOfLinesShowWhatARightEyeIsOffBy) {
   EXPECT_TRUE(cue.disparity_samples(pair.window, {}).empty());  // each line is heard once
 }
 
-TEST(LineCue, RevisedRightEyesLieWhereARectifiedOneWouldSeeTheLines) {
+TEST(LineCue, RevisedRightCamerasLieWhereARectifiedOneWouldSeeTheLines) {
   const RectificationError error{-0.4, 0.3, 0.2};
   Pair off(error);
   const Pair good({});
-  off.cue().revise_eyes(off.window, {}, error);
+  off.cue().revise_second_cameras(off.window, {}, error);
   for (const LineId id : good.window.lines())
     for (std::size_t k = 0; k < 4; ++k) {
       const auto& revised = *off.window.line_observations(id)[k].second;
@@ -65,13 +65,13 @@ TEST(LineCue, RevisedRightEyesLieWhereARectifiedOneWouldSeeTheLines) {
     }
 }
 
-TEST(LineCue, OnlyASecondEyeThatIsThereCanBeRevised) {
+TEST(LineCue, OnlyASecondCameraThatIsThereCanBeRevised) {
   Pair pair({});
-  const LineObservation::SecondEye eye{{0.5, 0, 0}, {1, 2}, {1, 9}, 0.2};
-  EXPECT_THROW(pair.window.revise_second_eye(KeyframeId(9), LineId(0), eye), ArgumentError);
-  EXPECT_THROW(pair.window.revise_second_eye(KeyframeId(0), LineId(99), eye), ArgumentError);
+  const LineObservation::SecondCamera eye{{0.5, 0, 0}, {1, 2}, {1, 9}, 0.2};
+  EXPECT_THROW(pair.window.revise_second_camera(KeyframeId(9), LineId(0), eye), ArgumentError);
+  EXPECT_THROW(pair.window.revise_second_camera(KeyframeId(0), LineId(99), eye), ArgumentError);
   EXPECT_THROW(
-      pair.window.revise_second_eye(KeyframeId(0), LineId(0), {{0, 0, 0}, {1, 2}, {1, 9}, 0.2}),
+      pair.window.revise_second_camera(KeyframeId(0), LineId(0), {{0, 0, 0}, {1, 2}, {1, 9}, 0.2}),
       ArgumentError);
 }
 

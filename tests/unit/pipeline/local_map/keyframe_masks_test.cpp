@@ -23,7 +23,7 @@ DecisionForest horizon(int dimension) {
   return forest;
 }
 
-std::shared_ptr<const SceneEye> labeller() {
+std::shared_ptr<const SurfaceLabeller> labeller() {
   auto model = std::make_shared<SceneModel>();
   model->kind = SceneModel::Kind::kSurfaces;
   model->classes = {"sky", "ground", "vertical", "object"};
@@ -32,7 +32,7 @@ std::shared_ptr<const SceneEye> labeller() {
   model->second = horizon(kSuperpixelFeatures + context_dimension(kSurfaceCount));
   model->relations.above.assign(16, 0);
   model->relations.beside.assign(16, 0);
-  return std::make_shared<const SceneEye>(model, SceneMaskOptions());
+  return std::make_shared<const SurfaceLabeller>(model, SceneMaskOptions());
 }
 
 Frame frame_of(std::int64_t id) {
@@ -124,11 +124,11 @@ TEST(KeyframeMasks, AFrameIsLabelledOnce) {
 }
 
 TEST(KeyframeMasks, AModelOfSurfacesIsNeeded) {
-  EXPECT_THROW(SceneEye(nullptr, {}), ArgumentError);
+  EXPECT_THROW(SurfaceLabeller(nullptr, {}), ArgumentError);
   auto urban = std::make_shared<SceneModel>();
   urban->kind = SceneModel::Kind::kUrban;
   urban->classes = {"a", "b", "c", "d"};
-  EXPECT_THROW(SceneEye(urban, {}), ArgumentError);
+  EXPECT_THROW(SurfaceLabeller(urban, {}), ArgumentError);
 }
 
 TEST(SceneEdges, OfAWideImageAreThoseOfAHalvedOneWithItsCamera) {

@@ -11,7 +11,7 @@ namespace placegraph {
 namespace {
 
 /// Of a window that says k1, to `sigma`.
-LensEvidence window_of(double k1, double sigma) {
+DistortionEvidence window_of(double k1, double sigma) {
   const double information = 1 / (sigma * sigma);
   return {-k1 * information, information, 1000};
 }
@@ -111,7 +111,7 @@ TEST(LensEstimator, CallsALensDistortedByProofAndEffect) {
   EXPECT_THROW(options.check(), ArgumentError);
 }
 
-Calibration one_eye() {
+Calibration monocular() {
   Calibration calibration;
   calibration.camera.width = 160;
   calibration.camera.height = 120;
@@ -122,7 +122,7 @@ Calibration one_eye() {
 }
 
 TEST(LensCorrection, LeavesEverythingAsItIsUntilSomethingIsFound) {
-  LensCorrection lens(one_eye());
+  LensCorrection lens(monocular());
   Frame frame;
   frame.image = Image(120, 160, CV_8UC1, cv::Scalar(7));
   const Image before = frame.image;
@@ -132,7 +132,7 @@ TEST(LensCorrection, LeavesEverythingAsItIsUntilSomethingIsFound) {
 }
 
 TEST(LensCorrection, MovesABrightSpotToWhereAnIdealCameraShowsIt) {
-  Camera distorted = one_eye().camera;
+  Camera distorted = monocular().camera;
   distorted.distortion = Distortion::kRadialTangential;
   distorted.coefficients = {-0.1};
   const Eigen::Vector3d p_cam(0.4, -0.3, 1);
@@ -143,7 +143,7 @@ TEST(LensCorrection, MovesABrightSpotToWhereAnIdealCameraShowsIt) {
     for (int x = 0; x < 160; ++x)
       frame.image.at<uchar>(y, x) =
           cv::saturate_cast<uchar>(255 * std::exp(-(Eigen::Vector2d(x, y) - px).squaredNorm() / 8));
-  LensCorrection lens(one_eye());
+  LensCorrection lens(monocular());
   lens.add(-0.06);
   lens.add(-0.04);
   EXPECT_NEAR(lens.k1(), -0.1, 1e-12);

@@ -41,7 +41,7 @@ class LoopCloserOnAStreet : public testing::Test {
     options.min_similarity = 0;  // seven views are no basis for the weights of words
     return options;
   }
-  static Calibration one_eye() {
+  static Calibration monocular() {
     Calibration calibration;
     calibration.camera = street_camera();
     return calibration;
@@ -85,7 +85,7 @@ class LoopCloserOnAStreet : public testing::Test {
 };
 
 TEST_F(LoopCloserOnAStreet, AcceptsARevisitWhenASecondOneAgrees) {
-  LoopCloser closer(small_options(), one_eye(), 1);
+  LoopCloser closer(small_options(), monocular(), 1);
   const auto loops = drive(closer, 1, SE3(), false);
   ASSERT_GE(loops.size(), 2u) << stages(closer);
   for (const Loop& loop : loops) {
@@ -104,7 +104,7 @@ TEST_F(LoopCloserOnAStreet, AcceptsARevisitWhenASecondOneAgrees) {
 }
 
 TEST_F(LoopCloserOnAStreet, LooksAtNoCandidateThatIsOutOfReachByOdometry) {
-  LoopCloser closer(small_options(), one_eye(), 1);
+  LoopCloser closer(small_options(), monocular(), 1);
   EXPECT_TRUE(drive(closer, 1, pose({0, 0, 0}, {0, 0, 6}), false).empty());
   ASSERT_FALSE(closer.records().empty());
   for (const LoopRecord& record : closer.records()) {
@@ -115,7 +115,7 @@ TEST_F(LoopCloserOnAStreet, LooksAtNoCandidateThatIsOutOfReachByOdometry) {
 
 TEST_F(LoopCloserOnAStreet, RefusesALoopThatOdometryCannotHaveDriftedTo) {
   // 11 degrees over 5 m at a depth of 10 m, where 2.5 are allowed.
-  LoopCloser closer(small_options(), one_eye(), 1);
+  LoopCloser closer(small_options(), monocular(), 1);
   EXPECT_TRUE(drive(closer, 1, pose({0, 0.2, 0}, {0, 0, 0}), false).empty());
   const auto refused =
       std::find_if(closer.records().begin(), closer.records().end(),
@@ -128,7 +128,7 @@ TEST_F(LoopCloserOnAStreet, RefusesALoopThatOdometryCannotHaveDriftedTo) {
 TEST_F(LoopCloserOnAStreet, WaitsForASecondLoopThatAgrees) {
   // The two drives are sure of themselves, but each says another length of the second drive's path:
   // no two loops agree.
-  LoopCloser closer(small_options(), one_eye(), 1);
+  LoopCloser closer(small_options(), monocular(), 1);
   std::size_t loops = 0;
   for (int k = 0; k < kAll; ++k) {
     const auto odometry = [](KeyframeId from, KeyframeId to) -> std::optional<TrackedMotion> {
@@ -168,7 +168,7 @@ TEST_F(LoopCloserOnAStreet, RefusesALoopThatACertainMapContradicts) {
   const auto found = [&](const SE3& off, double sigma, double way) {
     const auto known =
         certain_map(off, sigma, way, [](std::int64_t k) { return T_world(static_cast<int>(k)); });
-    LoopCloser closer(small_options(), one_eye(), 1);
+    LoopCloser closer(small_options(), monocular(), 1);
     std::size_t loops = 0;
     for (int k = 0; k < kAll; ++k) {
       closer.add_view(KeyframeId(k), frame(k),
@@ -189,7 +189,7 @@ TEST_F(LoopCloserOnAStreet, RefusesALoopThatACertainMapContradicts) {
 }
 
 TEST_F(LoopCloserOnAStreet, TellsTheRatioOfUnitsWhereTheyDiffer) {
-  LoopCloser closer(small_options(), one_eye(), 1);
+  LoopCloser closer(small_options(), monocular(), 1);
   const auto loops = drive(closer, 2.5, std::nullopt, true);
   ASSERT_GE(loops.size(), 2u) << stages(closer);
   for (const Loop& loop : loops) {
@@ -202,12 +202,12 @@ TEST_F(LoopCloserOnAStreet, TellsTheRatioOfUnitsWhereTheyDiffer) {
 }
 
 TEST_F(LoopCloserOnAStreet, RefusesAnotherSizeWhereUnitsAreOne) {
-  LoopCloser closer(small_options(), one_eye(), 1);
+  LoopCloser closer(small_options(), monocular(), 1);
   EXPECT_TRUE(drive(closer, 2.5, std::nullopt, false).empty());
 }
 
 TEST_F(LoopCloserOnAStreet, RelocalizesAFrameAtAKnownKeyframe) {
-  LoopCloser closer(small_options(), one_eye(), 1);
+  LoopCloser closer(small_options(), monocular(), 1);
   EXPECT_FALSE(closer.relocalize(frame(kFirst)));
   for (int k = 0; k < kFirst; ++k)
     closer.add_view(KeyframeId(k), frame(k),
@@ -219,7 +219,7 @@ TEST_F(LoopCloserOnAStreet, RelocalizesAFrameAtAKnownKeyframe) {
 }
 
 TEST_F(LoopCloserOnAStreet, KnowsTheKeyframesOfAMapThatItIsGiven) {
-  LoopCloser driven(small_options(), one_eye(), 1);
+  LoopCloser driven(small_options(), monocular(), 1);
   for (int k = 0; k < kFirst; ++k)
     driven.add_view(KeyframeId(k), frame(k),
                     k ? std::optional(T_previous_this(k, 1)) : std::nullopt);
@@ -231,18 +231,18 @@ TEST_F(LoopCloserOnAStreet, KnowsTheKeyframesOfAMapThatItIsGiven) {
     keyframe.features = view.features;
     map.keyframes.push_back(keyframe);
   }
-  const LoopCloser memory(small_options(), one_eye(), 1, map);
+  const LoopCloser memory(small_options(), monocular(), 1, map);
   EXPECT_EQ(memory.views().size(), driven.views().size());
   const auto found = memory.relocalize(frame(kFirst + 1), 0),
              same = driven.relocalize(frame(kFirst + 1), 0);
   ASSERT_TRUE(found && same);
   EXPECT_EQ(found->match, same->match);
   EXPECT_EQ(distance_m(found->T_match_query, same->T_match_query), 0);
-  EXPECT_FALSE(LoopCloser(small_options(), one_eye(), 1, Map()).relocalize(frame(0), 0));
+  EXPECT_FALSE(LoopCloser(small_options(), monocular(), 1, Map()).relocalize(frame(0), 0));
 }
 
 TEST_F(LoopCloserOnAStreet, GrowsDepthsWithTheUnit) {
-  LoopCloser closer(small_options(), one_eye(), 1);
+  LoopCloser closer(small_options(), monocular(), 1);
   for (int k = 0; k < 2; ++k)
     closer.add_view(KeyframeId(k), frame(k),
                     k ? std::optional(T_previous_this(k, 1)) : std::nullopt);

@@ -5,15 +5,15 @@
 namespace placegraph {
 namespace {
 
-LoopRecord record(LoopStage stage, double likeness, int inliers) {
+LoopRecord record(LoopStage stage, double similarity, int inliers) {
   LoopRecord record;
   record.stage = stage;
-  record.likeness = likeness;
+  record.similarity = similarity;
   record.inliers = inliers;
   return record;
 }
 
-TEST(LoopOdds, GrowWithWhatSpeaksForALoop) {
+TEST(LoopProbability, GrowWithWhatSpeaksForALoop) {
   const double p = loop_probability(record(LoopStage::kGeometry, 0.4, 20));
   EXPECT_GT(p, 0);
   EXPECT_LT(p, 1);
@@ -25,17 +25,17 @@ TEST(LoopOdds, GrowWithWhatSpeaksForALoop) {
             loop_probability(record(LoopStage::kCovariance, 0.4, 60)));
 }
 
-TEST(LoopOdds, LinesCountAsPointsDo) {
+TEST(LoopProbability, LinesCountAsPointsDo) {
   LoopRecord with_lines = record(LoopStage::kSupport, 0.5, 30);
   with_lines.lines = 10;
   EXPECT_EQ(loop_probability(with_lines), loop_probability(record(LoopStage::kSupport, 0.5, 40)));
 }
 
-TEST(LoopOdds, StayFiniteAtTheBounds) {
+TEST(LoopProbability, StayFiniteAtTheBounds) {
   for (const LoopStage stage : {LoopStage::kRetrieval, LoopStage::kGeometry, LoopStage::kDrift,
                                 LoopStage::kCovariance, LoopStage::kSupport, LoopStage::kAccepted})
-    for (const double likeness : {0.0, 1e9}) {
-      const double p = loop_probability(record(stage, likeness, 0));
+    for (const double similarity : {0.0, 1e9}) {
+      const double p = loop_probability(record(stage, similarity, 0));
       EXPECT_GE(p, 0);
       EXPECT_LE(p, 1);
     }

@@ -21,7 +21,7 @@ StoredMap learned(std::size_t count, std::int64_t first = 0,
   return learn_map(count, walk, first, options);
 }
 
-TEST(MapLearner, APlaceIsAStretchOfImagesThatLookAlike) {
+TEST(MapLearner, APlaceIsAStretchOfImagesThatLookTheSame) {
   const StoredMap stored = learned(3 * kRoom);
   const auto& places = stored.map.place_graph.places;
   ASSERT_EQ(places.size(), 3u);
@@ -65,13 +65,13 @@ TEST(MapLearner, EveryImageIsAKeyframeWithItsViewAndNoPose) {
 
 TEST(MapLearner, TheShareThatEndsAPlaceIsAnOption) {
   MapLearnerOptions never, always;
-  never.alike = 0;
-  always.alike = 1;
+  never.similar = 0;
+  always.similar = 1;
   const std::size_t few = learned(3 * kRoom, 0, never).map.place_graph.places.size(),
                     many = learned(3 * kRoom, 0, always).map.place_graph.places.size();
   EXPECT_LE(few, 3u);
   EXPECT_GT(many, 3u);
-  always.alike = 1.5;
+  always.similar = 1.5;
   EXPECT_THROW((void)learned(12, 0, always), ArgumentError);
 }
 

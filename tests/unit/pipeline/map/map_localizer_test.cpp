@@ -106,7 +106,7 @@ TEST(MapLocalizer, RefusesMapsThatItCannotCompareWith) {
   EXPECT_THROW(MapLocalizer(faulty, rooms()), ArgumentError);
 }
 
-TEST(MapLocalizer, AMapWhoseViewsAllLookAlikeTellsNothing) {
+TEST(MapLocalizer, AMapWhoseViewsAllLookTheSameTellsNothing) {
   const StoredMap same = learn_map(
       12, [](std::size_t) { return room_view(0, 0); }, 0, MapLearnerOptions());
   const auto found = MapLocalizer({}, same).localize(

@@ -55,7 +55,7 @@ TEST(FirstFrameInitializer, NoViewEverWaitsForAnother) {
   Beginning b;
   EXPECT_FALSE(b.initializer.started());
   b.tracker.shows_a_keyframe = false;
-  EXPECT_EQ(b.add(0).state, TrackingState::kWaiting);
+  EXPECT_EQ(b.add(0).state, TrackingState::kInitializing);
   EXPECT_FALSE(b.initializer.started());
 }
 
@@ -63,7 +63,7 @@ TEST(FirstFrameInitializer, AFrameWithoutSurfacesLeavesTheMapEmpty) {
   Beginning b;
   b.tracker.shows_a_keyframe = false;
   const Initialization waits = b.add(0);
-  EXPECT_EQ(waits.state, TrackingState::kWaiting);
+  EXPECT_EQ(waits.state, TrackingState::kInitializing);
   EXPECT_EQ(waits.outcome.reason, "no surface to begin with");
   EXPECT_FALSE(waits.is_reference);
   EXPECT_TRUE(b.map.empty());
@@ -75,7 +75,7 @@ TEST(FirstFrameInitializer, AKeyframeThatTheTrackerRefusesIsTakenBack) {
   b.map.restart(Scale::kMetric, 9);
   b.tracker.begins = Outcome::failure(Outcome::Code::kTooFewData, "3 of 90 points");
   const Initialization waits = b.add(0);
-  EXPECT_EQ(waits.state, TrackingState::kWaiting);
+  EXPECT_EQ(waits.state, TrackingState::kInitializing);
   EXPECT_EQ(waits.outcome.reason, "3 of 90 points");
   EXPECT_TRUE(waits.keyframes.empty());
   EXPECT_TRUE(b.map.empty());
@@ -103,7 +103,7 @@ TEST(Initialization, IsAnUpdateOfTheOdometry) {
   waits.rotation = PureRotation{SO3::exp({0, 0.1, 0}), Eigen::Matrix3d::Identity()};
   waits.posed = {{FrameId(3), SE3()}};
   const OdometryUpdate update = waits.update();
-  EXPECT_EQ(update.state, TrackingState::kWaiting);
+  EXPECT_EQ(update.state, TrackingState::kInitializing);
   EXPECT_EQ(update.outcome.reason, "too dark");
   EXPECT_TRUE(update.reference);
   EXPECT_EQ(update.T_odom_cam.translation(), Eigen::Vector3d(1, 2, 3));

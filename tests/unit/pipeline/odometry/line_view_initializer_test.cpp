@@ -49,7 +49,7 @@ TEST(LineViewInitializer, TheFirstFrameIsTheReference) {
   BoardsBeginning b;
   EXPECT_FALSE(b.initializer.started());
   const Initialization first = b.add(0);
-  EXPECT_EQ(first.state, TrackingState::kWaiting);
+  EXPECT_EQ(first.state, TrackingState::kInitializing);
   EXPECT_TRUE(first.is_reference);
   EXPECT_LT((first.T_odom_reference.inverse() * b.T_odom_start).log().norm(), 1e-12);
   EXPECT_TRUE(b.initializer.started());
@@ -59,7 +59,7 @@ TEST(LineViewInitializer, TheFirstFrameIsTheReference) {
 TEST(LineViewInitializer, AnEmptyFrameIsNothingToBeginWith) {
   BoardsBeginning b;
   const Initialization dark = b.add_dark(0);
-  EXPECT_EQ(dark.state, TrackingState::kWaiting);
+  EXPECT_EQ(dark.state, TrackingState::kInitializing);
   EXPECT_FALSE(dark.is_reference);
   EXPECT_NE(dark.outcome.reason.find("lines to follow"), std::string::npos);
   EXPECT_FALSE(b.initializer.started());
@@ -145,7 +145,7 @@ TEST(LineViewInitializer, AFrameWithoutTheLinesOfTheFirstViewTakesItsPlace) {
   (void)b.add(0);
   (void)b.add(1);
   const Initialization dark = b.add_dark(2);
-  EXPECT_EQ(dark.state, TrackingState::kWaiting);
+  EXPECT_EQ(dark.state, TrackingState::kInitializing);
   EXPECT_FALSE(dark.is_reference);  // it shows nothing itself
   EXPECT_FALSE(b.initializer.started());
   const Initialization anew = b.add(3);
@@ -170,7 +170,7 @@ TEST(LineViewInitializer, ACameraThatStandsWaitsAndLeavesTheMapEmpty) {
   for (int i = 0; i < 12; ++i) {
     still.id = FrameId(i);
     waits = b.initializer.add(still, {}, b.map, b.mapping);
-    ASSERT_EQ(waits.state, TrackingState::kWaiting);
+    ASSERT_EQ(waits.state, TrackingState::kInitializing);
   }
   EXPECT_FALSE(waits.outcome.reason.empty());
   EXPECT_TRUE(b.map.empty());

@@ -68,7 +68,7 @@ TEST(Odometry, AnRgbdCameraBeginsWithTheFirstFrame) {
 TEST(Odometry, AMonocularCameraWaitsForParallaxAndThenPosesTheFramesThatWaited) {
   Street run(Sensor::kMono, "points");
   OdometryUpdate update = run.add(0);
-  EXPECT_EQ(update.state, TrackingState::kWaiting);
+  EXPECT_EQ(update.state, TrackingState::kInitializing);
   EXPECT_TRUE(update.reference);
   EXPECT_TRUE(run.odometry.started());
   int i = 1;
@@ -149,7 +149,7 @@ TEST(Odometry, AnEmptyFirstFrameIsNothingToBeginWith) {
     Frame dark = frames().frame(0, sensor);
     dark.image = black();
     const OdometryUpdate nothing = run.odometry.add_frame(dark);
-    EXPECT_EQ(nothing.state, TrackingState::kWaiting);
+    EXPECT_EQ(nothing.state, TrackingState::kInitializing);
     EXPECT_FALSE(nothing.outcome.reason.empty());
     EXPECT_FALSE(nothing.reference);
     EXPECT_FALSE(run.odometry.started());

@@ -45,7 +45,7 @@ TEST(TwoViewInitializer, TheFirstFrameIsTheReference) {
   StreetBeginning b(drive());
   EXPECT_FALSE(b.initializer.started());
   const Initialization first = b.add(0);
-  EXPECT_EQ(first.state, TrackingState::kWaiting);
+  EXPECT_EQ(first.state, TrackingState::kInitializing);
   EXPECT_TRUE(first.is_reference);
   EXPECT_LT((first.T_odom_reference.inverse() * b.T_odom_start).log().norm(), 1e-12);
   EXPECT_TRUE(b.initializer.started());
@@ -104,7 +104,7 @@ TEST(TwoViewInitializer, AKnownMapGivesItsUnitByTheViewThatIsRecognized) {
   StreetBeginning b(drive(), Scale::kFromMap);
   (void)b.add(0);
   const Initialization waits = b.add(1);
-  EXPECT_EQ(waits.state, TrackingState::kWaiting);
+  EXPECT_EQ(waits.state, TrackingState::kInitializing);
   EXPECT_EQ(waits.outcome.reason, "nothing gives the map's unit");
   EXPECT_TRUE(b.map.empty());
   const SE3 T_known = b.T_odom_start * pose({0, 0, 0}, {0, 0, 4});
@@ -118,7 +118,7 @@ TEST(TwoViewInitializer, ARotationIsNoBeginningButItsFramesArePosed) {
   (void)b.add(0);
   for (int i = 1; i <= kStands; ++i) {
     const Initialization waits = b.add(i);
-    ASSERT_EQ(waits.state, TrackingState::kWaiting) << i;
+    ASSERT_EQ(waits.state, TrackingState::kInitializing) << i;
     ASSERT_TRUE(waits.rotation) << i;
     const SO3 truth = rotates_first(0).rotation().inverse() * rotates_first(i).rotation();
     EXPECT_LT((waits.rotation->R_before_cam.inverse() * truth).log().norm(), 0.003) << i;
@@ -172,7 +172,7 @@ TEST(TwoViewInitializer, AnotherFrameTakesThePlaceOfAReferenceThatIsOutOfView) {
   StreetBeginning b(drive());
   (void)b.add(0);
   const Initialization dark = b.add_dark(1);
-  EXPECT_EQ(dark.state, TrackingState::kWaiting);
+  EXPECT_EQ(dark.state, TrackingState::kInitializing);
   EXPECT_FALSE(dark.is_reference);  // a dark frame is nothing to begin with either
   EXPECT_FALSE(b.initializer.started());
   const Initialization anew = b.add(2);

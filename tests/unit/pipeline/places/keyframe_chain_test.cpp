@@ -12,7 +12,7 @@ using namespace test;
 constexpr double kRounding = 1e-12;
 
 /// Keyframes 0, 1, 2 in one run of tracking; 3 hangs on 1 and begins another one, with 4.
-KeyframeChain two_runs(bool first_known = true, bool second_known = true) {
+KeyframeChain two_track_segments(bool first_known = true, bool second_known = true) {
   KeyframeChain chain;
   chain.add(KeyframeId(0), std::nullopt, first_known);
   chain.add(KeyframeId(1), link(0, kShort));
@@ -27,7 +27,7 @@ KeyframeChain two_runs(bool first_known = true, bool second_known = true) {
 }
 
 TEST(KeyframeChain, TheMotionBetweenTwoKeyframesIsThatOfTheLinksBetweenThem) {
-  const KeyframeChain chain = two_runs();
+  const KeyframeChain chain = two_track_segments();
   EXPECT_LT(distance_m(chain.T_a_b(KeyframeId(0), KeyframeId(2)), kShort * kLong), kRounding);
   EXPECT_LT(distance_m(chain.T_a_b(KeyframeId(2), KeyframeId(0)), (kShort * kLong).inverse()),
             kRounding);
@@ -35,7 +35,7 @@ TEST(KeyframeChain, TheMotionBetweenTwoKeyframesIsThatOfTheLinksBetweenThem) {
 }
 
 TEST(KeyframeChain, ThePathIsAsLongAsItsLinksInEitherDirection) {
-  const KeyframeChain chain = two_runs();
+  const KeyframeChain chain = two_track_segments();
   const double expected = kShort.translation().norm() + kLong.translation().norm();
   EXPECT_NEAR(chain.odometry(KeyframeId(0), KeyframeId(2))->path_length, expected, kRounding);
   EXPECT_NEAR(chain.odometry(KeyframeId(2), KeyframeId(0))->path_length, expected, kRounding);
@@ -44,23 +44,23 @@ TEST(KeyframeChain, ThePathIsAsLongAsItsLinksInEitherDirection) {
 }
 
 TEST(KeyframeChain, ALinkThatIsNoOdometryBeginsARun) {
-  const KeyframeChain chain = two_runs(true, false);
+  const KeyframeChain chain = two_track_segments(true, false);
   EXPECT_TRUE(chain.has_odometry(KeyframeId(2)));
   EXPECT_FALSE(chain.has_odometry(KeyframeId(0)));
   EXPECT_FALSE(chain.has_odometry(KeyframeId(3)));
-  EXPECT_EQ(chain.at(KeyframeId(2)).run, 0);
-  EXPECT_EQ(chain.at(KeyframeId(4)).run, 1);
+  EXPECT_EQ(chain.at(KeyframeId(2)).track_segment, 0);
+  EXPECT_EQ(chain.at(KeyframeId(4)).track_segment, 1);
   EXPECT_FALSE(chain.odometry(KeyframeId(1), KeyframeId(3)));
   EXPECT_FALSE(chain.odometry(KeyframeId(0), KeyframeId(9)));
   EXPECT_LT(distance_m(chain.T_a_b(KeyframeId(3), KeyframeId(4)), kShort), kRounding);
   EXPECT_TRUE(chain.scale_known(KeyframeId(2)));
   EXPECT_FALSE(chain.scale_known(KeyframeId(4)));
   EXPECT_FALSE(chain.all_scales_known());
-  EXPECT_TRUE(two_runs().all_scales_known());
+  EXPECT_TRUE(two_track_segments().all_scales_known());
 }
 
 TEST(KeyframeChain, ANewerLinkMovesAllKeyframesThatFollow) {
-  KeyframeChain chain = two_runs();
+  KeyframeChain chain = two_track_segments();
   const SE3 newer = pose({0, 0.03, 0}, {0, 0, 2});
   chain.update_link(KeyframeId(1), newer);
   EXPECT_LT(distance_m(chain.T_a_b(KeyframeId(0), KeyframeId(2)), newer * kLong), kRounding);
@@ -72,7 +72,7 @@ TEST(KeyframeChain, ANewerLinkMovesAllKeyframesThatFollow) {
 }
 
 TEST(KeyframeChain, TheCovarianceOfALinkIsTheInverseOfItsInformation) {
-  KeyframeChain chain = two_runs();
+  KeyframeChain chain = two_track_segments();
   EXPECT_NEAR(chain.at(KeyframeId(1)).link_covariance(0, 0), 0.05 * 0.05, kRounding);
   chain.inform_link(KeyframeId(1), information_of(0.2, 0.03), 0.04);
   Vector7d expected;
@@ -84,7 +84,7 @@ TEST(KeyframeChain, TheCovarianceOfALinkIsTheInverseOfItsInformation) {
 }
 
 TEST(KeyframeChain, RescalingARunMultipliesItsLengthsAndLeavesOthersAsTheyAre) {
-  KeyframeChain chain = two_runs(false, false);
+  KeyframeChain chain = two_track_segments(false, false);
   chain.inform_link(KeyframeId(1), information_of(0.2, 0.03), 0.04);
   chain.rescale(KeyframeId(0), 2);
   EXPECT_TRUE(chain.scale_known(KeyframeId(2)));
@@ -107,7 +107,7 @@ TEST(KeyframeChain, RescalingARunMultipliesItsLengthsAndLeavesOthersAsTheyAre) {
 }
 
 TEST(KeyframeChain, RescalingTheRunThatHangsOnAnotherLeavesTheLinkBetweenThem) {
-  KeyframeChain chain = two_runs(true, false);
+  KeyframeChain chain = two_track_segments(true, false);
   chain.rescale(KeyframeId(3), 3);
   EXPECT_TRUE(chain.all_scales_known());
   EXPECT_LT(distance_m(chain.at(KeyframeId(3)).link->T_from_this, kLong), kRounding);
@@ -118,10 +118,10 @@ TEST(KeyframeChain, RescalingTheRunThatHangsOnAnotherLeavesTheLinkBetweenThem) {
 }
 
 TEST(KeyframeChain, ASavedChainIsTheSameWhenItIsRestored) {
-  const KeyframeChain chain = two_runs(true, false);
+  const KeyframeChain chain = two_track_segments(true, false);
   std::vector<PlaceHistory::Keyframe> saved;
   for (const auto& [id, keyframe] : chain.keyframes())
-    saved.push_back({id, KeyframeId(0), keyframe.run, keyframe.link});
+    saved.push_back({id, KeyframeId(0), keyframe.track_segment, keyframe.link});
   const KeyframeChain restored(saved, chain.scale_known());
   EXPECT_LT(distance_m(restored.T_a_b(KeyframeId(0), KeyframeId(2)),
                        chain.T_a_b(KeyframeId(0), KeyframeId(2))),
@@ -133,7 +133,7 @@ TEST(KeyframeChain, ASavedChainIsTheSameWhenItIsRestored) {
 }
 
 TEST(KeyframeChain, RefusesWhatContradictsItself) {
-  KeyframeChain chain = two_runs();
+  KeyframeChain chain = two_track_segments();
   EXPECT_THROW(chain.add(KeyframeId(2), std::nullopt), ArgumentError);
   EXPECT_THROW(chain.add(KeyframeId(5), link(9, kLong)), ArgumentError);
   EXPECT_FALSE(chain.contains(KeyframeId(5)));

@@ -43,7 +43,7 @@ struct Line {
     if (anchor)
       partition.found(KeyframeId(id), Sim3(), 0, 3);
     else
-      partition.join(KeyframeId(id), partition.part_of(to_last->from));
+      partition.join(KeyframeId(id), partition.segment_of(to_last->from));
   }
 };
 
@@ -51,8 +51,8 @@ TEST(PlaceConstraints, CovariancesOfLinksAddUpFromAnchorToAnchor) {
   const Line line;
   const auto edges = link_edges(line.chain, line.partition, KeyframeId(0));
   ASSERT_EQ(edges.size(), 2u);
-  EXPECT_EQ(edges[0].from_part, KeyframeId(0));
-  EXPECT_EQ(edges[0].to_part, KeyframeId(2));
+  EXPECT_EQ(edges[0].from_segment, KeyframeId(0));
+  EXPECT_EQ(edges[0].to_segment, KeyframeId(2));
   EXPECT_LT(difference(edges[0].S_from_to, Sim3(pose({0, 0, 0}, {0, 0, 6}))), kRounding);
   // C = Ad C1 Ad^T + C2: the rotation of the first link moves the end of the second one, 5 m on,
   // sideways.
@@ -77,8 +77,8 @@ TEST(PlaceConstraints, AChainBeginsWithoutCovarianceAtEveryAnchor) {
 TEST(PlaceConstraints, ARunHangsOnTheAnchorOfTheKeyframeThatItsLinkNames) {
   const Line line(false);
   const PlaceEdge edge = link_edges(line.chain, line.partition, KeyframeId(0)).at(1);
-  EXPECT_EQ(edge.from_part, KeyframeId(2));
-  EXPECT_EQ(edge.to_part, KeyframeId(4));
+  EXPECT_EQ(edge.from_segment, KeyframeId(2));
+  EXPECT_EQ(edge.to_segment, KeyframeId(4));
   EXPECT_EQ(edge.source, ConstraintSource::kOther);
   EXPECT_LT(difference(edge.S_from_to, Sim3(SO3(), Eigen::Vector3d(0, 0, 6), 2)), kRounding);
   EXPECT_LT((edge.covariance - diagonal(0.04, 0.0009, 0)).norm(), kRounding);
@@ -122,8 +122,8 @@ TEST(PlaceConstraints, ALoopIsCarriedToTheAnchorsOfItsKeyframes) {
   const SE3 T_1_5 = pose({0, 0.4, 0}, {1, 0, 2});
   const PlaceEdge edge = loop_edge(line.chain, line.partition, loop(5, 1, T_1_5, 0.1, 0.01), 7);
   EXPECT_EQ(edge.key.second, 7);
-  EXPECT_EQ(edge.from_part, KeyframeId(0));
-  EXPECT_EQ(edge.to_part, KeyframeId(4));
+  EXPECT_EQ(edge.from_segment, KeyframeId(0));
+  EXPECT_EQ(edge.to_segment, KeyframeId(4));
   const SE3 near = pose({0, 0, 0}, {0, 0, 1});
   EXPECT_LT(difference(edge.S_from_to, Sim3(near * T_1_5 * near.inverse())), kRounding);
   // The anchor is 1 m behind the query: its rotation moves the anchor sideways.
@@ -147,8 +147,8 @@ TEST(PlaceConstraints, MetresOfOtherSensorsSayNothingOfAnUnknownScale) {
   EXPECT_FALSE(motion_edge(Line(false).chain, motion, 0));
   const auto edge = motion_edge(Line(true).chain, motion, 3);
   ASSERT_TRUE(edge);
-  EXPECT_EQ(edge->from_part, KeyframeId(2));
-  EXPECT_EQ(edge->to_part, KeyframeId(4));
+  EXPECT_EQ(edge->from_segment, KeyframeId(2));
+  EXPECT_EQ(edge->to_segment, KeyframeId(4));
   EXPECT_EQ(edge->key, PlaceConstraint::Key(PlaceConstraint::Kind::kMotion, 3));
   EXPECT_LT((edge->covariance - diagonal(0.01, 0.01, 1e-6)).norm(), kRounding);
 }
@@ -158,14 +158,14 @@ TEST(PlaceConstraints, BetweenPlacesTheCovariancesOfTheirPartsAreAdded) {
   Line line;
   const Sim3 S_1_4(pose({0, std::numbers::pi / 2, 0}, {2, 0, 0}));
   line.partition.set_pose(PlaceId(2), S_1_4);
-  Matrix7d of_part = Matrix7d::Zero();
-  of_part(2, 2) = 0.5;  // along the part's z, which is the place's x
+  Matrix7d of_segment = Matrix7d::Zero();
+  of_segment(2, 2) = 0.5;  // along the part's z, which is the place's x
   line.partition.merge(PlaceId(1), PlaceId(2),
-                       of_part);  // the place of part 4 is the younger one: in its frame
-  ASSERT_LT((line.partition.parts().at(KeyframeId(4)).covariance - of_part).norm(), kRounding);
+                       of_segment);  // the place of part 4 is the younger one: in its frame
+  ASSERT_LT((line.partition.segments().at(KeyframeId(4)).covariance - of_segment).norm(), kRounding);
   PlaceEdge edge;
-  edge.from_part = KeyframeId(0);
-  edge.to_part = KeyframeId(4);
+  edge.from_segment = KeyframeId(0);
+  edge.to_segment = KeyframeId(4);
   edge.S_from_to = Sim3(pose({0, 0, 0}, {0, 0, 6}));
   edge.covariance = diagonal(0.01, 0.0001, 0);
   const auto constraint = constraint_between_places(line.partition, edge, true);
@@ -185,12 +185,12 @@ TEST(PlaceConstraints, BetweenPlacesTheCovariancesOfTheirPartsAreAdded) {
 
 TEST(PlaceConstraints, TheCovarianceOfTheFirstPartIsSeenFromTheSecond) {
   Line line;
-  Matrix7d of_part = Matrix7d::Zero();
-  of_part(4, 4) = 0.01;  // rotation of part 2 in place 0 about y
-  line.partition.merge(PlaceId(0), PlaceId(1), of_part);
+  Matrix7d of_segment = Matrix7d::Zero();
+  of_segment(4, 4) = 0.01;  // rotation of part 2 in place 0 about y
+  line.partition.merge(PlaceId(0), PlaceId(1), of_segment);
   PlaceEdge edge;
-  edge.from_part = KeyframeId(2);
-  edge.to_part = KeyframeId(4);
+  edge.from_segment = KeyframeId(2);
+  edge.to_segment = KeyframeId(4);
   edge.S_from_to = Sim3(pose({0, 0, 0}, {0, 0, 6}));
   edge.covariance = diagonal(0.01, 0.0001, 0);
   const Matrix6d covariance =

@@ -86,10 +86,10 @@ TEST(PlaceHistory, WhatContradictsItselfIsRefused) {
   history.places.pop_back();
   refused(history);
   history = mapper.history();
-  history.parts.front().place = PlaceId(99);
+  history.segments.front().place = PlaceId(99);
   refused(history);
   history = mapper.history();
-  history.keyframes.back().part = KeyframeId(99);
+  history.keyframes.back().segment = KeyframeId(99);
   refused(history);
   history = mapper.history();
   history.loops.front().query = KeyframeId(99);

@@ -116,9 +116,9 @@ TEST(PlaceMerging, TwoPlacesAreOneIfALoopAgreesAndTheyAreInReachAndKnownWellEnou
   near.loops = {loop(4, 0, pose({0, 0, 0}, {2.9, 0, 0}), 0.1, 0.01)};
   EXPECT_EQ(far.mergers(), 0u);
   EXPECT_EQ(near.mergers(), 1u);
-  const SE3 turned = pose({0, 0.36, 0}, {0, 0, 0});  // 20.6 deg
-  ClosedRow other_way(turned);
-  other_way.loops = {loop(4, 0, turned, 0.1, 0.01)};
+  const SE3 rotated = pose({0, 0.36, 0}, {0, 0, 0});  // 20.6 deg
+  ClosedRow other_way(rotated);
+  other_way.loops = {loop(4, 0, rotated, 0.1, 0.01)};
   EXPECT_EQ(other_way.mergers(), 0u);
 }
 

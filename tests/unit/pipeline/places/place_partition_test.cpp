@@ -12,7 +12,7 @@ using namespace test;
 TEST(PlacePartition, AKeyframeStandsWhereItsPartHasIt) {
   const Row row;
   EXPECT_EQ(row.partition.place_of(KeyframeId(3)), PlaceId(1));
-  EXPECT_EQ(row.partition.part_of(KeyframeId(3)), KeyframeId(2));
+  EXPECT_EQ(row.partition.segment_of(KeyframeId(3)), KeyframeId(2));
   EXPECT_EQ(row.partition.state_of(KeyframeId(3)).last_keyframe, KeyframeId(3));
   EXPECT_TRUE(row.partition.is_anchor(KeyframeId(2)));
   EXPECT_FALSE(row.partition.is_anchor(KeyframeId(3)));
@@ -33,7 +33,7 @@ TEST(PlacePartition, AMergerMovesNoKeyframe) {
   EXPECT_EQ(row.partition.places().size(), 2u);
   EXPECT_EQ(row.partition.place_of(KeyframeId(3)), PlaceId(0));
   EXPECT_EQ(row.partition.state_of(KeyframeId(0)).last_keyframe, KeyframeId(3));
-  EXPECT_LT((row.partition.parts().at(KeyframeId(2)).covariance - covariance).norm(), kRounding);
+  EXPECT_LT((row.partition.segments().at(KeyframeId(2)).covariance - covariance).norm(), kRounding);
   const auto listed = row.partition.graph_places(row.chain);
   ASSERT_EQ(listed.size(), 2u);
   ASSERT_EQ(listed[0].members.size(), 4u);
@@ -48,20 +48,20 @@ TEST(PlacePartition, ASecondMergerAddsItsCovarianceInTheFrameOfThePart) {
   Matrix7d first = Matrix7d::Zero();
   first(2, 2) = 0.5;
   row.partition.merge(PlaceId(1), PlaceId(2), first);
-  const Sim3 S_place_part = row.partition.parts().at(KeyframeId(4)).S_place_part;
+  const Sim3 S_place_segment = row.partition.segments().at(KeyframeId(4)).S_place_segment;
   Matrix7d covariance = Matrix7d::Zero();
   covariance(1, 1) = 1;  // about the y axis alone: a lateral shift
   covariance(4, 4) = 0.01;
   row.partition.merge(PlaceId(0), PlaceId(1), covariance);
   // A rotation w of the place about y moves the part, 5 m ahead, sideways by w times 5 m.
-  const double ahead = S_place_part.translation().z();
-  const SO3 R = S_place_part.rotation();
+  const double ahead = S_place_segment.translation().z();
+  const SO3 R = S_place_segment.rotation();
   const Eigen::Vector3d side =
-      R.inverse() * Eigen::Vector3d(ahead, 0, -S_place_part.translation().x());
+      R.inverse() * Eigen::Vector3d(ahead, 0, -S_place_segment.translation().x());
   Eigen::Matrix3d expected = 0.01 * side * side.transpose();
   expected(1, 1) += 1;
   expected(2, 2) += 0.5;
-  const Matrix7d& found = row.partition.parts().at(KeyframeId(4)).covariance;
+  const Matrix7d& found = row.partition.segments().at(KeyframeId(4)).covariance;
   EXPECT_LT((found.topLeftCorner<3, 3>() - expected).norm(), kRounding);
 }
 
@@ -83,11 +83,11 @@ TEST(PlacePartition, SeparatingUndoesAMergerWhereThePlacesStandNow) {
   EXPECT_LT(difference(row.S_map(0), S_map_0), kRounding);
   EXPECT_LT(difference(row.S_map(3), S_map_3), kRounding);
   EXPECT_LT(difference(place.S_map_place, row.S_map(2)), kRounding);
-  EXPECT_LT(difference(row.partition.parts().at(KeyframeId(2)).S_place_part, Sim3()), kRounding);
-  EXPECT_EQ(row.partition.parts().at(KeyframeId(2)).covariance.norm(), 0);
-  EXPECT_TRUE(row.partition.have_parted(PlaceId(0), PlaceId(3)));
-  EXPECT_TRUE(row.partition.have_parted(PlaceId(3), PlaceId(0)));
-  EXPECT_FALSE(row.partition.have_parted(PlaceId(0), PlaceId(2)));
+  EXPECT_LT(difference(row.partition.segments().at(KeyframeId(2)).S_place_segment, Sim3()), kRounding);
+  EXPECT_EQ(row.partition.segments().at(KeyframeId(2)).covariance.norm(), 0);
+  EXPECT_TRUE(row.partition.were_separated(PlaceId(0), PlaceId(3)));
+  EXPECT_TRUE(row.partition.were_separated(PlaceId(3), PlaceId(0)));
+  EXPECT_FALSE(row.partition.were_separated(PlaceId(0), PlaceId(2)));
 }
 
 TEST(PlacePartition, AComponentOfOneRunGrowsAboutItsFirstKeyframe) {
@@ -104,8 +104,8 @@ TEST(PlacePartition, AComponentOfOneRunGrowsAboutItsFirstKeyframe) {
     EXPECT_NEAR(row.S_map(id).scale(), 1, kRounding);
   }
   EXPECT_NEAR(row.partition.state_of(KeyframeId(0)).reach, 6, kRounding);
-  EXPECT_NEAR(row.partition.parts().at(KeyframeId(2)).covariance(0, 0), 0.4, kRounding);
-  EXPECT_NEAR(row.partition.parts().at(KeyframeId(2)).covariance(4, 4), 0.1, kRounding);
+  EXPECT_NEAR(row.partition.segments().at(KeyframeId(2)).covariance(0, 0), 0.4, kRounding);
+  EXPECT_NEAR(row.partition.segments().at(KeyframeId(2)).covariance(4, 4), 0.1, kRounding);
 }
 
 TEST(PlacePartition, ARunInACompanyOfOthersStaysWhereItIsAndShrinksItsScale) {
@@ -135,7 +135,7 @@ TEST(PlacePartition, ASavedPartitionIsTheSameWhenItIsRestored) {
   row.partition.save(history);
   for (const auto& [id, keyframe] : row.chain.keyframes())
     history.keyframes.push_back(
-        {id, row.partition.part_of(KeyframeId(id)), keyframe.run, keyframe.link});
+        {id, row.partition.segment_of(KeyframeId(id)), keyframe.track_segment, keyframe.link});
   const PlacePartition restored(row.partition.graph_places(row.chain), history);
   for (int id = 0; id <= 4; ++id) {
     EXPECT_EQ(restored.place_of(KeyframeId(id)), row.partition.place_of(KeyframeId(id))) << id;
@@ -146,8 +146,8 @@ TEST(PlacePartition, ASavedPartitionIsTheSameWhenItIsRestored) {
   EXPECT_EQ(restored.state_of(KeyframeId(2)).last_keyframe, KeyframeId(3));
   EXPECT_EQ(restored.state_of(KeyframeId(2)).reach, row.partition.state_of(KeyframeId(2)).reach);
   EXPECT_EQ(restored.merged().size(), 1u);
-  EXPECT_TRUE(restored.have_parted(PlaceId(0), PlaceId(3)));
-  EXPECT_TRUE(restored.parts().at(KeyframeId(2)).motion_covariance);
+  EXPECT_TRUE(restored.were_separated(PlaceId(0), PlaceId(3)));
+  EXPECT_TRUE(restored.segments().at(KeyframeId(2)).motion_covariance);
   history.founded = 0;
   EXPECT_THROW(PlacePartition(row.partition.graph_places(row.chain), history), ArgumentError);
 }

@@ -54,7 +54,7 @@ TEST(PlaceReach, AKeyframeWithinReachOfTheAnchorBelongsToItsPart) {
   const auto in_reach = [&](const SE3& T_4_this, double median_depth) {
     Row other = row;
     other.chain.add(KeyframeId(5), link(4, T_4_this));
-    return in_reach_of_part(other.chain, other.partition, {}, {}, KeyframeId(5), median_depth);
+    return in_reach_of_segment(other.chain, other.partition, {}, {}, KeyframeId(5), median_depth);
   };
   EXPECT_TRUE(in_reach(pose({0, 0, 0}, {0, 0, 2.9}), 10));
   EXPECT_FALSE(in_reach(pose({0, 0, 0}, {0, 0, 3.1}), 10));

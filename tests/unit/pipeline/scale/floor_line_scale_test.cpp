@@ -29,23 +29,23 @@ std::vector<PlacedLine> corridor(double factor = 1, std::int64_t first_id = 0) {
   }
   return lines;
 }
-FloorScale scale(const FloorScaleOptions& options = {}) {
-  return FloorScale(options, LineScene().camera, kHeight_m);
+FloorLineScale scale(const FloorLineScaleOptions& options = {}) {
+  return FloorLineScale(options, LineScene().camera, kHeight_m);
 }
 
-TEST(FloorScale, ThreeViewsThatAgreeGiveTheUnit) {
-  FloorScale floor = scale();
+TEST(FloorLineScale, ThreeViewsThatAgreeGiveTheUnit) {
+  FloorLineScale floor = scale();
   EXPECT_FALSE(floor.measure(SE3(), corridor(2.5), {}, false));
   EXPECT_FALSE(floor.measure(SE3(), corridor(2.55), {}, false));
   const auto length = floor.measure(SE3(), corridor(2.45), {}, false);
   ASSERT_TRUE(length);
   EXPECT_NEAR(length->factor, 2.5, 0.01);  // the one in the middle
-  EXPECT_GE(length->sigma_relative, FloorScaleOptions().sigma_relative);
-  EXPECT_LT(length->sigma_relative, FloorScaleOptions().max_sigma_at_first);
+  EXPECT_GE(length->sigma_relative, FloorLineScaleOptions().sigma_relative);
+  EXPECT_LT(length->sigma_relative, FloorLineScaleOptions().max_sigma_at_first);
 }
 
-TEST(FloorScale, ViewsThatContradictEachOtherGiveNone) {
-  FloorScale floor = scale();
+TEST(FloorLineScale, ViewsThatContradictEachOtherGiveNone) {
+  FloorLineScale floor = scale();
   EXPECT_FALSE(floor.measure(SE3(), corridor(2.5), {}, false));
   EXPECT_FALSE(floor.measure(SE3(), corridor(3.5), {}, false));
   EXPECT_FALSE(floor.measure(SE3(), corridor(2.5), {}, false));
@@ -54,17 +54,17 @@ TEST(FloorScale, ViewsThatContradictEachOtherGiveNone) {
   EXPECT_TRUE(floor.measure(SE3(), corridor(2.5), {}, false));
 }
 
-TEST(FloorScale, AHeightThatIsPoorlyKnownGivesNone) {
-  FloorScaleOptions options;
+TEST(FloorLineScale, AHeightThatIsPoorlyKnownGivesNone) {
+  FloorLineScaleOptions options;
   options.max_sigma_at_first = 0.9 * options.sigma_relative;  // no height is known so well
-  FloorScale floor = scale(options);
+  FloorLineScale floor = scale(options);
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(floor.measure(SE3(), corridor(2.5), {}, false)) << i;
   EXPECT_TRUE(
       floor.measure(SE3(), corridor(1), {}, true));  // in a known unit it may tell something
 }
 
-TEST(FloorScale, InAKnownUnitALineIsHeardOnce) {
-  FloorScale floor = scale();
+TEST(FloorLineScale, InAKnownUnitALineIsHeardOnce) {
+  FloorLineScale floor = scale();
   const auto first = floor.measure(SE3(), corridor(1.02), {}, true);
   ASSERT_TRUE(first);
   EXPECT_NEAR(first->factor, 1.02, 0.005);
@@ -72,8 +72,8 @@ TEST(FloorScale, InAKnownUnitALineIsHeardOnce) {
   EXPECT_TRUE(floor.measure(SE3(), corridor(1.02, 100), {}, true));  // other lines
 }
 
-TEST(FloorScale, FewNewLinesCountForLess) {
-  FloorScale all = scale(), few = scale();
+TEST(FloorLineScale, FewNewLinesCountForLess) {
+  FloorLineScale all = scale(), few = scale();
   ASSERT_TRUE(few.measure(SE3(), corridor(), {}, true));
   std::vector<PlacedLine> lines = corridor();
   int renamed = 0;  // two of the joints of the floor are new
@@ -88,8 +88,8 @@ TEST(FloorScale, FewNewLinesCountForLess) {
   EXPECT_GT(two->sigma_relative, 1.5 * many->sigma_relative);
 }
 
-TEST(FloorScale, AJumpIsNotBelievedUntilItLasts) {
-  FloorScale floor = scale();
+TEST(FloorLineScale, AJumpIsNotBelievedUntilItLasts) {
+  FloorLineScale floor = scale();
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(floor.measure(SE3(), corridor(1, 100 * i), {}, true));
   int refused = 0;
   while (refused < 10 && !floor.measure(SE3(), corridor(1.3, 1000 + 100 * refused), {}, true))
@@ -98,17 +98,17 @@ TEST(FloorScale, AJumpIsNotBelievedUntilItLasts) {
   EXPECT_LT(refused, 10);
 }
 
-TEST(FloorScale, WithoutAFloorThereIsNone) {
+TEST(FloorLineScale, WithoutAFloorThereIsNone) {
   std::vector<PlacedLine> ceiling = corridor();
   std::erase_if(ceiling, [](const PlacedLine& line) {
     return line.line_ref.nearest_point().y() > 0 || std::abs(line.line_ref.direction().y()) > 0.9;
   });
-  FloorScale floor = scale();
+  FloorLineScale floor = scale();
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(floor.measure(SE3(), ceiling, {}, i % 2 == 0));
 }
 
-TEST(FloorScale, AResetForgetsWhatWasHeard) {
-  FloorScale floor = scale();
+TEST(FloorLineScale, AResetForgetsWhatWasHeard) {
+  FloorLineScale floor = scale();
   ASSERT_TRUE(floor.measure(SE3(), corridor(), {}, true));
   floor.reset();
   EXPECT_TRUE(floor.measure(SE3(), corridor(), {}, true));
@@ -118,10 +118,10 @@ TEST(FloorScale, AResetForgetsWhatWasHeard) {
   EXPECT_FALSE(floor.measure(SE3(), corridor(2), {}, false));  // three views are needed again
 }
 
-TEST(FloorScale, LooksBackByAShareOfItsHeight) {
+TEST(FloorLineScale, LooksBackByAShareOfItsHeight) {
   EXPECT_NEAR(scale().min_baseline_m(), 0.6 * kHeight_m, 1e-12);
-  EXPECT_THROW(FloorScale({}, LineScene().camera, 0), ArgumentError);
-  FloorScaleOptions options;
+  EXPECT_THROW(FloorLineScale({}, LineScene().camera, 0), ArgumentError);
+  FloorLineScaleOptions options;
   options.sigma_relative = -1;
   EXPECT_THROW(scale(options), ArgumentError);
 }

@@ -39,14 +39,14 @@ SE3 T_old_new(double factor) {
 class GroundScaleOnARoad : public testing::Test {
  protected:
   const Image old_ = road(0), new_ = road(kStep_m);
-  GroundScale scale_{{}, kCamera, kHeight_m};
+  GroundPlaneScale scale_{{}, kCamera, kHeight_m};
 };
 
 TEST_F(GroundScaleOnARoad, FindsTheLengthOfAMotionKnownUpToScale) {
   const auto length = scale_.find(new_, old_, T_old_new(1 / kStep_m));  // |t| = 1
   ASSERT_TRUE(length);
   EXPECT_NEAR(length->factor, kStep_m, 0.02 * kStep_m);
-  EXPECT_GE(length->sigma_relative, GroundScaleOptions{}.sigma_relative);
+  EXPECT_GE(length->sigma_relative, GroundPlaneScaleOptions{}.sigma_relative);
   EXPECT_LT(length->sigma_relative, 0.06);
 }
 
@@ -70,9 +70,9 @@ TEST_F(GroundScaleOnARoad, CorrectsAScaleThatIsRoughlyRight) {
 }
 
 TEST_F(GroundScaleOnARoad, DoesNotBelieveAJumpUntilItLasts) {
-  GroundScaleOptions options;
+  GroundPlaneScaleOptions options;
   options.max_log_jump = 0.1;
-  GroundScale scale(options, kCamera, kHeight_m);
+  GroundPlaneScale scale(options, kCamera, kHeight_m);
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(scale.follow(new_, old_, T_old_new(1)));
   EXPECT_FALSE(scale.follow(new_, old_, T_old_new(1.2)));
   EXPECT_TRUE(scale.follow(new_, old_, T_old_new(1)));
@@ -102,7 +102,7 @@ TEST_F(GroundScaleOnARoad, TakesALevelFloorAsEdgesTellIt) {
   const auto found = scale_.find(new_, old_, T_old_new(1), {{}, down});
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->factor, 1, 0.01);
-  GroundScale fresh({}, kCamera, kHeight_m);
+  GroundPlaneScale fresh({}, kCamera, kHeight_m);
   const auto known = fresh.follow(new_, old_, T_old_new(1), {{}, down});
   ASSERT_TRUE(known);
   EXPECT_NEAR(known->factor, 1, 0.01);
@@ -127,7 +127,7 @@ TEST_F(GroundScaleOnARoad, SaysNothingWithoutTextureAndRefusesNoHeight) {
   const Image flat(kCamera.height, kCamera.width, CV_8UC1, cv::Scalar(100));
   EXPECT_FALSE(scale_.find(flat, flat, T_old_new(1)));
   EXPECT_FALSE(scale_.follow(flat, flat, T_old_new(1)));
-  EXPECT_THROW(GroundScale({}, kCamera, 0), ArgumentError);
+  EXPECT_THROW(GroundPlaneScale({}, kCamera, 0), ArgumentError);
 }
 
 }  // namespace

@@ -13,16 +13,16 @@ using namespace test;
 
 /// What a camera 1.4 m above the floor sees of a room from x = -2 to 2, z = -1 to 4 and 2.6 m high,
 /// with the camera at `t` and turned by `turn` about the vertical.
-SurfaceSight sight_of_room(std::int64_t keyframe, const SE3& T_room_cam) {
-  SurfaceSight sight;
-  sight.keyframe = KeyframeId(keyframe);
+KeyframeSurfacePoints observation_of_room(std::int64_t keyframe, const SE3& T_room_cam) {
+  KeyframeSurfacePoints observation;
+  observation.keyframe = KeyframeId(keyframe);
   const SE3 T_cam_room = T_room_cam.inverse();
   const auto add = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
     SurfacePoint point;
     point.point = (T_cam_room * p).cast<float>();
     point.normal = (T_cam_room.rotation().matrix() * n).cast<float>();
     point.sigma = 0.005F;
-    sight.points.push_back(point);
+    observation.points.push_back(point);
   };
   for (double s = -1.95; s < 2; s += 0.1)
     for (double h = -1.15; h < 1.4; h += 0.1) {
@@ -36,7 +36,7 @@ SurfaceSight sight_of_room(std::int64_t keyframe, const SE3& T_room_cam) {
     }
     for (double x = -1.95; x < 2; x += 0.1) add({x, 1.4, s}, {0, -1, 0});
   }
-  return sight;
+  return observation;
 }
 
 /// Where the wall at z = 4 of the room stands in the plan, and how many pieces it is in.
@@ -55,8 +55,8 @@ TEST(IndoorMapper, FusesTwoKeyframesAndMovesWithALoop) {
                                       .baseline_m = 0.1,
                                       .depth = {},
                                       .camera_height_m = {}});
-  mapper.add(sight_of_room(0, first));
-  mapper.add(sight_of_room(1, second));
+  mapper.add(observation_of_room(0, first));
+  mapper.add(observation_of_room(1, second));
   const IndoorMap before = mapper.fuse(posed_map({first, drifted}));
   ASSERT_TRUE(before.outcome) << before.outcome.reason;
   // The far wall stands where each of the two sees it. The room is what lies before the nearer one
@@ -170,7 +170,7 @@ TEST(NearbyViews, AreOfTheMapThatHangsTogether) {
   EXPECT_THROW((void)nearby.of(other), ArgumentError);
 }
 
-TEST(IndoorMapper, SweepsDepthForAnEyeThatHasMoved) {
+TEST(IndoorMapper, SweepsDepthForACameraThatHasMoved) {
   const Camera camera{160, 120, 130, 130, 79.5, 59.5};
   // A patterned wall 3 m ahead, from two places beside each other.
   const auto view = [&](double x) {
@@ -189,13 +189,13 @@ TEST(IndoorMapper, SweepsDepthForAnEyeThatHasMoved) {
   const SE3 T_view_cam(SO3(), Eigen::Vector3d(-0.3, 0, 0));
   IndoorMapper mapper({}, Calibration{.camera = camera, .depth = {}, .camera_height_m = {}});
   mapper.add(KeyframeId(0), view(0));
-  EXPECT_TRUE(mapper.sights()[0].points.empty());
+  EXPECT_TRUE(mapper.observations()[0].points.empty());
   mapper.add(KeyframeId(0), view(0), {{view(0.3).image, T_view_cam}});
-  ASSERT_EQ(mapper.sights().size(), 1U);
-  ASSERT_GT(mapper.sights()[0].points.size(), 100U);
-  const double count = static_cast<double>(mapper.sights()[0].points.size());
+  ASSERT_EQ(mapper.observations().size(), 1U);
+  ASSERT_GT(mapper.observations()[0].points.size(), 100U);
+  const double count = static_cast<double>(mapper.observations()[0].points.size());
   int flat = 0, right = 0;
-  for (const SurfacePoint& p : mapper.sights()[0].points) {
+  for (const SurfacePoint& p : mapper.observations()[0].points) {
     right += std::abs(p.point[2] - 3) < 5 * p.sigma + 0.03;
     flat += p.normal[2] < -0.95F;
   }
@@ -225,11 +225,11 @@ TEST(IndoorMapper, TakesTheDepthsOfADepthCamera) {
                                       .depth = DepthCamera{camera, T_cam_depth, 0.005},
                                       .camera_height_m = {}});
   mapper.add(KeyframeId(3), wall_in_depth(camera, 2.5));
-  ASSERT_EQ(mapper.sights().size(), 1U);
-  EXPECT_EQ(mapper.sights()[0].keyframe, KeyframeId(3));
-  ASSERT_GT(mapper.sights()[0].points.size(), 30U);
+  ASSERT_EQ(mapper.observations().size(), 1U);
+  EXPECT_EQ(mapper.observations()[0].keyframe, KeyframeId(3));
+  ASSERT_GT(mapper.observations()[0].points.size(), 30U);
   float leftmost = 10;
-  for (const SurfacePoint& p : mapper.sights()[0].points) {
+  for (const SurfacePoint& p : mapper.observations()[0].points) {
     EXPECT_NEAR(p.point[2], 2.5, 1e-3);
     leftmost = std::min(leftmost, p.point[0]);
     if (p.normal.squaredNorm() > 0.5F) {
@@ -239,11 +239,11 @@ TEST(IndoorMapper, TakesTheDepthsOfADepthCamera) {
   // In the frame of the camera, not of its depth sensor.
   EXPECT_NEAR(leftmost, 0.2, 0.1);
   mapper.add(KeyframeId(3), wall_in_depth(camera, 1.5));
-  ASSERT_EQ(mapper.sights().size(), 1U) << "what was told before is replaced";
-  EXPECT_NEAR(mapper.sights()[0].points[0].point[2], 1.5, 1e-3);
+  ASSERT_EQ(mapper.observations().size(), 1U) << "what was told before is replaced";
+  EXPECT_NEAR(mapper.observations()[0].points[0].point[2], 1.5, 1e-3);
 }
 
-TEST(IndoorMapper, OneEyeOfKnownHeightSeesTheFloor) {
+TEST(IndoorMapper, MonocularOfKnownHeightSeesTheFloor) {
   IndoorMapperOptions options;
   Calibration calibration;
   calibration.camera = boards_camera();
@@ -251,13 +251,13 @@ TEST(IndoorMapper, OneEyeOfKnownHeightSeesTheFloor) {
   frame.image = boards_image(SE3());
   IndoorMapper blind(options, calibration);
   blind.add(KeyframeId(0), frame);
-  EXPECT_TRUE(blind.sights()[0].points.empty()) << "nothing gives lengths";
+  EXPECT_TRUE(blind.observations()[0].points.empty()) << "nothing gives lengths";
   calibration.camera_height_m = kBoardsHeight_m;
   IndoorMapper mapper(options, calibration);
   mapper.add(KeyframeId(0), frame);
-  ASSERT_GT(mapper.sights()[0].points.size(), 20U);
+  ASSERT_GT(mapper.observations()[0].points.size(), 20U);
   int floor = 0, on_floor = 0;
-  for (const SurfacePoint& p : mapper.sights()[0].points)
+  for (const SurfacePoint& p : mapper.observations()[0].points)
     if (p.normal[1] < -0.9F) {
       ++floor;
       on_floor += std::abs(p.point[1] - kBoardsHeight_m) < 0.15;

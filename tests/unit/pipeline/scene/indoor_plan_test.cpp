@@ -23,7 +23,7 @@ PlanFrame level_frame() {
 struct TwoRooms {
   VoxelEvidence voxels{Vector3d(0, 0, 0), Vector3d(10, 6, 3), 0.1, 0.25};
   RoomPartition rooms;
-  PlacedSights sights;
+  PlacedObservations observations;
   Map map;
   TwoRooms() {
     rooms.room_of_cell = Image(voxels.rows(), voxels.columns(), CV_32SC1, cv::Scalar(0));
@@ -39,13 +39,13 @@ struct TwoRooms {
     place.id = PlaceId(5);
     place.T_map_place = SE3(SO3(), level_frame().T_walls_map().inverse() * Vector3d(8, 5, 1.5));
     map.place_graph.places = {place};
-    sights.path = {Vector3d(2, 2, 1.5)};
+    observations.path = {Vector3d(2, 2, 1.5)};
   }
 };
 
 TEST(IndoorPlan, RoomsAreNamedAndHoldTheirPlaces) {
   const TwoRooms two;
-  const auto rooms = plan_rooms(two.rooms, two.voxels, level_frame(), two.sights, two.map);
+  const auto rooms = plan_rooms(two.rooms, two.voxels, level_frame(), two.observations, two.map);
   ASSERT_EQ(rooms.size(), 2u);
   EXPECT_EQ(rooms[0].label, "room 1");
   EXPECT_EQ(rooms[1].label, "corridor 1");
@@ -62,29 +62,29 @@ TEST(IndoorPlan, TheCeilingIsTheMedianOfWhatHangsAboveARoom) {
   TwoRooms two;
   for (int i = 0; i < 30; ++i) {
     const float x = 0.1F + 0.1F * static_cast<float>(i);
-    two.sights.points.push_back({{x, 2, 2.5F}, {0, 0, -1}, 0, 0});
-    two.sights.points.push_back({{x, 2, 2.2F}, {0, 0, 1}, 0, 0});   // the top of a cupboard
-    two.sights.points.push_back({{x, 2, 0.7F}, {0, 0, -1}, 0, 0});  // a table from below
+    two.observations.points.push_back({{x, 2, 2.5F}, {0, 0, -1}, 0, 0});
+    two.observations.points.push_back({{x, 2, 2.2F}, {0, 0, 1}, 0, 0});   // the top of a cupboard
+    two.observations.points.push_back({{x, 2, 0.7F}, {0, 0, -1}, 0, 0});  // a table from below
   }
-  const auto rooms = plan_rooms(two.rooms, two.voxels, level_frame(), two.sights, two.map);
+  const auto rooms = plan_rooms(two.rooms, two.voxels, level_frame(), two.observations, two.map);
   EXPECT_NEAR(rooms[0].ceiling_m, 2.5, 1e-6);
   EXPECT_EQ(rooms[1].ceiling_m, IndoorRoom().ceiling_m);  // nothing was seen
 }
 
 TEST(IndoorPlan, WallsLookToTheSideTheyAreSeenFrom) {
   const TwoRooms two;
-  PlacedSights sights = two.sights;
-  sights.keyframes = test::ids<KeyframeId>({7, 9});
+  PlacedObservations observations = two.observations;
+  observations.keyframes = test::ids<KeyframeId>({7, 9});
   Map map = two.map;
   Keyframe keyframe;
   keyframe.id = KeyframeId(9), keyframe.place = PlaceId(5);
   map.keyframes = {keyframe};
   WallPiece piece;
   piece.axis = 0, piece.sign = 1, piece.offset_m = 2, piece.from_m = 1, piece.to_m = 4;
-  piece.low_m = 0.1, piece.high_m = 2.4, piece.sigma_m = 0.02, piece.count = 321, piece.sight = 1;
+  piece.low_m = 0.1, piece.high_m = 2.4, piece.sigma_m = 0.02, piece.count = 321, piece.observation = 1;
   WallPiece back = piece;
   back.sign = -1;
-  const auto walls = plan_walls({piece, back}, level_frame(), sights, map);
+  const auto walls = plan_walls({piece, back}, level_frame(), observations, map);
   ASSERT_EQ(walls.size(), 2u);
   EXPECT_NEAR((walls[0].a - level_frame().plan_of({2, 1})).norm(), 0, 1e-12);
   EXPECT_NEAR((walls[0].b - level_frame().plan_of({2, 4})).norm(), 0, 1e-12);
@@ -92,7 +92,7 @@ TEST(IndoorPlan, WallsLookToTheSideTheyAreSeenFrom) {
   EXPECT_NEAR(walls[0].normal.dot(to_larger_x), 1, 1e-12);
   EXPECT_NEAR(walls[1].normal.dot(to_larger_x), -1, 1e-12);
   EXPECT_EQ(walls[0].place, PlaceId(5));
-  EXPECT_EQ(walls[0].sights, 321);
+  EXPECT_EQ(walls[0].observations, 321);
 }
 
 TEST(IndoorPlan, ADoorNamesTheRoomsOnBothSides) {

@@ -23,9 +23,9 @@ SceneModel model_of(SceneModel::Kind kind, std::vector<std::string> classes) {
 
 UrbanMapper mapper_of(double baseline_m = 0.5) {
   UrbanMapperOptions options;
-  options.sight.moving = "";  // no class of these models moves
+  options.observation.moving = "";  // no class of these models moves
   options.grid.min_weight = 1;
-  options.grid.min_sights = 1;
+  options.grid.min_observations = 1;
   return {options,
           Calibration{.camera = {640, 480, 500, 500, 320, 240},
                       .baseline_m = baseline_m,
@@ -36,18 +36,18 @@ UrbanMapper mapper_of(double baseline_m = 0.5) {
 }
 
 /// A wall at z = 10 of the world, as a camera there sees it.
-SemanticSight sight_of_wall(std::int64_t keyframe, const SE3& T_world_cam) {
-  SemanticSight sight;
-  sight.keyframe = KeyframeId(keyframe);
-  sight.shares = {0.1F, 0.9F};
+KeyframeSemantics observation_of_wall(std::int64_t keyframe, const SE3& T_world_cam) {
+  KeyframeSemantics observation;
+  observation.keyframe = KeyframeId(keyframe);
+  observation.shares = {0.1F, 0.9F};
   for (double x = -2; x < 2; x += 0.1)
     for (double y = -2; y < 1; y += 0.1) {
       SemanticPoint point;
       point.point = (T_world_cam.inverse() * Eigen::Vector3d(x, y, 10.05)).cast<float>();
       point.height_m = static_cast<float>(1.5 - y);
-      sight.points.push_back(point);
+      observation.points.push_back(point);
     }
-  return sight;
+  return observation;
 }
 
 std::set<int> depths_of(const SemanticMap& map) {
@@ -57,13 +57,13 @@ std::set<int> depths_of(const SemanticMap& map) {
   return rows;
 }
 
-TEST(UrbanMapper, FusesSightsAgainWhereALoopMovedThem) {
+TEST(UrbanMapper, FusesObservationsAgainWhereALoopMovedThem) {
   const SE3 first, second(SO3::exp({0, 0.3, 0}), Eigen::Vector3d(0.5, 0, 1));
   // Before the loop the second place is thought to be 2 m farther.
   const SE3 drifted(second.rotation(), second.translation() + Eigen::Vector3d(0, 0, 2));
   UrbanMapper mapper = mapper_of();
-  mapper.add(sight_of_wall(0, first));
-  mapper.add(sight_of_wall(1, second));
+  mapper.add(observation_of_wall(0, first));
+  mapper.add(observation_of_wall(1, second));
   const SemanticMap before = mapper.fuse(posed_map({first, drifted}));
   ASSERT_TRUE(before.outcome) << before.outcome.reason;
   EXPECT_EQ(depths_of(before), (std::set<int>{33, 40}));  // cells of 0.3 m: 10.05 and 12.05 m
@@ -73,8 +73,8 @@ TEST(UrbanMapper, FusesSightsAgainWhereALoopMovedThem) {
 
 TEST(UrbanMapper, ReplacesWhatAKeyframeTold) {
   UrbanMapper mapper = mapper_of();
-  mapper.add(sight_of_wall(0, SE3()));
-  SemanticSight other = sight_of_wall(0, SE3());
+  mapper.add(observation_of_wall(0, SE3()));
+  KeyframeSemantics other = observation_of_wall(0, SE3());
   for (SemanticPoint& point : other.points) point.point[2] += 2;
   mapper.add(other);
   EXPECT_EQ(depths_of(mapper.fuse(posed_map({SE3()}))), std::set<int>{40});
@@ -102,7 +102,7 @@ TEST(UrbanMapper, UsesKeyframesThatAreAStepApart) {
 
 TEST(UrbanMapper, TellsWhatIsSeenFromEachPlace) {
   UrbanMapper mapper = mapper_of();
-  mapper.add(sight_of_wall(1, SE3()));
+  mapper.add(observation_of_wall(1, SE3()));
   const auto shares = class_shares(mapper, posed_map({SE3(), SE3()}));
   ASSERT_EQ(shares.size(), 2U);
   EXPECT_TRUE(shares[0].empty());
@@ -118,9 +118,9 @@ TEST(UrbanMapper, RefusesModelsAndClassesThatItCannotUse) {
   const SceneModel surfaces =
       model_of(SceneModel::Kind::kSurfaces, {"sky", "ground", "vertical", "object"});
   UrbanMapperOptions options;
-  options.sight.moving = "Car,Tram";
+  options.observation.moving = "Car,Tram";
   EXPECT_THROW(UrbanMapper(options, calibration, urban, surfaces), ArgumentError);
-  options.sight.moving = "Car";
+  options.observation.moving = "Car";
   EXPECT_NO_THROW(UrbanMapper(options, calibration, urban, surfaces));
   EXPECT_THROW(UrbanMapper(options, calibration, surfaces, urban), ArgumentError);
 }
@@ -135,7 +135,7 @@ TEST(UrbanMapper, SaysWhyThereIsNoMap) {
 
 TEST(UrbanMapper, LaysItsCellsOutByTheVerticalThatItIsTold) {
   UrbanMapper mapper = mapper_of();
-  mapper.add(sight_of_wall(0, SE3()));
+  mapper.add(observation_of_wall(0, SE3()));
   // A map that stands on its head: down is -y of it.
   const SE3 T_map_cam(SO3::exp({0, 0, std::numbers::pi}), Eigen::Vector3d::Zero());
   const KeyframePoses poses = [&](KeyframeId) -> std::optional<SE3> { return T_map_cam; };
@@ -148,8 +148,8 @@ TEST(UrbanMapper, LaysItsCellsOutByTheVerticalThatItIsTold) {
 
 TEST(UrbanMapper, LeavesOutKeyframesWithoutAPose) {
   UrbanMapper mapper = mapper_of();
-  mapper.add(sight_of_wall(0, SE3()));
-  mapper.add(sight_of_wall(1, SE3(SO3(), Eigen::Vector3d(0, 0, 3))));
+  mapper.add(observation_of_wall(0, SE3()));
+  mapper.add(observation_of_wall(1, SE3(SO3(), Eigen::Vector3d(0, 0, 3))));
   const auto only_first = [](KeyframeId keyframe) {
     return keyframe == KeyframeId(0) ? std::optional(SE3()) : std::nullopt;
   };
@@ -158,12 +158,12 @@ TEST(UrbanMapper, LeavesOutKeyframesWithoutAPose) {
   EXPECT_EQ(mapper.fuse(none).outcome.reason, "no keyframe of it has a pose");
 }
 
-TEST(UrbanMapper, OneEyeTellsNothing) {
+TEST(UrbanMapper, MonocularTellsNothing) {
   UrbanMapper mapper = mapper_of();
   Frame frame;
   frame.image = Image(480, 640, CV_8UC1, cv::Scalar(90));
   mapper.add(KeyframeId(0), frame, SE3());  // without a right image
-  EXPECT_TRUE(mapper.sights().empty());
+  EXPECT_TRUE(mapper.observations().empty());
 }
 
 TEST(UrbanMapper, ReadsTheKeyframesOfAMapThatAreApartAndSaysHowFarItIs) {
@@ -188,7 +188,7 @@ TEST(UrbanMapper, ReadsTheKeyframesOfAMapThatAreApartAndSaysHowFarItIs) {
 
 TEST(UrbanMapper, SharesOfClassesAreOfAllPointsOfAPlace) {
   UrbanMapper mapper = mapper_of();
-  SemanticSight wall = sight_of_wall(0, SE3()), road = sight_of_wall(1, SE3());
+  KeyframeSemantics wall = observation_of_wall(0, SE3()), road = observation_of_wall(1, SE3());
   road.shares = {0.7F, 0.3F};
   road.points.resize(wall.points.size() / 3);
   mapper.add(wall);

@@ -38,7 +38,7 @@ TEST(EnvironmentMonitor, ObservesEveryKeyframeAndSaysWhenTheKindChanges) {
   ASSERT_EQ(m.observations().size(), 12u);
   int different = 0;
   std::optional<Environment> last;
-  for (const EnvironmentSight& o : m.observations()) {
+  for (const EnvironmentObservation& o : m.observations()) {
     different += o.kind != last;
     last = o.kind;
     double sum = 0;

@@ -165,7 +165,7 @@ TEST(FeatureTracker, TooFewDepthsAreNothingToBeginWith) {
 
 TEST(FeatureTracker, ASingleCameraKnowsItsRotation) {
   const SO3 R = SO3::exp({0, 0.02, 0});
-  const StreetDataset turns(2, 0, 0, false, [&](int i) {
+  const StreetDataset rotations(2, 0, 0, false, [&](int i) {
     return street_T_world_cam(0) * SE3(i == 0 ? SO3() : R, Eigen::Vector3d::Zero());
   });
   for (const bool rotates : {true, false}) {
@@ -175,7 +175,7 @@ TEST(FeatureTracker, ASingleCameraKnowsItsRotation) {
     points.detect({}, false, {});
     std::map<LandmarkId, Eigen::Vector2d> px;
     for (const PointTrack& track : points.tracks()) px[track.id] = track.px.cast<double>();
-    points.track((rotates ? turns : stereo_drive()).frame(1, Sensor::kMono).image);
+    points.track((rotates ? rotations : stereo_drive()).frame(1, Sensor::kMono).image);
     const auto rotation = t.tracker.rotation_since(px, t.random);
     ASSERT_EQ(rotation.has_value(), rotates);
     if (rotates) {
@@ -226,11 +226,11 @@ TEST(FeatureTracker, ManhattanFramesAreUsedWhereTheSurroundingsHaveThem) {
   Tracking t;
   EXPECT_FALSE(t.tracker.corrects_rotations());
   Assumptions rooms;
-  rooms.manhattan_world = true;
+  rooms.manhattan_frame_id = true;
   t.tracker.assume(rooms);
   EXPECT_TRUE(t.tracker.corrects_rotations());  // from now on
   EXPECT_NE(t.tracker.manhattan(), nullptr);
-  rooms.manhattan_world = false;
+  rooms.manhattan_frame_id = false;
   t.tracker.assume(rooms);
   EXPECT_EQ(t.tracker.manhattan(), nullptr);
 }

@@ -83,11 +83,11 @@ TEST(IntermediateFrames, ShareTheDriftOfTheirTracksEvenly) {
 
 TEST(IntermediateFrames, FollowTheManhattanFrameThatTheySaw) {
   Scene scene;
-  scene.map.window().add_world(ManhattanFrameId(3), SO3());
+  scene.map.window().add_manhattan_frame(ManhattanFrameId(3), SO3());
   IntermediateFrames frames = scene.frames();
   const SO3 R_odom_cam =
       (scene.T_odom_keyframe * scene.T_keyframe_cam).rotation() * SO3::exp({0, 0, 0.02});
-  const ManhattanCue::Heading heading{ManhattanFrameId(3), R_odom_cam.inverse(),
+  const ManhattanCue::RotationEstimate heading{ManhattanFrameId(3), R_odom_cam.inverse(),
                                       1e12 * Eigen::Matrix3d::Identity()};
   frames.remember({FrameId(5), scene.T_keyframe_cam, scene.px, heading});
   const auto posed = frames.repose(scene.map, KeyframeId(0), 1);

@@ -23,13 +23,13 @@ PlaceCueVectors view_of(int place, Random& random) {
   return view;
 }
 
-struct Lesson {
+struct TrainingSet {
   std::vector<PlaceCueVectors> views;
   std::vector<int> labels;
 };
 
-Lesson lesson(Random& random) {
-  Lesson result;
+TrainingSet training_set(Random& random) {
+  TrainingSet result;
   for (int place = 0; place < kPlaces; ++place)
     for (int i = 0; i < kViewsOfEach; ++i) {
       result.views.push_back(view_of(place, random));
@@ -40,7 +40,7 @@ Lesson lesson(Random& random) {
 
 TEST(PlaceClassifier, FindsTheCueThatTellsPlacesApart) {
   Random random(3, 0);
-  const Lesson l = lesson(random);
+  const TrainingSet l = training_set(random);
   const PlaceClassifier classifier = PlaceClassifier::train(l.views, l.labels, {});
   EXPECT_EQ(classifier.weights()[2], 1);
   EXPECT_EQ(classifier.weights()[0] + classifier.weights()[1] + classifier.weights()[3], 0);
@@ -54,7 +54,7 @@ TEST(PlaceClassifier, FindsTheCueThatTellsPlacesApart) {
 
 TEST(PlaceClassifier, LearnsByEveryMachine) {
   Random random(6, 0);
-  const Lesson l = lesson(random);
+  const TrainingSet l = training_set(random);
   for (const PlaceMachineKind machine : {PlaceMachineKind::kSvm, PlaceMachineKind::kAdaboost}) {
     const PlaceClassifier classifier =
         PlaceClassifier::train(l.views, l.labels, {.machine = machine});
@@ -102,7 +102,7 @@ TEST(EntropyShare, IsNothingWhereSureAndOneWhereUnknown) {
 
 TEST(PlaceClassifier, IsLessSureOfAViewBetweenTwoPlaces) {
   Random random(4, 0);
-  const Lesson l = lesson(random);
+  const TrainingSet l = training_set(random);
   const PlaceClassifier classifier = PlaceClassifier::train(l.views, l.labels, {});
   PlaceCueVectors between = view_of(0, random);
   between[2][1] = between[2][0];
@@ -113,7 +113,7 @@ TEST(PlaceClassifier, IsLessSureOfAViewBetweenTwoPlaces) {
 
 TEST(PlaceClassifier, RefusesLessonsItCannotLearnFrom) {
   Random random(5, 0);
-  Lesson l = lesson(random);
+  TrainingSet l = training_set(random);
   EXPECT_THROW((void)PlaceClassifier::train(l.views, {0, 1}, {}), ArgumentError);
   EXPECT_THROW((void)PlaceClassifier::train(l.views, std::vector<int>(l.views.size(), 1), {}),
                ArgumentError);

@@ -60,10 +60,10 @@ TEST(LoopVerifier, RefusesAnotherPlace) {
   EXPECT_EQ(verify_loop(kCamera, here.query, there.match, {}, random).outcome.code,
             Code::kTooFewData);
   // Things that look alike but stand elsewhere.
-  Visit alike = here;
-  for (std::size_t i = 0; i < alike.query.size(); ++i)
-    alike.query[i].px = there.query[(7 * i + 3) % there.query.size()].px;
-  EXPECT_EQ(verify_loop(kCamera, alike.query, alike.match, {}, random).outcome.code,
+  Visit similar = here;
+  for (std::size_t i = 0; i < similar.query.size(); ++i)
+    similar.query[i].px = there.query[(7 * i + 3) % there.query.size()].px;
+  EXPECT_EQ(verify_loop(kCamera, similar.query, similar.match, {}, random).outcome.code,
             Code::kNoConsensus);
 }
 

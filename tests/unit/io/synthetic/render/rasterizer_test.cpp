@@ -155,9 +155,9 @@ TEST(World, BoxesShowTheirOutsidesOnly) {
 
 TEST(World, FootprintsOverlapOnlyIfTheyShareGround) {
   const Footprint a{{0, 0}, {1, 0}, 2, 1};
-  const Footprint turned{{3.2, 0}, Eigen::Vector2d(1, 1).normalized(), 1, 1};
-  EXPECT_TRUE(a.overlaps(turned));  // its corner reaches 1.41 m towards a
-  Footprint off = turned;
+  const Footprint rotated{{3.2, 0}, Eigen::Vector2d(1, 1).normalized(), 1, 1};
+  EXPECT_TRUE(a.overlaps(rotated));  // its corner reaches 1.41 m towards a
+  Footprint off = rotated;
   off.centre[0] = 3.5;
   EXPECT_FALSE(a.overlaps(off));
   EXPECT_DOUBLE_EQ(a.distance({5, 5}), 5);  // 3 along, 4 across

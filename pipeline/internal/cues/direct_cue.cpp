@@ -1,0 +1,339 @@
+#include <placegraph/frontend/internal/align/grey_pyramid.h>
+#include <placegraph/frontend/internal/planes/dominant_surface.h>
+#include <placegraph/graph/internal/core/angle.h>
+#include <placegraph/graph/internal/core/median.h>
+#include <placegraph/pipeline/internal/cues/direct_cue.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace placegraph {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+
+/// Covariance of n / d from the deviations of normal and distance.
+Matrix3d covariance_of(const Vector3d& g, double sigma_normal_rad, double sigma_log_distance) {
+  const Vector3d n = g.normalized();
+  const Matrix3d along = n * n.transpose();
+  return g.squaredNorm() * (sigma_normal_rad * sigma_normal_rad * (Matrix3d::Identity() - along) +
+                            sigma_log_distance * sigma_log_distance * along);
+}
+
+/// Step of a regular grid, from pixels of it in the order of rows.
+double step_of(const std::vector<Vector2f>& px) {
+  double step = 64;
+  for (std::size_t i = 1; i < px.size(); ++i)
+    if (px[i].y() == px[i - 1].y() && px[i].x() > px[i - 1].x())
+      step = std::min(step, static_cast<double>(px[i].x() - px[i - 1].x()));
+  return step;
+}
+
+DirectMotion no_reference() {
+  DirectMotion motion;
+  motion.outcome = Outcome::failure(Outcome::Code::kTooFewData, "no surface is known");
+  return motion;
+}
+
+}  // namespace
+
+DirectCue::DirectCue(const DirectCueOptions& options, const Calibration& calibration,
+                       const StereoMatcherOptions& stereo, bool several)
+    : options_(options),
+      calibration_(calibration),
+      depth_(calibration, stereo),
+      several_(several),
+      mono_(calibration.baseline_m <= 0 && !calibration.depth) {
+  options_.check();
+  reset();
+}
+
+void DirectCue::reset() {
+  ground_.reset();
+  if (calibration_.camera_height_m)
+    ground_.emplace(options_.surface, calibration_.camera,
+                    Plane{mounting_, *calibration_.camera_height_m});
+  mounting_variance_rad2_ = std::pow(options_.surface.mounting_sigma_deg * kRadPerDeg, 2);
+  dominant_g_.setZero();
+  reference_ = last_reference_ = DirectReference();
+}
+
+void DirectCue::see(const Frame& frame) {
+  frame_ = frame;
+  pyramid_ = grey_pyramid(frame.image, options_.align.levels);
+}
+
+DirectMotion DirectCue::align(const MotionGuess& guess) const {
+  if (!has_reference()) return no_reference();
+  return align_motion(reference_, pyramid_, guess.T_ref_cur, guess, options_.align);
+}
+
+DirectMotion DirectCue::search(const MotionGuess& guess, const Vector6d& sigmas) const {
+  if (!has_reference()) return no_reference();
+  const SE3 start = search_motion(reference_, pyramid_, guess.T_ref_cur, sigmas, options_.align);
+  return align_motion(reference_, pyramid_, start, guess, options_.align);
+}
+
+int DirectCue::grid_step(int count) const {
+  const Camera& camera = calibration_.camera;
+  return std::max(
+      2, static_cast<int>(std::sqrt(static_cast<double>(camera.width) * camera.height / count)));
+}
+
+/// Of every cell of a regular grid the pixel that changes most along its row, as two eyes need it.
+std::vector<Vector2f> DirectCue::grid(int count) const {
+  const Camera& camera = calibration_.camera;
+  const int step = grid_step(count);
+  const Image& image = pyramid_[0];
+  std::vector<Vector2f> px;
+  for (int v0 = 1; v0 + step < camera.height; v0 += step)
+    for (int u0 = 1; u0 + step < camera.width; u0 += step) {
+      float best = -1;
+      Vector2f at;
+      for (int v = v0; v < v0 + step; v += 2)
+        for (int u = u0; u < u0 + step; u += 2) {
+          if (!frame_.mask.empty() && !frame_.mask.at<std::uint8_t>(v, u)) continue;
+          const float du = image.at<float>(v, u + 1) - image.at<float>(v, u - 1);
+          if (std::abs(du) <= best) continue;
+          best = std::abs(du);
+          at = {static_cast<float>(u), static_cast<float>(v)};
+        }
+      if (best >= 0) px.push_back(at);
+    }
+  return px;
+}
+
+SurfacePatch DirectCue::patch(const Vector3d& g, const Matrix3d& covariance,
+                               std::vector<Vector2f> px, double reach_px) const {
+  SurfacePatch patch;
+  patch.g_ref = g;
+  patch.g_covariance =
+      covariance + covariance_of(g, options_.evenness_deg * kRadPerDeg, options_.evenness_distance);
+  patch.support_px = std::move(px);
+  patch.reach_px = reach_px;
+  return patch;
+}
+
+/// Two eyes without a known height: the plane below that most of the lower image lies on.
+void DirectCue::find_ground(const RectificationError& rectification, Random& random) {
+  constexpr double kMostTilt_rad = 0.4;
+  const Camera& camera = calibration_.camera;
+  std::vector<Vector2f> px;
+  for (const Vector2f& p : grid(2 * options_.depths))
+    if (p.y() > camera.cy + 0.15 * camera.height &&
+        std::abs(p.x() - camera.cx) < 0.35 * camera.width)
+      px.push_back(p);
+  std::vector<InverseDepth> known;
+  for (const auto& depth : depth_.measure(frame_, rectification, px))
+    if (depth) known.push_back(*depth);
+  const InverseDepthPlane plane = fit_inverse_depth_plane(known, options_.planes, random);
+  if (!plane.outcome || 3 * plane.inliers.size() < known.size() ||
+      plane.plane_cam.normal.y() < std::cos(kMostTilt_rad))
+    return;
+
+  ground_.emplace(options_.surface, camera, plane.plane_cam);
+}
+
+Image DirectCue::mask_of_ground() const {
+  if (ground_mask_.empty() || frame_.mask.empty())
+    return ground_mask_.empty() ? frame_.mask : ground_mask_;
+  return frame_.mask & ground_mask_;
+}
+
+/// The ground by its filter; for one eye, of the height that is known and the normal learned.
+std::vector<SurfacePatch> DirectCue::ground(const SE3& T_last_cur,
+                                             const RectificationError& rectification,
+                                             Random& random) {
+  if (!ground_ && calibration_.baseline_m > 0) find_ground(rectification, random);
+  if (!ground_) return {};
+  if (mono_) {
+    const Vector3d g = mounting_ / *calibration_.camera_height_m;
+    const double sigma_rad =
+        std::hypot(std::sqrt(mounting_variance_rad2_), options_.nodding_deg * kRadPerDeg);
+    std::vector<Vector2f> px = ground_->pixels_of(SurfaceRegion::kAhead, mask_of_ground());
+    const double reach = 0.5 * step_of(px);
+    return {patch(g, covariance_of(g, sigma_rad, options_.sigma_height), std::move(px), reach)};
+  }
+  SurfaceAppearance look = ground_->look(
+      [&](const std::vector<Vector2f>& px, const std::vector<double>& expected) {
+        return depth_.measure(frame_, rectification, px,
+                              depth_.disparities_px(px, expected, rectification));
+      },
+      T_last_cur.inverse(), mask_of_ground(), random);
+  if (!look.outcome) return {};
+  const Vector3d g = look.plane_cam.normal / look.plane_cam.distance_m;
+  // The whole region but what lies off the surface: where depths are not told there may be grey
+  // values all the same.
+  std::vector<Vector2f> px = ground_->pixels_of(look.region, mask_of_ground());
+  const double step = step_of(px);
+  std::erase_if(px, [&](const Vector2f& p) {
+    return std::any_of(look.off_px.begin(), look.off_px.end(),
+                       [&](const Vector2f& off) { return (off - p).norm() < step; });
+  });
+  return {patch(g, covariance_of(g, look.sigma_normal_rad, look.sigma_log_distance), std::move(px),
+                0.5 * step)};
+}
+
+/// Depths over the whole image.
+std::vector<KnownPixel> DirectCue::search_around(const RectificationError& rectification) const {
+  const std::vector<Vector2f> px = grid(options_.depths);
+  const auto depths = depth_.measure(frame_, rectification, px);
+  std::vector<KnownPixel> known;
+  for (std::size_t i = 0; i < px.size(); ++i)
+    if (depths[i]) known.push_back({px[i], *depths[i]});
+  return known;
+}
+
+/// Planes in known depths, one after the other, those with most pixels first.
+std::vector<SurfacePatch> DirectCue::planes(std::vector<KnownPixel> rest, double reach_px,
+                                             Random& random) const {
+  const double all = static_cast<double>(rest.size());
+  std::vector<SurfacePatch> found;
+  while (static_cast<int>(found.size()) < options_.max_planes) {
+    std::vector<InverseDepth> depths;
+    for (const KnownPixel& known : rest) depths.push_back(known.depth);
+    const InverseDepthPlane plane = fit_inverse_depth_plane(depths, options_.planes, random);
+    if (static_cast<double>(plane.inliers.size()) < options_.min_plane_share * all ||
+        plane.inliers.empty())
+      break;
+    std::vector<Vector2f> on;
+    for (const int i : plane.inliers) on.push_back(rest[static_cast<std::size_t>(i)].px);
+    for (auto i = plane.inliers.rbegin(); i != plane.inliers.rend(); ++i)
+      rest.erase(rest.begin() + *i);
+    // What leaves its plane open, as something far away does, is no help but in the way of others.
+    if (plane.outcome)
+      found.push_back(patch(plane.g_cam, plane.covariance, std::move(on), reach_px));
+  }
+  return found;
+}
+
+/// Two eyes: planes are corrected until the right one sees what the left one does, where depths of
+/// single pixels were not told.
+void DirectCue::refine(std::vector<SurfacePatch>& patches,
+                        const RectificationError& rectification) const {
+  constexpr double kPixelsSimilar = 8;  // so many neighbours count as one
+  if (calibration_.baseline_m <= 0 || frame_.right.empty()) return;
+  const double known = 1e12;
+  const MotionGuess kitti_cameras{SE3(SO3(), Vector3d(calibration_.baseline_m, 0, 0)),
+                         known * Matrix6d::Identity()};
+  const DirectReference reference(pyramid_, calibration_.camera, patches, options_.align);
+  const DirectMotion seen =
+      align_motion(reference, grey_pyramid(frame_.right, options_.align.levels), kitti_cameras.T_ref_cur,
+                   kitti_cameras, options_.align);
+  if (!seen.outcome) return;
+  // What the eyes are off by is a plane of disparities of its own.
+  const double px_per_inverse = calibration_.camera.fx * calibration_.baseline_m;
+  const Vector3d off(rectification.by_x_px, rectification.by_y_px, rectification.offset_px);
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    if (seen.planes[k].inlier_share < 0.5) continue;
+    const Vector3d g = seen.planes[k].g_ref - off / px_per_inverse;
+    patches[k] = patch(g, kPixelsSimilar * seen.planes[k].g_covariance,
+                       std::move(patches[k].support_px), patches[k].reach_px);
+  }
+}
+
+bool DirectCue::become_reference(const SE3& T_last_cur, const RectificationError& rectification,
+                                  const std::vector<KnownPixel>& landmarks, Random& random) {
+  std::vector<SurfacePatch> patches = ground(T_last_cur, rectification, random);
+  if (several_ || patches.empty()) {
+    constexpr double kAroundLandmark_px = 10;
+    auto others =
+        mono_ ? planes(landmarks, kAroundLandmark_px, random)
+              : planes(search_around(rectification), 0.5 * grid_step(options_.depths), random);
+    if (!several_ && !others.empty()) {
+      // The surface that was followed, while it shows half as much as the one that shows most.
+      const Plane before{dominant_g_.normalized(), 1 / std::max(1e-9, dominant_g_.norm())};
+      const Plane here = transform(T_last_cur.inverse(), before);
+      const Vector3d g = here.normal / here.distance_m;
+      auto best = others.begin();
+      for (auto it = others.begin(); it != others.end(); ++it)
+        if ((it->g_ref - g).norm() < 0.1 * g.norm() &&
+            2 * it->support_px.size() > others.front().support_px.size())
+          best = it;
+      std::rotate(others.begin(), best, best + 1);
+      // One surface where it dominates; else so many that together they do.
+      constexpr double kDominates = 0.6;
+      double all = 0, taken = 0;
+      for (const SurfacePatch& other : others) all += static_cast<double>(other.support_px.size());
+      std::size_t count = 0;
+      while (taken < kDominates * all)
+        taken += static_cast<double>(others[count++].support_px.size());
+      others.resize(count);
+    }
+    patches.insert(patches.end(), others.begin(), others.end());
+  }
+  if (patches.empty()) return false;
+  last_reference_ = std::move(reference_);
+  last_pyramid_ = std::move(reference_pyramid_);
+  dominant_g_ = patches.front().g_ref;
+  refine(patches, rectification);
+  reference_ = DirectReference(pyramid_, calibration_.camera, std::move(patches), options_.align);
+  reference_pyramid_ = pyramid_;
+  return true;
+}
+
+DirectMotion DirectCue::confirm(const DirectMotion& forward) const {
+  if (!has_reference() || last_pyramid_.empty()) return forward;
+  const MotionGuess guess{forward.T_ref_cur.inverse()};
+  const DirectMotion back =
+      align_motion(reference_, last_pyramid_, guess.T_ref_cur, guess, options_.align);
+  if (!back.outcome) return forward;
+  const SE3 T_ref_cur = back.T_ref_cur.inverse();
+  const Matrix6d A = back.T_ref_cur.adjoint();
+  const Matrix6d covariance = A * back.covariance * A.transpose();
+  const Vector6d off = (forward.T_ref_cur.inverse() * T_ref_cur).log();
+  DirectMotion both = forward;
+  const double chi2 = off.dot((forward.covariance + covariance).ldlt().solve(off));
+  if (!(chi2 < 6 * options_.max_disagreement * options_.max_disagreement)) {
+    both.outcome = Outcome::failure(Outcome::Code::kInconsistent,
+                                    "there and back differ, chi2 " + std::to_string(chi2));
+    both.covariance += off * off.transpose() + covariance;
+    return both;
+  }
+  // Both look at the same grey values, so that they count as one, but by planes of their own: what
+  // they differ by tells how far planes mislead.
+  constexpr double kMisled = 0.5;
+  const Matrix6d weight = covariance.ldlt().solve(Matrix6d::Identity());
+  const Matrix6d sum = forward.covariance.ldlt().solve(Matrix6d::Identity()) + weight;
+  const Eigen::LDLT<Matrix6d> solver(sum);
+  both.T_ref_cur = forward.T_ref_cur.plus(Vector6d(solver.solve(weight * off)));
+  const Matrix6d one = solver.solve(2 * Matrix6d::Identity());
+  both.covariance =
+      std::max(1.0, chi2 / 6) * 0.5 * (one + one.transpose()) + kMisled * off * off.transpose();
+  return both;
+}
+
+void DirectCue::learn(const DirectMotion& motion) {
+  if (!mono_ || !motion.outcome || motion.planes.empty() || !ground_) return;
+  const auto& seen = motion.planes.front();
+  const double nodding = std::pow(options_.nodding_deg * kRadPerDeg, 2);
+  const double before = mounting_variance_rad2_ + nodding;
+  const double gain = mounting_variance_rad2_ / before;
+  const double after = std::pow(sigma_normal_rad(seen.g_ref, seen.g_covariance), 2);
+  constexpr double kDrift_rad = 5e-4;
+  mounting_ = (mounting_ + gain * (seen.g_ref.normalized() - mounting_)).normalized();
+  mounting_variance_rad2_ += kDrift_rad * kDrift_rad - gain * gain * std::max(0.0, before - after);
+  ground_.emplace(options_.surface, calibration_.camera,
+                  Plane{mounting_, *calibration_.camera_height_m});
+}
+
+double DirectCue::median_depth_m() const {
+  std::vector<double> depths;
+  for (const SurfacePatch& patch : reference_.patches())
+    for (const Vector2f& p : patch.support_px)
+      if (const auto ray = calibration_.camera.unproject(p.cast<double>()))
+        depths.push_back(1 / std::max(1e-3, patch.g_ref.dot(*ray)));
+  return depths.empty() ? 10 : median_of(depths);
+}
+
+std::vector<FrameView::SurfacePixel> DirectCue::view(const DirectMotion& motion) const {
+  std::vector<FrameView::SurfacePixel> pixels;
+  for (const DirectMotion::Seen& seen : motion.seen)
+    pixels.push_back({seen.px_cur, seen.residual_sigmas});
+  return pixels;
+}
+
+}  // namespace placegraph
