@@ -28,15 +28,15 @@ struct PlaceHistory {
   /// A keyframe and its link to an earlier one.
   struct Keyframe {
     KeyframeId id;                     ///< of the keyframe
-    KeyframeId segment;                   ///< anchor of the part that it belongs to
-    int track_segment = 0;                       ///< number of its track segment, from 0
+    KeyframeId segment;                ///< anchor of the part that it belongs to
+    int track_segment = 0;             ///< number of its track segment, from 0
     std::optional<KeyframeLink> link;  ///< nothing where a component began
   };
   /// A stretch of keyframes within reach of its first one, the anchor.
   struct Segment {
     KeyframeId anchor;                          ///< identifies the part
     PlaceId place;                              ///< the place that it belongs to
-    Sim3 S_place_segment;                          ///< identity if the part founded the place
+    Sim3 S_place_segment;                       ///< identity if the part founded the place
     Matrix7d covariance = Matrix7d::Zero();     ///< of S_place_segment in its right tangent
     std::optional<Matrix6d> motion_covariance;  ///< of the motion from the previous anchor
   };
@@ -61,17 +61,17 @@ struct PlaceHistory {
   };
 
   std::vector<Keyframe> keyframes;  ///< by ascending id
-  std::vector<Segment> segments;          ///< by ascending anchor
+  std::vector<Segment> segments;    ///< by ascending anchor
   std::vector<Place> places;        ///< by ascending id
   std::vector<Motion> motions;      ///< by other sensors
   std::vector<Loop> loops;          ///< accepted ones, in order
   std::vector<Merged> merged;       ///< mergers that hold, in the order in which they were made
   /// Anchors of places whose merger was undone; they are not merged again.
   std::set<std::pair<KeyframeId, KeyframeId>> separated;
-  std::int64_t founded = 0;         ///< places founded so far, merged ones included
-  std::size_t judged_loops = 0;     ///< number of loops when mergers were last checked
+  std::int64_t founded = 0;          ///< places founded so far, merged ones included
+  std::size_t judged_loops = 0;      ///< number of loops when mergers were last checked
   std::vector<bool> scale_measured;  ///< of every track segment: whether its lengths are metres
-  double median_depth_m = 10;       ///< of the scene at the last keyframe
+  double median_depth_m = 10;        ///< of the scene at the last keyframe
 };
 
 }  // namespace placegraph

@@ -23,8 +23,8 @@ struct ConvertResult {
   std::size_t left_out = 0;           ///< kTrajectory: frames of `in` that are not in `out`
   std::size_t nodes = 0;
   std::size_t constraints = 0, priors = 0, observations = 0;  ///< kGraph
-  std::size_t landmarks = 0;                            ///< kPosesOfGraph: left out
-  bool poses_alone = true;                              ///< kGraph: no priors and no landmarks
+  std::size_t landmarks = 0;                                  ///< kPosesOfGraph: left out
+  bool poses_alone = true;  ///< kGraph: no priors and no landmarks
 };
 
 /// `placegraph convert`: reads a trajectory or a pose graph, whichever the content is, and writes

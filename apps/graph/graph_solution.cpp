@@ -18,8 +18,8 @@ namespace {
 
 constexpr int kStepsPerLine = 500;  ///< of progress
 
-PoseGraphReport solve_incrementally(const PoseGraph& graph, const GraphTask& task, const LogSink& log,
-                                 std::vector<double>& step_cpu_ms) {
+PoseGraphReport solve_incrementally(const PoseGraph& graph, const GraphTask& task,
+                                    const LogSink& log, std::vector<double>& step_cpu_ms) {
   IncrementalOptions options;
   options.rotation_error = task.options.rotation_error;
   const auto watch = [&](int steps, const IncrementalOptimizer& optimizer) {

@@ -91,8 +91,8 @@ std::string to_text(const LandmarkSolution& solution, const std::string& in,
       "{}: {}, {} nodes, {} constraints, {} priors, {} landmarks seen {} times, minimized "
       "in the {} convention\n",
       in, graph.poses.kind() == PoseKind::kSE2 ? "SE2" : "SE3", graph.poses.nodes.size(),
-      graph.poses.constraints.size(), graph.priors.size(), graph.points.size(), graph.observations.size(),
-      cost);
+      graph.poses.constraints.size(), graph.priors.size(), graph.points.size(),
+      graph.observations.size(), cost);
   if (solution.chi2_g2o && solution.chi2_g2o_initial)
     text += fmt::format("  chi2 (g2o: half-angle quaternion) {:.6f} -> {:.6f}\n",
                         *solution.chi2_g2o_initial, *solution.chi2_g2o);

@@ -169,8 +169,8 @@ PoseGraphOptions checked_options(const OptimizeArguments& arguments) {
   options.rotation_error = choice<RotationError>("--cost", optimize_costs(), arguments.cost);
   options.engine =
       choice<PoseGraphEngine>("--engine", pose_graph_option("engine").choices, arguments.engine);
-  options.start =
-      choice<PoseGraphInitialization>("--start", pose_graph_option("start").choices, arguments.start);
+  options.start = choice<PoseGraphInitialization>("--start", pose_graph_option("start").choices,
+                                                  arguments.start);
   options.robust.method = choice<RobustMethod>(
       "--robust", pose_graph_option("robust.method").choices, arguments.robust);
   options.check();
@@ -194,7 +194,8 @@ void require_for_landmarks(const OptimizeArguments& arguments, const GraphTask& 
   const PoseGraphOptions& options = task.options;
   require(options.robust.method == RobustMethod::kNone && !task.incremental && !task.split &&
               !task.certify &&
-              (options.start == PoseGraphInitialization::kAuto || options.start == PoseGraphInitialization::kFile) &&
+              (options.start == PoseGraphInitialization::kAuto ||
+               options.start == PoseGraphInitialization::kFile) &&
               arguments.plot.empty(),
           arguments.in +
               ": has priors or point landmarks, which --robust, --incremental, "

@@ -26,7 +26,7 @@ using nlohmann::json;
 json json_of(const LoopRecord& loop) {
   return {{"query_frame", loop.query_frame}, {"match_frame", loop.match_frame},
           {"stage", to_string(loop.stage)},  {"probability", loop.probability},
-          {"likeness", loop.similarity},       {"model", to_string(loop.model)},
+          {"likeness", loop.similarity},     {"model", to_string(loop.model)},
           {"inliers", loop.inliers},         {"lines", loop.lines}};
 }
 

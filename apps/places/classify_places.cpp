@@ -92,8 +92,8 @@ struct LabelledViews {
 };
 
 LabelledViews read_training_set(const ClassifyPlacesArguments& arguments,
-                          const std::vector<std::string>& images,
-                          const std::set<FrameId>& training) {
+                                const std::vector<std::string>& images,
+                                const std::set<FrameId>& training) {
   const std::string label_path = (fs::path(arguments.folder) / "labels.txt").string();
   const std::map<FrameId, int> all_labels = read_labels(label_path);
   LabelledViews training_set;
@@ -114,8 +114,9 @@ LabelledViews read_training_set(const ClassifyPlacesArguments& arguments,
 }
 
 std::vector<ClassifiedPlace> tell(const ClassifyPlacesArguments& arguments,
-                            const std::vector<std::string>& images, const std::set<FrameId>& asked,
-                            const PlaceClassifier& classifier, LabelFilter filter) {
+                                  const std::vector<std::string>& images,
+                                  const std::set<FrameId>& asked, const PlaceClassifier& classifier,
+                                  LabelFilter filter) {
   std::vector<ClassifiedPlace> told;
   for (const FrameId image : asked) {
     Eigen::VectorXd probabilities = classifier.classify(

@@ -36,12 +36,12 @@ struct ClassifiedPlace {
 
 struct ClassifyPlacesResult {
   std::string out;
-  std::size_t learned = 0;      ///< views
+  std::size_t learned = 0;            ///< views
   std::vector<ClassifiedPlace> told;  ///< one an image that was asked for
-  std::size_t refused = 0;      ///< of those
-  std::vector<double> weights;  ///< of the cues
-  double accuracy = 0;          ///< on left out parts of what was learned
-  double log_loss = 0;          ///< there
+  std::size_t refused = 0;            ///< of those
+  std::vector<double> weights;        ///< of the cues
+  double accuracy = 0;                ///< on left out parts of what was learned
+  double log_loss = 0;                ///< there
 };
 
 /// `placegraph places classify`: learns the labels of some images, tells those of the others and

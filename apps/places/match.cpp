@@ -88,8 +88,8 @@ Image compared_view(const std::string& path, bool colour) {
 }
 
 /// Answers which stored views an image resembles (the views `among`, if any), and stores it.
-using LookUp =
-    std::function<std::vector<PlaceSimilarity>(const Image&, const std::optional<ViewRange>& among)>;
+using LookUp = std::function<std::vector<PlaceSimilarity>(const Image&,
+                                                          const std::optional<ViewRange>& among)>;
 
 LookUp by_cues(const PlaceRecognizerOptions& options) {
   auto recognizer = std::make_shared<PlaceRecognizer>(options);
@@ -125,7 +125,8 @@ class BestMatch {
   BestMatch(const SequenceFilterOptions& options, bool sequence)
       : filter_(options), sequence_(sequence) {}
 
-  std::optional<PlaceSimilarity> of(const MatchQuery& query, const std::vector<PlaceSimilarity>& list) {
+  std::optional<PlaceSimilarity> of(const MatchQuery& query,
+                                    const std::vector<PlaceSimilarity>& list) {
     std::optional<PlaceSimilarity> answer;
     if (!list.empty()) answer = list.front();
     if (!sequence_) return answer;

@@ -91,7 +91,8 @@ WordTree train_binary(const TrainVocabularyArguments& arguments,
   }
   if (training_set.descriptors.empty()) throw NoAnswer("no image has a corner to learn words from");
   Random random(arguments.seed);
-  Vocabulary vocabulary = Vocabulary::train(training_set.descriptors, tree_of(arguments.words), random);
+  Vocabulary vocabulary =
+      Vocabulary::train(training_set.descriptors, tree_of(arguments.words), random);
   vocabulary.set_idf(idf_of(training_set.end, vocabulary.words(), [&](int i) {
     return vocabulary.word(training_set.descriptors[static_cast<std::size_t>(i)]);
   }));
@@ -130,8 +131,9 @@ WordTree train_float(const TrainVocabularyArguments& arguments,
   Random random(arguments.seed);
   FloatVocabulary vocabulary =
       FloatVocabulary::train(training_set.descriptors, tree_of(arguments.words), random);
-  vocabulary.set_idf(idf_of(training_set.end, vocabulary.words(),
-                            [&](int i) { return vocabulary.word(training_set.descriptors.row(i)); }));
+  vocabulary.set_idf(idf_of(training_set.end, vocabulary.words(), [&](int i) {
+    return vocabulary.word(training_set.descriptors.row(i));
+  }));
   return vocabulary.tree();
 }
 

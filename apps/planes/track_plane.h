@@ -23,7 +23,7 @@ struct TrackPlaneArguments {
 
 struct TrackPlaneResult {
   std::string in;
-  std::vector<PlaneTrack> tracks;                       ///< of each frame
+  std::vector<PlaneTrack> tracks;                           ///< of each frame
   double least_similarity = 0, least_similarity_found = 0;  ///< to be tracked, to be found again
   double cpu_ms_per_frame = 0;
   std::size_t tracked() const;  ///< frames

@@ -1,5 +1,5 @@
-#include <placegraph/pipeline/slam/environment_observation.h>
 #include "apps/results/environment_files.h"
+#include <placegraph/pipeline/slam/environment_observation.h>
 
 #include <fmt/format.h>
 
@@ -19,7 +19,8 @@ std::string environment_csv(const std::vector<EnvironmentObservation>& observati
     for (const double value : observation.evidence.values)
       csv += std::isfinite(value) ? fmt::format(",{:.4g}", value) : ",";
     for (const double p : observation.probabilities) csv += fmt::format(",{:.3f}", p);
-    csv += "," + (observation.kind ? environment_name(*observation.kind) : std::string("unknown")) + "\n";
+    csv += "," + (observation.kind ? environment_name(*observation.kind) : std::string("unknown")) +
+           "\n";
   }
   return csv;
 }

@@ -1,6 +1,6 @@
 #pragma once
-#include <placegraph/pipeline/slam/environment_observation.h>
 #include <placegraph/pipeline/slam.h>
+#include <placegraph/pipeline/slam/environment_observation.h>
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

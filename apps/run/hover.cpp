@@ -8,8 +8,8 @@
 
 #include <filesystem>
 
-#include "apps/run/flight_report.h"
 #include "apps/run/flight_map_report.h"
+#include "apps/run/flight_report.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"
@@ -47,7 +47,7 @@ Flown fly(const FlightArguments& arguments, const Flight& flight) {
                       static_cast<std::int64_t>(body.images->size()));
     flown.run =
         run_flight(*body.images, flight.imu, body.T_body_cam, flight.layout, flight.options,
-                  [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
+                   [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
   }
   json& summary = flown.summary;
   summary = describe_flight(flown.run, body.images->stamp_ns(0));
@@ -69,7 +69,7 @@ Flown fly(const FlightArguments& arguments, const Flight& flight) {
   }
   if (arguments.map_markers) {
     flown.map = map_flight_markers(*body.images, flown.run, body.T_body_cam, flight.layout,
-                                  flight.options.hover);
+                                   flight.options.hover);
     summary["marker_map"] = describe_marker_map(*flown.map, flight.layout, flight.true_layout);
   }
   summary["peak_mb"] = peak_mb();

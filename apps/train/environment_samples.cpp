@@ -58,8 +58,8 @@ std::vector<Eigen::Vector3d> corner_points(const Frame& frame, const Camera& cam
   return points;
 }
 
-EnvironmentEvidence evidence_of(const Frame& frame, const Camera& camera, const SurfaceLabeller& eye,
-                                bool with_depth) {
+EnvironmentEvidence evidence_of(const Frame& frame, const Camera& camera,
+                                const SurfaceLabeller& eye, bool with_depth) {
   EnvironmentEvidence evidence;
   evidence.see(eye.look(frame, false).shares);
   const auto [edges, of] = edges_of(frame.image, camera);
@@ -148,7 +148,8 @@ std::vector<EnvironmentSample> samples_of_world(const std::string& name, std::ui
   return samples;
 }
 
-std::vector<EnvironmentSample> samples_of_pictures(const std::string& data, const SurfaceLabeller& eye) {
+std::vector<EnvironmentSample> samples_of_pictures(const std::string& data,
+                                                   const SurfaceLabeller& eye) {
   std::vector<EnvironmentSample> samples;
   constexpr double kStreetShare = 0.12, kRoadShare = 0.03;
   const LabelledSet set = read_labelled_set(data);

@@ -16,6 +16,7 @@ std::vector<EnvironmentSample> samples_of_world(const std::string& name, std::ui
 /// Pictures of a labelled set (read_labelled_set): a street where a tenth is buildings, a road
 /// where hardly any is; what lies between is neither. Depth is not known of them. Throws FileError,
 /// and ArgumentError where the set has no class Building.
-std::vector<EnvironmentSample> samples_of_pictures(const std::string& data, const SurfaceLabeller& eye);
+std::vector<EnvironmentSample> samples_of_pictures(const std::string& data,
+                                                   const SurfaceLabeller& eye);
 
 }  // namespace placegraph::apps

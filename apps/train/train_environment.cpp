@@ -56,8 +56,8 @@ std::string lines_of(const char* set, const EnvironmentScore& score) {
 TrainEnvironmentResult train_environment(const TrainEnvironmentArguments& arguments) {
   require_free(arguments.out, arguments.force);
   const SurfaceLabeller eye(std::make_shared<const SceneModel>(
-                         load_scene_model(SceneModel::Kind::kSurfaces, arguments.model)),
-                     {});
+                                load_scene_model(SceneModel::Kind::kSurfaces, arguments.model)),
+                            {});
   const std::vector<std::string> worlds{"town-loop", "corridor-loop", "warehouse"};
   EnvironmentSamples training_set, test;
   Progress progress("rendering",

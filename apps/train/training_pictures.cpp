@@ -15,7 +15,8 @@ namespace {
 
 /// Which of them are alike: so many of a drive one after the other (`block`), and never of two
 /// sequences.
-std::vector<int> blocks_of(const std::vector<TrainingPicture>& training_set, const TrainingPictureOptions& a) {
+std::vector<int> blocks_of(const std::vector<TrainingPicture>& training_set,
+                           const TrainingPictureOptions& a) {
   std::vector<int> block;
   int in_block = 0;
   for (std::size_t i = 0; i < training_set.size(); ++i) {
@@ -35,24 +36,25 @@ Image colour_of(const std::string& path) {
 }
 
 std::vector<TrainingPicture> training_pictures(const LabelledSet& set,
-                                           const std::vector<LabelledPicture>& pictures,
-                                           const SceneModel& model, const TrainingPictureOptions& a) {
+                                               const std::vector<LabelledPicture>& pictures,
+                                               const SceneModel& model,
+                                               const TrainingPictureOptions& a) {
   const bool surfaces = model.kind == SceneModel::Kind::kSurfaces;
   const auto& names = model.classes;
   std::vector<TrainingPicture> training_set;
   for (const LabelledPicture& picture : pictures)
     training_set.push_back({picture.sequence, [&set, &names, picture, surfaces] {
-                        return std::pair(
-                            colour_of(picture.image),
-                            read_class_image(picture.labels, set.classes, names, surfaces));
-                      }});
+                              return std::pair(
+                                  colour_of(picture.image),
+                                  read_class_image(picture.labels, set.classes, names, surfaces));
+                            }});
   for (const RenderedPicture& picture : render_streets(a.rendered, a.rendered_frames, a.threads))
     training_set.push_back({picture.sequence, [&names, picture, surfaces] {
-                        return std::pair(
-                            picture.image,
-                            class_image(picture.labels, picture.sequence,
-                                        SyntheticWorld::scene_classes(), names, surfaces));
-                      }});
+                              return std::pair(
+                                  picture.image,
+                                  class_image(picture.labels, picture.sequence,
+                                              SyntheticWorld::scene_classes(), names, surfaces));
+                            }});
   return training_set;
 }
 

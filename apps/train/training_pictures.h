@@ -33,12 +33,14 @@ Image colour_of(const std::string& path);
 
 /// Photographs of the set, then rendered streets. They refer to `set` and `model`.
 std::vector<TrainingPicture> training_pictures(const LabelledSet& set,
-                                           const std::vector<LabelledPicture>& pictures,
-                                           const SceneModel& model, const TrainingPictureOptions& options);
+                                               const std::vector<LabelledPicture>& pictures,
+                                               const SceneModel& model,
+                                               const TrainingPictureOptions& options);
 
 /// Cuts up every picture as often as there are variants; those of one variant follow each other.
 /// Progress goes to stderr. Throws FileError.
 std::vector<SceneExample> make_examples(const std::vector<TrainingPicture>& training_set,
-                                        const SceneModel& model, const TrainingPictureOptions& options);
+                                        const SceneModel& model,
+                                        const TrainingPictureOptions& options);
 
 }  // namespace placegraph::apps

@@ -55,7 +55,9 @@ void add_flow_command(CLI::App& app) {
                      "how the camera turns [rad/s], its own axes: that is taken out of the flow");
   three("--turn", a.turn, "the same as a rotation vector from image to image [rad]")
       ->excludes(gyro);
-  command->add_option("--turn-sigma", a.rotation_sigma, "of either, from image to image, an axis [rad]")
+  command
+      ->add_option("--turn-sigma", a.rotation_sigma,
+                   "of either, from image to image, an axis [rad]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   three("--normal", a.normal, "to the plane that is approached or passed, in the first camera");

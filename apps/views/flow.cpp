@@ -45,8 +45,8 @@ CueSetting cue_setting(const FlowArguments& arguments) {
   if (!arguments.gyro.empty()) turn = arguments.dt_s * vector_of("--gyro", arguments.gyro);
   if (!arguments.turn.empty()) turn = vector_of("--turn", arguments.turn);
   if (turn)
-    setting.turn = {SO3::exp(*turn),
-                    arguments.rotation_sigma * arguments.rotation_sigma * Eigen::Matrix3d::Identity()};
+    setting.turn = {SO3::exp(*turn), arguments.rotation_sigma * arguments.rotation_sigma *
+                                         Eigen::Matrix3d::Identity()};
   return setting;
 }
 

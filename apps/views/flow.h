@@ -19,12 +19,12 @@ struct FlowArguments {
   bool cues = false;  ///< also what the flow tells at once; all below but `force` is for that
   std::string calib;  ///< of the camera; needed
   double dt_s = 0;    ///< time between the images [s]; 0: times are counted in images
-  std::vector<double> gyro;    ///< three turn rates [rad/s] in the camera's axes; empty: not known
-  std::vector<double> turn;    ///< or the rotation vector from image to image [rad]; empty
-  double rotation_sigma = 1e-3;    ///< of either, from image to image, an axis [rad]
-  std::vector<double> normal;  ///< to the plane, in the first camera; empty: the optical axis
-  int cell_px = 16;            ///< one vector in a square of so many pixels a side
-  bool force = false;          ///< overwrite `out` and `drawing`
+  std::vector<double> gyro;  ///< three turn rates [rad/s] in the camera's axes; empty: not known
+  std::vector<double> turn;  ///< or the rotation vector from image to image [rad]; empty
+  double rotation_sigma = 1e-3;  ///< of either, from image to image, an axis [rad]
+  std::vector<double> normal;    ///< to the plane, in the first camera; empty: the optical axis
+  int cell_px = 16;              ///< one vector in a square of so many pixels a side
+  bool force = false;            ///< overwrite `out` and `drawing`
 };
 
 struct FlowResult {

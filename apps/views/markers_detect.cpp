@@ -46,7 +46,7 @@ double side_of(const MarkersDetectArguments& arguments, const MarkerLayout& layo
 
 /// Where the camera is in the layout, by what is seen of it.
 MarkerPoseEstimate camera_in(const MarkerLayout& layout, const Camera& camera, const Image& grey,
-                       MarkerView& view) {
+                             MarkerView& view) {
   if (!layout.beacons_world.empty()) view.beacons = detect_beacons(grey);
   if (!layout.markers.empty() || !layout.beacons_world.empty())
     return MarkerFilter({}, layout, camera, SE3()).observe(view);

@@ -28,8 +28,8 @@ struct MarkersDetectArguments {
 /// A marker and what it is known to be.
 struct DetectedMarker {
   MarkerObservation observation;  ///< its pixels counted from the first pixel's centre
-  double side_m = 0;        ///< 0: not known
-  MarkerPoses poses;        ///< both that explain it, where the side is known
+  double side_m = 0;              ///< 0: not known
+  MarkerPoses poses;              ///< both that explain it, where the side is known
 };
 
 struct MarkersDetectResult {

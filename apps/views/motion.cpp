@@ -32,7 +32,7 @@ int distinct_matches(const MatchFile& file) {
 
 /// By matches of pixels, where enough of them differ.
 MotionEstimate motion_by_pixels(const MotionArguments& arguments, const Camera& camera,
-                              Random& random) {
+                                Random& random) {
   const MatchFile file = read_matches(arguments.in);
   const int distinct = distinct_matches(file);
   MotionEstimate answer;
@@ -51,7 +51,7 @@ MotionEstimate motion_by_pixels(const MotionArguments& arguments, const Camera& 
 }
 
 MotionEstimate answer_of(const MotionArguments& arguments, const std::optional<Camera>& camera,
-                       Random& random) {
+                         Random& random) {
   if (arguments.model == "3d3d") {
     const PointPairFile file = read_point_pairs(arguments.in);
     MotionEstimate answer = motion_by_clouds(arguments.options, file, random);

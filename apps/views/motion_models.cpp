@@ -60,7 +60,7 @@ const std::vector<std::string>& motion_model_names() {
 }
 
 MotionEstimate motion_by_two_views(const std::string& name, const MotionModelOptions& asked,
-                                 const Camera& camera, const MatchFile& file, Random& random) {
+                                   const Camera& camera, const MatchFile& file, Random& random) {
   RelativePoseOptions options;
   const auto& names = relative_pose_model_names();
   options.model = choice<RelativePoseModel>("--model", names, name);
@@ -82,7 +82,7 @@ MotionEstimate motion_by_two_views(const std::string& name, const MotionModelOpt
 }
 
 MotionEstimate motion_by_gravity(const MotionModelOptions& asked, const Camera& camera,
-                               const MatchFile& file, Random& random) {
+                                 const MatchFile& file, Random& random) {
   const Verticals down = verticals_of(asked.gravity);
   GravityPoseOptions options;
   adopt(asked, options);
@@ -100,7 +100,7 @@ MotionEstimate motion_by_gravity(const MotionModelOptions& asked, const Camera& 
 }
 
 MotionEstimate motion_by_circle(const MotionModelOptions& asked, const Camera& camera,
-                              const MatchFile& file) {
+                                const MatchFile& file) {
   CircularMotionOptions options;
   if (asked.threshold_px) options.threshold_px = *asked.threshold_px;
   if (asked.min_inliers) options.min_inliers = *asked.min_inliers;
@@ -128,7 +128,7 @@ MotionEstimate motion_by_circle(const MotionModelOptions& asked, const Camera& c
 }
 
 MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Camera& camera,
-                                   const SeenPointFile& file, Random& random) {
+                                     const SeenPointFile& file, Random& random) {
   Pose3d2dOptions options;
   adopt(asked, options);
   const Pose3d2dResult found = estimate_pose_3d2d(camera, file.points, file.px, options, random);
@@ -146,7 +146,7 @@ MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Came
 }
 
 MotionEstimate motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
-                              Random& random) {
+                                Random& random) {
   require(asked.noise_m > 0, "--noise: must be positive");
   require(!asked.threshold_px, "--threshold: is of pixels, and 3d3d has none");
   Pose3d3dOptions options;

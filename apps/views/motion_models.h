@@ -40,18 +40,18 @@ struct MotionEstimate {
 /// The motion of a camera by the model `name`: auto, essential, homography or rotation. Throws
 /// ArgumentError for options out of range, as all of these do.
 MotionEstimate motion_by_two_views(const std::string& name, const MotionModelOptions& asked,
-                                 const Camera& camera, const MatchFile& file, Random& random);
+                                   const Camera& camera, const MatchFile& file, Random& random);
 /// By three points and both verticals. Throws ArgumentError if `gravity` is of another form.
 MotionEstimate motion_by_gravity(const MotionModelOptions& asked, const Camera& camera,
-                               const MatchFile& file, Random& random);
+                                 const MatchFile& file, Random& random);
 /// Of a car, on a circle, its camera levelled by `gravity` where that is given.
 MotionEstimate motion_by_circle(const MotionModelOptions& asked, const Camera& camera,
-                              const MatchFile& file);
+                                const MatchFile& file);
 /// By points of known place [m]: the pose of the camera that sees them.
 MotionEstimate motion_by_seen_points(const MotionModelOptions& asked, const Camera& camera,
-                                   const SeenPointFile& file, Random& random);
+                                     const SeenPointFile& file, Random& random);
 /// By points of known place [m] in both views.
 MotionEstimate motion_by_clouds(const MotionModelOptions& asked, const PointPairFile& file,
-                              Random& random);
+                                Random& random);
 
 }  // namespace placegraph::apps

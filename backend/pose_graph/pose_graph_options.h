@@ -78,9 +78,9 @@ struct RobustOptions {
   double kernel_width = 1;                    ///< of kHuber and kDcs, in standard deviations
   /// Share of the true loops whose squared error is below the gate, were their noise Gaussian.
   double gate_probability = 0.999;
-  GncOptions gnc = {};         ///< of kGnc, kPcm and kAuto
-  LoopSupportOptions support;  ///< of kGnc, kPcm and kAuto
-  LoopSetGrowthOptions growth;    ///< of kGnc, kPcm and kAuto
+  GncOptions gnc = {};          ///< of kGnc, kPcm and kAuto
+  LoopSupportOptions support;   ///< of kGnc, kPcm and kAuto
+  LoopSetGrowthOptions growth;  ///< of kGnc, kPcm and kAuto
   void check() const;
 };
 void visit(OptionVisitor& field, RobustOptions& options);

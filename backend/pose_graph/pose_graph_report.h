@@ -31,10 +31,11 @@ struct PoseGraphReport {
   PoseGraph graph;  ///< with the optimized poses
   /// Sum of e^T Omega e at the given poses, without kernels, by PoseGraphOptions::rotation_error.
   double chi2_initial = 0;
-  double chi2_final = 0;                              ///< the same at the optimized poses
-  int iterations = 0;                                 ///< steps of all descents together
-  PoseGraphInitialization initialization_used = PoseGraphInitialization::kFile;  ///< of the descent that was kept; not kAuto
-  bool refined_from_certified = false;                ///< whether initialization_used is kCertified
+  double chi2_final = 0;  ///< the same at the optimized poses
+  int iterations = 0;     ///< steps of all descents together
+  PoseGraphInitialization initialization_used =
+      PoseGraphInitialization::kFile;      ///< of the descent that was kept; not kAuto
+  bool refined_from_certified = false;     ///< whether initialization_used is kCertified
   std::vector<double> chi2_by_constraint;  ///< at the optimized poses, by graph.constraints
   /// Constraints that RobustOptions left out as false, in the order of graph.constraints. The sums
   /// above include them all the same.

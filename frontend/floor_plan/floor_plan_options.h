@@ -64,14 +64,14 @@ void visit(OptionVisitor& field, SkirtingLineOptions& options);
 
 /// Walls from surface points: upright planes along two orthogonal axes of the building.
 struct WallFinderOptions {
-  double max_sigma_m = 0.12;  ///< largest standard deviation of a point that is used
-  double max_rotation_deg = 15;   ///< largest angle between the normals of a point and its wall
-  double band_m = 0.05;       ///< half the thickness of what counts as one plane
-  double min_height_m = 0.8;  ///< least height that is seen of a wall, in all its parts together
-  double min_share = 0.6;     ///< least share of wall in the height that is seen or seen through
-  double max_gap_m = 0.3;     ///< longest gap within a wall
-  double min_length_m = 0.4;  ///< least length of a wall
-  double max_step_m = 0.07;   ///< largest offset between pieces of one wall, by drift of the poses
+  double max_sigma_m = 0.12;     ///< largest standard deviation of a point that is used
+  double max_rotation_deg = 15;  ///< largest angle between the normals of a point and its wall
+  double band_m = 0.05;          ///< half the thickness of what counts as one plane
+  double min_height_m = 0.8;     ///< least height that is seen of a wall, in all its parts together
+  double min_share = 0.6;        ///< least share of wall in the height that is seen or seen through
+  double max_gap_m = 0.3;        ///< longest gap within a wall
+  double min_length_m = 0.4;     ///< least length of a wall
+  double max_step_m = 0.07;  ///< largest offset between pieces of one wall, by drift of the poses
   /// Least height of the upper end of short pieces: door leaves and furniture end below it.
   double min_top_m = 2.3;
   void check() const { check_ranges(*this); }

@@ -42,9 +42,9 @@ void visit(OptionVisitor& field, SegmentDetectorOptions& options);
 
 /// Alignment of a segment's strip of grey values in another image.
 struct SegmentFlowOptions {
-  int strip_px = 7;          ///< half the width of the strip
-  int iterations = 8;        ///< Gauss-Newton iterations on each level
-  double robust_grey = 12;   ///< width of the Huber kernel on residuals [grey levels of 255]
+  int strip_px = 7;              ///< half the width of the strip
+  int iterations = 8;            ///< Gauss-Newton iterations on each level
+  double robust_grey = 12;       ///< width of the Huber kernel on residuals [grey levels of 255]
   double max_rotation_deg = 15;  ///< largest rotation from the predicted direction
   void check() const { check_ranges(*this); }
 };
@@ -134,8 +134,8 @@ struct LineTriangulationOptions {
   /// Least angle between the planes through the line and two camera centres, those that differ
   /// most.
   double min_rotation_deg = 1.5;
-  double min_rotation_sigmas = 8;   ///< least ratio of that angle to its standard deviation
-  double max_error_sigmas = 4;  ///< largest residual of any observation, in standard deviations
+  double min_rotation_sigmas = 8;  ///< least ratio of that angle to its standard deviation
+  double max_error_sigmas = 4;     ///< largest residual of any observation, in standard deviations
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, LineTriangulationOptions& options);
@@ -158,9 +158,10 @@ struct LineInitializerOptions {
   VanishingPointOptions directions;  ///< vanishing points of the first image, for the rotations
   /// Five-line hypotheses of the translations.
   RansacOptions ransac{.max_iterations = 200, .confidence = 0.999, .min_inliers = 9};
-  double threshold_px = 3;    ///< largest residual, in the middle image, of a line from the others
-  double min_rotation_deg = 0.7;  ///< least rotation of a line's plane to take part in the translation
-  int min_lines = 12;         ///< least number of lines tracked from the first to the last image
+  double threshold_px = 3;  ///< largest residual, in the middle image, of a line from the others
+  double min_rotation_deg =
+      0.7;             ///< least rotation of a line's plane to take part in the translation
+  int min_lines = 12;  ///< least number of lines tracked from the first to the last image
   void check() const;
 };
 void visit(OptionVisitor& field, LineInitializerOptions& options);

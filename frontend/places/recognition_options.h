@@ -66,11 +66,11 @@ void visit(OptionVisitor& field, PlaceCueOptions& options);
 
 /// How PlaceRecognizer searches its stored views.
 struct PlaceRecognizerOptions {
-  PlaceCueOptions cues;  ///< what views are compared by
-  int shortlisted = 300;     ///< views that pass the first, coarsest comparison
-  int short_list = 60;   ///< views that pass the second one and are compared in full
-  int verified = 12;     ///< views whose corners are compared: the best by all other cues, ...
-  int nominated = 8;     ///< ... and the best by each of the others alone
+  PlaceCueOptions cues;   ///< what views are compared by
+  int shortlisted = 300;  ///< views that pass the first, coarsest comparison
+  int short_list = 60;    ///< views that pass the second one and are compared in full
+  int verified = 12;      ///< views whose corners are compared: the best by all other cues, ...
+  int nominated = 8;      ///< ... and the best by each of the others alone
   /// From so many views on, the first comparison searches a graph of neighbours instead of all.
   int indexed_from = 20000;
   void check() const;

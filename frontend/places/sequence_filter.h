@@ -24,7 +24,8 @@ class SequenceFilter {
   /// `list` holds views of first..last (ArgumentError otherwise); views that are not listed count
   /// as the least similar listed one. Sorted by score, best first. An empty list ends the sequence,
   /// and nothing is returned.
-  std::vector<PlaceSimilarity> update(const std::vector<PlaceSimilarity>& list, int first, int last);
+  std::vector<PlaceSimilarity> update(const std::vector<PlaceSimilarity>& list, int first,
+                                      int last);
   /// Confidence of an answer of `update`, comparable over images.
   ///
   /// The weighted mean of its score and of the similarity that `list`, as it was given to `update`

@@ -33,10 +33,10 @@ struct PointObservation {
 
 /// A pose graph with measured poses and point landmarks, over SE(2) or SE(3).
 struct LandmarkGraph {
-  PoseGraph poses;                          ///< nodes and constraints between them
-  std::vector<PosePriorConstraint> priors;  ///< measured poses of nodes
-  std::vector<GraphPoint> points;           ///< landmarks
-  std::vector<PointObservation> observations;           ///< observations of landmarks from nodes
+  PoseGraph poses;                             ///< nodes and constraints between them
+  std::vector<PosePriorConstraint> priors;     ///< measured poses of nodes
+  std::vector<GraphPoint> points;              ///< landmarks
+  std::vector<PointObservation> observations;  ///< observations of landmarks from nodes
 
   /// Whether it is a pose graph and no more.
   bool has_poses_alone() const { return priors.empty() && points.empty() && observations.empty(); }

@@ -32,7 +32,7 @@ struct IndoorWall {
   Eigen::Vector2d normal;        ///< unit, towards the side from which it was observed
   double sigma_m = 0;            ///< standard deviation of its position along the normal
   double low_m = 0, high_m = 0;  ///< heights above the floor between which it was observed
-  int observations = 0;                ///< surface points that it was fitted to
+  int observations = 0;          ///< surface points that it was fitted to
   std::optional<PlaceId> place;  ///< the place from which most of it was observed
   /// Distance between its ends [m].
   double length() const { return (b - a).norm(); }

@@ -36,7 +36,7 @@ struct SemanticCell {
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();  ///< of its points, plan frame [m]
   float height_m = 0;                              ///< mean of its points above the ground
   float weight = 0;          ///< number of points, each counted by 1 / (1 + (sigma / cell)^2)
-  int observations = 0;            ///< keyframes with a point in it
+  int observations = 0;      ///< keyframes with a point in it
   std::optional<int> label;  ///< position in SemanticMap::classes; nothing: unknown
   float confidence = 0;      ///< probability of its most probable class
 };
@@ -57,13 +57,13 @@ struct SemanticMap {
 
 /// How observations are fused in a SemanticGrid, and when a cell is known.
 struct SemanticGridOptions {
-  double cell_m = 0.3;          ///< side of a cell
-  double max_sigma_m = 0.6;     ///< points with a larger standard deviation of depth are left out
-  double observation_weight = 0.5;    ///< below 1, as the errors of several keyframes are correlated
-  double full_weight = 4;       ///< weight of a keyframe's points in a cell that counts in full
-  double min_weight = 3;        ///< least weight of a known cell
-  int min_observations = 2;           ///< least number of keyframes of a known cell
-  double min_confidence = 0.4;  ///< least probability of the class of a known cell
+  double cell_m = 0.3;       ///< side of a cell
+  double max_sigma_m = 0.6;  ///< points with a larger standard deviation of depth are left out
+  double observation_weight = 0.5;  ///< below 1, as the errors of several keyframes are correlated
+  double full_weight = 4;           ///< weight of a keyframe's points in a cell that counts in full
+  double min_weight = 3;            ///< least weight of a known cell
+  int min_observations = 2;         ///< least number of keyframes of a known cell
+  double min_confidence = 0.4;      ///< least probability of the class of a known cell
   void check() const { check_ranges(*this); }
 };
 void visit(OptionVisitor& field, SemanticGridOptions& options);
@@ -73,9 +73,9 @@ void visit(OptionVisitor& field, SemanticGridOptions& options);
 ///   L_t(l) = L_{t-1}(l) + a (log p(l | z_t) - log p(l)),  P(l) = exp L(l) / sum exp L
 ///
 /// with log p(l | z_t) the mean over the points of keyframe t in the cell, each weighted by
-/// 1 / (1 + (sigma / cell)^2), a = observation_weight * min(1, their weights / full_weight), and p(l) the
-/// same for all classes. A cell has its most probable class if that has min_confidence and the cell
-/// enough weight and keyframes; else it is unknown.
+/// 1 / (1 + (sigma / cell)^2), a = observation_weight * min(1, their weights / full_weight), and
+/// p(l) the same for all classes. A cell has its most probable class if that has min_confidence and
+/// the cell enough weight and keyframes; else it is unknown.
 class SemanticGrid {
  public:
   /// An empty grid; throws ArgumentError for options out of range or fewer than two classes.

@@ -49,7 +49,7 @@ struct LineCueOptions {
   LineTriangulationOptions triangulation;  ///< when the line in space is known well enough
   PoseFromLinesOptions pose;               ///< the pose of a frame from known lines
   LineInitializerOptions start;  ///< the first keyframes of a monocular camera without points
-  FloorLineScaleOptions floor;       ///< metric scale where points are not among the cues
+  FloorLineScaleOptions floor;   ///< metric scale where points are not among the cues
   double sigma_floor_px = 0.15;  ///< least deviation across a line: lens, rolling shutter, blur
   /// The error of an edge persists while it is tracked: so many observations in the window count as
   /// one independent one (their variances are multiplied by this number).

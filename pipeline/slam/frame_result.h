@@ -9,9 +9,9 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// Whether a frame could be posed.
 enum class TrackingState {
-  kInitializing,   ///< no pose yet: the map has not begun, or waits for its metric scale
-  kTracking,  ///< posed
-  kLost       ///< no pose, though there is a map
+  kInitializing,  ///< no pose yet: the map has not begun, or waits for its metric scale
+  kTracking,      ///< posed
+  kLost           ///< no pose, though there is a map
 };
 
 /// What became of one frame.
@@ -19,7 +19,7 @@ struct FrameResult {
   /// Ok if the frame has a pose that needs no confirmation. Otherwise why it has none (yet), or
   /// only one that a second view must confirm.
   Outcome outcome;
-  FrameId frame;                                  ///< the id of the frame that was processed
+  FrameId frame;                                       ///< the id of the frame that was processed
   TrackingState state = TrackingState::kInitializing;  ///< kTracking exactly if T_map_cam is there
   /// Pose of the (left) camera in the coordinate frame of `component`, as known when the frame was
   /// done; nothing while unknown.

@@ -38,11 +38,11 @@ struct OdometryOptions {
   Rotation2d2dOptions turn;            ///< a monocular camera that rotates on the spot
   StereoMatcherOptions stereo;         ///< search for points in the right image
   RectificationOptions rectification;  ///< self-calibration of a stereo pair
-  GroundPlaneScaleOptions ground;           ///< metric scale from the ground plane
+  GroundPlaneScaleOptions ground;      ///< metric scale from the ground plane
   LineCueOptions lines;                ///< line landmarks, where `lines` is among the cues
   ManhattanCueOptions manhattan;       ///< where `manhattan` is among the cues
   PlaneLandmarkOptions planes;         ///< planes in depth images as landmarks
-  DirectCueOptions surfaces;          ///< where `plane` is the only cue or `direct` is among them
+  DirectCueOptions surfaces;           ///< where `plane` is the only cue or `direct` is among them
   KeyframeOptions keyframe;            ///< when a frame becomes a keyframe
   /// Bundle adjustment over the last keyframes.
   SlidingWindowOptions window{.max_keyframes = 10, .relative_decrease = 1e-3};

@@ -1,7 +1,7 @@
-// A fixed piece of work, to compare the times of two sittings or machines by: the ratio of a time to
-// that of this program says more than the time. It factorizes a dense matrix, multiplies two, and goes
-// through memory in order and out of order; it has nothing of the project in it and is not to change.
-// Prints its CPU time in seconds.
+// A fixed piece of work, to compare the times of two sittings or machines by: the ratio of a time
+// to that of this program says more than the time. It factorizes a dense matrix, multiplies two,
+// and goes through memory in order and out of order; it has nothing of the project in it and is not
+// to change. Prints its CPU time in seconds.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>

@@ -53,8 +53,8 @@ void study_apriltag_sim(const std::string& folder, Report& report) {
     corner_px = std::max(corner_px, px);
     way_percent = std::max(way_percent, way);
     rotation_deg = std::max(rotation_deg, turn);
-    report.markdown += fmt::format("| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} |\n", observation.id, px,
-                                   way, turn, poses.margin());
+    report.markdown += fmt::format("| {} | {:.3f} | {:.2f} | {:.2f} | {:.0f} |\n", observation.id,
+                                   px, way, turn, poses.margin());
   }
   report.target("apriltag_sim, tags found", static_cast<double>(found.size()));
   report.target("apriltag_sim, corners [px]", corner_px);

@@ -22,8 +22,8 @@ inline void write_file(const std::string& path, const std::string& content) {
 inline CommandResult run_placegraph(const std::string& arguments,
                                     const std::string& working_folder = ".") {
   const TemporaryFolder streams;
-  const std::string command = "cd '" + working_folder + "' && '" + program() + "' " +
-                              arguments + " >'" + (streams / "out") + "' 2>'" + (streams / "err") +
+  const std::string command = "cd '" + working_folder + "' && '" + program() + "' " + arguments +
+                              " >'" + (streams / "out") + "' 2>'" + (streams / "err") +
                               "' </dev/null";
   const int status = std::system(command.c_str());
   CommandResult result;

@@ -50,7 +50,8 @@ inline PlaceView random_view(Random& random) {
   view.colour = random_grid(random, 2, 2, 8);
   view.gabor = random_grid(random, 3, 2, 5);
   view.coarse = random_grid(random, 3, 2, 3);
-  for (int i = 0; i < 12; ++i) view.thumbnail.push_back(static_cast<std::int16_t>(random.index(99)));
+  for (int i = 0; i < 12; ++i)
+    view.thumbnail.push_back(static_cast<std::int16_t>(random.index(99)));
   view.corners = random_features(random, 5);
   for (Feature& corner : view.corners) corner.point_cam.reset();
   return view;

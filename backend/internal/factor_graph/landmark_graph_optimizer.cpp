@@ -63,7 +63,7 @@ std::vector<char> held_variables(const LandmarkGraph& graph, const VariableIndex
 
 template <class Group>
 void add_priors_and_observations(const LandmarkGraph& graph, const VariableIndex& index,
-                           RotationError rotation_error, FactorGraph& factors) {
+                                 RotationError rotation_error, FactorGraph& factors) {
   constexpr int dim = Group::kDof == 3 ? 2 : 3;
   for (const PosePriorConstraint& prior : graph.priors)
     factors.add(PosePriorFactor<Group>(std::get<Group>(prior.T_world_node),

@@ -16,12 +16,13 @@ namespace placegraph {
 ///
 /// For a plane the tangent is that of its quaternion, so that the Jacobian is SO(3)'s.
 struct MarginalPrior {
-  std::vector<KeyframeId> keyframes;     ///< ascending; six columns of J each
-  std::vector<SE3> T_map_cam_lin;        ///< first estimates: fixed once a keyframe is in the prior
-  std::vector<PlaneId> planes;           ///< ascending; three columns each, after the keyframes'
-  std::vector<Plane3> plane_lin;         ///< first estimates
-  std::vector<ManhattanFrameId> manhattan_frames;  ///< ascending; three columns each, after the planes'
-  std::vector<SO3> R_map_manhattan_lin;      ///< first estimates
+  std::vector<KeyframeId> keyframes;  ///< ascending; six columns of J each
+  std::vector<SE3> T_map_cam_lin;     ///< first estimates: fixed once a keyframe is in the prior
+  std::vector<PlaneId> planes;        ///< ascending; three columns each, after the keyframes'
+  std::vector<Plane3> plane_lin;      ///< first estimates
+  std::vector<ManhattanFrameId>
+      manhattan_frames;                  ///< ascending; three columns each, after the planes'
+  std::vector<SO3> R_map_manhattan_lin;  ///< first estimates
   Eigen::MatrixXd J;                     ///< rank x (6 K + 3 P + 3 W)
   Eigen::VectorXd e;
 
@@ -49,7 +50,8 @@ class MarginalPriorFactor final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->insert(mutable_parameter_block_sizes()->end(),
                                             prior.planes.size(), VariableBlock<Plane3>::kSize);
     mutable_parameter_block_sizes()->insert(mutable_parameter_block_sizes()->end(),
-                                            prior.manhattan_frames.size(), VariableBlock<SO3>::kSize);
+                                            prior.manhattan_frames.size(),
+                                            VariableBlock<SO3>::kSize);
   }
 
   bool Evaluate(double const* const* parameters, double* residuals,

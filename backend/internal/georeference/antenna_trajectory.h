@@ -39,8 +39,8 @@ class AntennaTrack {
   /// the motion at most `max_gap_s` apart: translation linear, rotation geodesic. Nothing for a fix
   /// outside of the motion or in a longer gap. `lever_arm` serves the velocity.
   std::vector<std::optional<InterpolatedFix>> carry(const std::vector<std::int64_t>& stamps_ns,
-                                               const Eigen::Vector3d& lever_arm,
-                                               double max_gap_s) const;
+                                                    const Eigen::Vector3d& lever_arm,
+                                                    double max_gap_s) const;
 
   /// T_map_body; the nodes at the times of their visits where no motion was given.
   const Trajectory& motion() const { return motion_; }

@@ -45,7 +45,8 @@ std::vector<GpsDropout> find_dropouts(const std::vector<NodeVisit>& visits,
   return dropouts;
 }
 
-std::optional<FixDispersion> dispersion_of(const std::vector<FixResidual>& residuals, double max_gap_s) {
+std::optional<FixDispersion> dispersion_of(const std::vector<FixResidual>& residuals,
+                                           double max_gap_s) {
   std::vector<double> horizontal, vertical;
   for (std::size_t i = 1; i < residuals.size(); ++i) {
     const FixResidual &a = residuals[i - 1], &b = residuals[i];
@@ -57,7 +58,7 @@ std::optional<FixDispersion> dispersion_of(const std::vector<FixResidual>& resid
   }
   if (vertical.size() < kLeastPairs) return std::nullopt;
   return FixDispersion{std::max(1.0, median_of(horizontal) / kMedianOfNormal),
-                    std::max(1.0, median_of(vertical) / kMedianOfNormal)};
+                       std::max(1.0, median_of(vertical) / kMedianOfNormal)};
 }
 
 Eigen::Matrix3d fix_information(double horizontal, double vertical) {

@@ -30,7 +30,8 @@ struct FixResidual {
 struct FixDispersion {
   double horizontal = 1, vertical = 1;
 };
-std::optional<FixDispersion> dispersion_of(const std::vector<FixResidual>& residuals, double max_gap_s);
+std::optional<FixDispersion> dispersion_of(const std::vector<FixResidual>& residuals,
+                                           double max_gap_s);
 
 /// Information of a fix in (east, north, up) [1/m^2] from its standard deviations [m].
 Eigen::Matrix3d fix_information(double horizontal_m, double vertical_m);

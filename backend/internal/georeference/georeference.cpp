@@ -350,7 +350,8 @@ void Georeferencer::solve(const RobustKernel& kernel) {
         graph_.nodes[seen.fix.node].id, seen.position_world,
         seen.fix.antenna(calibration_.head<3>(), calibration_[3]), seen.information, kernel});
   PoseGraphOptions options = options_.solver;
-  options.start = PoseGraphInitialization::kFile;  // the alignment; other starts know nothing of fixes
+  options.start =
+      PoseGraphInitialization::kFile;  // the alignment; other starts know nothing of fixes
   const PoseGraphReport report = optimize_pose_graph(graph, options, log_);
   result_.outcome = report.outcome;
   result_.iterations += report.iterations;

@@ -67,7 +67,8 @@ VarianceComponents scatter(const PoseGraph& graph) {
     translation.add(claimed.template topLeftCorner<dim, dim>(),
                     covariances[i].topLeftCorner(dim, dim), e.template head<dim>());
     rotation.add(claimed.template bottomRightCorner<rotations, rotations>(),
-                 covariances[i].bottomRightCorner(rotations, rotations), e.template tail<rotations>());
+                 covariances[i].bottomRightCorner(rotations, rotations),
+                 e.template tail<rotations>());
   }
   result.translation = translation.factor();
   result.rotation = rotation.factor();

@@ -41,7 +41,7 @@ void IncrementalGraph<Group>::add_node(const PoseNode& node) {
 
 template <class Group>
 void IncrementalGraph<Group>::add_constraints(const std::vector<Constraint>& constraints,
-                                          bool poses_hold) {
+                                              bool poses_hold) {
   // Odometry first, and nothing depends on the order in which the rest is given.
   std::vector<std::tuple<int, int, int, int>> order;
   const int first = static_cast<int>(constraints_.size());
@@ -104,7 +104,7 @@ void IncrementalGraph<Group>::detach(int number) {
 
 template <class Group>
 void IncrementalGraph<Group>::add_edge(const RelativePoseConstraint& constraint, int number,
-                                   double weight) {
+                                       double weight) {
   const int e = take_place(edges_, free_edges_);
   place_[number] = e;
   edge_costs_.resize(edges_.size());
@@ -127,7 +127,7 @@ void IncrementalGraph<Group>::add_edge(const RelativePoseConstraint& constraint,
 
 template <class Group>
 void IncrementalGraph<Group>::add_position(const PositionConstraint& constraint, int number,
-                                       double weight) {
+                                           double weight) {
   const int p = take_place(positions_, free_positions_);
   place_[number] = p;
   Position& position = positions_[p];

@@ -28,7 +28,7 @@ void EdgeTerm<Group>::evaluate(const Group& T_world_from, const Group& T_world_t
     return;
   }
   const double rotated = std::max((at.J_from - J_from).squaredNorm() / J_from.squaredNorm(),
-                                 (at.J_to - J_to).squaredNorm() / J_to.squaredNorm());
+                                  (at.J_to - J_to).squaredNorm() / J_to.squaredNorm());
   const double scaled = std::abs(weight - scale) / std::max(weight, scale);
   change = std::max(std::sqrt(rotated), weight == scale ? 0.0 : scaled);
 }

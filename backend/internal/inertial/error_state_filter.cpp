@@ -258,7 +258,8 @@ Outcome PositionFilter::add(const ImuSample& sample) {
 }
 
 Outcome PositionFilter::add(const PoseMeasurement& observation) {
-  if (!observation.T_world_body.translation().allFinite() || !positive_definite(observation.covariance))
+  if (!observation.T_world_body.translation().allFinite() ||
+      !positive_definite(observation.covariance))
     return Outcome::failure(Code::kInconsistent, "the pose or its covariance is unusable");
   return insert(observation.stamp_ns, observation);
 }
@@ -281,7 +282,9 @@ std::optional<double> PositionFilter::deviation2(const PoseMeasurement& observat
 BodyExpectation PositionFilter::expectation(std::int64_t stamp_ns) const {
   BodyExpectation expected;
   if (const StateEstimate answer = at(stamp_ns); answer.outcome) expected.state = answer.state;
-  expected.deviation2 = [this](const PoseMeasurement& observation) { return deviation2(observation); };
+  expected.deviation2 = [this](const PoseMeasurement& observation) {
+    return deviation2(observation);
+  };
   return expected;
 }
 

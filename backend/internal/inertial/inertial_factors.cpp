@@ -135,9 +135,9 @@ std::optional<StateError> flow_error(const FlowMeasurement& observation, const S
                          second.T_world_body.rotation() * R_body_cam;
     const Vector3d wrong = (R_states.inverse() * observation.R_from_to).log();
     error.r += *observation.J_rotation * wrong;
-    error.J_first.block<3, 3>(0, kAttitude) += *observation.J_rotation *
-                                               SO3::right_jacobian_inverse(wrong) *
-                                               observation.R_from_to.matrix().transpose() * R_cam_body;
+    error.J_first.block<3, 3>(0, kAttitude) +=
+        *observation.J_rotation * SO3::right_jacobian_inverse(wrong) *
+        observation.R_from_to.matrix().transpose() * R_cam_body;
     error.J_second.block<3, 3>(0, kAttitude) -=
         *observation.J_rotation * SO3::right_jacobian_inverse(Vector3d(-wrong)) * R_cam_body;
   }

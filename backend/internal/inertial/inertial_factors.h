@@ -34,9 +34,9 @@ StateError pose_error(const PoseMeasurement& observation, const BodyState& state
 
 /// Flow over the level floor z = `floor_z_m` between two states, c the places of the camera:
 ///   r = R_cam_body R_i^T (c_j - c_i) / (c_i - floor)_z - flow.
-/// Where the gyro's turn was taken out of the flow (J_rotation), r has J_rotation log(R_ij^T R_from_to)
-/// beside it, R_ij the camera's turn by the two states: what was wrong with the gyro is known by
-/// now. Nothing where the camera is not above the floor.
+/// Where the gyro's turn was taken out of the flow (J_rotation), r has J_rotation log(R_ij^T
+/// R_from_to) beside it, R_ij the camera's turn by the two states: what was wrong with the gyro is
+/// known by now. Nothing where the camera is not above the floor.
 std::optional<StateError> flow_error(const FlowMeasurement& observation, const SE3& T_body_cam,
                                      double floor_z_m, const BodyState& first,
                                      const BodyState& second);

@@ -182,7 +182,8 @@ InertialWindow::Chain InertialWindow::linearize(std::size_t from, std::size_t to
   }
   for (std::size_t k = from; k < to; ++k) {
     const State& state = states_[k];
-    for (const PoseMeasurement& seen : state.poses) chain.add(pose_error(seen, state.value), k - from);
+    for (const PoseMeasurement& seen : state.poses)
+      chain.add(pose_error(seen, state.value), k - from);
     if (k == from) continue;
     const BodyState& before = states_[k - 1].value;
     chain.add(inertial_error(*state.motion, before, state.value), k - 1 - from);
@@ -217,7 +218,8 @@ bool InertialWindow::is_within_gate(const StateError& error, std::size_t index) 
 
 Outcome InertialWindow::add(const PoseMeasurement& observation) {
   if (states_.empty()) return window_not_started();
-  if (!observation.T_world_body.translation().allFinite() || !positive_definite(observation.covariance))
+  if (!observation.T_world_body.translation().allFinite() ||
+      !positive_definite(observation.covariance))
     return Outcome::failure(Code::kInconsistent, "the pose or its covariance is unusable");
   std::size_t index = 0;
   const Outcome reached = reach(observation.stamp_ns, index);
@@ -238,7 +240,8 @@ Outcome InertialWindow::add(const FlowMeasurement& observation) {
       observation.to_ns <= observation.from_ns)
     return Outcome::failure(Code::kInconsistent, "the flow or its covariance is unusable");
   std::size_t from = 0, to = 0;
-  for (const auto& [stamp, index] : {std::pair{observation.from_ns, &from}, {observation.to_ns, &to}}) {
+  for (const auto& [stamp, index] :
+       {std::pair{observation.from_ns, &from}, {observation.to_ns, &to}}) {
     const Outcome reached = reach(stamp, *index);
     if (!reached) return reached;
   }

@@ -14,7 +14,8 @@ ChordalIsotropicCertificate certify_chordal_isotropic(const PackedGraph<Group>& 
                                                       RotationError rotation_error,
                                                       const CertificateOptions& options) {
   constexpr int dim = kSpaceDim<Group>;
-  const IsotropicProblem<dim> problem = held_node_constraints(graph, find_anchors(graph), rotation_error);
+  const IsotropicProblem<dim> problem =
+      held_node_constraints(graph, find_anchors(graph), rotation_error);
   ChordalIsotropicCertificate certificate;
   certificate.cost_of_estimate = isotropic_cost(problem, graph.poses);
   if (problem.edges.empty()) {

@@ -34,7 +34,8 @@ constexpr int kShortDescent = 15;  ///< steps to a minimum that is near
 /// Rotations and translations of the point of rank d into the poses, every component moved as a
 /// whole to where its first anchor stands; anchors keep their poses.
 template <class Group>
-void set_poses(const Eigen::MatrixXd& X, const ComponentAnchors& anchors, PackedGraph<Group>& graph) {
+void set_poses(const Eigen::MatrixXd& X, const ComponentAnchors& anchors,
+               PackedGraph<Group>& graph) {
   constexpr int dim = kSpaceDim<Group>;
   using Rotation = std::decay_t<decltype(graph.poses[0].rotation())>;
   const auto rotation = [&](std::size_t i) {
@@ -113,8 +114,8 @@ void take_rounded(const ChordalRelaxation<dim>& relaxation, const Eigen::MatrixX
 
 /// The staircase from X, a minimum of rank d; X becomes the lowest minimum of rank d.
 template <int dim>
-CertifiedInitializationReport climb(const ChordalRelaxation<dim>& relaxation, int nodes, double max_effort,
-                           Eigen::MatrixXd& X) {
+CertifiedInitializationReport climb(const ChordalRelaxation<dim>& relaxation, int nodes,
+                                    double max_effort, Eigen::MatrixXd& X) {
   Climber<dim> climber(relaxation, max_effort);
   CertifiedInitializationReport report;
   report.rank = dim;
@@ -168,8 +169,9 @@ bool proves_itself(const ChordalRelaxation<dim>& relaxation, int nodes, const Ei
 }  // namespace
 
 template <class Group>
-CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>& graph, RotationError rotation_error,
-                                     double max_effort) {
+CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>& graph,
+                                                          RotationError rotation_error,
+                                                          double max_effort) {
   constexpr int dim = kSpaceDim<Group>;
   const ComponentAnchors anchors = find_anchors(graph);
   const IsotropicProblem<dim> problem = held_node_constraints(graph, anchors, rotation_error);
@@ -188,7 +190,8 @@ CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>& gr
 template <class Group>
 bool certified_as_they_are(const PackedGraph<Group>& graph, RotationError rotation_error) {
   constexpr int dim = kSpaceDim<Group>;
-  const IsotropicProblem<dim> problem = held_node_constraints(graph, find_anchors(graph), rotation_error);
+  const IsotropicProblem<dim> problem =
+      held_node_constraints(graph, find_anchors(graph), rotation_error);
   if (problem.edges.empty()) return true;
   const ChordalRelaxation<dim> relaxation(problem);
   // With the translations best for the rotations, the multipliers are far nearer to critical.
@@ -200,7 +203,8 @@ bool certified_as_they_are(const PackedGraph<Group>& graph, RotationError rotati
 }
 
 #define PLACEGRAPH_INSTANTIATE(Group)                                                        \
-  template CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>&, RotationError, double); \
+  template CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>&,    \
+                                                                     RotationError, double); \
   template bool certified_as_they_are(const PackedGraph<Group>&, RotationError);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)

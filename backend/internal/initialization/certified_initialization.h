@@ -26,15 +26,15 @@ struct CertifiedInitializationReport {
 /// operations), and nothing is lifted or searched for when that is spent: where the relaxation is
 /// not tight the staircase climbs for long and gains little.
 template <class Group>
-CertifiedInitializationReport certified_initialization_of(PackedGraph<Group>& graph,
-                                     RotationError rotation_error = RotationError::kLog,
-                                     double max_effort = 3000);
+CertifiedInitializationReport certified_initialization_of(
+    PackedGraph<Group>& graph, RotationError rotation_error = RotationError::kLog,
+    double max_effort = 3000);
 
 /// Whether the poses are, or lie by a minimum of the isotropic chordal problem that is, its global
 /// minimum to a gap of 1e-5: looked for at the poses themselves, which costs one factorization and
 /// is enough where the information is isotropic, and then at the end of a short descent from them
-/// if that turns no pose by more than 0.3 rad. Far cheaper than certified_initialization_of; false says nothing
-/// but that this did not prove it.
+/// if that turns no pose by more than 0.3 rad. Far cheaper than certified_initialization_of; false
+/// says nothing but that this did not prove it.
 template <class Group>
 bool certified_as_they_are(const PackedGraph<Group>& graph,
                            RotationError rotation_error = RotationError::kLog);

@@ -10,7 +10,7 @@ constexpr double kStiffness = 1e3;  // in the heaviest edge's weights
 
 template <class Group>
 void constrain_held_nodes(const PackedGraph<Group>& graph, const ComponentAnchors& anchors,
-                    IsotropicProblem<kSpaceDim<Group>>& problem) {
+                          IsotropicProblem<kSpaceDim<Group>>& problem) {
   double rotation_weight = 0, translation_weight = 0;
   for (const auto& edge : problem.edges) {
     rotation_weight = std::max(rotation_weight, kStiffness * edge.rotation_weight);
@@ -36,8 +36,8 @@ void constrain_held_nodes(const PackedGraph<Group>& graph, const ComponentAnchor
 
 template <class Group>
 IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group>& graph,
-                                                const ComponentAnchors& anchors,
-                                                RotationError rotation_error) {
+                                                         const ComponentAnchors& anchors,
+                                                         RotationError rotation_error) {
   Eigen::VectorXd log_scale;
   if constexpr (Group::kDof == 7) {
     log_scale.resize(static_cast<Eigen::Index>(graph.poses.size()));
@@ -49,9 +49,9 @@ IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group
   return problem;
 }
 
-#define PLACEGRAPH_INSTANTIATE(Group)                                                 \
-  template IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group>&, \
-                                                           const ComponentAnchors&, RotationError);
+#define PLACEGRAPH_INSTANTIATE(Group)                                \
+  template IsotropicProblem<kSpaceDim<Group>> held_node_constraints( \
+      const PackedGraph<Group>&, const ComponentAnchors&, RotationError);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)
 PLACEGRAPH_INSTANTIATE(Sim3)

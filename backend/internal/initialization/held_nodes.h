@@ -10,7 +10,7 @@ namespace placegraph {
 /// with its nodes held.
 template <class Group>
 IsotropicProblem<kSpaceDim<Group>> held_node_constraints(const PackedGraph<Group>& graph,
-                                                const ComponentAnchors& anchors,
-                                                RotationError rotation_error);
+                                                         const ComponentAnchors& anchors,
+                                                         RotationError rotation_error);
 
 }  // namespace placegraph

@@ -63,7 +63,7 @@ std::vector<std::vector<Constraint>> constraints_by_step(const PackedGraph<Group
 
 template <class Group>
 bool incremental_initialization_of(PackedGraph<Group>& graph, RotationError rotation_error,
-                    double most_factorizations) {
+                                   double most_factorizations) {
   const std::size_t nodes = graph.poses.size();
   const std::size_t part = (nodes + kParts - 1) / kParts;
   const std::vector<int> order = order_of_growth(graph);

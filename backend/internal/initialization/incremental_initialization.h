@@ -12,6 +12,6 @@ namespace placegraph {
 /// computed.
 template <class Group>
 bool incremental_initialization_of(PackedGraph<Group>& graph, RotationError rotation_error,
-                    double most_factorizations);
+                                   double most_factorizations);
 
 }  // namespace placegraph

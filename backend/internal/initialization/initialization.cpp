@@ -158,8 +158,9 @@ bool chordal_translations(PackedGraph<Group>& graph, const IsotropicProblem<dim>
                (graph.poses[edge.from].rotation() * edge.t).transpose(), anchored);
   for (const auto& position : graph.positions) {
     if (anchors.floating[anchors.component[position.node]]) continue;
-    const typename Group::Point target = position.position_world.template head<dim>() -
-                                         rotated_arm(graph.poses[position.node], position.lever_arm);
+    const typename Group::Point target =
+        position.position_world.template head<dim>() -
+        rotated_arm(graph.poses[position.node], position.lever_arm);
     system.add(position.node, position_weight<Group>(position), target.transpose());
   }
   const std::optional<Eigen::MatrixXd> translations = system.solve();
@@ -319,7 +320,8 @@ void chordal_initialization(PackedGraph<Group>& graph, RotationError rotation_er
   const auto problem = isotropic_problem(graph, rotation_error, log_scale);
   if (!chordal_rotations(graph, problem, unknowns, ordering) ||
       !chordal_translations(graph, problem, unknowns, ordering, anchors)) {
-    spanning_tree_initialization(graph);  // weights so far apart that the systems are singular to rounding
+    spanning_tree_initialization(
+        graph);  // weights so far apart that the systems are singular to rounding
     return;
   }
   align_to_positions(graph);
@@ -331,8 +333,8 @@ Eigen::VectorXd log_scales(const PackedGraph<Sim3>& graph) {
                           order_blocks(unknowns.count, Sim3::kDof, unknowns.pairs));
 }
 
-#define PLACEGRAPH_INSTANTIATE(Group)                     \
-  template void align_to_positions(PackedGraph<Group>&);  \
+#define PLACEGRAPH_INSTANTIATE(Group)                              \
+  template void align_to_positions(PackedGraph<Group>&);           \
   template void spanning_tree_initialization(PackedGraph<Group>&); \
   template void chordal_initialization(PackedGraph<Group>&, RotationError);
 PLACEGRAPH_INSTANTIATE(SE2)

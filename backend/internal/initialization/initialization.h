@@ -25,7 +25,8 @@ void spanning_tree_initialization(PackedGraph<Group>& graph);
 ///
 /// Exact where the measurements agree. Three linear systems of one pattern and one ordering.
 template <class Group>
-void chordal_initialization(PackedGraph<Group>& graph, RotationError rotation_error = RotationError::kLog);
+void chordal_initialization(PackedGraph<Group>& graph,
+                            RotationError rotation_error = RotationError::kLog);
 
 /// Moves every component that has measured positions and no held node as a whole (Sim(3): scaled
 /// too) so that sum w |T_world_node lever_arm - position|^2 becomes least.

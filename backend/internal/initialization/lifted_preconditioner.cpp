@@ -63,7 +63,8 @@ void LiftedPreconditioner<dim>::assemble() {
   matrix_.set_zero();
   const int size = angles_ + rank_;
   // Tangent vectors turned by the edge's measurement, and applied to its translation.
-  Eigen::MatrixXd rotated(rank_ * dim, angles_), seen(rank_ * dim, angles_), shifted(rank_, angles_);
+  Eigen::MatrixXd rotated(rank_ * dim, angles_), seen(rank_ * dim, angles_),
+      shifted(rank_, angles_);
   Eigen::MatrixXd from(size, size), to(size, size), cross(size, size);
   const auto add = [&](int i, int j, const Eigen::MatrixXd& block) {
     const BlockCholesky::Slot slot = matrix_.slot(i, j);

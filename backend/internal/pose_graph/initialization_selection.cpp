@@ -197,7 +197,7 @@ bool rotations_are_near(const PackedGraph<Group>& graph) {
 
 template <class Group>
 InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError rotation_error,
-                                  LocalSolver<Group>& solver) {
+                                        LocalSolver<Group>& solver) {
   const std::vector<Group> file = graph.poses;
   std::vector<Group> chordal;
   bool file_first = rotations_are_near(graph);
@@ -212,8 +212,8 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
     file_first = file_cost <= robust_cost(graph, rotation_error);
   }
   Candidates<Group> candidates(graph, solver);
-  candidates.descend(file_first ? file : chordal,
-                     file_first ? PoseGraphInitialization::kFile : PoseGraphInitialization::kChordal);
+  candidates.descend(file_first ? file : chordal, file_first ? PoseGraphInitialization::kFile
+                                                             : PoseGraphInitialization::kChordal);
   if (candidates.best().outcome &&
       (windings_are_settled(graph) || certified_as_they_are(graph, rotation_error)))
     return candidates.take();
@@ -222,14 +222,14 @@ InitializedSolution solve_automatically(PackedGraph<Group>& graph, RotationError
   const double descent = std::max(1, candidates.iterations());
   const bool tight =
       certified_initialization_of(graph, rotation_error,
-                      std::max(kCertifiedDescents * descent, kLeastCertifiedIterations))
+                                  std::max(kCertifiedDescents * descent, kLeastCertifiedIterations))
           .tight;
   if (tight && candidates.best().outcome && rotations_agree(graph.poses, candidates.poses()))
     return candidates.take();
   candidates.descend(std::vector<Group>(graph.poses), PoseGraphInitialization::kCertified);
   if (tight) return candidates.take();
-  candidates.descend(file_first ? chordal : file,
-                     file_first ? PoseGraphInitialization::kChordal : PoseGraphInitialization::kFile);
+  candidates.descend(file_first ? chordal : file, file_first ? PoseGraphInitialization::kChordal
+                                                             : PoseGraphInitialization::kFile);
   spanning_tree_initialization(graph);
   candidates.descend_if_new(std::vector<Group>(graph.poses), PoseGraphInitialization::kOdometry);
   if (incremental_initialization_of(graph, rotation_error, kReplayDescents * descent))
@@ -256,7 +256,8 @@ const char* to_string(PoseGraphInitialization start) {
 }
 
 template <class Group>
-void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start, RotationError rotation_error) {
+void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start,
+                        RotationError rotation_error) {
   switch (start) {
     case PoseGraphInitialization::kAuto:
     case PoseGraphInitialization::kFile:
@@ -305,19 +306,22 @@ bool windings_are_settled(const PackedGraph<Group>& graph) {
 }
 
 template <class Group>
-InitializedSolution solve_from_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start,
-                               RotationError rotation_error, LocalSolver<Group>& solver) {
-  if (start == PoseGraphInitialization::kAuto) return solve_automatically(graph, rotation_error, solver);
+InitializedSolution solve_from_initialization(PackedGraph<Group>& graph,
+                                              PoseGraphInitialization start,
+                                              RotationError rotation_error,
+                                              LocalSolver<Group>& solver) {
+  if (start == PoseGraphInitialization::kAuto)
+    return solve_automatically(graph, rotation_error, solver);
   set_initialization(graph, start, rotation_error);
   const bool certified = start == PoseGraphInitialization::kCertified;
   return {certified ? descend_to_the_end(graph, solver) : solver.solve(graph), start, certified};
 }
 
-#define PLACEGRAPH_INSTANTIATE(Group)                                                         \
-  template void set_initialization(PackedGraph<Group>&, PoseGraphInitialization, RotationError);                \
-  template bool windings_are_settled(const PackedGraph<Group>&);                              \
-  template InitializedSolution solve_from_initialization(PackedGraph<Group>&, PoseGraphInitialization, RotationError, \
-                                          LocalSolver<Group>&);
+#define PLACEGRAPH_INSTANTIATE(Group)                                                            \
+  template void set_initialization(PackedGraph<Group>&, PoseGraphInitialization, RotationError); \
+  template bool windings_are_settled(const PackedGraph<Group>&);                                 \
+  template InitializedSolution solve_from_initialization(                                        \
+      PackedGraph<Group>&, PoseGraphInitialization, RotationError, LocalSolver<Group>&);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)
 PLACEGRAPH_INSTANTIATE(Sim3)

@@ -6,12 +6,13 @@ namespace placegraph {
 
 /// Sets the poses to a start; kAuto and kFile leave them.
 template <class Group>
-void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start, RotationError rotation_error);
+void set_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start,
+                        RotationError rotation_error);
 
 struct InitializedSolution {
   LocalSolution solution;  ///< of the descent that was kept; iterations of all of them
   PoseGraphInitialization used = PoseGraphInitialization::kFile;  ///< never kAuto
-  bool refined_from_certified = false;          ///< used == kCertified
+  bool refined_from_certified = false;                            ///< used == kCertified
 };
 
 /// Solves `graph` from a start. kAuto:
@@ -24,15 +25,18 @@ struct InitializedSolution {
 ///   3. else the certified start: if its relaxation is tight and it is turned from the minimum by
 ///   no more than 0.3 rad anywhere, the minimum is kept; else down from it as well and, where the
 ///   relaxation is not tight, from the dearer one of the first two, from the odometry start and
-///   from the `incremental_initialization_of`; of the descents that ended the lowest minimum is kept.
+///   from the `incremental_initialization_of`; of the descents that ended the lowest minimum is
+///   kept.
 ///
 /// In operations, the certified start is given up where it costs more than five times the first
 /// descent (and 200 iterations), the replay where it costs more than ten times. A descent of kAuto
 /// or kCertified that runs out of iterations while it falls goes on, up to four times, if it has
 /// come within twice the lowest minimum.
 template <class Group>
-InitializedSolution solve_from_initialization(PackedGraph<Group>& graph, PoseGraphInitialization start,
-                               RotationError rotation_error, LocalSolver<Group>& solver);
+InitializedSolution solve_from_initialization(PackedGraph<Group>& graph,
+                                              PoseGraphInitialization start,
+                                              RotationError rotation_error,
+                                              LocalSolver<Group>& solver);
 
 /// Whether a minimum is beyond doubt as far as rotations go. Wrong minima of a pose graph are
 /// wound: around some cycle the residual rotations add up to a full turn too much. For every edge

@@ -47,8 +47,8 @@ void minimize(PackedGraph<Group>& graph, const LocalSolverOptions& local,
   } else {
     found.used = robust_initialization(options);
     set_initialization(graph, found.used, options.rotation_error);
-    RobustSolution robust =
-        solve_robustly(graph, local, options.robust, options.start == PoseGraphInitialization::kAuto);
+    RobustSolution robust = solve_robustly(graph, local, options.robust,
+                                           options.start == PoseGraphInitialization::kAuto);
     found.solution = std::move(robust.local);
     found.refined_from_certified = found.used == PoseGraphInitialization::kCertified;
     report.rejected = std::move(robust.rejected);
@@ -80,7 +80,8 @@ PoseGraphReport optimize(PoseGraph graph, const PoseGraphOptions& options,
   report.chi2_by_constraint = chi2_by_constraint(packed, options.rotation_error);
   report.chi2_final = sum(report.chi2_by_constraint);
   log(log_sink, LogLevel::kInfo, "pose graph: chi2 {:f} -> {:f} in {} iterations, start {}",
-      report.chi2_initial, report.chi2_final, report.iterations, to_string(report.initialization_used));
+      report.chi2_initial, report.chi2_final, report.iterations,
+      to_string(report.initialization_used));
   return report;
 }
 

@@ -100,8 +100,8 @@ RobustSolution solve_auto(PackedGraph<Group>& graph, const OdometryChain<Group>&
     }
   }
   initialize_from_odometry(graph, chain);
-  const LoopSetGrowth growth =
-      extend_loop_set(graph, support, options.gate_probability, solver, options.growth, options.gnc);
+  const LoopSetGrowth growth = extend_loop_set(graph, support, options.gate_probability, solver,
+                                               options.growth, options.gnc);
   result.noise_scale = growth.noise_scale;
   const bool all = std::all_of(graph.edges.begin(), graph.edges.end(),
                                [](const auto& edge) { return edge.weight > 0; });

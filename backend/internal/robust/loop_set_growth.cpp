@@ -42,7 +42,8 @@ template <class Group>
 class Growth {
  public:
   Growth(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
-         const LocalSolverOptions& solver, const LoopSetGrowthOptions& options, const GncOptions& gnc)
+         const LocalSolverOptions& solver, const LoopSetGrowthOptions& options,
+         const GncOptions& gnc)
       : graph_(graph),
         clusters_(support.clusters),
         rough_(roughly(solver)),
@@ -175,7 +176,7 @@ namespace {
 
 template <class Group>
 LoopSetGrowth finish(Growth<Group>& growth, PackedGraph<Group>& graph,
-                  const LocalSolverOptions& solver) {
+                     const LocalSolverOptions& solver) {
   growth.settle();
   LoopSetGrowth result;
   result.local = SubsetSolver<Group>(solver).solve(graph);
@@ -186,9 +187,9 @@ LoopSetGrowth finish(Growth<Group>& growth, PackedGraph<Group>& graph,
 }  // namespace
 
 template <class Group>
-LoopSetGrowth extend_loop_set(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
-                      const LocalSolverOptions& solver, const LoopSetGrowthOptions& options,
-                      const GncOptions& gnc) {
+LoopSetGrowth extend_loop_set(PackedGraph<Group>& graph, const LoopSupport& support,
+                              double probability, const LocalSolverOptions& solver,
+                              const LoopSetGrowthOptions& options, const GncOptions& gnc) {
   options.check();
   Growth<Group> growth(graph, support, probability, solver, options, gnc);
   growth.take_groups();
@@ -196,21 +197,21 @@ LoopSetGrowth extend_loop_set(PackedGraph<Group>& graph, const LoopSupport& supp
 }
 
 template <class Group>
-LoopSetGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support, double probability,
-                        const LocalSolverOptions& solver, const LoopSetGrowthOptions& options,
-                        const GncOptions& gnc) {
+LoopSetGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support,
+                           double probability, const LocalSolverOptions& solver,
+                           const LoopSetGrowthOptions& options, const GncOptions& gnc) {
   options.check();
   Growth<Group> growth(graph, support, probability, solver, options, gnc);
   return finish(growth, graph, solver);
 }
 
-#define PLACEGRAPH_INSTANTIATE(Group)                                                   \
-  template LoopSetGrowth extend_loop_set(PackedGraph<Group>&, const LoopSupport&, double,       \
-                                 const LocalSolverOptions&, const LoopSetGrowthOptions&,   \
-                                 const GncOptions&);                                    \
-  template LoopSetGrowth settle_loops(PackedGraph<Group>&, const LoopSupport&, double,     \
-                                   const LocalSolverOptions&, const LoopSetGrowthOptions&, \
-                                   const GncOptions&);
+#define PLACEGRAPH_INSTANTIATE(Group)                                                            \
+  template LoopSetGrowth extend_loop_set(PackedGraph<Group>&, const LoopSupport&, double,        \
+                                         const LocalSolverOptions&, const LoopSetGrowthOptions&, \
+                                         const GncOptions&);                                     \
+  template LoopSetGrowth settle_loops(PackedGraph<Group>&, const LoopSupport&, double,           \
+                                      const LocalSolverOptions&, const LoopSetGrowthOptions&,    \
+                                      const GncOptions&);
 PLACEGRAPH_INSTANTIATE(SE2)
 PLACEGRAPH_INSTANTIATE(SE3)
 PLACEGRAPH_INSTANTIATE(Sim3)

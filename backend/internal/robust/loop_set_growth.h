@@ -25,13 +25,15 @@ struct LoopSetGrowth {
 /// A loop that alone ties a part of the graph to the rest is kept.
 template <class Group>
 [[nodiscard]] LoopSetGrowth extend_loop_set(PackedGraph<Group>& graph, const LoopSupport& support,
-                                    double probability, const LocalSolverOptions& solver,
-                                    const LoopSetGrowthOptions& options, const GncOptions& gnc);
+                                            double probability, const LocalSolverOptions& solver,
+                                            const LoopSetGrowthOptions& options,
+                                            const GncOptions& gnc);
 
 /// Step 3 alone, from the poses and the weights that `graph` has.
 template <class Group>
 [[nodiscard]] LoopSetGrowth settle_loops(PackedGraph<Group>& graph, const LoopSupport& support,
-                                      double probability, const LocalSolverOptions& solver,
-                                      const LoopSetGrowthOptions& options, const GncOptions& gnc);
+                                         double probability, const LocalSolverOptions& solver,
+                                         const LoopSetGrowthOptions& options,
+                                         const GncOptions& gnc);
 
 }  // namespace placegraph

@@ -64,8 +64,8 @@ double robust_cost(const PackedGraph<Group>& graph, RotationError rotation_error
     cost += graph.positions[i].weight * graph.positions[i].kernel.evaluate(positions[i]).rho;
   for (const auto& observation : graph.observations) {
     const Eigen::Vector3d e =
-        PointLinearization<Group>(graph.poses[observation.node], point_of(graph.poses[observation.point]),
-                                  observation.p_node)
+        PointLinearization<Group>(graph.poses[observation.node],
+                                  point_of(graph.poses[observation.point]), observation.p_node)
             .e;
     cost += e.dot(observation.information * e);
   }

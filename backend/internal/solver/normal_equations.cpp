@@ -145,7 +145,8 @@ void NormalEquations<Group>::add_observations(const PackedGraph<Group>& graph, d
   constexpr int rotations = kDof == 3 ? 1 : kDof - 3;  // and the scale
   for (std::size_t i = 0; i < graph.observations.size(); ++i) {
     const auto& observation = graph.observations[i];
-    const PointLinearization<Group> at(graph.poses[observation.node], point_of(graph.poses[observation.point]),
+    const PointLinearization<Group> at(graph.poses[observation.node],
+                                       point_of(graph.poses[observation.point]),
                                        observation.p_node);
     const Eigen::Vector3d weighted_e = observation.information * at.e;
     cost += at.e.dot(weighted_e);

@@ -9,7 +9,8 @@ template <class Group>
 std::vector<char> held_nodes(std::vector<char> held, const PackedGraph<Group>& packed) {
   DisjointSets pieces(held.size());
   for (const auto& edge : packed.edges) pieces.join(edge.from, edge.to);
-  for (const auto& observation : packed.observations) pieces.join(observation.node, observation.point);
+  for (const auto& observation : packed.observations)
+    pieces.join(observation.node, observation.point);
   std::vector<char> anchored(held.size());
   for (std::size_t i = 0; i < held.size(); ++i)
     if (held[i]) anchored[pieces.root(static_cast<int>(i))] = true;
@@ -75,8 +76,9 @@ PackedGraph<Group> pack(const LandmarkGraph& graph) {
   }
   const NodeIndex points(ids);
   for (const PointObservation& observation : graph.observations)
-    packed.observations.push_back({nodes.at(observation.node), first_point + points.at(observation.point),
-                             observation.position_node, observation.information});
+    packed.observations.push_back({nodes.at(observation.node),
+                                   first_point + points.at(observation.point),
+                                   observation.position_node, observation.information});
   const auto world = static_cast<int>(packed.poses.size());
   packed.poses.emplace_back();
   fixed.push_back(true);

@@ -32,8 +32,8 @@ void insert_observation(std::vector<Observation>& list, const Observation& o,
 }
 
 void require_sound(const LineObservation::SecondCamera& eye, const std::string& name) {
-  require(eye.second_in_cam.allFinite() && eye.second_in_cam.norm() > 0 && eye.start_px.allFinite() &&
-              eye.end_px.allFinite() && positive(eye.sigma_px),
+  require(eye.second_in_cam.allFinite() && eye.second_in_cam.norm() > 0 &&
+              eye.start_px.allFinite() && eye.end_px.allFinite() && positive(eye.sigma_px),
           name + ": a second eye must lie elsewhere, be finite and its sigma_px positive");
 }
 
@@ -226,7 +226,7 @@ void SlidingWindow::revise_inverse_depth(KeyframeId keyframe, LandmarkId landmar
 }
 
 void SlidingWindow::revise_second_camera(KeyframeId keyframe, LineId line,
-                                      const LineObservation::SecondCamera& second) {
+                                         const LineObservation::SecondCamera& second) {
   const std::string in_keyframe = " in keyframe " + to_string(keyframe);
   require_sound(second, name_of("line", line) + in_keyframe);
   for (LineObservation& o : find(change().lines, line, "line").observations)
@@ -264,7 +264,9 @@ std::vector<KeyframeId> SlidingWindow::keyframes() const { return ids_of(state_-
 std::vector<LandmarkId> SlidingWindow::landmarks() const { return ids_of(state_->landmarks); }
 std::vector<LineId> SlidingWindow::lines() const { return ids_of(state_->lines); }
 std::vector<PlaneId> SlidingWindow::planes() const { return ids_of(state_->planes); }
-std::vector<ManhattanFrameId> SlidingWindow::manhattan_frames() const { return ids_of(state_->manhattan_frames); }
+std::vector<ManhattanFrameId> SlidingWindow::manhattan_frames() const {
+  return ids_of(state_->manhattan_frames);
+}
 
 SE3 SlidingWindow::pose(KeyframeId keyframe) const {
   return find(state_->keyframes, keyframe, "keyframe");

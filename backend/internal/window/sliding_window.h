@@ -74,7 +74,7 @@ class SlidingWindow {
   void revise_inverse_depth(KeyframeId keyframe, LandmarkId landmark, double inverse_depth);
   /// What a second eye saw is known better now, as after its calibration. It must be there.
   void revise_second_camera(KeyframeId keyframe, LineId line,
-                         const LineObservation::SecondCamera& second);
+                            const LineObservation::SecondCamera& second);
 
   /// What is kept is not marginalized, however old it is: a keyframe as an anchor to which later
   /// ones shall have a relative covariance (its place in max_keyframes it takes all the same), a
@@ -94,12 +94,12 @@ class SlidingWindow {
   /// window measures it already: a distance, an inverse depth, a height, pose priors, a motion.
   void rescale(double scale);
 
-  std::vector<KeyframeId> keyframes() const;     ///< ascending
-  std::vector<LandmarkId> landmarks() const;     ///< ascending
-  std::vector<LineId> lines() const;             ///< ascending
-  std::vector<PlaneId> planes() const;           ///< ascending
+  std::vector<KeyframeId> keyframes() const;               ///< ascending
+  std::vector<LandmarkId> landmarks() const;               ///< ascending
+  std::vector<LineId> lines() const;                       ///< ascending
+  std::vector<PlaneId> planes() const;                     ///< ascending
   std::vector<ManhattanFrameId> manhattan_frames() const;  ///< ascending
-  SE3 pose(KeyframeId keyframe) const;           ///< T_map_cam
+  SE3 pose(KeyframeId keyframe) const;                     ///< T_map_cam
   std::optional<Eigen::Vector3d> landmark(LandmarkId id) const;
   std::optional<Line3> line(LineId id) const;
   std::optional<Plane3> plane(PlaneId id) const;

@@ -23,7 +23,8 @@ std::optional<Variable> first_estimate(const MarginalPrior& prior, const WindowV
     case WindowVariable::Kind::kPlane:
       return first_estimate(prior.planes, prior.plane_lin, variable.plane());
     case WindowVariable::Kind::kManhattanFrame:
-      return first_estimate(prior.manhattan_frames, prior.R_map_manhattan_lin, variable.manhattan_frame());
+      return first_estimate(prior.manhattan_frames, prior.R_map_manhattan_lin,
+                            variable.manhattan_frame());
     default:
       return first_estimate(prior.keyframes, prior.T_map_cam_lin, variable.keyframe());
   }
@@ -173,8 +174,8 @@ void WindowEquations::add_prior() {
     add(plane_variable(prior.planes[k]), prior.plane_columns(k), prior.plane_lin[k],
         SO3::right_jacobian_inverse);
   for (std::size_t k = 0; k < prior.manhattan_frames.size(); ++k)
-    add(manhattan_variable(prior.manhattan_frames[k]), prior.manhattan_columns(k), prior.R_map_manhattan_lin[k],
-        SO3::right_jacobian_inverse);
+    add(manhattan_variable(prior.manhattan_frames[k]), prior.manhattan_columns(k),
+        prior.R_map_manhattan_lin[k], SO3::right_jacobian_inverse);
   form.H.noalias() += J.transpose() * J;
   form.b.noalias() += J.transpose() * e;
 }

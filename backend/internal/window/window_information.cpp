@@ -122,13 +122,14 @@ std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, Keyfram
   return inverse_if_full(absolute_information(window, keyframe));
 }
 
-std::optional<Eigen::Matrix3d> manhattan_covariance(const SlidingWindow& window, ManhattanFrameId manhattan_frame,
-                                                KeyframeId keyframe) {
+std::optional<Eigen::Matrix3d> manhattan_covariance(const SlidingWindow& window,
+                                                    ManhattanFrameId manhattan_frame,
+                                                    KeyframeId keyframe) {
   const WindowState& state = window.state();
   require_variable(state, keyframe_variable(keyframe));
   require_variable(state, manhattan_variable(manhattan_frame));
-  const SO3 R_world_cam =
-      state.manhattan_frames.at(manhattan_frame).inverse() * state.keyframes.at(keyframe).rotation();
+  const SO3 R_world_cam = state.manhattan_frames.at(manhattan_frame).inverse() *
+                          state.keyframes.at(keyframe).rotation();
   std::vector<WindowVariable> variables;
   const bool held = state.fixed == keyframe;
   if (!held) variables.push_back(keyframe_variable(keyframe));

@@ -39,10 +39,11 @@ std::optional<Matrix6d> relative_covariance(const SlidingWindow& window, Keyfram
 /// direction is unobservable, and nothing once the way back to that frame is lost: where all that a
 /// leaving keyframe saw was still in view, the next one has to be held in its place.
 std::optional<Matrix6d> keyframe_covariance(const SlidingWindow& window, KeyframeId keyframe);
-/// Covariance (right tangent) of R_cam_manhattan, a world as a keyframe has it before it. Nothing where
-/// a direction is unobservable.
-std::optional<Eigen::Matrix3d> manhattan_covariance(const SlidingWindow& window, ManhattanFrameId manhattan_frame,
-                                                KeyframeId keyframe);
+/// Covariance (right tangent) of R_cam_manhattan, a world as a keyframe has it before it. Nothing
+/// where a direction is unobservable.
+std::optional<Eigen::Matrix3d> manhattan_covariance(const SlidingWindow& window,
+                                                    ManhattanFrameId manhattan_frame,
+                                                    KeyframeId keyframe);
 /// Covariance of the tangent of a plane as a keyframe has it before it, in its camera's frame.
 /// Nothing where a direction is unobservable.
 std::optional<Eigen::Matrix3d> plane_covariance(const SlidingWindow& window, PlaneId plane,

@@ -33,7 +33,8 @@ std::set<WindowVariable> leaving_variables(const WindowState& state, KeyframeId 
   const WindowVariable keyframe = keyframe_variable(leaving);
   std::set<WindowVariable> touched, staying = state.kept;
   for (const PlaneId id : state.prior.planes) touched.insert(plane_variable(id));
-  for (const ManhattanFrameId id : state.prior.manhattan_frames) touched.insert(manhattan_variable(id));
+  for (const ManhattanFrameId id : state.prior.manhattan_frames)
+    touched.insert(manhattan_variable(id));
   for (const WindowFactor& factor : state.factors) {
     const bool leaves = touches(factor, keyframe);
     const bool between_keyframes =
@@ -130,7 +131,8 @@ void erase_leaving(WindowState& state, const std::set<WindowVariable>& gone, Key
       state.keyframes.erase(variable.keyframe());
     if (variable.kind != WindowVariable::Kind::kManhattanFrame) continue;
     state.manhattan_frames.erase(variable.manhattan_frame());
-    if (state.held_manhattan_frame == variable.manhattan_frame()) state.held_manhattan_frame.reset();
+    if (state.held_manhattan_frame == variable.manhattan_frame())
+      state.held_manhattan_frame.reset();
   }
 }
 

@@ -30,8 +30,9 @@ struct LineObservation {
   Eigen::Vector2d end_px = Eigen::Vector2d::Zero();
   double sigma_px = 1;  ///< across the line
 
-  /// The same line in a second eye at `second_in_cam` [m] in the keyframe's camera, of its orientation
-  /// and calibration: the right eye of a rectified pair, or one made up from depths on the line.
+  /// The same line in a second eye at `second_in_cam` [m] in the keyframe's camera, of its
+  /// orientation and calibration: the right eye of a rectified pair, or one made up from depths on
+  /// the line.
   struct SecondCamera {
     Eigen::Vector3d second_in_cam = Eigen::Vector3d::Zero();
     Eigen::Vector2d start_px = Eigen::Vector2d::Zero();

@@ -290,8 +290,9 @@ WindowSummary optimize_window(WindowState& state) {
     summary.outcome = Outcome::failure(Outcome::Code::kNotConverged, solved.message);
     return summary;
   }
-  const auto held =
-      state.held_manhattan_frame ? std::optional(state.manhattan_frames.at(*state.held_manhattan_frame)) : std::nullopt;
+  const auto held = state.held_manhattan_frame
+                        ? std::optional(state.manhattan_frames.at(*state.held_manhattan_frame))
+                        : std::nullopt;
   const Eigen::Vector3d p_map_oldest = state.keyframes.begin()->second.translation();
   problem.read_back(state);
   if (held) {

@@ -72,7 +72,8 @@ std::vector<WindowVariable> variables_of(const WindowState& state) {
   std::vector<WindowVariable> variables;
   for (const auto& [id, T_map_cam] : state.keyframes) variables.push_back(keyframe_variable(id));
   for (const auto& [id, plane_map] : state.planes) variables.push_back(plane_variable(id));
-  for (const auto& [id, R_map_manhattan] : state.manhattan_frames) variables.push_back(manhattan_variable(id));
+  for (const auto& [id, R_map_manhattan] : state.manhattan_frames)
+    variables.push_back(manhattan_variable(id));
   return variables;
 }
 

@@ -32,9 +32,9 @@ struct WindowState {
   std::map<KeyframeId, SE3> keyframes;  ///< T_map_cam
   std::map<LandmarkId, WindowLandmark> landmarks;
   std::map<LineId, WindowLine> lines;
-  std::map<PlaneId, Plane3> planes;        ///< planes of the map
+  std::map<PlaneId, Plane3> planes;                  ///< planes of the map
   std::map<ManhattanFrameId, SO3> manhattan_frames;  ///< R_map_manhattan
-  std::set<WindowVariable> kept;           ///< are not to be marginalized
+  std::set<WindowVariable> kept;                     ///< are not to be marginalized
   /// Where the window lies as a whole is chosen so that this one stays as it is.
   std::optional<ManhattanFrameId> held_manhattan_frame;
   /// All measurements but those of points and lines: those of one type together, in the order in

@@ -43,12 +43,14 @@ void move_window(WindowState& state, const SE3& T_new_old) {
   for (auto& [id, landmark] : state.landmarks) landmark.p_map = T_new_old * landmark.p_map;
   for (auto& [id, line] : state.lines) line.line_map = moved(line.line_map, T_new_old);
   for (auto& [id, plane_map] : state.planes) plane_map = transform_to(T_old_new, plane_map);
-  for (auto& [id, R_map_manhattan] : state.manhattan_frames) R_map_manhattan = T_new_old.rotation() * R_map_manhattan;
+  for (auto& [id, R_map_manhattan] : state.manhattan_frames)
+    R_map_manhattan = T_new_old.rotation() * R_map_manhattan;
   transform_factors(state, Sim3(T_new_old));
   // Right tangents of poses and rotations are the same in any frame; those of planes turn.
   MarginalPrior& prior = state.prior;
   for (SE3& T_map_cam : prior.T_map_cam_lin) T_map_cam = T_new_old * T_map_cam;
-  for (SO3& R_map_manhattan : prior.R_map_manhattan_lin) R_map_manhattan = T_new_old.rotation() * R_map_manhattan;
+  for (SO3& R_map_manhattan : prior.R_map_manhattan_lin)
+    R_map_manhattan = T_new_old.rotation() * R_map_manhattan;
   for (std::size_t k = 0; k < prior.planes.size(); ++k) {
     Eigen::Matrix3d J_new_old;
     prior.plane_lin[k] = transform_to(T_old_new, prior.plane_lin[k], nullptr, &J_new_old);
@@ -58,7 +60,8 @@ void move_window(WindowState& state, const SE3& T_new_old) {
   }
 }
 
-void rotate_window(WindowState& state, ManhattanFrameId manhattan_frame, const SO3& R_map_manhattan) {
+void rotate_window(WindowState& state, ManhattanFrameId manhattan_frame,
+                   const SO3& R_map_manhattan) {
   const SO3 R_new_old = R_map_manhattan * state.manhattan_frames.at(manhattan_frame).inverse();
   const Eigen::Vector3d centre = state.keyframes.begin()->second.translation();
   move_window(state, SE3(R_new_old, centre - R_new_old * centre));

@@ -12,7 +12,8 @@ Line3 moved(const Line3& line, const SE3& T_new_old);
 void move_window(WindowState& state, const SE3& T_new_old);
 
 /// Turns the window about its oldest keyframe so that `world` comes to lie at R_map_manhattan.
-void rotate_window(WindowState& state, ManhattanFrameId manhattan_frame, const SO3& R_map_manhattan);
+void rotate_window(WindowState& state, ManhattanFrameId manhattan_frame,
+                   const SO3& R_map_manhattan);
 
 /// The same window in another unit of length: all lengths, those of its measurements and of its
 /// prior too, become `scale` times as long, the oldest keyframe stays where it is. The cost stays

@@ -55,7 +55,7 @@ std::vector<Segment> solid_pieces(const BuildingPlan& truth, std::size_t wall, b
 class Observation {
  public:
   Observation(const BuildingPlan& truth, const std::vector<SE3>& poses,
-        const FloorPlanCheckOptions& options)
+              const FloorPlanCheckOptions& options)
       : options_(options) {
     for (std::size_t i = 0; i < truth.walls.size(); ++i)
       for (const Segment& piece : solid_pieces(truth, i, true)) blocks_.push_back(piece);
@@ -240,7 +240,8 @@ class Checker {
     std::vector<double> from_truth, from_plan;
     for (const Surface& surface : surfaces)
       for (const Sample& sample : samples_of(surface.segment, surface.normal))
-        if (observation_.sees(sample.at, sample.normal)) from_truth.push_back(nearest(sample, told));
+        if (observation_.sees(sample.at, sample.normal))
+          from_truth.push_back(nearest(sample, told));
     for (const Surface& surface : told)
       for (const Sample& sample : samples_of(surface.segment, surface.normal))
         from_plan.push_back(nearest(sample, surfaces));

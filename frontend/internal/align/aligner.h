@@ -42,11 +42,11 @@ struct AlignResult {
   Eigen::MatrixXd covariance;  ///< of the warp's right tangent, see alignment_covariance
   double corner_sigma_px = 0;  ///< of the most uncertain corner
   double independent_share = 0;
-  double similarity = 0;     ///< on the finest level
-  double agreement = 0;      ///< weighted correlation of the image and what the template predicts
-  double robust_similarity = 0;       ///< robust_similarity on the finest level, of ZNCC under MI
-  double visible_share = 0;  ///< of the samples
-  double inlier_share = 0;   ///< of those in view
+  double similarity = 0;  ///< on the finest level
+  double agreement = 0;   ///< weighted correlation of the image and what the template predicts
+  double robust_similarity = 0;  ///< robust_similarity on the finest level, of ZNCC under MI
+  double visible_share = 0;      ///< of the samples
+  double inlier_share = 0;       ///< of those in view
   double gain = 1, bias = 0;
   double last_step_px = 0;
   int iterations = 0;   ///< along derivatives, all levels and members

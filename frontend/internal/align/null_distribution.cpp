@@ -1,5 +1,5 @@
-#include <placegraph/frontend/internal/align/null_distribution.h>
 #include <placegraph/frontend/internal/align/grey_pyramid.h>
+#include <placegraph/frontend/internal/align/null_distribution.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/random.h>
 
@@ -99,8 +99,8 @@ double best_rival(const Image& image_ref, const PlanarTemplate& planar_template,
 }  // namespace
 
 NullDistribution null_distribution(const Image& image_ref, const std::vector<Vector2d>& polygon_px,
-                               const PlanarTemplate& planar_template, const AlignOptions& options,
-                               int trials) {
+                                   const PlanarTemplate& planar_template,
+                                   const AlignOptions& options, int trials) {
   require(trials >= 2, "chance_likeness: at least two trials");
   const Image patch = box_of(image_ref, polygon_px);
   NullDistribution chance;

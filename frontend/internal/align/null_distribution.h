@@ -19,8 +19,8 @@ struct NullDistribution {
 /// template is that of `polygon_px` in `image_ref`; the swarm's seed chooses phases and starts.
 /// Throws ArgumentError unless `trials` is at least 2.
 NullDistribution null_distribution(const Image& image_ref,
-                               const std::vector<Eigen::Vector2d>& polygon_px,
-                               const PlanarTemplate& planar_template, const AlignOptions& options,
-                               int trials);
+                                   const std::vector<Eigen::Vector2d>& polygon_px,
+                                   const PlanarTemplate& planar_template,
+                                   const AlignOptions& options, int trials);
 
 }  // namespace placegraph

@@ -153,7 +153,7 @@ PlaneTracker::PlaneTracker(const Image& image_ref, const std::vector<Vector2d>& 
     return;
   }
   chance_ = null_distribution(image_ref, corners_px, template_, swarm_of(options.align),
-                            options.chance_trials);
+                              options.chance_trials);
   outcome_ = Outcome::ok();
 }
 
@@ -184,7 +184,8 @@ Outcome PlaneTracker::judge(const AlignResult& result, const Matrix3d& H_cur_ref
                               "area changed by a factor of " + std::to_string(change));
   }
   if (result.robust_similarity < least)
-    return Outcome::failure(Code::kInconsistent, "likeness " + std::to_string(result.robust_similarity) +
+    return Outcome::failure(Code::kInconsistent, "likeness " +
+                                                     std::to_string(result.robust_similarity) +
                                                      ", " + std::to_string(least) + " needed");
   return Outcome::ok();
 }
@@ -215,11 +216,12 @@ PlaneTrack PlaneTracker::follow(const View& view) const {
   const double change = seen_area_px(H_predicted, corners_px_) / area_px;
   const bool plausible = std::max(change, 1 / change) < std::sqrt(options_.max_area_change);
   if (plausible) {
-    const PlaneTrack track =
-        aligned(view, H_predicted, options_.align, least_similarity(), PlaneTrackSource::kPrediction);
+    const PlaneTrack track = aligned(view, H_predicted, options_.align, least_similarity(),
+                                     PlaneTrackSource::kPrediction);
     if (track.outcome || template_.corner_distance_px(H_predicted, H_last_ref_) < 1) return track;
   }
-  return aligned(view, H_last_ref_, options_.align, least_similarity(), PlaneTrackSource::kLastPlace);
+  return aligned(view, H_last_ref_, options_.align, least_similarity(),
+                 PlaneTrackSource::kLastPlace);
 }
 
 /// By a recent view; then by the first image from there, whose word is the last if it holds.
@@ -311,12 +313,13 @@ void PlaneTracker::remember(const View& view, const PlaneTrack& track) {
       lost_ == 0 ? Matrix3d(track.H_cur_ref * H_last_ref_.inverse()) : Matrix3d::Identity();
   H_last_ref_ = track.H_cur_ref;
   lost_ = 0;
-  const bool whole = track.visible_share > 0.95 && track.robust_similarity >= options_.key_similarity;
+  const bool whole =
+      track.visible_share > 0.95 && track.robust_similarity >= options_.key_similarity;
   const bool due = !key_ || frames_ - key_frame_ >= options_.key_interval;
   if (!whole || !due || track.source == PlaneTrackSource::kSecondTemplate) return;
-  key_.emplace(
-      TemplateView{PlanarTemplate(view.image, track.corners_px, options_.levels, options_.max_samples),
-              track.corners_px, track.H_cur_ref, track.covariance});
+  key_.emplace(TemplateView{
+      PlanarTemplate(view.image, track.corners_px, options_.levels, options_.max_samples),
+      track.corners_px, track.H_cur_ref, track.covariance});
   key_frame_ = frames_;
 }
 

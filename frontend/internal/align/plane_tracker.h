@@ -38,7 +38,7 @@ struct PlaneTrackerOptions {
   double back_px = 2;          ///< forward and backward alignment agree to this once found again
   TemplateFinderOptions finder;
   double key_similarity = 0.85;  ///< of a view that becomes the second template, at least
-  int key_interval = 5;        ///< frames from one to the next at least
+  int key_interval = 5;          ///< frames from one to the next at least
   PlaneNormalOptions normal;
   void check() const;
 };
@@ -58,10 +58,10 @@ struct PlaneTrack {
   /// Of the four corners, [px^2], 2x2 blocks in their order: of the homography, whose eight degrees
   /// of freedom they are.
   Eigen::Matrix<double, 8, 8> covariance = Eigen::Matrix<double, 8, 8>::Zero();
-  double similarity = 0;     ///< weighted correlation with the template where it is not occluded
-  double robust_similarity = 0;       ///< robust_similarity: an occluded part counts as an error
-  double visible_share = 0;  ///< of the template, in the image
-  double inlier_share = 0;   ///< of what is in the image
+  double similarity = 0;  ///< weighted correlation with the template where it is not occluded
+  double robust_similarity = 0;  ///< robust_similarity: an occluded part counts as an error
+  double visible_share = 0;      ///< of the template, in the image
+  double inlier_share = 0;       ///< of what is in the image
   /// With a camera, once the views have told the plane's normal: the motion in units of the plane's
   /// distance, n^T X_ref = 1.
   std::optional<SE3> T_cur_ref;

@@ -77,7 +77,8 @@ double rise_of(const PlanarSegment& segment, const FittedPlane& plane, const Fit
 /// common plane tilts over a step between them; the larger one's does not.)
 bool are_coplanar(const PlanarSegment& large, const PlanarSegment& small, const FitModel& model) {
   constexpr double kChance = 16, kNoiseShare = 0.1, kBending = 4;
-  if (std::abs(small.plane.plane.normal.dot(large.plane.plane.normal)) < kMaxRotationCos) return false;
+  if (std::abs(small.plane.plane.normal.dot(large.plane.plane.normal)) < kMaxRotationCos)
+    return false;
   // The noise as these segments have it, where that is more than elsewhere.
   const double noise = std::max(
       1.0, (large.plane.chi2 + small.plane.chi2) / (large.sums.count() + small.sums.count()));

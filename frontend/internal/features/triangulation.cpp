@@ -19,10 +19,9 @@ double largest_angle(const std::vector<Eigen::Vector3d>& rays) {
 
 /// The point of least reprojection errors, by Gauss-Newton from a point near it; nothing where it
 /// comes to lie behind a camera.
-std::optional<Eigen::Vector3d> least_reprojection_errors(const Camera& camera,
-                                                         const std::vector<PointMeasurement>& observations,
-                                                         const std::vector<SE3>& T_cam_ref,
-                                                         Eigen::Vector3d p) {
+std::optional<Eigen::Vector3d> least_reprojection_errors(
+    const Camera& camera, const std::vector<PointMeasurement>& observations,
+    const std::vector<SE3>& T_cam_ref, Eigen::Vector3d p) {
   for (int iteration = 0; iteration < 4; ++iteration) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
@@ -45,7 +44,8 @@ std::optional<Eigen::Vector3d> least_reprojection_errors(const Camera& camera,
 
 }  // namespace
 
-TriangulationResult triangulate(const Camera& camera, const std::vector<PointMeasurement>& observations,
+TriangulationResult triangulate(const Camera& camera,
+                                const std::vector<PointMeasurement>& observations,
                                 double min_parallax_rad, double max_error_px) {
   using Code = Outcome::Code;
   TriangulationResult result;
@@ -81,8 +81,8 @@ TriangulationResult triangulate(const Camera& camera, const std::vector<PointMea
     result.outcome = Outcome::failure(Code::kDegenerate, "the point lies at infinity");
     return result;
   }
-  const auto p =
-      least_reprojection_errors(camera, observations, T_cam_ref, Eigen::Vector3d(h.head<3>() / h[3]));
+  const auto p = least_reprojection_errors(camera, observations, T_cam_ref,
+                                           Eigen::Vector3d(h.head<3>() / h[3]));
   if (!p) {
     result.outcome = Outcome::failure(Code::kDegenerate, "the point lies behind a camera");
     return result;

@@ -21,7 +21,8 @@ PointPair pair_of(const WideBaselineFeatures& a, int i, const WideBaselineFeatur
 
 }  // namespace
 
-WideBaselineFeatures detect_wide(const Image& image, const WideMatcherOptions& options, const Image& mask) {
+WideBaselineFeatures detect_wide(const Image& image, const WideMatcherOptions& options,
+                                 const Image& mask) {
   constexpr int kLayers = 3;
   const auto sift = cv::SIFT::create(options.max_features, kLayers, kLayers * options.min_contrast);
   std::vector<cv::KeyPoint> keys;
@@ -41,7 +42,8 @@ WideBaselineFeatures detect_wide(const Image& image, const WideMatcherOptions& o
   return points;
 }
 
-std::vector<PointPair> match_points(const WideBaselineFeatures& a, const WideBaselineFeatures& b, double max_ratio) {
+std::vector<PointPair> match_points(const WideBaselineFeatures& a, const WideBaselineFeatures& b,
+                                    double max_ratio) {
   std::vector<PointPair> pairs;
   if (a.descriptors.rows < 2 || b.descriptors.rows < 2) return pairs;
   const cv::BFMatcher matcher(cv::NORM_L2);

@@ -34,10 +34,11 @@ struct WideBaselineFeatures {
 /// SIFT (Lowe 2004) with the square roots of normalized histograms, whose distance is Hellinger's
 /// (Arandjelovic & Zisserman 2012). `mask`, if not empty, has zeros where no point is wanted.
 WideBaselineFeatures detect_wide(const Image& image, const WideMatcherOptions& options,
-                       const Image& mask = {});
+                                 const Image& mask = {});
 
 /// Mutually best matches that pass the ratio test, before any geometry.
-std::vector<PointPair> match_points(const WideBaselineFeatures& a, const WideBaselineFeatures& b, double max_ratio);
+std::vector<PointPair> match_points(const WideBaselineFeatures& a, const WideBaselineFeatures& b,
+                                    double max_ratio);
 
 struct WideMatches {
   Outcome outcome;               ///< kNoConsensus: `F_b_a` and `pairs` say nothing

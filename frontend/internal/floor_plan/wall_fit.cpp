@@ -31,9 +31,10 @@ void tell(const std::vector<const PlacedPoint*>& near, WallPiece& piece) {
   piece.to_m = std::min(piece.to_m, *std::max_element(alongs.begin(), alongs.end()));
   piece.offset_m = offset_from + piece.slope * 0.5 * (piece.from_m + piece.to_m);
   piece.count = static_cast<int>(near.size());
-  piece.observation = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
-                  return a.second < b.second;
-                })->first;
+  piece.observation =
+      std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) {
+        return a.second < b.second;
+      })->first;
 }
 
 /// Whether two pieces are one wall that poses of different rounds have put a little apart.

@@ -7,10 +7,10 @@ namespace placegraph {
 
 /// What still counts as one wall.
 struct WallTolerance {
-  double band_m;        ///< half width of what counts as one plane
+  double band_m;            ///< half width of what counts as one plane
   double max_rotation_deg;  ///< of a wall from the axis that it runs along
-  double max_gap_m;     ///< within a wall
-  double max_step_m;    ///< between pieces of one wall: what drift of the poses makes of it
+  double max_gap_m;         ///< within a wall
+  double max_step_m;        ///< between pieces of one wall: what drift of the poses makes of it
 };
 
 /// Fits a piece of wall to the points near it: the line through them (reweighted least squares,

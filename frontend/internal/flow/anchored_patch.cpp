@@ -134,7 +134,8 @@ std::optional<AnchoredPatch::Place> AnchoredPatch::find(const std::vector<Image>
   const float noise = std::sqrt(like * std::max(0.f, 1 - correlation * correlation) / kPixels);
   place.px *= unit;
   place.A *= unit;
-  place.covariance = kSimilar * kSimilar * noise * noise * place.A * covariance_ * place.A.transpose();
+  place.covariance =
+      kSimilar * kSimilar * noise * noise * place.A * covariance_ * place.A.transpose();
   return place;
 }
 

@@ -65,7 +65,7 @@ class InterpolationFlow {
               double epsilon_px, PatchMotion& motion) const;
 
   InterpolationFlowOptions options_;
-  Eigen::VectorXf weights_;               // Psi, sum 1
+  Eigen::VectorXf weights_;                // Psi, sum 1
   std::vector<Pixel> rotated_, returned_;  // by +rotation_rad and by -rotation_rad
 };
 

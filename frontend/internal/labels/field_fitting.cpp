@@ -90,7 +90,8 @@ RelationTable learn_relations(const std::vector<SceneExample>& examples,
   for (std::size_t e = 0; e < examples.size(); ++e) {
     std::vector<int> labels;
     for (int i = 0; i < examples[e].superpixels.count; ++i) {
-      const int label = training_set.rows.label[static_cast<std::size_t>(training_set.first_row[e] + i)];
+      const int label =
+          training_set.rows.label[static_cast<std::size_t>(training_set.first_row[e] + i)];
       labels.push_back(label == ForestTrainingSet::kVoid ? -1 : label);
     }
     counts.add(examples[e].superpixels, labels);

@@ -66,7 +66,8 @@ class Grower {
   // A tree whose blocks were all left out: it answers with the class of one row.
   void add_any_row() {
     for (std::size_t i = 0; i < training_set_.label.size() && rows_.empty(); ++i)
-      if (training_set_.label[i] != ForestTrainingSet::kVoid) rows_.push_back(static_cast<std::uint32_t>(i));
+      if (training_set_.label[i] != ForestTrainingSet::kVoid)
+        rows_.push_back(static_cast<std::uint32_t>(i));
   }
 
   void grow_node(std::size_t begin, std::size_t end, int depth) {
@@ -120,7 +121,8 @@ class Grower {
 
   void try_feature(int feature, std::size_t begin, std::size_t end,
                    const std::array<double, kMostClasses>& sums, Split& best) {
-    const std::vector<std::uint8_t>& column = training_set_.columns[static_cast<std::size_t>(feature)];
+    const std::vector<std::uint8_t>& column =
+        training_set_.columns[static_cast<std::size_t>(feature)];
     int low = 255, high = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t row = rows_[i];
@@ -128,7 +130,8 @@ class Grower {
       low = std::min(low, value);
       high = std::max(high, value);
       ++filled_[static_cast<std::size_t>(value)];
-      histogram_[static_cast<std::size_t>(value) * n_ + training_set_.label[row]] += training_set_.weight[row];
+      histogram_[static_cast<std::size_t>(value) * n_ + training_set_.label[row]] +=
+          training_set_.weight[row];
     }
     std::array<double, kMostClasses> left{};
     double left_sum = 0, sum = 0;
@@ -171,8 +174,8 @@ const std::uint8_t* leaf_of(const DecisionForest& tree, const ForestTrainingSet&
                             std::size_t row) {
   const DecisionForest::Node* node = tree.nodes.data();
   while (node->feature != DecisionForest::kLeaf)
-    node =
-        training_set.columns[node->feature][row] <= node->threshold ? node + 1 : &tree.nodes[node->other];
+    node = training_set.columns[node->feature][row] <= node->threshold ? node + 1
+                                                                       : &tree.nodes[node->other];
   return tree.leaves.data() +
          static_cast<std::size_t>(node->other) * static_cast<std::size_t>(tree.classes);
 }
@@ -224,16 +227,18 @@ std::vector<float> judge_unseen(const ForestTrainingSet& training_set,
 
 }  // namespace
 
-TrainedForest train_forest(const ForestTrainingSet& training_set, const ForestOptions& options, int threads) {
+TrainedForest train_forest(const ForestTrainingSet& training_set, const ForestOptions& options,
+                           int threads) {
   options.check();
   const std::size_t rows = training_set.label.size();
   const auto learned =
       std::count_if(training_set.label.begin(), training_set.label.end(),
                     [](std::uint8_t label) { return label != ForestTrainingSet::kVoid; });
-  require(learned > 0 && training_set.classes > 0 && training_set.classes <= kMostClasses && training_set.blocks > 0,
+  require(learned > 0 && training_set.classes > 0 && training_set.classes <= kMostClasses &&
+              training_set.blocks > 0,
           "train_forest: nothing to learn from");
-  require(training_set.weight.size() == rows && training_set.block.size() == rows && training_set.dimension() > 0 &&
-              training_set.dimension() < DecisionForest::kLeaf,
+  require(training_set.weight.size() == rows && training_set.block.size() == rows &&
+              training_set.dimension() > 0 && training_set.dimension() < DecisionForest::kLeaf,
           "train_forest: the sizes do not agree");
   for (const auto& column : training_set.columns)
     require(column.size() == rows, "train_forest: the sizes do not agree");

@@ -42,6 +42,7 @@ struct TrainedForest {
 
 /// Learns trees by the Gini impurity, each from blocks and rows drawn for it. The same bits for any
 /// number of threads. Throws ArgumentError if the sizes do not agree or there is nothing to learn.
-TrainedForest train_forest(const ForestTrainingSet& training_set, const ForestOptions& options, int threads);
+TrainedForest train_forest(const ForestTrainingSet& training_set, const ForestOptions& options,
+                           int threads);
 
 }  // namespace placegraph

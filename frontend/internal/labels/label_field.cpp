@@ -28,7 +28,7 @@ float squared_difference(const std::uint8_t* a, const std::uint8_t* b) {
 struct Link {
   int to, from;
   float weight;                ///< share of the border of `to`
-  float similar;                 ///< exp(-|c - c'|^2 / 2m)
+  float similar;               ///< exp(-|c - c'|^2 / 2m)
   float above, below, beside;  ///< shares of the border where `to` lies so to `from`
 };
 

@@ -28,8 +28,10 @@ SceneModel train_scene_model(SceneModel model, std::vector<SceneExample> example
     require(example.pixels.size() ==
                 static_cast<std::size_t>(example.superpixels.count) * model.classes.size(),
             "train_scene_model: an example of other classes");
-  SceneTrainingSet training_set = make_training_set(examples, model.class_count(), options.class_power);
-  say("learning what superpixels show, from " + std::to_string(training_set.rows.rows()) + " of them");
+  SceneTrainingSet training_set =
+      make_training_set(examples, model.class_count(), options.class_power);
+  say("learning what superpixels show, from " + std::to_string(training_set.rows.rows()) +
+      " of them");
   TrainedForest first = train_forest(training_set.rows, options.forest, threads);
   add_context(examples, first.unseen, training_set);
   say("learning what lies around them");

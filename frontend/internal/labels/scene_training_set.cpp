@@ -11,7 +11,8 @@ namespace {
 /// The class most pixels have, if they are half of all; else void.
 int class_of(const int* pixels, int classes, int area) {
   const int* best = std::max_element(pixels, pixels + classes);
-  return *best > 0 && 2 * *best >= area ? static_cast<int>(best - pixels) : ForestTrainingSet::kVoid;
+  return *best > 0 && 2 * *best >= area ? static_cast<int>(best - pixels)
+                                        : ForestTrainingSet::kVoid;
 }
 
 }  // namespace
@@ -48,7 +49,8 @@ bool judges_field(std::size_t example, std::size_t examples) {
   return example % (examples / 120 + 1) == 0;
 }
 
-SceneTrainingSet make_training_set(std::vector<SceneExample>& examples, int classes, double class_power) {
+SceneTrainingSet make_training_set(std::vector<SceneExample>& examples, int classes,
+                                   double class_power) {
   SceneTrainingSet result;
   ForestTrainingSet& training_set = result.rows;
   const auto n = static_cast<std::size_t>(classes);
@@ -69,8 +71,8 @@ SceneTrainingSet make_training_set(std::vector<SceneExample>& examples, int clas
       const int label = class_of(pixels, training_set.classes,
                                  example.superpixels.shapes[static_cast<std::size_t>(i)].area_px);
       training_set.label.push_back(static_cast<std::uint8_t>(label));
-      training_set.weight.push_back(label == ForestTrainingSet::kVoid ? 0.0f
-                                                           : static_cast<float>(pixels[label]));
+      training_set.weight.push_back(
+          label == ForestTrainingSet::kVoid ? 0.0f : static_cast<float>(pixels[label]));
       training_set.block.push_back(example.block);
       if (label != ForestTrainingSet::kVoid)
         shares[static_cast<std::size_t>(label)] += pixels[label], sum += pixels[label];
@@ -83,7 +85,8 @@ SceneTrainingSet make_training_set(std::vector<SceneExample>& examples, int clas
   require(sum > 0, "train_scene_model: no labelled pixel");
   for (std::size_t i = 0; i < training_set.label.size(); ++i)
     if (training_set.label[i] != ForestTrainingSet::kVoid)
-      training_set.weight[i] *= static_cast<float>(std::pow(shares[training_set.label[i]] / sum, -class_power));
+      training_set.weight[i] *=
+          static_cast<float>(std::pow(shares[training_set.label[i]] / sum, -class_power));
   return result;
 }
 

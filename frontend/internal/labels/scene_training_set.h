@@ -43,7 +43,7 @@ struct SceneTrainingSet {
 /// Features are kept feature by feature: those of examples that do not judge the random field
 /// (judges_field) are let go of. Throws ArgumentError if no pixel is labelled.
 [[nodiscard]] SceneTrainingSet make_training_set(std::vector<SceneExample>& examples, int classes,
-                                      double class_power);
+                                                 double class_power);
 
 /// Adds to every row what lies around its superpixel. `shares`: of the classes, rows x classes.
 void add_context(const std::vector<SceneExample>& examples, const std::vector<float>& shares,

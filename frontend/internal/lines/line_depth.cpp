@@ -102,7 +102,7 @@ std::vector<std::optional<DepthAlong>> lookup_depth_along(
 }
 
 VirtualCamera virtual_camera_from_depth(const Camera& camera, const LineSegment& segment,
-                         const DepthAlong& depth) {
+                                        const DepthAlong& depth) {
   constexpr double kBaseline = 0.1;  // [m]; only a unit: errors are scaled with it
   const Eigen::Vector2d n = segment.normal();
   VirtualCamera eye;

@@ -31,6 +31,7 @@ struct VirtualCamera {
   Eigen::Vector3d second_in_cam = Eigen::Vector3d::Zero();
   ImageLine::Carriers seen;
 };
-VirtualCamera virtual_camera_from_depth(const Camera& camera, const LineSegment& segment, const DepthAlong& depth);
+VirtualCamera virtual_camera_from_depth(const Camera& camera, const LineSegment& segment,
+                                        const DepthAlong& depth);
 
 }  // namespace placegraph

@@ -110,7 +110,8 @@ struct Three {
   Ids ids;
   std::vector<LineNormals> normals;
 
-  /// Takes the tracks whose planes turn from the first to the last view by `min_rotation_rad` or more.
+  /// Takes the tracks whose planes turn from the first to the last view by `min_rotation_rad` or
+  /// more.
   void take(const Ids& tracks, double min_rotation_rad) {
     for (const LineId id : tracks) {
       LineNormals m;
@@ -183,7 +184,8 @@ std::map<LineId, Line3> place_lines(const Camera& camera, const std::vector<Line
   std::map<LineId, std::vector<LineMeasurement>> observations;
   for (std::size_t k = 0; k < views.size(); ++k)
     if (T_ref_view[k])
-      for (const auto& [id, line] : views[k]) observations[id].push_back({*T_ref_view[k], line.seen});
+      for (const auto& [id, line] : views[k])
+        observations[id].push_back({*T_ref_view[k], line.seen});
   for (const auto& [id, seen] : observations) {
     const auto line = triangulate_line(camera, seen, options);
     if (line.outcome) lines.emplace(id, line.line_ref);

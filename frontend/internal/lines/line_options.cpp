@@ -107,7 +107,8 @@ void visit(OptionVisitor& field, LineStereoOptions& o) {
 void visit(OptionVisitor& field, LineTriangulationOptions& o) {
   field("min_rotation_deg", o.min_rotation_deg, "between the planes through the line and two eyes",
         {0.01, 45});
-  field("min_rotation_sigmas", o.min_rotation_sigmas, "the same over its standard deviation", {1, 1000});
+  field("min_rotation_sigmas", o.min_rotation_sigmas, "the same over its standard deviation",
+        {1, 1000});
   field("max_error_sigmas", o.max_error_sigmas, "of a sighting from the line", {1, 1000});
 }
 

@@ -59,8 +59,8 @@ class LineTracker {
   std::vector<LineTrack> tracks_;
   std::vector<std::pair<LineId, LineId>> merged_;
   Image image_;
-  std::shared_ptr<const LineProfileImage> strips_;    // of image_
-  std::shared_ptr<const EdgeRefiner> refiner_;  // of image_
+  std::shared_ptr<const LineProfileImage> strips_;  // of image_
+  std::shared_ptr<const EdgeRefiner> refiner_;      // of image_
   LineId next_id_;
 };
 

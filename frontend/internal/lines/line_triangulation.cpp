@@ -34,7 +34,8 @@ Planes widest(const std::vector<Eigen::Vector3d>& normals_ref) {
 }
 
 /// Of the angle between the planes: how well both image lines are placed across, seen as angles.
-double rotation_sigma_rad(const Camera& camera, const LineMeasurement& a, const LineMeasurement& b) {
+double rotation_sigma_rad(const Camera& camera, const LineMeasurement& a,
+                          const LineMeasurement& b) {
   return std::hypot(a.seen.sigma_px, b.seen.sigma_px) / std::min(camera.fx, camera.fy);
 }
 
@@ -113,7 +114,8 @@ std::optional<double> depth_on_line(const Camera& camera, const SE3& T_ref_cam,
   return across.dot(L.head<3>()) / square;
 }
 
-TriangulatedLine triangulate_line(const Camera& camera, const std::vector<LineMeasurement>& observations,
+TriangulatedLine triangulate_line(const Camera& camera,
+                                  const std::vector<LineMeasurement>& observations,
                                   const LineTriangulationOptions& options) {
   options.check();
   TriangulatedLine result;

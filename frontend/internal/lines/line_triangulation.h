@@ -20,7 +20,7 @@ struct TriangulatedLine {
   Outcome outcome;
   Line3 line_ref;
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Zero();  ///< in the line's tangent
-  double rotation_rad = 0;      ///< between the planes of the two sightings that turn most
+  double rotation_rad = 0;  ///< between the planes of the two sightings that turn most
   double error_sigmas = 0;  ///< of the worst sighting
 };
 

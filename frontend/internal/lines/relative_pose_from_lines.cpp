@@ -19,7 +19,8 @@ Outcome too_few(std::size_t have, const std::string& needed) {
 /// m_3^T t_31 - beta m_2^T t_21 as a row over [t_21, t_31], the normals m_2 and m_3 turned into the
 /// first camera's axes as n_2 and n_3.
 std::optional<Eigen::Matrix<double, 1, 6>> three_view_row(const LineNormals& m, const SO3& R_21,
-                                                          const SO3& R_31, double least_rotation_rad) {
+                                                          const SO3& R_31,
+                                                          double least_rotation_rad) {
   const Eigen::Vector3d n_2 = R_21.inverse() * m[1], n_3 = R_31.inverse() * m[2];
   const Eigen::Vector3d across = m[0].cross(n_2);
   const double square = across.squaredNorm();

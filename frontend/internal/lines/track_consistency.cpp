@@ -17,7 +17,8 @@ int TrackConsistency::wrong() const {
   return static_cast<int>(std::count(of_one.begin(), of_one.end(), false));
 }
 
-TrackConsistency judge_line_track(const Camera& camera, const std::vector<LineMeasurement>& observations,
+TrackConsistency judge_line_track(const Camera& camera,
+                                  const std::vector<LineMeasurement>& observations,
                                   double max_error_px, int kept) {
   TrackConsistency result;
   const int n = static_cast<int>(observations.size());

@@ -41,9 +41,9 @@ Eigen::Matrix3d with_floor(const Eigen::Matrix3d& information) {
 
 }  // namespace
 
-VanishingDirectionTracker::RotationEstimate VanishingDirectionTracker::read(const Camera& camera, const LineView& view,
-                                                 const SO3& R_ref_cam_guess,
-                                                 double sigma_rad) const {
+VanishingDirectionTracker::RotationEstimate VanishingDirectionTracker::read(
+    const Camera& camera, const LineView& view, const SO3& R_ref_cam_guess,
+    double sigma_rad) const {
   constexpr int kLeast = 3, kIterations = 10;
   RotationEstimate result;
   result.R_ref_cam = R_ref_cam_guess;
@@ -85,7 +85,8 @@ VanishingDirectionTracker::RotationEstimate VanishingDirectionTracker::read(cons
   return result;
 }
 
-std::vector<VanishingDirectionTracker::DirectionCluster> VanishingDirectionTracker::clusters() const {
+std::vector<VanishingDirectionTracker::DirectionCluster> VanishingDirectionTracker::clusters()
+    const {
   constexpr std::size_t kLeast = 3;
   std::vector<DirectionCluster> clusters;
   for (const Known& known : directions_) {
@@ -97,14 +98,15 @@ std::vector<VanishingDirectionTracker::DirectionCluster> VanishingDirectionTrack
   }
   for (const auto& [id, direction] : direction_of_)
     if (direction >= 0) clusters[static_cast<std::size_t>(direction)].tracks.push_back(id);
-  std::erase_if(clusters, [](const DirectionCluster& cluster) { return cluster.tracks.size() < kLeast; });
+  std::erase_if(clusters,
+                [](const DirectionCluster& cluster) { return cluster.tracks.size() < kLeast; });
   return clusters;
 }
 
 /// Gives every track of the view the direction that it points to; those that point to none of them
 /// and never did are returned.
 LineView VanishingDirectionTracker::assign(const Evidence& evidence, const LineView& view,
-                                  const SO3& R_ref_cam) {
+                                           const SO3& R_ref_cam) {
   constexpr double kJoinSigmas = 2.5, kLeaveSigmas = 5;
   std::map<LineId, int> now;
   LineView left;
@@ -136,8 +138,8 @@ LineView VanishingDirectionTracker::assign(const Evidence& evidence, const LineV
 }
 
 /// Adds the vanishing points of tracks without a direction as new directions.
-void VanishingDirectionTracker::find_new(const Camera& camera, const LineView& left, const SO3& R_ref_cam,
-                                Random& random) {
+void VanishingDirectionTracker::find_new(const Camera& camera, const LineView& left,
+                                         const SO3& R_ref_cam, Random& random) {
   if (static_cast<int>(left.size()) < 2 * options_.min_segments) return;
   std::vector<LineSegment> segments;
   std::vector<LineId> ids;
@@ -174,8 +176,8 @@ void VanishingDirectionTracker::refine(const Evidence& evidence, const SO3& R_re
   }
 }
 
-void VanishingDirectionTracker::learn(const Camera& camera, const LineView& view, const SO3& R_ref_cam,
-                             Random& random) {
+void VanishingDirectionTracker::learn(const Camera& camera, const LineView& view,
+                                      const SO3& R_ref_cam, Random& random) {
   const Evidence evidence = Evidence::of(camera, view, options_.noise);
   find_new(camera, assign(evidence, view, R_ref_cam), R_ref_cam, random);
   refine(evidence, R_ref_cam);

@@ -26,8 +26,8 @@ class VanishingDirectionTracker {
   /// Near a rotation known to `sigma_rad`, which holds what the lines leave open and does not enter
   /// the information. Reweighted Gauss-Newton over the tracks that have a direction. Outcomes: too
   /// few data (under three of them).
-  [[nodiscard]] RotationEstimate read(const Camera& camera, const LineView& view, const SO3& R_ref_cam_guess,
-                             double sigma_rad) const;
+  [[nodiscard]] RotationEstimate read(const Camera& camera, const LineView& view,
+                                      const SO3& R_ref_cam_guess, double sigma_rad) const;
   /// Where a view was taken: tracks that point to one of the directions join it, those that do not
   /// any more leave it, and what is left over may show new directions. Tracks that the view does
   /// not hold are forgotten.

@@ -81,7 +81,7 @@ bool measure(const Image& grey, const cv::Rect& window, const cv::Point& seed,
 }  // namespace
 
 std::vector<BeaconObservation> detect_beacons(const Image& grey,
-                                           const BeaconDetectorOptions& options) {
+                                              const BeaconDetectorOptions& options) {
   options.check();
   require(!grey.empty() && grey.type() == CV_8UC1, "detect_beacons: grey image needed");
   Image bright, labels, stats, centroids;

@@ -21,6 +21,6 @@ struct BeaconObservation {
 /// that of the centre under the noise of the pixels, the rim's share where it is cut by whole
 /// pixels. Largest first. CV_8UC1, else ArgumentError.
 std::vector<BeaconObservation> detect_beacons(const Image& grey,
-                                           const BeaconDetectorOptions& options = {});
+                                              const BeaconDetectorOptions& options = {});
 
 }  // namespace placegraph

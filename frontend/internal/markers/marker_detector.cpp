@@ -17,8 +17,9 @@ MarkerDetector::MarkerDetector(const MarkerDetectorOptions& options, const std::
     : options_(options), dictionary_(dictionary) {
   options_.check();
   const MarkerFamily cluster = marker_family(dictionary);
-  family_ = std::make_shared<const DirectionCluster>(DirectionCluster{cv::makePtr<cv::aruco::Dictionary>(
-      cluster.codes, cluster.bits_per_side, cluster.correctable_bits)});
+  family_ =
+      std::make_shared<const DirectionCluster>(DirectionCluster{cv::makePtr<cv::aruco::Dictionary>(
+          cluster.codes, cluster.bits_per_side, cluster.correctable_bits)});
 }
 
 void MarkerDetector::detect_in(const Image& grey, int left, int top, int right, int bottom,
@@ -55,8 +56,9 @@ namespace {
 
 /// The same marker found twice, in two windows or as the two sides of a thick line.
 void drop_copies(std::vector<MarkerObservation>& found) {
-  std::stable_sort(found.begin(), found.end(),
-                   [](const MarkerObservation& a, const MarkerObservation& b) { return a.id < b.id; });
+  std::stable_sort(
+      found.begin(), found.end(),
+      [](const MarkerObservation& a, const MarkerObservation& b) { return a.id < b.id; });
   const auto same = [](const MarkerObservation& a, const MarkerObservation& b) {
     constexpr double kSame_px = 3;
     if (a.id != b.id) return false;
@@ -77,9 +79,8 @@ std::vector<MarkerObservation> MarkerDetector::detect(const Image& grey, const C
   return found;
 }
 
-std::vector<MarkerObservation> MarkerDetector::detect_near(const Image& grey,
-                                                        const std::vector<ExpectedSquare>& expected,
-                                                        const Camera* lens) const {
+std::vector<MarkerObservation> MarkerDetector::detect_near(
+    const Image& grey, const std::vector<ExpectedSquare>& expected, const Camera* lens) const {
   require(!grey.empty() && grey.type() == CV_8UC1, "MarkerDetector: grey image needed");
   std::vector<MarkerObservation> found;
   for (const ExpectedSquare& square : expected) {

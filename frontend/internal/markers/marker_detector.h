@@ -44,8 +44,8 @@ class MarkerDetector {
   /// The same, looked for only around where markers are expected: a tenth of the work for a marker
   /// of a tenth of the image.
   std::vector<MarkerObservation> detect_near(const Image& grey,
-                                          const std::vector<ExpectedSquare>& expected,
-                                          const Camera* lens = nullptr) const;
+                                             const std::vector<ExpectedSquare>& expected,
+                                             const Camera* lens = nullptr) const;
 
   const std::string& dictionary() const { return dictionary_; }
 

@@ -15,14 +15,15 @@ using Eigen::Vector3d;
 
 /// Squares outside the gate count as at its edge, and so do beacons of which no spot is known.
 double log_likelihood_of(const Camera& camera, const std::vector<SeenSquare>& squares,
-               const std::vector<SeenPoint>& points, double gate, double point_gate,
-               const SE3& T_ref_cam) {
+                         const std::vector<SeenPoint>& points, double gate, double point_gate,
+                         const SE3& T_ref_cam) {
   double log_likelihood_sum = 0;
   for (const SeenSquare& square : squares)
     log_likelihood_sum += log_likelihood(std::min(gate, square_chi2(camera, square, T_ref_cam)), 8);
   for (const SeenPoint& point : points)
-    log_likelihood_sum += log_likelihood(std::min(point_gate, point_chi2(camera, point, T_ref_cam)), 2) -
-            log_likelihood(point_gate, 2);
+    log_likelihood_sum +=
+        log_likelihood(std::min(point_gate, point_chi2(camera, point, T_ref_cam)), 2) -
+        log_likelihood(point_gate, 2);
   return log_likelihood_sum;
 }
 
@@ -196,8 +197,8 @@ MarkerExplanations explain_markers(const Camera& camera, const std::vector<SeenS
   const double worst = squares.size() > 1 ? gate : std::numeric_limits<double>::infinity();
   for (MarkerExplanation& explanation : result.found)
     explanation.log_likelihood_sum =
-        log_likelihood_of(camera, squares, points_of(spots, beacons_world, explanation.beacons), worst,
-                chi_squared_quantile(options.gate, 2), explanation.pose.T_ref_cam);
+        log_likelihood_of(camera, squares, points_of(spots, beacons_world, explanation.beacons),
+                          worst, chi_squared_quantile(options.gate, 2), explanation.pose.T_ref_cam);
   if (!result.found.empty()) result.outcome = Outcome::ok();
   return result;
 }

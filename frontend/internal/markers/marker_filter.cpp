@@ -78,7 +78,8 @@ std::vector<SeenSquare> MarkerFilter::known_squares(const MarkerView& view) cons
   return squares;
 }
 
-std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view, MarkerPoseEstimate& answer,
+std::vector<MarkerHypothesis> MarkerFilter::explain(const MarkerView& view,
+                                                    MarkerPoseEstimate& answer,
                                                     const BodyExpectation* expected) const {
   const SE3 T_cam_body = T_body_cam_.inverse();
   std::optional<KnownCamera> known;
@@ -124,13 +125,14 @@ void MarkerFilter::weigh(const MarkerView& view, const BodyExpectation* expected
       const Vector3d turn = (R_expected.inverse() * hypothesis.T_world_body.rotation()).log();
       const Vector3d way =
           hypothesis.T_world_body.translation() - parent.T_world_body.translation();
-      const double rotation_sigma =
-          view.rotation_body ? options_.rotation_sigma_deg * kRadPerDeg : options_.max_rotation_rad_s * dt;
+      const double rotation_sigma = view.rotation_body ? options_.rotation_sigma_deg * kRadPerDeg
+                                                       : options_.max_rotation_rad_s * dt;
       const double way_sigma = options_.max_speed_m_s * dt;
       const Eigen::Matrix3d R = hypothesis.T_world_body.rotation().matrix();
-      const Eigen::Matrix3d S_rotation = rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity() +
-                                     parent.covariance.bottomRightCorner<3, 3>() +
-                                     hypothesis.covariance.bottomRightCorner<3, 3>();
+      const Eigen::Matrix3d S_rotation =
+          rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity() +
+          parent.covariance.bottomRightCorner<3, 3>() +
+          hypothesis.covariance.bottomRightCorner<3, 3>();
       const Eigen::Matrix3d S_way =
           way_sigma * way_sigma * Eigen::Matrix3d::Identity() +
           R *
@@ -178,7 +180,8 @@ MarkerPoseEstimate MarkerFilter::observe(const MarkerView& view, const BodyExpec
     return a.log_likelihood_sum > b.log_likelihood_sum;
   };
   std::sort(hypotheses.begin(), hypotheses.end(), by_log_likelihood);
-  const double best = hypotheses.front().log_likelihood_sum, best_followed = hypotheses.front().followed;
+  const double best = hypotheses.front().log_likelihood_sum,
+               best_followed = hypotheses.front().followed;
   std::erase_if(hypotheses, [&](const MarkerHypothesis& hypothesis) {
     return hypothesis.log_likelihood_sum < best - options_.decided_log_ratio;
   });

@@ -30,8 +30,8 @@ struct MarkerHypothesis {
   SE3 T_world_body;
   Matrix6d covariance = Matrix6d::Zero();  ///< right tangent
   double chi2 = 0;                         ///< of this view's corners and spots
-  double log_likelihood_sum = 0;      ///< log-likelihood over the views it was followed through, with all that
-                        ///< speaks for it now; 0 for the best
+  double log_likelihood_sum = 0;  ///< log-likelihood over the views it was followed through, with
+                                  ///< all that speaks for it now; 0 for the best
   double followed = 0;  ///< what of that is kept for the next view
 };
 
@@ -39,7 +39,7 @@ struct MarkerPoseEstimate {
   /// Outcomes: too few data (nothing known in view), inconsistent (two poses are still possible;
   /// the filter or the other markers contradict all), degenerate.
   Outcome outcome;
-  PoseMeasurement observation;                     ///< meaningful only if outcome
+  PoseMeasurement observation;               ///< meaningful only if outcome
   int markers = 0, beacons = 0;              ///< that shaped it
   std::vector<MarkerHypothesis> hypotheses;  ///< those still possible, best first
 };

@@ -41,15 +41,17 @@ void visit(OptionVisitor& field, BeaconPoseOptions& o) {
 void MarkerFilterOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MarkerFilterOptions& o) {
-  field("decided_log_ratio", o.decided_log_ratio, "a pose so much less likely than the best one is refuted",
-        {1, 1000});
+  field("decided_log_ratio", o.decided_log_ratio,
+        "a pose so much less likely than the best one is refuted", {1, 1000});
   field("extra_sigma_px", o.extra_sigma_px, "of a corner beside its own: print, lens, layout",
         {0, 10});
   field("gate", o.gate, "of a marker's corners under a pose of the camera", {0.5, 0.999999});
   field("gravity_sigma_deg", o.gravity_sigma_deg, "of the accelerometer's direction in flight",
         {0.1, 90});
-  field("rotation_sigma_deg", o.rotation_sigma_deg, "of the gyro's turn from view to view", {1e-3, 90});
-  field("max_rotation_rad_s", o.max_rotation_rad_s, "of the body, where there is no gyro", {0.01, 100});
+  field("rotation_sigma_deg", o.rotation_sigma_deg, "of the gyro's turn from view to view",
+        {1e-3, 90});
+  field("max_rotation_rad_s", o.max_rotation_rad_s, "of the body, where there is no gyro",
+        {0.01, 100});
   field("max_speed_m_s", o.max_speed_m_s, "of the body", {0.01, 100});
   field("memory_s", o.memory_s, "what was not seen for so long is forgotten", {0, 60});
   field.group("beacons", o.beacons, "bright spots of known places");

@@ -44,12 +44,12 @@ struct BeaconPoseOptions {
 void visit(OptionVisitor& field, BeaconPoseOptions& options);
 
 struct MarkerFilterOptions {
-  double decided_log_ratio = 14;       ///< a pose so much less likely than the best one is refuted
-  double extra_sigma_px = 0.05;   ///< of a corner beside its own: print, lens, layout
-  double gate = 0.9999;           ///< of a marker's corners under a pose of the camera
-  double gravity_sigma_deg = 10;  ///< of the accelerometer's direction in flight
-  double rotation_sigma_deg = 0.3;    ///< of the gyro's turn from view to view
-  double max_rotation_rad_s = 2;      ///< without a gyro
+  double decided_log_ratio = 14;    ///< a pose so much less likely than the best one is refuted
+  double extra_sigma_px = 0.05;     ///< of a corner beside its own: print, lens, layout
+  double gate = 0.9999;             ///< of a marker's corners under a pose of the camera
+  double gravity_sigma_deg = 10;    ///< of the accelerometer's direction in flight
+  double rotation_sigma_deg = 0.3;  ///< of the gyro's turn from view to view
+  double max_rotation_rad_s = 2;    ///< without a gyro
   double max_speed_m_s = 3;
   double memory_s = 1;  ///< what was not seen for so long is forgotten
   BeaconPoseOptions beacons;

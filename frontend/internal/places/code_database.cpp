@@ -16,7 +16,7 @@ class OnlineBow final : public CodeDatabase {
       : options_(options), database_(options.online, seed) {}
 
   std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                             std::optional<ViewRange> among) override {
+                                               std::optional<ViewRange> among) override {
     const std::vector<Feature> features = corners_of_view(grey, options_.corners);
     std::vector<PlaceSimilarity> list;
     if (among)
@@ -41,7 +41,7 @@ class Bow : public CodeDatabase {
       : options_(options), index_(std::move(idf)) {}
 
   std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                             std::optional<ViewRange> among) override {
+                                               std::optional<ViewRange> among) override {
     const std::vector<std::uint32_t> words = words_of(grey);
     std::vector<PlaceSimilarity> list;
     if (among) list = index_.query(words, options_.listed, among->first, among->last);
@@ -101,7 +101,7 @@ class LlcDatabase final : public CodeDatabase {
                (1 + options.llc.pyramid_rows * options.llc.pyramid_rows)) {}
 
   std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                             std::optional<ViewRange> among) override {
+                                               std::optional<ViewRange> among) override {
     const FloatFeatures features = dense_float_features(grey);
     const int rows = options_.llc.pyramid_rows;
     const Eigen::VectorXf code =
@@ -128,7 +128,7 @@ class LandmarkDatabase final : public CodeDatabase {
         index_(static_cast<int>(words_.rows())) {}
 
   std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                             std::optional<ViewRange> among) override {
+                                               std::optional<ViewRange> among) override {
     const FloatFeatures features = float_features(grey, options_.features);
     const auto words = static_cast<int>(words_.rows());
     std::vector<ImageLandmark> landmarks = find_landmarks(
@@ -142,7 +142,7 @@ class LandmarkDatabase final : public CodeDatabase {
       for (PlaceSimilarity& similarity : list)
         similarity.score =
             landmark_similarity(landmarks, views_[static_cast<std::size_t>(similarity.view)],
-                              options_.landmarks.max_shift);
+                                options_.landmarks.max_shift);
       keep_best(list, options_.listed);
     }
     index_.add(span_of(whole));
@@ -171,8 +171,8 @@ void visit(OptionVisitor& field, PlaceCodeOptions& o) {
 }
 
 std::unique_ptr<CodeDatabase> make_code_database(PlaceCode code, const PlaceCodeOptions& options,
-                                             std::optional<WordTree> vocabulary,
-                                             std::uint64_t seed) {
+                                                 std::optional<WordTree> vocabulary,
+                                                 std::uint64_t seed) {
   options.check();
   if (code == PlaceCode::kBow) {
     if (!vocabulary) return std::make_unique<OnlineBow>(options, seed);

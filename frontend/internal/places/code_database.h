@@ -43,13 +43,13 @@ class CodeDatabase {
   /// The views `among` that are most like a grey image, best first, scores in [0, 1] (none without
   /// `among`); the image is stored as the next view then.
   virtual std::vector<PlaceSimilarity> look_up_and_add(const Image& grey,
-                                                     std::optional<ViewRange> among) = 0;
+                                                       std::optional<ViewRange> among) = 0;
 };
 
 /// `vocabulary`: of binary words for kBow, where none is needed (words are then learned from the
 /// images themselves, with `seed`), of SIFT for the others; ArgumentError if it is another.
 std::unique_ptr<CodeDatabase> make_code_database(PlaceCode code, const PlaceCodeOptions& options,
-                                             std::optional<WordTree> vocabulary,
-                                             std::uint64_t seed);
+                                                 std::optional<WordTree> vocabulary,
+                                                 std::uint64_t seed);
 
 }  // namespace placegraph

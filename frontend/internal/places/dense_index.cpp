@@ -56,7 +56,7 @@ int DenseIndex::add(std::span<const float> vector) {
 }
 
 std::vector<PlaceSimilarity> DenseIndex::query(std::span<const float> vector, int count, int first,
-                                             int last) const {
+                                               int last) const {
   require(vector.size() == static_cast<std::size_t>(dimension_),
           "DenseIndex: a vector of another dimension");
   first = std::max(first, 0);

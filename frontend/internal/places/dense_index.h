@@ -24,7 +24,7 @@ class DenseIndex {
   /// The `count` of first..last (cut to those there are) with the largest inner product, best
   /// first; fewer where many near ones lie outside.
   std::vector<PlaceSimilarity> query(std::span<const float> vector, int count, int first,
-                                   int last) const;
+                                     int last) const;
   int size() const;
   int dimension() const { return dimension_; }
 

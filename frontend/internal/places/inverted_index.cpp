@@ -61,8 +61,8 @@ int InvertedIndex::add(const std::vector<std::uint32_t>& words) {
   return size() - 1;
 }
 
-std::vector<PlaceSimilarity> InvertedIndex::query(const std::vector<std::uint32_t>& words, int count_max,
-                                            int first, int last) const {
+std::vector<PlaceSimilarity> InvertedIndex::query(const std::vector<std::uint32_t>& words,
+                                                  int count_max, int first, int last) const {
   first = std::max(first, 0);
   last = std::min(last, size() - 1);
   if (first > last) return {};

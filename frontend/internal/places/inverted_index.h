@@ -22,7 +22,7 @@ class InvertedIndex {
   /// Views of first..last (cut to those there are) with a word in common, best first, at most
   /// `count`.
   std::vector<PlaceSimilarity> query(const std::vector<std::uint32_t>& words, int count, int first,
-                                   int last) const;
+                                     int last) const;
   int size() const { return static_cast<int>(views_.size()); }
 
  private:

@@ -84,7 +84,7 @@ std::vector<ImageLandmark> find_landmarks(const FloatFeatures& features,
 }
 
 double landmark_similarity(const std::vector<ImageLandmark>& query,
-                         const std::vector<ImageLandmark>& stored, double max_shift) {
+                           const std::vector<ImageLandmark>& stored, double max_shift) {
   const auto limit = static_cast<float>(max_shift * max_shift);
   double sum = 0, weights = 0;
   for (const ImageLandmark& a : query) {

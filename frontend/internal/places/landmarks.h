@@ -33,6 +33,6 @@ std::vector<ImageLandmark> find_landmarks(const FloatFeatures& features,
 /// roots of their key-points, of the largest inner product with one of the other view at most
 /// `max_shift` away.
 double landmark_similarity(const std::vector<ImageLandmark>& query,
-                         const std::vector<ImageLandmark>& stored, double max_shift);
+                           const std::vector<ImageLandmark>& stored, double max_shift);
 
 }  // namespace placegraph

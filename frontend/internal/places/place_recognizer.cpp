@@ -1,7 +1,7 @@
 #include <placegraph/frontend/internal/places/dense_index.h>
 #include <placegraph/frontend/internal/places/place_view.h>
-#include <placegraph/frontend/places/place_similarity.h>
 #include <placegraph/frontend/places/place_recognizer.h>
+#include <placegraph/frontend/places/place_similarity.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/internal/core/function_clones.h>
 
@@ -98,10 +98,11 @@ void PlaceRecognizer::grow_graph() {
 }
 
 std::vector<int> PlaceRecognizer::thumbnails_along_graph(const PlaceView& query, int first,
-                                                     int last) const {
+                                                         int last) const {
   std::vector<int> views;
-  for (const PlaceSimilarity& similarity : graph_->query(
-           unit_vector(query.thumbnail.data(), query.thumbnail.size()), options_.shortlisted, first, last))
+  for (const PlaceSimilarity& similarity :
+       graph_->query(unit_vector(query.thumbnail.data(), query.thumbnail.size()),
+                     options_.shortlisted, first, last))
     views.push_back(similarity.view);
   std::sort(views.begin(), views.end());
   return views;
@@ -130,7 +131,7 @@ std::vector<int> PlaceRecognizer::thumbnail(const PlaceView& query, int first, i
 }
 
 std::vector<PlaceSimilarity> PlaceRecognizer::query(const PlaceView& query, int first,
-                                                  int last) const {
+                                                    int last) const {
   const auto view_at = [&](int i) -> const PlaceView& {
     return views_[static_cast<std::size_t>(i)];
   };

@@ -87,16 +87,16 @@ PlaceView describe_place(const Image& image, const PlaceCueOptions& options, boo
 }
 
 GridSimilarity grid_similarity(const PlaceView& query, const PlaceView& stored,
-                           const PlaceCueOptions& options) {
+                               const PlaceCueOptions& options) {
   require(query.colour.empty() == stored.colour.empty(),
           "grid_likeness: one view is grey and one in colour");
   GridSimilarity similarity;
   if (options.tiny > 0)
     similarity.tiny = options.tiny * best_over_scales(query.tiny, stored.tiny.front(),
-                                                    {.shift_x = kTinyShiftX,
-                                                     .shift_y = kTinyShiftY,
-                                                     .step = 2,
-                                                     .loss = options.shift_loss});
+                                                      {.shift_x = kTinyShiftX,
+                                                       .shift_y = kTinyShiftY,
+                                                       .step = 2,
+                                                       .loss = options.shift_loss});
   if (!query.colour.empty())
     similarity.colour =
         options.colour * best_alignment(query.colour, stored.colour, {.shift_x = 1, .shift_y = 1});
@@ -114,14 +114,14 @@ GridSimilarity grid_similarity(const PlaceView& query, const PlaceView& stored,
 }
 
 double corner_similarity(const PlaceView& query, const PlaceView& stored,
-                       const PlaceCueOptions& options) {
+                         const PlaceCueOptions& options) {
   const int agreeing = corner_agreement(query.corners, stored.corners, options.corner_agreement);
   return options.corners * std::log(static_cast<double>(std::max(agreeing, options.corner_floor)) /
                                     options.corner_floor);
 }
 
 double coarse_similarity(const PlaceView& query, const PlaceView& stored,
-                       const PlaceCueOptions& options) {
+                         const PlaceCueOptions& options) {
   double similarity = best_alignment(
       query.coarse, stored.coarse,
       {.shift_x = kTinyShiftX / 2, .shift_y = kTinyShiftY / 2, .loss = options.shift_loss});

@@ -13,15 +13,15 @@ struct GridSimilarity {
 
 /// Both views grey or both in colour (ArgumentError otherwise).
 GridSimilarity grid_similarity(const PlaceView& query, const PlaceView& stored,
-                           const PlaceCueOptions& options);
+                               const PlaceCueOptions& options);
 
 /// What the corners add to it: weight * log(agreeing corners / corner_floor), never negative.
 double corner_similarity(const PlaceView& query, const PlaceView& stored,
-                       const PlaceCueOptions& options);
+                         const PlaceCueOptions& options);
 
 /// A second look at hundreds of views: tiny images at half the columns and colours where they
 /// stand.
 double coarse_similarity(const PlaceView& query, const PlaceView& stored,
-                       const PlaceCueOptions& options);
+                         const PlaceCueOptions& options);
 
 }  // namespace placegraph

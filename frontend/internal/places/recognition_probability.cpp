@@ -49,7 +49,7 @@ std::vector<ViewEvidence> sequence_evidence(const std::vector<std::vector<PlaceS
 }
 
 ViewEstimate answer_of(const ViewEvidence& evidence, const NearViews& near,
-                     const std::function<bool(int)>& allowed) {
+                       const std::function<bool(int)>& allowed) {
   const auto& [forwards, backwards] = evidence;
   std::vector<int> views;
   for (int view = 0; view < static_cast<int>(forwards.size()); ++view)
@@ -78,7 +78,7 @@ ViewEstimate answer_of(const ViewEvidence& evidence, const NearViews& near,
 }
 
 RecognitionProbability::RecognitionProbability(const std::vector<ViewEstimate>& wrong,
-                                 const std::vector<ViewEstimate>& right) {
+                                               const std::vector<ViewEstimate>& right) {
   require(!wrong.empty() && !right.empty(), "RecognitionOdds: no answers to learn from");
   constexpr double kLeast = 1e-6;
   for (const ViewEstimate& answer : wrong)
@@ -100,7 +100,7 @@ double RecognitionProbability::log_odds(const ViewEstimate& answer) const {
 }
 
 std::vector<double> RecognitionProbability::probabilities(const std::vector<ViewEstimate>& answers,
-                                                   const NearViews& near, int reach) const {
+                                                          const NearViews& near, int reach) const {
   const int count = static_cast<int>(answers.size());
   const auto view = [&](int i) { return answers[static_cast<std::size_t>(i)].view; };
   const auto follows = [&](int a, int b) {

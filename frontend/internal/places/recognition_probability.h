@@ -30,7 +30,7 @@ struct ViewEstimate {
 };
 /// Among the views that `allowed` admits.
 ViewEstimate answer_of(const ViewEvidence& evidence, const NearViews& near,
-                     const std::function<bool(int)>& allowed);
+                       const std::function<bool(int)>& allowed);
 
 /// How sure answers are. A map calibrates it with answers that its own views get: wrong ones, when
 /// all that is near them is kept from them; right ones, when they are kept from themselves alone.
@@ -45,7 +45,8 @@ ViewEstimate answer_of(const ViewEvidence& evidence, const NearViews& near,
 class RecognitionProbability {
  public:
   /// Throws ArgumentError without answers of either kind.
-  RecognitionProbability(const std::vector<ViewEstimate>& wrong, const std::vector<ViewEstimate>& right);
+  RecognitionProbability(const std::vector<ViewEstimate>& wrong,
+                         const std::vector<ViewEstimate>& right);
   double log_odds(const ViewEstimate& answer) const;
   /// Of each answer being right; 0 where there is none.
   std::vector<double> probabilities(const std::vector<ViewEstimate>& answers, const NearViews& near,

@@ -60,8 +60,8 @@ std::vector<double> SequenceFilter::predict(const State& state, int first, int l
   return best;
 }
 
-std::vector<PlaceSimilarity> SequenceFilter::update(const std::vector<PlaceSimilarity>& list, int first,
-                                                  int last) {
+std::vector<PlaceSimilarity> SequenceFilter::update(const std::vector<PlaceSimilarity>& list,
+                                                    int first, int last) {
   if (list.empty()) {
     restart();
     return {};
@@ -105,7 +105,8 @@ double SequenceFilter::confidence(const PlaceSimilarity& answer,
                                   const std::vector<PlaceSimilarity>& list) const {
   double present = std::numeric_limits<double>::infinity();
   for (const PlaceSimilarity& similarity : list) {
-    present = similarity.view == answer.view ? similarity.score : std::min(present, similarity.score);
+    present =
+        similarity.view == answer.view ? similarity.score : std::min(present, similarity.score);
     if (similarity.view == answer.view) break;
   }
   if (list.empty()) return answer.score;

@@ -135,7 +135,7 @@ InverseDepthPlane DominantSurface::measure(SurfaceRegion region, const SurfaceDe
 }
 
 SurfaceAppearance DominantSurface::look(const SurfaceDepths& depths, const SE3& T_cur_last,
-                                  const Image& mask, Random& random) {
+                                        const Image& mask, Random& random) {
   require(mask.empty() ||
               (mask.type() == CV_8UC1 && mask.cols == camera_.width && mask.rows == camera_.height),
           "DominantSurface: a mask of the camera's size needed");

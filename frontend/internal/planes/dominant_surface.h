@@ -47,7 +47,7 @@ class DominantSurface {
   /// `T_cur_last`: the motion since the last look, identity if none is known or there was none.
   /// `mask`: 0 = not the surface (a label image's answer), CV_8UC1 of the camera's size or empty.
   [[nodiscard]] SurfaceAppearance look(const SurfaceDepths& depths, const SE3& T_cur_last,
-                                 const Image& mask, Random& random);
+                                       const Image& mask, Random& random);
 
   Plane plane_cam() const;
   /// Pixels of a region, by the surface's present place, on a regular grid of the image.

@@ -261,8 +261,8 @@ void MotionFromPlanesOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, MotionFromPlanesOptions& o) {
   field("max_iterations", o.max_iterations, "of the joint refinement", {1, 10000});
-  field("ambiguity_log_ratio", o.ambiguity_log_ratio, "readings this close to the likeliest are kept",
-        {0, 1e6});
+  field("ambiguity_log_ratio", o.ambiguity_log_ratio,
+        "readings this close to the likeliest are kept", {0, 1e6});
 }
 
 MotionFromPlanesResult motion_from_planes(const Camera& camera, const PointMatches& matches,

@@ -184,7 +184,8 @@ double Search::gain(const Matrix3d& H, const StateEstimate& answer, const std::v
   return sum;
 }
 
-bool Search::agrees(const Matrix3d& H, const StateEstimate& answer, const std::vector<int>& near) const {
+bool Search::agrees(const Matrix3d& H, const StateEstimate& answer,
+                    const std::vector<int>& near) const {
   const double none = log_area_ - std::log(answer.share_none) + std::log(1 - answer.share_none);
   int count = 0;
   for (const int i : near) count += on_plane_cost(H, answer.noise_px, i) < none;

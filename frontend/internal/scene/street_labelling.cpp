@@ -30,8 +30,8 @@ std::vector<DepthSample> sample_depth(const Image& depth_m, const Camera& camera
 }  // namespace
 
 StreetLabelling see_street(const Image& picture, const Image& depth_m, const Camera& camera,
-                      double baseline_m, double camera_height_m, const SceneModel& urban,
-                      const SceneModel& surfaces, const StreetLabellingOptions& options) {
+                           double baseline_m, double camera_height_m, const SceneModel& urban,
+                           const SceneModel& surfaces, const StreetLabellingOptions& options) {
   options.check();
   require(depth_m.type() == CV_32FC1 && depth_m.size() == picture.size() &&
               picture.cols == camera.width && picture.rows == camera.height && baseline_m > 0,

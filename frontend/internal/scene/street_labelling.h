@@ -25,8 +25,8 @@ struct StreetLabelling {
 /// where no ground is seen. Throws ArgumentError for images of other sizes, models of other kinds
 /// and a moving class that the model does not have.
 StreetLabelling see_street(const Image& picture, const Image& depth_m, const Camera& camera,
-                      double baseline_m, double camera_height_m, const SceneModel& urban,
-                      const SceneModel& surfaces, const StreetLabellingOptions& options = {});
+                           double baseline_m, double camera_height_m, const SceneModel& urban,
+                           const SceneModel& surfaces, const StreetLabellingOptions& options = {});
 
 /// Which points another image looks through: where it sees them at a pixel and all depths around
 /// are farther, nothing stood there when it was taken. `depth_m` as above, of that image;

@@ -47,9 +47,9 @@ std::vector<Sample> sample_strip(const LineProfileImage& image, const LineSegmen
 }
 
 /// One level of the alignment; false if there is nothing to hold on to.
-bool align_level(const LineProfileImage& from, const LineSegment& segment, const LineProfileImage& to,
-                 const LineSegment& expected, int level, const SegmentFlowOptions& options,
-                 double& shift, double& lean) {
+bool align_level(const LineProfileImage& from, const LineSegment& segment,
+                 const LineProfileImage& to, const LineSegment& expected, int level,
+                 const SegmentFlowOptions& options, double& shift, double& lean) {
   Grid grid;
   grid.step_px = 1 << level;
   grid.half_width = options.strip_px;
@@ -108,8 +108,8 @@ std::optional<SegmentFlow> follow_segment(const LineProfileImage& from, const Li
   flow.segment = moved(expected, shift, lean);
   flow.shift_px = shift;
   flow.similar = compare_strips(from, {segment.start, segment.end, segment.normal()}, to,
-                              {flow.segment.start, flow.segment.end, flow.segment.normal()},
-                              options.strip_px);
+                                {flow.segment.start, flow.segment.end, flow.segment.normal()},
+                                options.strip_px);
   return flow;
 }
 

@@ -8,9 +8,9 @@
 namespace placegraph {
 
 struct SegmentFlow {
-  LineSegment segment;    ///< in the second image; its ends correspond as the expected ones do
+  LineSegment segment;  ///< in the second image; its ends correspond as the expected ones do
   LineProfileSimilarity similar;  ///< of the two strips, at full size
-  double shift_px = 0;    ///< of the middle from where it was expected
+  double shift_px = 0;            ///< of the middle from where it was expected
 };
 
 /// Where a segment of one image lies in the next: its strip of grey values is aligned by a shift

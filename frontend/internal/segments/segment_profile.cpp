@@ -66,8 +66,9 @@ float LineProfileImage::grey(const Eigen::Vector2d& px, int level) const {
   return (1 - y) * ((1 - x) * top[0] + x * top[1]) + y * ((1 - x) * bottom[0] + x * bottom[1]);
 }
 
-LineProfileSimilarity compare_strips(const LineProfileImage& a, const LineProfile& frame_a, const LineProfileImage& b,
-                               const LineProfile& frame_b, int half_width) {
+LineProfileSimilarity compare_strips(const LineProfileImage& a, const LineProfile& frame_a,
+                                     const LineProfileImage& b, const LineProfile& frame_b,
+                                     int half_width) {
   constexpr int kEdge = 1;  // rows so near belong to the edge itself and to both sides
   const double step_a = frame_a.across.norm(), step_b = frame_b.across.norm();
   const double length = std::max((frame_a.to - frame_a.from).norm() / step_a,

@@ -32,7 +32,8 @@ struct LineProfile {
 struct LineProfileSimilarity {
   double both = -1, left = -1, right = -1;
 };
-LineProfileSimilarity compare_strips(const LineProfileImage& a, const LineProfile& frame_a, const LineProfileImage& b,
-                               const LineProfile& frame_b, int half_width);
+LineProfileSimilarity compare_strips(const LineProfileImage& a, const LineProfile& frame_a,
+                                     const LineProfileImage& b, const LineProfile& frame_b,
+                                     int half_width);
 
 }  // namespace placegraph

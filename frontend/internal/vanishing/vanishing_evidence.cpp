@@ -163,8 +163,9 @@ void VanishingEvidence::quick_gains(const Eigen::Vector3d& v, double cost,
   const float share = static_cast<float>(cost);
   const auto across = a_ * f.x() + b_ * f.y() + c_ * f.z();
   const auto way_squared = (f.x() - f.z() * x_).square() + (f.y() - f.z() * y_).square();
-  gains = weight_ *
-          (log_gain_ - share - 0.5F * across.square() / (rotation_ * way_squared + shift)).max(0.0F);
+  gains =
+      weight_ *
+      (log_gain_ - share - 0.5F * across.square() / (rotation_ * way_squared + shift)).max(0.0F);
 }
 
 void VanishingEvidence::fit_noise(const std::vector<Eigen::Vector3d>& directions,

@@ -18,10 +18,11 @@ void check_prior(const PosePriorConstraint& prior, PoseKind kind, const NodeInde
   if (const char* fault = fault_of(prior.information)) throw ArgumentError(name + fault);
 }
 
-void check_observation(const PointObservation& observation, const NodeIndex& nodes, const NodeIndex& points,
-                 const std::string& name) {
+void check_observation(const PointObservation& observation, const NodeIndex& nodes,
+                       const NodeIndex& points, const std::string& name) {
   require(nodes.contains(observation.node), name + "unknown node " + to_string(observation.node));
-  require(points.contains(observation.point), name + "unknown point " + to_string(observation.point));
+  require(points.contains(observation.point),
+          name + "unknown point " + to_string(observation.point));
   require(observation.position_node.allFinite(), name + "position is not finite");
   if (const char* fault = fault_of(observation.information)) throw ArgumentError(name + fault);
 }

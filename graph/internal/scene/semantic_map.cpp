@@ -36,8 +36,8 @@ struct Told {
 void visit(OptionVisitor& field, SemanticGridOptions& o) {
   field("cell_m", o.cell_m, "side of a cell", {0.05, 5});
   field("max_sigma_m", o.max_sigma_m, "points whose depth is worse are left out", {0.01, 100});
-  field("observation_weight", o.observation_weight, "how much a further sight counts, as they err alike",
-        {0.01, 1});
+  field("observation_weight", o.observation_weight,
+        "how much a further sight counts, as they err alike", {0.01, 1});
   field("full_weight", o.full_weight, "points of a sight in a cell that make it count wholly",
         {0.1, 1000});
   field("min_weight", o.min_weight, "points of a cell that is known", {0, 1e6});

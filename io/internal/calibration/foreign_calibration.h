@@ -8,10 +8,10 @@ namespace placegraph {
 
 /// What the calibration file of another program says of one camera, or of two eyes.
 struct ForeignCalibration {
-  std::string program;            ///< "OpenCV", "ROS", "Kalibr", "ORB-SLAM", "RealSense", "COLMAP"
-  RawCamera raw;                  ///< width and height 0 where the file does not tell them
+  std::string program;  ///< "OpenCV", "ROS", "Kalibr", "ORB-SLAM", "RealSense", "COLMAP"
+  RawCamera raw;        ///< width and height 0 where the file does not tell them
   std::optional<RightCamera> right;  ///< of eyes that are not rectified
-  double baseline_m = 0;          ///< of rectified eyes; 0: not told
+  double baseline_m = 0;             ///< of rectified eyes; 0: not told
   double fps = 0;
   double depth_unit_m = 0;  ///< metres of one step of depth images; 0: not told
 };

@@ -85,7 +85,7 @@ void read_ground_truth(const fs::path& path, const SE3& T_left_rectified,
 
 /// One eye, or a rectified pair whose distance `yaml` tells.
 void take_cameras(const std::string& yaml_path, const CalibrationYaml& yaml, const fs::path& folder,
-               RecordedSequence& sequence) {
+                  RecordedSequence& sequence) {
   const UndistortedCamera undistorted = undistort_plausibly(yaml_path, yaml.camera());
   sequence.calibration.camera = undistorted.camera;
   sequence.left_remap = undistorted.remap;
@@ -95,8 +95,8 @@ void take_cameras(const std::string& yaml_path, const CalibrationYaml& yaml, con
 }
 
 /// A pair that is rectified here; returns T_left_rectified.
-SE3 take_raw_cameras(const std::string& yaml_path, const CalibrationYaml& yaml, const fs::path& folder,
-                  RecordedSequence& sequence) {
+SE3 take_raw_cameras(const std::string& yaml_path, const CalibrationYaml& yaml,
+                     const fs::path& folder, RecordedSequence& sequence) {
   require_plausible_camera(yaml_path, yaml.camera());
   require_plausible_camera(yaml_path, yaml.right->raw);
   if (fs::is_directory(folder / "depth"))

@@ -74,14 +74,16 @@ KittiCameras read_kitti_cameras(const std::string& path, int left, bool with_rig
   kitti_cameras.position_in_cam0 = kitti_position(P_left->second);
   if (!with_right || P_right == lines.end()) return kitti_cameras;
   const Camera right = kitti_camera(path, right_key, P_right->second);
-  if (right.fx != kitti_cameras.camera.fx || right.fy != kitti_cameras.camera.fy || right.cx != kitti_cameras.camera.cx ||
-      right.cy != kitti_cameras.camera.cy)
+  if (right.fx != kitti_cameras.camera.fx || right.fy != kitti_cameras.camera.fy ||
+      right.cx != kitti_cameras.camera.cx || right.cy != kitti_cameras.camera.cy)
     throw FileError(path, P_right->second.line,
                     right_key + ": has other intrinsics than " + left_key + ": not rectified");
-  kitti_cameras.baseline_m = (P_left->second.numbers[3] - P_right->second.numbers[3]) / kitti_cameras.camera.fx;
+  kitti_cameras.baseline_m =
+      (P_left->second.numbers[3] - P_right->second.numbers[3]) / kitti_cameras.camera.fx;
   if (!(kitti_cameras.baseline_m > 0))
-    throw FileError(path, P_right->second.line,
-                    fmt::format("{}: baseline is {} m, not positive", right_key, kitti_cameras.baseline_m));
+    throw FileError(
+        path, P_right->second.line,
+        fmt::format("{}: baseline is {} m, not positive", right_key, kitti_cameras.baseline_m));
   return kitti_cameras;
 }
 

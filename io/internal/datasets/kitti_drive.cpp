@@ -129,8 +129,8 @@ std::unique_ptr<Dataset> open_kitti_drive(const std::string& folder) {
   const fs::path drive(folder);
   const int left = fs::is_directory(camera_folder(drive, 0) / "data") ? 0 : 2;
   const std::string calibration = calibration_file(drive);
-  const KittiCameras kitti_cameras =
-      read_kitti_cameras(calibration, left, fs::is_directory(camera_folder(drive, left + 1) / "data"));
+  const KittiCameras kitti_cameras = read_kitti_cameras(
+      calibration, left, fs::is_directory(camera_folder(drive, left + 1) / "data"));
   RecordedSequence sequence;
   sequence.name = folder_name(folder);
   sequence.format = "kitti_raw";

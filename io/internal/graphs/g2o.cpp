@@ -93,7 +93,7 @@ bool parse_landmark_line(const TextFile& file, const Fields& fields, PoseGraphBu
     const Eigen::Vector3d position = parse_point(file, fields, 4, 3);
     builder.require_near(position);
     lines.add_observation(fields[1], fields[2], position,
-                    builder.plausible(builder.symmetric(fields, 7, 3)), false, fields[3]);
+                          builder.plausible(builder.symmetric(fields, 7, 3)), false, fields[3]);
   } else {
     return false;
   }
@@ -238,7 +238,8 @@ void format_beside_poses(Buffer out, const LandmarkGraph& graph) {
   for (const GraphPoint& point : graph.points)
     if (point.fixed) fmt::format_to(out, "FIX {}\n", point.id);
   for (const PosePriorConstraint& prior : graph.priors) format_prior(out, prior);
-  for (const PointObservation& observation : graph.observations) format_observation(out, observation, planar);
+  for (const PointObservation& observation : graph.observations)
+    format_observation(out, observation, planar);
 }
 
 void write_text(const std::string& path, const fmt::memory_buffer& text) {

@@ -69,13 +69,14 @@ void LandmarkLines::add_point(std::string_view id, const Eigen::Vector3d& positi
 }
 
 void LandmarkLines::add_observation(std::string_view node, std::string_view point,
-                              const Eigen::Vector3d& position, const Eigen::Matrix3d& information,
-                              bool planar, std::string_view offset) {
+                                    const Eigen::Vector3d& position,
+                                    const Eigen::Matrix3d& information, bool planar,
+                                    std::string_view offset) {
   observations_.push_back({{NodeId(file_->integer(node, "id")), NodeId(file_->integer(point, "id")),
-                      position, information},
-                     file_->line(),
-                     planar,
-                     std::string(offset)});
+                            position, information},
+                           file_->line(),
+                           planar,
+                           std::string(offset)});
 }
 
 bool LandmarkLines::fix(NodeId id) {
@@ -131,7 +132,8 @@ void LandmarkLines::add_to(LandmarkGraph& graph) const {
     require_planar(observation.planar, observation.line);
     const int node = node_at(observation.observation.node, observation.line);
     const SE3 T = T_node_sensor(observation.offset, observation.line);
-    const PointObservation seen = is_identity(T) ? observation.observation : of_node(observation.observation, T);
+    const PointObservation seen =
+        is_identity(T) ? observation.observation : of_node(observation.observation, T);
     if (nodes.contains(seen.point))
       fail(observation.line, fmt::format("vertex {} is a pose, not a point", seen.point));
     if (point_of.emplace(seen.point, graph.points.size()).second)

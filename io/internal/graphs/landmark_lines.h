@@ -27,8 +27,9 @@ class LandmarkLines {
                  std::string_view offset = {});
   void add_point(std::string_view id, const Eigen::Vector3d& position_world, bool planar);
   /// A point as a node, or a sensor on it, sees it.
-  void add_observation(std::string_view node, std::string_view point, const Eigen::Vector3d& position,
-                 const Eigen::Matrix3d& information, bool planar, std::string_view offset = {});
+  void add_observation(std::string_view node, std::string_view point,
+                       const Eigen::Vector3d& position, const Eigen::Matrix3d& information,
+                       bool planar, std::string_view offset = {});
 
   /// Fixes the point of this id, if there is one.
   bool fix(NodeId id);

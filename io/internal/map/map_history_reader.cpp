@@ -64,7 +64,8 @@ std::set<KeyframeId> read_parts(SqliteDatabase& database, StoredMap& stored) {
   return segments;
 }
 
-void read_motions(SqliteDatabase& database, StoredMap& stored, const std::set<KeyframeId>& segments) {
+void read_motions(SqliteDatabase& database, StoredMap& stored,
+                  const std::set<KeyframeId>& segments) {
   PlaceHistory& history = stored.history;
   SqliteRows motions(database, "motion", "number, from_part, to_part, T_from_to, covariance");
   while (motions.next()) {
@@ -90,7 +91,8 @@ void read_motions(SqliteDatabase& database, StoredMap& stored, const std::set<Ke
   }
 }
 
-void read_mergers(SqliteDatabase& database, StoredMap& stored, const std::set<KeyframeId>& segments) {
+void read_mergers(SqliteDatabase& database, StoredMap& stored,
+                  const std::set<KeyframeId>& segments) {
   PlaceHistory& history = stored.history;
   {
     SqliteRows rows(database, "merged", "number, anchor");
@@ -112,7 +114,7 @@ void read_mergers(SqliteDatabase& database, StoredMap& stored, const std::set<Ke
   SqliteRows separated(database, "parted", "number, one, other");
   while (separated.next())
     history.separated.emplace(keyframe_of(stored, separated, separated.integer(1), "one").id,
-                           keyframe_of(stored, separated, separated.integer(2), "other").id);
+                              keyframe_of(stored, separated, separated.integer(2), "other").id);
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ void MapHistoryWriter::put_mergers(const PlaceHistory& history) {
   for (const PlaceHistory::Merged& merger : history.merged) {
     for (const auto& [segment, covariance] : merger.covariance_of_segment) {
       segments_kept.insert(segment_number);
-      merged_segments_.put(segment_number++, MapRow().integer(number).id(segment).symmetric(covariance));
+      merged_segments_.put(segment_number++,
+                           MapRow().integer(number).id(segment).symmetric(covariance));
     }
     kept.insert(number);
     merged_.put(number++, MapRow().id(merger.anchor));
@@ -66,7 +67,8 @@ void MapHistoryWriter::put_mergers(const PlaceHistory& history) {
   merged_.keep(kept);
   merged_segments_.keep(segments_kept);
   number = 0;
-  for (const auto& [one, other] : history.separated) separated_.put(number++, MapRow().id(one).id(other));
+  for (const auto& [one, other] : history.separated)
+    separated_.put(number++, MapRow().id(one).id(other));
 }
 
 void MapHistoryWriter::put_motions(const PlaceHistory& history) {
@@ -84,7 +86,8 @@ void MapHistoryWriter::put_motions(const PlaceHistory& history) {
         MapRow().id(loop.query).id(loop.match).blob(S_match_query).symmetric(loop.information));
   }
   number = 0;
-  for (const bool measured : history.scale_measured) track_segments_.put(number++, MapRow().integer(measured));
+  for (const bool measured : history.scale_measured)
+    track_segments_.put(number++, MapRow().integer(measured));
 }
 
 }  // namespace placegraph

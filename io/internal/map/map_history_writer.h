@@ -18,7 +18,8 @@ class MapHistoryWriter {
   void put_motions(const PlaceHistory& history);
   void put_mergers(const PlaceHistory& history);
 
-  MapTable links_, segments_, motions_, revisits_, track_segments_, merged_, merged_segments_, separated_;
+  MapTable links_, segments_, motions_, revisits_, track_segments_, merged_, merged_segments_,
+      separated_;
 };
 
 }  // namespace placegraph

@@ -160,10 +160,10 @@ void MapReader::read_views() {
     if (view.empty() || view.coarse.empty()) rows.refuse("data: a view without cues");
     if (!first) first = &view;
     const bool similar = view.thumbnail.size() == first->thumbnail.size() &&
-                       view.tiny.size() == first->tiny.size() &&
-                       view.gradients.size() == first->gradients.size() &&
-                       view.colour.channels == first->colour.channels &&
-                       view.coarse.channels == first->coarse.channels;
+                         view.tiny.size() == first->tiny.size() &&
+                         view.gradients.size() == first->gradients.size() &&
+                         view.colour.channels == first->colour.channels &&
+                         view.coarse.channels == first->coarse.channels;
     if (!similar) rows.refuse("data: a view of other cues than the first");
   }
 }

@@ -273,7 +273,8 @@ class Patches {
       }
       all.push_back(std::move(ring));
     }
-    const auto outer = std::find_if(all.begin(), all.end(), [](const Ring& r) { return rotations(r); });
+    const auto outer =
+        std::find_if(all.begin(), all.end(), [](const Ring& r) { return rotations(r); });
     if (outer != all.end()) std::iter_swap(all.begin(), outer);
     return all;
   }

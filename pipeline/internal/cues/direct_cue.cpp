@@ -41,7 +41,7 @@ DirectMotion no_reference() {
 }  // namespace
 
 DirectCue::DirectCue(const DirectCueOptions& options, const Calibration& calibration,
-                       const StereoMatcherOptions& stereo, bool several)
+                     const StereoMatcherOptions& stereo, bool several)
     : options_(options),
       calibration_(calibration),
       depth_(calibration, stereo),
@@ -107,7 +107,7 @@ std::vector<Vector2f> DirectCue::grid(int count) const {
 }
 
 SurfacePatch DirectCue::patch(const Vector3d& g, const Matrix3d& covariance,
-                               std::vector<Vector2f> px, double reach_px) const {
+                              std::vector<Vector2f> px, double reach_px) const {
   SurfacePatch patch;
   patch.g_ref = g;
   patch.g_covariance =
@@ -145,8 +145,8 @@ Image DirectCue::mask_of_ground() const {
 
 /// The ground by its filter; for one eye, of the height that is known and the normal learned.
 std::vector<SurfacePatch> DirectCue::ground(const SE3& T_last_cur,
-                                             const RectificationError& rectification,
-                                             Random& random) {
+                                            const RectificationError& rectification,
+                                            Random& random) {
   if (!ground_ && calibration_.baseline_m > 0) find_ground(rectification, random);
   if (!ground_) return {};
   if (mono_) {
@@ -189,7 +189,7 @@ std::vector<KnownPixel> DirectCue::search_around(const RectificationError& recti
 
 /// Planes in known depths, one after the other, those with most pixels first.
 std::vector<SurfacePatch> DirectCue::planes(std::vector<KnownPixel> rest, double reach_px,
-                                             Random& random) const {
+                                            Random& random) const {
   const double all = static_cast<double>(rest.size());
   std::vector<SurfacePatch> found;
   while (static_cast<int>(found.size()) < options_.max_planes) {
@@ -213,16 +213,16 @@ std::vector<SurfacePatch> DirectCue::planes(std::vector<KnownPixel> rest, double
 /// Two eyes: planes are corrected until the right one sees what the left one does, where depths of
 /// single pixels were not told.
 void DirectCue::refine(std::vector<SurfacePatch>& patches,
-                        const RectificationError& rectification) const {
+                       const RectificationError& rectification) const {
   constexpr double kPixelsSimilar = 8;  // so many neighbours count as one
   if (calibration_.baseline_m <= 0 || frame_.right.empty()) return;
   const double known = 1e12;
   const MotionGuess kitti_cameras{SE3(SO3(), Vector3d(calibration_.baseline_m, 0, 0)),
-                         known * Matrix6d::Identity()};
+                                  known * Matrix6d::Identity()};
   const DirectReference reference(pyramid_, calibration_.camera, patches, options_.align);
   const DirectMotion seen =
-      align_motion(reference, grey_pyramid(frame_.right, options_.align.levels), kitti_cameras.T_ref_cur,
-                   kitti_cameras, options_.align);
+      align_motion(reference, grey_pyramid(frame_.right, options_.align.levels),
+                   kitti_cameras.T_ref_cur, kitti_cameras, options_.align);
   if (!seen.outcome) return;
   // What the eyes are off by is a plane of disparities of its own.
   const double px_per_inverse = calibration_.camera.fx * calibration_.baseline_m;
@@ -236,7 +236,7 @@ void DirectCue::refine(std::vector<SurfacePatch>& patches,
 }
 
 bool DirectCue::become_reference(const SE3& T_last_cur, const RectificationError& rectification,
-                                  const std::vector<KnownPixel>& landmarks, Random& random) {
+                                 const std::vector<KnownPixel>& landmarks, Random& random) {
   std::vector<SurfacePatch> patches = ground(T_last_cur, rectification, random);
   if (several_ || patches.empty()) {
     constexpr double kAroundLandmark_px = 10;

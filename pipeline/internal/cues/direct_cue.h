@@ -26,7 +26,7 @@ class DirectCue {
  public:
   /// `several`: all planes that are found, not the dominant one alone.
   DirectCue(const DirectCueOptions& options, const Calibration& calibration,
-             const StereoMatcherOptions& stereo, bool several);
+            const StereoMatcherOptions& stereo, bool several);
 
   /// The newest image; everything below speaks of it.
   void see(const Frame& frame);

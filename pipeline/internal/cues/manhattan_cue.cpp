@@ -82,9 +82,9 @@ ManhattanFrame ManhattanCue::track(const std::vector<LineSegment>& segments,
 }
 
 std::optional<ManhattanCue::RotationEstimate> ManhattanCue::heading(const Image& image,
-                                                           const SO3& R_odom_cam,
-                                                           const SlidingWindow& window,
-                                                           KeyframeId keyframe) const {
+                                                                    const SO3& R_odom_cam,
+                                                                    const SlidingWindow& window,
+                                                                    KeyframeId keyframe) const {
   const auto expected = manhattan_frames_.expected(window, keyframe);
   if (expected.empty()) return std::nullopt;
   const std::vector<LineSegment> segments = detect(image);
@@ -94,8 +94,9 @@ std::optional<ManhattanCue::RotationEstimate> ManhattanCue::heading(const Image&
     manhattan_frame.R_cam_frame = R_odom_cam.inverse() * *R_odom_manhattan;
     const ManhattanFrame frame = track(segments, manhattan_frame);
     if (!trusted(frame)) continue;
-    return RotationEstimate{manhattan_frame.manhattan_frame, nearest_axes(frame.R_cam_manhattan, manhattan_frame.R_cam_frame),
-                   manhattan_frames_.honest(frame.covariance).inverse()};
+    return RotationEstimate{manhattan_frame.manhattan_frame,
+                            nearest_axes(frame.R_cam_manhattan, manhattan_frame.R_cam_frame),
+                            manhattan_frames_.honest(frame.covariance).inverse()};
   }
   return std::nullopt;
 }
@@ -112,14 +113,16 @@ bool ManhattanCue::trusted(const ManhattanFrame& frame) const {
 bool ManhattanCue::take(KeyframeId keyframe, const std::vector<LineSegment>& segments,
                         const ManhattanFrame& frame, SlidingWindow& window) {
   if (!trusted(frame)) return false;
-  if (!observation_) observation_ = Observation{segments, frame.axis, frame.R_cam_manhattan, frame.covariance};
-  const auto manhattan_frame = manhattan_frames_.add(keyframe, frame.R_cam_manhattan, frame.covariance, window);
+  if (!observation_)
+    observation_ = Observation{segments, frame.axis, frame.R_cam_manhattan, frame.covariance};
+  const auto manhattan_frame =
+      manhattan_frames_.add(keyframe, frame.R_cam_manhattan, frame.covariance, window);
   if (log_) {
     const Eigen::Vector3d w = frame.R_cam_manhattan.log();
     std::ostringstream text;
-    text << "directions " << keyframe << " world " << (manhattan_frame ? manhattan_frame->value() : -1) << " turn "
-         << w.transpose() << " sigma_deg "
-         << frame.covariance.diagonal().cwiseSqrt().transpose() / kRadPerDeg;
+    text << "directions " << keyframe << " world "
+         << (manhattan_frame ? manhattan_frame->value() : -1) << " turn " << w.transpose()
+         << " sigma_deg " << frame.covariance.diagonal().cwiseSqrt().transpose() / kRadPerDeg;
     log_(LogLevel::kDebug, text.str());
   }
   for (std::size_t i = 0; i < view_.size(); ++i)
@@ -136,7 +139,8 @@ void ManhattanCue::observe(KeyframeId keyframe, const Image& image,
   observation_.reset();
   for (const LineSegment& segment : segments) view_.push_back({segment, {}, {}});
   bool seen = false;
-  for (const ManhattanFrames::Expected& manhattan_frame : manhattan_frames_.expected(window, keyframe)) {
+  for (const ManhattanFrames::Expected& manhattan_frame :
+       manhattan_frames_.expected(window, keyframe)) {
     if (take(keyframe, segments, track(segments, manhattan_frame), window)) seen = true;
     if (seen) break;
   }
@@ -149,8 +153,8 @@ void ManhattanCue::observe(KeyframeId keyframe, const Image& image,
 
 GroundMask ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px) const {
   if (!observation_ || outline_px.size() < 3) return {};
-  const OrientationMap map =
-      compute_orientation_map(observation_->segments, observation_->axis, camera_, observation_->R_cam_manhattan);
+  const OrientationMap map = compute_orientation_map(observation_->segments, observation_->axis,
+                                                     camera_, observation_->R_cam_manhattan);
   if (!map.outcome) return {};
   const Image surfaces = indoor_surfaces(map, camera_, observation_->R_cam_manhattan);
   const Image walls = surfaces == static_cast<int>(IndoorSurface::kWall),
@@ -170,8 +174,10 @@ GroundMask ManhattanCue::ground(const std::vector<Eigen::Vector2d>& outline_px) 
 }
 
 SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
-                 const std::optional<ManhattanCue::RotationEstimate>& heading, const SlidingWindow& window) {
-  const auto R_odom_manhattan = heading ? window.manhattan_frame(heading->manhattan_frame) : std::nullopt;
+                 const std::optional<ManhattanCue::RotationEstimate>& heading,
+                 const SlidingWindow& window) {
+  const auto R_odom_manhattan =
+      heading ? window.manhattan_frame(heading->manhattan_frame) : std::nullopt;
   if (!R_odom_manhattan) return T_odom_cam;
   const SO3 R_odom_cam = *R_odom_manhattan * heading->R_cam_frame.inverse();
   // The heading's covariance is of R_cam_frame's right tangent; that of R_odom_cam is rotated.

@@ -33,7 +33,7 @@ class ManhattanCue {
     Eigen::Matrix3d information;  ///< right tangent [1/rad^2]
   };
   std::optional<RotationEstimate> heading(const Image& image, const SO3& R_odom_cam,
-                                 const SlidingWindow& window, KeyframeId keyframe) const;
+                                          const SlidingWindow& window, KeyframeId keyframe) const;
   /// The edges of the last keyframe's image that were looked at, with their world and axis.
   const std::vector<FrameView::DirectedLine>& view() const { return view_; }
   /// What the edges of the last keyframe tell of the ground, if walls stand in what is taken for it
@@ -70,6 +70,7 @@ class ManhattanCue {
 /// position follows the rotation as far as the information lets it. The pose as it is without a
 /// heading, or if the window does not hold its Manhattan frame.
 SE3 with_heading(const SE3& T_odom_cam, const Matrix6d& information,
-                 const std::optional<ManhattanCue::RotationEstimate>& heading, const SlidingWindow& window);
+                 const std::optional<ManhattanCue::RotationEstimate>& heading,
+                 const SlidingWindow& window);
 
 }  // namespace placegraph

@@ -38,8 +38,9 @@ std::vector<ManhattanFrames::Expected> ManhattanFrames::expected(const SlidingWi
   const double drift_rad = options_.sigma_drift_deg * kRadPerDeg;
   std::vector<Expected> result;
   for (const auto& [seen, manhattan_frame] : order)
-    result.push_back({manhattan_frame, R_cam_map * *window.manhattan_frame(manhattan_frame),
-                      covariance_.at(manhattan_frame) + drift_rad * drift_rad * Eigen::Matrix3d::Identity()});
+    result.push_back(
+        {manhattan_frame, R_cam_map * *window.manhattan_frame(manhattan_frame),
+         covariance_.at(manhattan_frame) + drift_rad * drift_rad * Eigen::Matrix3d::Identity()});
   return result;
 }
 
@@ -58,14 +59,14 @@ std::optional<ManhattanFrameId> ManhattanFrames::add(KeyframeId keyframe,
   std::optional<Expected> best;
   double least = frame_gate();
   for (const Expected& manhattan_frame : expected(window, keyframe)) {
-    const double distance =
-        frame_chi2(manhattan_frame.R_cam_frame, nearest_axes(R_cam_manhattan, manhattan_frame.R_cam_frame),
-                   manhattan_frame.covariance + honest(covariance));
+    const double distance = frame_chi2(manhattan_frame.R_cam_frame,
+                                       nearest_axes(R_cam_manhattan, manhattan_frame.R_cam_frame),
+                                       manhattan_frame.covariance + honest(covariance));
     if (distance < least) best = manhattan_frame, least = distance;
   }
   if (!best) return begin_frame({keyframe, R_cam_manhattan, covariance}, window);
-  see({keyframe, nearest_axes(R_cam_manhattan, best->R_cam_frame), covariance}, best->manhattan_frame,
-      window);
+  see({keyframe, nearest_axes(R_cam_manhattan, best->R_cam_frame), covariance},
+      best->manhattan_frame, window);
   return best->manhattan_frame;
 }
 
@@ -100,7 +101,7 @@ std::optional<ManhattanFrameId> ManhattanFrames::begin_frame(const Candidate& ne
     constexpr double kExactRad = 1e-4;
     window.add_manhattan_frame(kMapAxes, SO3());
     add_manhattan_observation(window, {oldest, kMapAxes, window.pose(oldest).rotation().inverse(),
-                                   Eigen::Matrix3d::Identity() / (kExactRad * kExactRad)});
+                                       Eigen::Matrix3d::Identity() / (kExactRad * kExactRad)});
     window.keep(manhattan_variable(kMapAxes));
     window.hold_manhattan_frame(kMapAxes);
   }
@@ -125,7 +126,8 @@ void ManhattanFrames::forget_one(SlidingWindow& window) {
 void ManhattanFrames::settle(const SlidingWindow& window) {
   covariance_.clear();
   for (const auto& [manhattan_frame, seen] : last_seen_)
-    if (const auto covariance = manhattan_covariance(window, manhattan_frame, window.keyframes().back()))
+    if (const auto covariance =
+            manhattan_covariance(window, manhattan_frame, window.keyframes().back()))
       covariance_[manhattan_frame] = *covariance;
 }
 

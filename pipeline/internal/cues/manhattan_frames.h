@@ -16,8 +16,9 @@ namespace placegraph {
 /// go on unseen, known ever less well as the motion goes on.
 ///
 /// The axes of the map are a world of their own, seen once, exactly, by the oldest keyframe at the
-/// time when the first rectangular one begins. They hold the window (SlidingWindow::hold_manhattan_frame):
-/// what the others say about the heading turns the keyframes, and not the map under them.
+/// time when the first rectangular one begins. They hold the window
+/// (SlidingWindow::hold_manhattan_frame): what the others say about the heading turns the
+/// keyframes, and not the map under them.
 class ManhattanFrames {
  public:
   static constexpr ManhattanFrameId kMapAxes{};

@@ -76,8 +76,8 @@ Eigen::Matrix3d PlaneCue::drift(const Plane3& plane_cam) const {
 
 /// Every plane and landmark that agree, the best first.
 std::vector<PlaneCue::Match> PlaneCue::matches(KeyframeId keyframe,
-                                                           const std::vector<DepthPlane>& seen,
-                                                           const SlidingWindow& window) const {
+                                               const std::vector<DepthPlane>& seen,
+                                               const SlidingWindow& window) const {
   std::vector<Match> result;
   const SE3 T_map_cam = window.pose(keyframe), T_cam_map = T_map_cam.inverse();
   for (const auto& [id, landmark] : landmarks_) {
@@ -105,7 +105,7 @@ std::vector<PlaneCue::Match> PlaneCue::matches(KeyframeId keyframe,
 }
 
 void PlaneCue::see(KeyframeId keyframe, const DepthPlane& plane, PlaneId id,
-                         SlidingWindow& window) {
+                   SlidingWindow& window) {
   add_plane_observation(
       window, {keyframe, id, plane.plane_cam, (options_.correlation * plane.covariance).inverse()});
   Landmark& landmark = landmarks_.at(id);
@@ -125,7 +125,7 @@ void PlaneCue::see(KeyframeId keyframe, const DepthPlane& plane, PlaneId id,
 
 /// The one of those that wait which a plane of the newest keyframe agrees with best.
 std::optional<std::size_t> PlaneCue::partner(KeyframeId keyframe, const DepthPlane& plane,
-                                                   const SlidingWindow& window) const {
+                                             const SlidingWindow& window) const {
   double least = plane_gate();
   std::optional<std::size_t> best;
   const Eigen::Vector3d n = toward(plane.plane_cam, Eigen::Vector3d::Zero());
@@ -180,7 +180,7 @@ void PlaneCue::forget(KeyframeId keyframe, SlidingWindow& window) {
 /// landmark of the same place that no other plane is a sighting of gets none; nor does one whose
 /// landmark another plane agrees with about as well, unless that one is a sighting of its own.
 std::vector<std::optional<PlaneId>> PlaneCue::assign(const std::vector<Match>& all,
-                                                           std::size_t count) {
+                                                     std::size_t count) {
   constexpr double kClearly = 6;  // so much of plane_chi2 makes one of two landmarks the better one
   constexpr double kUndecided = 2;  // so little of a score makes neither of two planes the better
   std::vector<const Match*> chosen(count, nullptr);
@@ -206,8 +206,8 @@ std::vector<std::optional<PlaneId>> PlaneCue::assign(const std::vector<Match>& a
 }
 
 std::vector<std::optional<PlaneId>> PlaneCue::add(KeyframeId keyframe,
-                                                        const std::vector<DepthPlane>& seen,
-                                                        SlidingWindow& window) {
+                                                  const std::vector<DepthPlane>& seen,
+                                                  SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
   std::erase_if(waiting_, [&](const Waiting& w) { return w.keyframe < oldest; });
   // First all that is asked of the window, then all that changes it.

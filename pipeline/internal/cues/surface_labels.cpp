@@ -6,7 +6,8 @@
 
 namespace placegraph {
 
-SurfaceLabeller::SurfaceLabeller(std::shared_ptr<const SceneModel> surfaces, const SceneMaskOptions& options)
+SurfaceLabeller::SurfaceLabeller(std::shared_ptr<const SceneModel> surfaces,
+                                 const SceneMaskOptions& options)
     : surfaces_(std::move(surfaces)), options_(options) {
   options_.check();
   require(surfaces_ && surfaces_->kind == SceneModel::Kind::kSurfaces &&

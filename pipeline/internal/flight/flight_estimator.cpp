@@ -47,7 +47,8 @@ FlightFrame FlightEstimator::add(const Frame& frame, bool markers_visible) {
   const std::optional<BodyState> expected = filter_.expectation(frame.stamp_ns).state;
   FlightMeasurements observations;
   observations.stamp_ns = frame.stamp_ns;
-  observations.flow = flow_.track(frame.image, last_ ? last_->state : std::nullopt, expected, times_);
+  observations.flow =
+      flow_.track(frame.image, last_ ? last_->state : std::nullopt, expected, times_);
   if (markers_ && markers_visible) {
     MarkerDetections found = markers_->detect(frame.image, expected, times_);
     observations.markers = std::move(found.markers);
@@ -83,11 +84,11 @@ FlightFrame FlightEstimator::add(const FlightMeasurements& observations) {
   return result;
 }
 
-void FlightEstimator::use_flow(const FlightMeasurements& observations, const KnownRotation& rotation,
-                               FlightFrame& result) {
+void FlightEstimator::use_flow(const FlightMeasurements& observations,
+                               const KnownRotation& rotation, FlightFrame& result) {
   const auto span = times_.measure("flow");
-  const FloorFlowMeasurement measured =
-      flow_.measure(observations.flow, last_ ? last_->state : std::nullopt, observations.stamp_ns, rotation);
+  const FloorFlowMeasurement measured = flow_.measure(
+      observations.flow, last_ ? last_->state : std::nullopt, observations.stamp_ns, rotation);
   result.flow = measured.outcome;
   result.flow_points = measured.inliers;
   result.flow_chi2 = measured.chi2_per_dof;
@@ -95,15 +96,15 @@ void FlightEstimator::use_flow(const FlightMeasurements& observations, const Kno
   if (measured.observation) result.flow = filter_.add(*measured.observation);
 }
 
-void FlightEstimator::use_markers(const FlightMeasurements& observations, const KnownRotation& rotation,
-                                  FlightFrame& result) {
+void FlightEstimator::use_markers(const FlightMeasurements& observations,
+                                  const KnownRotation& rotation, FlightFrame& result) {
   if (!markers_) {
     result.markers = Outcome::failure(Code::kNotAttempted, "there are no markers");
     return;
   }
   const auto span = times_.measure("markers");
-  MarkerView view{observations.stamp_ns, observations.markers, observations.beacons, imu_.mean_force_body(),
-                  std::nullopt};
+  MarkerView view{observations.stamp_ns, observations.markers, observations.beacons,
+                  imu_.mean_force_body(), std::nullopt};
   if (last_ && imu_.samples().size() > 1)
     view.rotation_body = R_body_cam_ * rotation.R_1_2 * R_body_cam_.inverse();
   const BodyExpectation expectation = filter_.expectation(observations.stamp_ns);

@@ -4,8 +4,8 @@
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/internal/measurements/marker_layout.h>
 #include <placegraph/pipeline/internal/flight/delay_line.h>
-#include <placegraph/pipeline/internal/flight/floor_flow.h>
 #include <placegraph/pipeline/internal/flight/flight_options.h>
+#include <placegraph/pipeline/internal/flight/floor_flow.h>
 #include <placegraph/pipeline/internal/flight/imu_buffer.h>
 #include <placegraph/pipeline/internal/flight/marker_sensor.h>
 
@@ -70,8 +70,10 @@ class FlightEstimator {
     std::optional<BodyState> state;  // if it was known
   };
 
-  void use_flow(const FlightMeasurements& observations, const KnownRotation& rotation, FlightFrame& result);
-  void use_markers(const FlightMeasurements& observations, const KnownRotation& rotation, FlightFrame& result);
+  void use_flow(const FlightMeasurements& observations, const KnownRotation& rotation,
+                FlightFrame& result);
+  void use_markers(const FlightMeasurements& observations, const KnownRotation& rotation,
+                   FlightFrame& result);
   Outcome start_by(const PoseMeasurement& pose);
   Outcome deliver_poses(std::int64_t now_ns);
 

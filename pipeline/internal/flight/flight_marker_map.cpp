@@ -30,8 +30,8 @@ Matrix6d step_covariance(const BodyState& before, const FlightFrame& frame, cons
   Matrix3d way_world = dt * dt * block(now, kVelocity);
   if (frame.flow && frame.flow_measurement) {
     const double height = (before.T_world_body * T_body_cam).translation().z() - options.floor_z_m;
-    way_world =
-        height * height * R_world_cam * frame.flow_measurement->covariance * R_world_cam.transpose();
+    way_world = height * height * R_world_cam * frame.flow_measurement->covariance *
+                R_world_cam.transpose();
   }
   const double gyro = options.filter.gyro_noise;
   const Matrix3d turn = gyro * gyro * dt * Matrix3d::Identity() + dt * dt * block(now, kGyroBias);
@@ -48,7 +48,7 @@ Matrix6d step_covariance(const BodyState& before, const FlightFrame& frame, cons
 }  // namespace
 
 MarkerMap map_flight_markers(const Dataset& images, const FlightRun& run, const SE3& T_body_cam,
-                            const MarkerLayout& layout, const FlightOptions& options) {
+                             const MarkerLayout& layout, const FlightOptions& options) {
   options.check();
   require(run.frames.size() == images.size(), "map_hover_markers: one frame an image is needed");
   const MarkerDetector detector(options.marker_sensor.detector, layout.dictionary);

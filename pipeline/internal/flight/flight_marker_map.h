@@ -11,7 +11,7 @@ namespace placegraph {
 /// Markers of the layout anchor the map; where none is, the world is the flight's. Throws as the
 /// data set does. Outcomes: those of map_markers.
 [[nodiscard]] MarkerMap map_flight_markers(const Dataset& images, const FlightRun& run,
-                                          const SE3& T_body_cam, const MarkerLayout& layout,
-                                          const FlightOptions& options);
+                                           const SE3& T_body_cam, const MarkerLayout& layout,
+                                           const FlightOptions& options);
 
 }  // namespace placegraph

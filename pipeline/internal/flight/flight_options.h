@@ -48,8 +48,8 @@ struct MarkerMapOptions {
 };
 void visit(OptionVisitor& field, MarkerMapOptions& options);
 
-/// Options of `placegraph hover`: of FlightEstimator and of `map_flight_markers`. The keys of `flow`
-/// and `marker_sensor` are not in groups of their own.
+/// Options of `placegraph hover`: of FlightEstimator and of `map_flight_markers`. The keys of
+/// `flow` and `marker_sensor` are not in groups of their own.
 struct FlightOptions {
   double floor_z_m = 0;  ///< height of the level floor in the world
   FloorFlowOptions flow;

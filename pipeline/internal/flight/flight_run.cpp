@@ -6,8 +6,8 @@
 
 namespace placegraph {
 FlightRun run_flight(const Dataset& images, const ImuRecording& imu, const SE3& T_body_cam,
-                   const MarkerLayout& layout, const FlightRunOptions& options,
-                   const std::function<void(std::size_t done)>& progress) {
+                     const MarkerLayout& layout, const FlightRunOptions& options,
+                     const std::function<void(std::size_t done)>& progress) {
   FlightRun run;
   StageTimes reading;
   FlightEstimator estimator(options.hover, images.calibration(Sensor::kMono).camera, T_body_cam,
@@ -46,8 +46,8 @@ FlightRun run_flight(const Dataset& images, const ImuRecording& imu, const SE3& 
 }
 
 std::vector<BodyState> smooth_flight(const FlightRun& run, const ImuRecording& imu,
-                                    const SE3& T_body_cam, const FlightOptions& options,
-                                    int states) {
+                                     const SE3& T_body_cam, const FlightOptions& options,
+                                     int states) {
   InertialWindowOptions window_options;
   const PositionFilterOptions& filter = options.filter;
   window_options.noise = {filter.gyro_noise, filter.accel_noise, filter.gyro_bias_walk,

@@ -31,14 +31,14 @@ struct FlightRun {
 /// Hands the images of one camera and the inertial samples to a FlightEstimator in the order of
 /// their stamps. Throws as FlightEstimator and the data set do.
 FlightRun run_flight(const Dataset& images, const ImuRecording& imu, const SE3& T_body_cam,
-                   const MarkerLayout& layout, const FlightRunOptions& options,
-                   const std::function<void(std::size_t done)>& progress = {});
+                     const MarkerLayout& layout, const FlightRunOptions& options,
+                     const std::function<void(std::size_t done)>& progress = {});
 
 /// The same measurements in a sliding window of `states` images: what is known of each image when
 /// it leaves the window, that much later (the last ones at the end). Begins with the first
 /// state of the filter; nothing of images before that.
 std::vector<BodyState> smooth_flight(const FlightRun& run, const ImuRecording& imu,
-                                    const SE3& T_body_cam, const FlightOptions& options,
-                                    int states = 20);
+                                     const SE3& T_body_cam, const FlightOptions& options,
+                                     int states = 20);
 
 }  // namespace placegraph

@@ -115,11 +115,11 @@ FloorFlowMeasurement FloorFlow::measure(const std::vector<FlowVector>& flow,
                                       std::to_string(motion.inliers) + " points of the floor");
   if (!result.outcome || !options_.enabled) return result;
   const double common = options_.common_px / camera_.fx;
-  result.observation =
-      FlowMeasurement{previous->stamp_ns,   to_ns,
-                   motion.over_distance, motion.covariance + common * common * Matrix3d::Identity(),
-                   motion.J_rotation,    rotation.R_1_2,
-                   previous->gyro_bias};
+  result.observation = FlowMeasurement{
+      previous->stamp_ns,   to_ns,
+      motion.over_distance, motion.covariance + common * common * Matrix3d::Identity(),
+      motion.J_rotation,    rotation.R_1_2,
+      previous->gyro_bias};
   return result;
 }
 

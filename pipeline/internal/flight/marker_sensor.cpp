@@ -84,7 +84,8 @@ MarkerDetections MarkerSensor::detect(const Image& image, const std::optional<Bo
   return found;
 }
 
-MarkerPoseEstimate MarkerSensor::estimate(const MarkerView& view, const BodyExpectation& expectation) {
+MarkerPoseEstimate MarkerSensor::estimate(const MarkerView& view,
+                                          const BodyExpectation& expectation) {
   return filter_.observe(view, relies_on(expectation) ? &expectation : nullptr);
 }
 

@@ -40,8 +40,9 @@ std::optional<PlaneAlong> plane_along(const Camera& camera, const ImageLine::Car
 /// deviation.
 std::vector<MotionObservation> course_along_lines(
     const SlidingWindow& window, const Camera& camera,
-    const std::vector<VanishingDirectionTracker::DirectionCluster>& clusters, const LineObservations& observations,
-    KeyframeId keyframe, double depth, double max_rotation_rad) {
+    const std::vector<VanishingDirectionTracker::DirectionCluster>& clusters,
+    const LineObservations& observations, KeyframeId keyframe, double depth,
+    double max_rotation_rad) {
   constexpr std::size_t kBack = 5;        // keyframes
   constexpr double kAlong = 0.96;         // cosine to the way: others are placed, or far
   constexpr double kRollSigmaRad = 1e-3;  // between two keyframes

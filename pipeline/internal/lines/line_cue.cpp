@@ -41,7 +41,8 @@ LineTriangulationOptions LineCue::triangulation(const SlidingWindow& window) con
   constexpr std::size_t kFewestSteered = 7;  // keyframes: not to begin with
   LineTriangulationOptions options = options_.triangulation;
   if (compass_ && window.keyframes().size() > kFewestSteered && followed(window) < kFew)
-    options.min_rotation_deg = std::min(options.min_rotation_deg, options_.min_rotation_steered_deg);
+    options.min_rotation_deg =
+        std::min(options.min_rotation_deg, options_.min_rotation_steered_deg);
   return options;
 }
 
@@ -86,7 +87,8 @@ void LineCue::track(const Image& image, const SlidingWindow& window, const SE3& 
 /// What was known of a track that turned out to be part of another goes with it.
 void LineCue::follow_mergers() {
   for (const auto& [from, to] : tracker_.merged()) {
-    if (!observations_.contains(to) && observations_.contains(from)) observations_[to] = observations_[from];
+    if (!observations_.contains(to) && observations_.contains(from))
+      observations_[to] = observations_[from];
     observations_.erase(from);
   }
 }
@@ -189,7 +191,8 @@ void LineCue::observe(KeyframeId keyframe, const Frame& frame,
   follow_mergers();
   std::vector<LineSegment> segments;
   for (const LineTrack& track : tracker_.tracks()) segments.push_back(track.edge.segment);
-  const auto seconds = second_cameras(frame, segments, calibration_, rectification, stereo_, options_);
+  const auto seconds =
+      second_cameras(frame, segments, calibration_, rectification, stereo_, options_);
   std::map<LineId, LineInKeyframe> now;
   for (std::size_t i = 0; i < tracker_.tracks().size(); ++i) {
     const LineTrack& track = tracker_.tracks()[i];
@@ -203,7 +206,7 @@ void LineCue::observe(KeyframeId keyframe, const Frame& frame,
 
 /// The newest sighting of each track, and of those that are known well enough a place.
 void LineCue::add_observations(KeyframeId keyframe, const std::map<LineId, LineInKeyframe>& all_now,
-                            SlidingWindow& window) {
+                               SlidingWindow& window) {
   const KeyframeId oldest = window.keyframes().front();
   const LineTriangulationOptions options = triangulation(window);
   LineObservations all;
@@ -263,8 +266,8 @@ std::vector<SharedDirection> LineCue::shared_directions() const {
 void LineCue::hold_course(KeyframeId keyframe, double depth, SlidingWindow& window) const {
   if (!compass_) return;
   for (const MotionObservation& motion :
-       course_along_lines(window, calibration_.camera, compass_->clusters(), observations_, keyframe,
-                          depth, deg_to_rad(options_.triangulation.min_rotation_deg)))
+       course_along_lines(window, calibration_.camera, compass_->clusters(), observations_,
+                          keyframe, depth, deg_to_rad(options_.triangulation.min_rotation_deg)))
     add_motion(window, motion);
 }
 
@@ -318,7 +321,7 @@ std::vector<DisparitySample> LineCue::disparity_samples(const SlidingWindow& win
 }
 
 void LineCue::revise_second_cameras(SlidingWindow& window, const RectificationError& before,
-                          const RectificationError& now) {
+                                    const RectificationError& now) {
   const RectificationError more{now.offset_px - before.offset_px, now.by_x_px - before.by_x_px,
                                 now.by_y_px - before.by_y_px};
   const auto revised = [&](const LineObservation::SecondCamera& second, const Eigen::Vector2d& a,

@@ -2,10 +2,10 @@
 #include <placegraph/backend/internal/window/sliding_window.h>
 #include <placegraph/frontend/internal/features/rectification.h>
 #include <placegraph/frontend/internal/features/stereo_matcher.h>
-#include <placegraph/frontend/internal/lines/vanishing_direction_tracker.h>
 #include <placegraph/frontend/internal/lines/floor_from_lines.h>
 #include <placegraph/frontend/internal/lines/line_feature.h>
 #include <placegraph/frontend/internal/lines/line_tracker.h>
+#include <placegraph/frontend/internal/lines/vanishing_direction_tracker.h>
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/pipeline/cues/cue_options.h>
@@ -67,7 +67,7 @@ class LineCue {
                                                  const RectificationError& rectification);
   /// What right eyes saw follows a better calibration.
   void revise_second_cameras(SlidingWindow& window, const RectificationError& before,
-                   const RectificationError& now);
+                             const RectificationError& now);
   /// Drops lines of the window that the newest keyframe contradicts.
   void prune(SlidingWindow& window);
   /// Depths, in the newest image, of the lines of the window that it sees.
@@ -85,10 +85,11 @@ class LineCue {
 
  private:
   void add_observations(KeyframeId keyframe, const std::map<LineId, LineInKeyframe>& now,
-                     SlidingWindow& window);
+                        SlidingWindow& window);
   LineTriangulationOptions triangulation(const SlidingWindow& window) const;
   std::optional<PoseGuess> with_heading(const PoseGuess& guess) const;
-  void add_to_window(LineId id, const LineInKeyframe& line_in_keyframe, SlidingWindow& window) const;
+  void add_to_window(LineId id, const LineInKeyframe& line_in_keyframe,
+                     SlidingWindow& window) const;
   void follow_mergers();
   void steer(KeyframeId keyframe, const LineView& seen, SlidingWindow& window);
 
@@ -97,8 +98,8 @@ class LineCue {
   Calibration calibration_;
   LineTracker tracker_;
   std::optional<VanishingDirectionTracker> compass_;
-  SE3 T_odom_last_;          // of the newest image, once accepted
-  SE3 T_odom_before_;        // of the image before
+  SE3 T_odom_last_;                // of the newest image, once accepted
+  SE3 T_odom_before_;              // of the image before
   LineObservations observations_;  // of live tracks
   std::map<LineId, LineSegment> at_keyframe_;
   std::map<LineId, Eigen::Matrix4d> covariances_;  // of lines of the window

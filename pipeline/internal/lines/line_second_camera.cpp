@@ -32,7 +32,7 @@ double depth_sigma(const Camera& camera, const SE3& T_ref_cam, const Triangulate
 }  // namespace
 
 SecondCamera corrected(SecondCamera second, const Camera& camera, const Eigen::Vector2d& left_a,
-                    const Eigen::Vector2d& left_b, const RectificationError& error) {
+                       const Eigen::Vector2d& left_b, const RectificationError& error) {
   for (Eigen::Vector2d* px : {&second.start_px, &second.end_px}) {
     const Eigen::Vector2d left((column_at(left_a, left_b, px->y()) - camera.cx) / camera.fx,
                                (px->y() - camera.cy) / camera.fy);
@@ -42,11 +42,11 @@ SecondCamera corrected(SecondCamera second, const Camera& camera, const Eigen::V
 }
 
 std::vector<std::optional<SecondCamera>> second_cameras(const Frame& frame,
-                                                  const std::vector<LineSegment>& segments,
-                                                  const Calibration& calibration,
-                                                  const RectificationError& rectification,
-                                                  const StereoMatcherOptions& stereo,
-                                                  const LineCueOptions& options) {
+                                                        const std::vector<LineSegment>& segments,
+                                                        const Calibration& calibration,
+                                                        const RectificationError& rectification,
+                                                        const StereoMatcherOptions& stereo,
+                                                        const LineCueOptions& options) {
   std::vector<std::optional<SecondCamera>> result(segments.size());
   if (calibration.baseline_m > 0 && !frame.right.empty()) {
     const auto right = match_stereo_segments(frame.image, frame.right, segments, stereo,
@@ -63,7 +63,8 @@ std::vector<std::optional<SecondCamera>> second_cameras(const Frame& frame,
         lookup_depth_along(frame.depth, calibration.camera, *calibration.depth, segments);
     for (std::size_t i = 0; i < depths.size(); ++i) {
       if (!depths[i]) continue;
-      const VirtualCamera eye = virtual_camera_from_depth(calibration.camera, segments[i], *depths[i]);
+      const VirtualCamera eye =
+          virtual_camera_from_depth(calibration.camera, segments[i], *depths[i]);
       result[i] = {eye.second_in_cam, eye.seen.first, eye.seen.second,
                    std::hypot(eye.seen.sigma_px, options.sigma_floor_px)};
     }

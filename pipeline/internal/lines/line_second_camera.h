@@ -24,8 +24,9 @@ std::vector<std::optional<LineObservation::SecondCamera>> second_cameras(
 /// The line in the right image, moved by `error`: each of its points by the error at the point of
 /// the same row of the left line through `left_a` and `left_b` [px].
 LineObservation::SecondCamera corrected(LineObservation::SecondCamera second, const Camera& camera,
-                                     const Eigen::Vector2d& left_a, const Eigen::Vector2d& left_b,
-                                     const RectificationError& error);
+                                        const Eigen::Vector2d& left_a,
+                                        const Eigen::Vector2d& left_b,
+                                        const RectificationError& error);
 
 /// The newest disparity of a line of the window, in the middle of its carriers, beside what the
 /// motion of the left camera says of it. Nothing where the newest keyframe has no second eye for

@@ -8,8 +8,8 @@ namespace placegraph {
 
 /// A keyframe as the cues use it.
 struct KeyframeImages {
-  Frame frame;                               ///< its mask leaves out what its labels say
-  Image given_mask;                          ///< the mask that it came with
+  Frame frame;                                  ///< its mask leaves out what its labels say
+  Image given_mask;                             ///< the mask that it came with
   std::shared_ptr<const SurfaceLabels> labels;  ///< of its surfaces; null: not labelled
   /// 0 where the labels say that the frame shows no ground (CV_8UC1); empty where they say nothing.
   Image ground() const { return labels ? labels->masks.ground : Image(); }

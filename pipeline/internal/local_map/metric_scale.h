@@ -22,7 +22,8 @@ class MetricScale {
  public:
   explicit MetricScale(LogSink log) : log_(std::move(log)) {}
   /// Ways to measure; any number of them may be used.
-  void use_ground_plane(const GroundPlaneScaleOptions& options, const Camera& camera, double height_m);
+  void use_ground_plane(const GroundPlaneScaleOptions& options, const Camera& camera,
+                        double height_m);
   void use_floor_lines(const FloorLineScaleOptions& options, const Camera& camera, double height_m);
   void use_motion(std::shared_ptr<const MeasuredMotion> motion_cam);
   /// Whether anything measures the scale.

@@ -118,8 +118,9 @@ int MapLocalizer::Impl::lag_of_similarity() const {
     int count = 0;
     const int stride = std::max(1, (views - lag) / kSamples);
     for (int i = 0; i + lag < views; i += stride, ++count)
-      sum += grid_similarity(recognizer_.view(i), recognizer_.view(i + lag), options_.recognizer.cues)
-                 .sum();
+      sum +=
+          grid_similarity(recognizer_.view(i), recognizer_.view(i + lag), options_.recognizer.cues)
+              .sum();
     return sum / std::max(1, count);
   };
   const double any = 0.5 * (mean_at(views / 3) + mean_at(views / 2));

@@ -5,8 +5,8 @@ namespace placegraph {
 
 /// What a frame did for the beginning of a map.
 struct Initialization {
-  /// kTracking: the map has begun. kInitializing: another frame is needed. kLost: what was waited for
-  /// has been lost, and the frame is nothing to begin with either.
+  /// kTracking: the map has begun. kInitializing: another frame is needed. kLost: what was waited
+  /// for has been lost, and the frame is nothing to begin with either.
   TrackingState state = TrackingState::kInitializing;
   Outcome outcome;                ///< why not, or why with another first view
   std::optional<SE3> T_last_cur;  ///< velocity to go on with; nothing if the frame is the first

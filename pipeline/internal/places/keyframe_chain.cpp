@@ -42,12 +42,15 @@ KeyframeChain::KeyframeChain(const std::vector<PlaceHistory::Keyframe>& keyframe
 
 void KeyframeChain::add(KeyframeId id, const std::optional<KeyframeLink>& link, bool scale_known) {
   const bool begins_track_segment = !is_odometry(link) || !contains(link->from);
-  insert(id, link, begins_track_segment ? static_cast<int>(scale_known_.size()) : at(link->from).track_segment);
+  insert(
+      id, link,
+      begins_track_segment ? static_cast<int>(scale_known_.size()) : at(link->from).track_segment);
   if (begins_track_segment) scale_known_.push_back(scale_known);
   chain_up(id);
 }
 
-void KeyframeChain::insert(KeyframeId id, const std::optional<KeyframeLink>& link, int track_segment) {
+void KeyframeChain::insert(KeyframeId id, const std::optional<KeyframeLink>& link,
+                           int track_segment) {
   const std::string subject = "KeyframeChain: keyframe " + to_string(id);
   require(!contains(id), subject + " is there already");
   require(!link || (link->from < id && contains(link->from)),
@@ -93,7 +96,8 @@ void KeyframeChain::rescale(KeyframeId first, double factor) {
   for (auto& [id, keyframe] : keyframes_) {
     if (!keyframe.link) continue;
     KeyframeLink& link = *keyframe.link;
-    const bool begins = at(link.from).track_segment == track_segment, ends = keyframe.track_segment == track_segment;
+    const bool begins = at(link.from).track_segment == track_segment,
+               ends = keyframe.track_segment == track_segment;
     if (begins) link.T_from_this = link.T_from_this.scaled(factor);
     if (ends) link.information = rescaled_information<6>(link.information, factor);
     if (link.source != ConstraintSource::kOdometry)
@@ -113,7 +117,8 @@ SE3 KeyframeChain::T_a_b(KeyframeId a, KeyframeId b) const {
 
 std::optional<TrackedMotion> KeyframeChain::odometry(KeyframeId a, KeyframeId b) const {
   const auto from = keyframes_.find(a), to = keyframes_.find(b);
-  if (from == keyframes_.end() || to == keyframes_.end() || from->second.track_segment != to->second.track_segment)
+  if (from == keyframes_.end() || to == keyframes_.end() ||
+      from->second.track_segment != to->second.track_segment)
     return std::nullopt;
   return TrackedMotion{T_a_b(a, b), std::abs(to->second.path_length - from->second.path_length)};
 }

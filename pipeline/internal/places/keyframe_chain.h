@@ -26,7 +26,7 @@ class KeyframeChain {
     std::optional<KeyframeLink> link;
     Matrix7d link_covariance = Matrix7d::Zero();  ///< in its right tangent [t, rotation, log scale]
     int track_segment = 0;
-    SE3 T_track_keyframe;      ///< from the run's first keyframe, along the links
+    SE3 T_track_keyframe;    ///< from the run's first keyframe, along the links
     double path_length = 0;  ///< from the run's first keyframe, along the links
   };
 

@@ -110,7 +110,7 @@ std::optional<PlaceEdge> motion_edge(const KeyframeChain& chain, const PlaceHist
 RelativePoseConstraint constraint_between_places(const PlacePartition& partition,
                                                  const PlaceEdge& edge, bool all_scales_known) {
   const PlacePartition::Segment &from = partition.segments().at(edge.from_segment),
-                             &to = partition.segments().at(edge.to_segment);
+                                &to = partition.segments().at(edge.to_segment);
   const Sim3 S_from_to = from.S_place_segment * edge.S_from_to * to.S_place_segment.inverse();
   Matrix7d covariance = transported(edge.S_from_to.inverse().adjoint(), from.covariance) +
                         edge.covariance + to.covariance;
@@ -151,7 +151,8 @@ std::vector<PlaceConstraint> place_constraints(const KeyframeChain& chain,
   const bool all_scales_known = chain.all_scales_known();
   for (const PlaceEdge& edge : edges) {
     result.push_back({edge.key, std::nullopt});
-    if (partition.segments().at(edge.from_segment).place == partition.segments().at(edge.to_segment).place)
+    if (partition.segments().at(edge.from_segment).place ==
+        partition.segments().at(edge.to_segment).place)
       continue;
     auto& measured = result.back().measured;
     measured = constraint_between_places(partition, edge, all_scales_known);

@@ -34,7 +34,8 @@ PlaceMapper::PlaceMapper(const PlaceOptions& options, const IncrementalOptions& 
 PlaceHistory PlaceMapper::history() const {
   PlaceHistory history;
   for (const auto& [id, keyframe] : chain_.keyframes())
-    history.keyframes.push_back({id, partition_.segment_of(id), keyframe.track_segment, keyframe.link});
+    history.keyframes.push_back(
+        {id, partition_.segment_of(id), keyframe.track_segment, keyframe.link});
   partition_.save(history);
   history.motions = motions_;
   history.loops = loops_;
@@ -115,8 +116,8 @@ void PlaceMapper::rescale(KeyframeId first, double factor) {
   chain_.rescale(first, factor);
   const int track_segment = chain_.at(first).track_segment;
   for (Loop& loop : loops_)
-    loop = rescaled_loop(loop, chain_.at(loop.match).track_segment == track_segment, chain_.at(loop.query).track_segment == track_segment,
-                         factor);
+    loop = rescaled_loop(loop, chain_.at(loop.match).track_segment == track_segment,
+                         chain_.at(loop.query).track_segment == track_segment, factor);
   optimizer_.reset();  // its lengths are of another scale
   unpublished_from_ = kBeforeAll;
 }

@@ -115,8 +115,8 @@ MergerErrors errors_of_mergers(const KeyframeChain& chain, const PlacePartition&
                                        partition.places().at(to).S_map_place);
     const int directions = static_cast<int>(constraint.information.rows());
     result.ratios.push_back(error / directions);
-    for (const auto& [segment, other] :
-         {std::pair(edge.from_segment, edge.to_segment), std::pair(edge.to_segment, edge.from_segment)}) {
+    for (const auto& [segment, other] : {std::pair(edge.from_segment, edge.to_segment),
+                                         std::pair(edge.to_segment, edge.from_segment)}) {
       const auto mergers = mergers_of_segment.find(segment);
       if (mergers == mergers_of_segment.end()) continue;
       for (const std::size_t i : mergers->second) {

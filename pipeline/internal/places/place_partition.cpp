@@ -19,7 +19,8 @@ PlacePartition::PlacePartition(const std::vector<Place>& places, const PlaceHist
     places_[place.id] = {place.anchor_keyframe, place.S_map_place(), place.component,
                          history.places[i].reach, history.places[i].last_keyframe};
   }
-  for (const auto& [anchor, place, S_place_segment, covariance, motion_covariance] : history.segments) {
+  for (const auto& [anchor, place, S_place_segment, covariance, motion_covariance] :
+       history.segments) {
     require(places_.count(place) == 1, "PlacePartition: a part of an unknown place");
     segments_[anchor] = {place, S_place_segment, covariance, motion_covariance};
   }
@@ -33,7 +34,8 @@ PlacePartition::PlacePartition(const std::vector<Place>& places, const PlaceHist
             "PlacePartition: a part without its anchor");
   for (const PlaceHistory::Merged& merged : merged_) {
     bool known = is_anchor(merged.anchor);
-    for (const auto& [anchor, covariance] : merged.covariance_of_segment) known &= is_anchor(anchor);
+    for (const auto& [anchor, covariance] : merged.covariance_of_segment)
+      known &= is_anchor(anchor);
     require(known, "PlacePartition: an unknown part was merged");
   }
   require(places_.empty() || founded_ > places_.rbegin()->first.value(),
@@ -42,8 +44,8 @@ PlacePartition::PlacePartition(const std::vector<Place>& places, const PlaceHist
 
 void PlacePartition::save(PlaceHistory& history) const {
   for (const auto& [anchor, segment] : segments_)
-    history.segments.push_back(
-        {anchor, segment.place, segment.S_place_segment, segment.covariance, segment.motion_covariance});
+    history.segments.push_back({anchor, segment.place, segment.S_place_segment, segment.covariance,
+                                segment.motion_covariance});
   for (const auto& [number, place] : places_)
     history.places.push_back({number, place.reach, place.last_keyframe});
   history.merged = merged_;
@@ -136,11 +138,13 @@ void PlacePartition::move_component(int from, int to, const Sim3& S_new_old) {
 
 void PlacePartition::drop_scales() {
   for (auto& [number, place] : places_) place.S_map_place = Sim3(rigid_part(place.S_map_place));
-  for (auto& [anchor, segment] : segments_) segment.S_place_segment = Sim3(rigid_part(segment.S_place_segment));
+  for (auto& [anchor, segment] : segments_)
+    segment.S_place_segment = Sim3(rigid_part(segment.S_place_segment));
 }
 
 void PlacePartition::rescale(const KeyframeChain& chain, KeyframeId first, double factor) {
-  const auto in_track_segment = [&, track_segment = chain.at(first).track_segment](KeyframeId keyframe) {
+  const auto in_track_segment = [&, track_segment =
+                                        chain.at(first).track_segment](KeyframeId keyframe) {
     return chain.at(keyframe).track_segment == track_segment;
   };
   const int component = state_of(first).component;
@@ -151,7 +155,8 @@ void PlacePartition::rescale(const KeyframeChain& chain, KeyframeId first, doubl
 
   for (auto& [anchor, segment] : segments_) {
     const Sim3& S = segment.S_place_segment;
-    const double of_place = in_track_segment(places_.at(segment.place).anchor_keyframe) ? factor : 1,
+    const double of_place =
+                     in_track_segment(places_.at(segment.place).anchor_keyframe) ? factor : 1,
                  of_segment = in_track_segment(anchor) ? factor : 1;
     segment.S_place_segment =
         Sim3(S.rotation(), of_place * S.translation(), S.scale() * of_place / of_segment);
@@ -184,7 +189,8 @@ SE3 PlacePartition::T_segment_keyframe(const KeyframeChain& chain, KeyframeId ke
 }
 
 Sim3 PlacePartition::S_place_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const {
-  return segments_.at(segment_of(keyframe)).S_place_segment * Sim3(T_segment_keyframe(chain, keyframe));
+  return segments_.at(segment_of(keyframe)).S_place_segment *
+         Sim3(T_segment_keyframe(chain, keyframe));
 }
 
 Sim3 PlacePartition::S_map_keyframe(const KeyframeChain& chain, KeyframeId keyframe) const {

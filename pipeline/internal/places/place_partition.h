@@ -20,7 +20,7 @@ class PlacePartition {
  public:
   struct Segment {  // named after its anchor
     PlaceId place;
-    Sim3 S_place_segment;                            ///< identity if it founded the place
+    Sim3 S_place_segment;                         ///< identity if it founded the place
     Matrix7d covariance = Matrix7d::Zero();       ///< of that, in its right tangent
     std::optional<Matrix6d> motion_covariance{};  ///< of the motion from the previous anchor
   };
@@ -87,7 +87,7 @@ class PlacePartition {
   std::map<PlaceId, PlaceState> places_;
   std::vector<PlaceHistory::Merged> merged_;
   std::set<std::pair<KeyframeId, KeyframeId>> separated_;  // anchors that are not one place
-  std::int64_t founded_ = 0;                            // places so far
+  std::int64_t founded_ = 0;                               // places so far
 };
 
 }  // namespace placegraph

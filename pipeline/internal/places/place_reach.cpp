@@ -29,8 +29,8 @@ std::optional<PlaceId> earlier_place_in_reach(const KeyframeChain& chain,
 }
 
 bool in_reach_of_segment(const KeyframeChain& chain, const PlacePartition& partition,
-                      const std::vector<Loop>& loops, const PlaceOptions& options,
-                      KeyframeId keyframe, double median_depth) {
+                         const std::vector<Loop>& loops, const PlaceOptions& options,
+                         KeyframeId keyframe, double median_depth) {
   const KeyframeId anchor = partition.segment_of(chain.at(keyframe).link->from);
   const Sim3 S_place_this =
       partition.segments().at(anchor).S_place_segment * Sim3(chain.T_a_b(anchor, keyframe));

@@ -23,7 +23,7 @@ std::optional<PlaceId> earlier_place_in_reach(const KeyframeChain& chain,
 /// in the same earlier place as the anchor. So where a path is travelled again, its parts end where
 /// those of the first time did.
 bool in_reach_of_segment(const KeyframeChain& chain, const PlacePartition& partition,
-                      const std::vector<Loop>& loops, const PlaceOptions& options,
-                      KeyframeId keyframe, double median_depth);
+                         const std::vector<Loop>& loops, const PlaceOptions& options,
+                         KeyframeId keyframe, double median_depth);
 
 }  // namespace placegraph

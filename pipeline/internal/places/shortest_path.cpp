@@ -16,7 +16,8 @@ double shortest_path(const KeyframeChain& chain, const PlacePartition& partition
     neighbours[b].push_back(a);
   };
   for (const auto& [anchor, segment] : partition.segments())
-    if (const auto& link = chain.at(anchor).link) join(segment.place, partition.place_of(link->from));
+    if (const auto& link = chain.at(anchor).link)
+      join(segment.place, partition.place_of(link->from));
   for (const Loop& loop : loops)
     join(partition.place_of(loop.match), partition.place_of(loop.query));
 

@@ -8,7 +8,7 @@
 namespace placegraph {
 
 FloorLineScale::FloorLineScale(const FloorLineScaleOptions& options, const Camera& camera,
-                       double camera_height_m)
+                               double camera_height_m)
     : options_(options), camera_(camera), camera_height_m_(camera_height_m) {
   options_.check();
   require(camera_height_m > 0, "camera_height_m: must be positive");
@@ -21,7 +21,8 @@ void FloorLineScale::reset() {
 }
 
 /// The unit once the last views agree on it: the median of three, and the middle one of any more.
-std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::agreed(double log_factor, double sigma) {
+std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::agreed(double log_factor,
+                                                                         double sigma) {
   constexpr std::size_t kViews = 3;
   first_log_factors_.push_back(log_factor);
   if (first_log_factors_.size() > kViews) first_log_factors_.pop_front();
@@ -33,10 +34,9 @@ std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::agreed(double 
       std::exp(median_of({first_log_factors_.begin(), first_log_factors_.end()})), sigma};
 }
 
-std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::measure(const SE3& T_odom_cam,
-                                                       const std::vector<PlacedLine>& lines,
-                                                       const std::vector<SharedDirection>& shared,
-                                                       bool scale_known) {
+std::optional<GroundPlaneScale::ScaleMeasurement> FloorLineScale::measure(
+    const SE3& T_odom_cam, const std::vector<PlacedLine>& lines,
+    const std::vector<SharedDirection>& shared, bool scale_known) {
   const FloorFromLines floor = floor_from_lines(camera_, T_odom_cam, lines, options_.floor, shared);
   if (!floor.outcome) return std::nullopt;
   const double log_factor = std::log(camera_height_m_ / floor.height);

@@ -10,7 +10,7 @@
 namespace placegraph {
 
 GroundPlaneScale::GroundPlaneScale(const GroundPlaneScaleOptions& options, const Camera& camera,
-                         double camera_height_m)
+                                   double camera_height_m)
     : options_(options),
       camera_(camera),
       camera_height_m_(camera_height_m),
@@ -63,7 +63,8 @@ void GroundPlaneScale::learn(const GroundPlaneResult& found) {
   normal_variance_rad2_ += drift * drift - gain * gain * std::max(0.0, before - after);
 }
 
-std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::accept(const GroundPlaneResult& found) {
+std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::accept(
+    const GroundPlaneResult& found) {
   if (!found.outcome) return std::nullopt;
   const double log_factor = std::log(camera_height_m_ / found.plane_ref.distance_m);
   // A car's side or a kerb may be taken for the road for a moment, but not for long.
@@ -78,16 +79,16 @@ std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::accept(const
   if (!is_within_gate) return std::nullopt;
   learn(found);
   return ScaleMeasurement{std::exp(log_factor),
-                std::hypot(found.sigma_log_distance, options_.sigma_relative)};
+                          std::hypot(found.sigma_log_distance, options_.sigma_relative)};
 }
 
-std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::find(const Image& image_new, const Image& image_old,
-                                                     const SE3& T_old_new,
-                                                     const GroundMask& observation) {
+std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::find(
+    const Image& image_new, const Image& image_old, const SE3& T_old_new,
+    const GroundMask& observation) {
   recent_log_factors_.clear();
-  GroundPlaneResult found =
-      search_ground_plane(image_new, image_old, camera_, T_old_new,
-                          observation.level.value_or(normal_cam_), options_.plane, observation.mask);
+  GroundPlaneResult found = search_ground_plane(image_new, image_old, camera_, T_old_new,
+                                                observation.level.value_or(normal_cam_),
+                                                options_.plane, observation.mask);
   if (found.outcome && observation.level) {
     GroundPlanePrior level = prior(observation);
     level.plane_ref.distance_m = found.plane_ref.distance_m;
@@ -99,11 +100,11 @@ std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::find(const I
   return length;
 }
 
-std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::follow(const Image& image_new,
-                                                       const Image& image_old, const SE3& T_old_new,
-                                                       const GroundMask& observation) {
+std::optional<GroundPlaneScale::ScaleMeasurement> GroundPlaneScale::follow(
+    const Image& image_new, const Image& image_old, const SE3& T_old_new,
+    const GroundMask& observation) {
   return accept(align_ground_plane(image_new, image_old, camera_, T_old_new, prior(observation),
-                                    options_.plane, observation.mask));
+                                   options_.plane, observation.mask));
 }
 
 }  // namespace placegraph

@@ -13,7 +13,8 @@ namespace placegraph {
 /// roll) is estimated, never given.
 class GroundPlaneScale {
  public:
-  GroundPlaneScale(const GroundPlaneScaleOptions& options, const Camera& camera, double camera_height_m);
+  GroundPlaneScale(const GroundPlaneScaleOptions& options, const Camera& camera,
+                   double camera_height_m);
 
   struct ScaleMeasurement {
     double factor = 1;  ///< true length = factor * |t| of the motion handed over
@@ -21,11 +22,11 @@ class GroundPlaneScale {
   };
   /// For a motion whose scale is unknown; nothing if the road says nothing. `sight` is of the new
   /// view.
-  std::optional<ScaleMeasurement> find(const Image& image_new, const Image& image_old, const SE3& T_old_new,
-                             const GroundMask& observation = {});
+  std::optional<ScaleMeasurement> find(const Image& image_new, const Image& image_old,
+                                       const SE3& T_old_new, const GroundMask& observation = {});
   /// For a motion whose scale is roughly right.
-  std::optional<ScaleMeasurement> follow(const Image& image_new, const Image& image_old, const SE3& T_old_new,
-                               const GroundMask& observation = {});
+  std::optional<ScaleMeasurement> follow(const Image& image_new, const Image& image_old,
+                                         const SE3& T_old_new, const GroundMask& observation = {});
   /// Whether a level floor may be the ground: its normal is about where the camera's mounting, as
   /// far as it is known, lets it be.
   bool may_be_ground(const Eigen::Vector3d& level) const;

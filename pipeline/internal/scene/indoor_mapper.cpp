@@ -72,12 +72,13 @@ VoxelEvidence evidence_of(const PlacedObservations& observations, double cell_m,
   const Eigen::Vector3d rim(0.3, 0.3, 0);
   VoxelEvidence voxels(low - rim, high + rim, cell_m, layer_m);
   for (const PlacedPoint& p : observations.points)
-    voxels.add_ray(observations.path[p.observation], p.point.cast<double>(), 0.1 + 3 * p.sigma, true);
+    voxels.add_ray(observations.path[p.observation], p.point.cast<double>(), 0.1 + 3 * p.sigma,
+                   true);
   return voxels;
 }
 
 IndoorMap fuse_observations(const std::vector<KeyframeSurfacePoints>& all, const Map& map,
-                      const IndoorMapperOptions& options) {
+                            const IndoorMapperOptions& options) {
   IndoorMap plan;
   const ObservationsInMap in_map = lay_out(all, map);
   if (in_map.points.empty()) {
@@ -96,15 +97,16 @@ IndoorMap fuse_observations(const std::vector<KeyframeSurfacePoints>& all, const
   const VoxelEvidence voxels = evidence_of(observations, options.cell_m, options.layer_m);
   constexpr double kShoulder_m = 0.45;
   const std::vector<WallPiece> walls =
-      cut_at_path(find_walls(observations.points, voxels, options.walls), observations.path, kShoulder_m,
-                  options.walls.min_length_m);
+      cut_at_path(find_walls(observations.points, voxels, options.walls), observations.path,
+                  kShoulder_m, options.walls.min_length_m);
   if (walls.empty()) {
     plan.outcome = Outcome::failure(Outcome::Code::kDegenerate, "no wall is seen");
     return plan;
   }
   const std::vector<DoorPiece> doors =
       find_doors(walls, observations.points, voxels, observations.path, options.doors);
-  const RoomPartition rooms = partition_rooms(voxels, walls, doors, observations.path, options.rooms);
+  const RoomPartition rooms =
+      partition_rooms(voxels, walls, doors, observations.path, options.rooms);
   plan.walls = plan_walls(walls, frame, observations, map);
   plan.rooms = plan_rooms(rooms, voxels, frame, observations, map);
   plan.doors = plan_doors(doors, rooms, voxels, frame);
@@ -175,9 +177,9 @@ void IndoorMapper::add(KeyframeId keyframe, const Frame& frame,
 }
 
 void IndoorMapper::add(KeyframeSurfacePoints observation) {
-  const auto same = std::find_if(observations_.begin(), observations_.end(), [&](const KeyframeSurfacePoints& other) {
-    return other.keyframe == observation.keyframe;
-  });
+  const auto same = std::find_if(
+      observations_.begin(), observations_.end(),
+      [&](const KeyframeSurfacePoints& other) { return other.keyframe == observation.keyframe; });
   if (same != observations_.end())
     *same = std::move(observation);
   else

@@ -56,7 +56,8 @@ std::vector<const Keyframe*> keyframes_apart(const Map& map, double step_m, doub
     const SE3 T_map_cam = camera_pose(map, keyframe.id);
     if (last) {
       const SE3 step = last->inverse() * T_map_cam;
-      if (step.translation().norm() < step_m && step.rotation().log().norm() < rotation_rad) continue;
+      if (step.translation().norm() < step_m && step.rotation().log().norm() < rotation_rad)
+        continue;
     }
     last = T_map_cam;
     chosen.push_back(&keyframe);

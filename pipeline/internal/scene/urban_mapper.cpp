@@ -58,9 +58,9 @@ void UrbanMapper::drop_seen_through(KeyframeSemantics& observation, const Image&
 }
 
 void UrbanMapper::add(KeyframeSemantics observation) {
-  const auto same = std::find_if(observations_.begin(), observations_.end(), [&](const KeyframeSemantics& other) {
-    return other.keyframe == observation.keyframe;
-  });
+  const auto same = std::find_if(
+      observations_.begin(), observations_.end(),
+      [&](const KeyframeSemantics& other) { return other.keyframe == observation.keyframe; });
   if (same != observations_.end())
     *same = std::move(observation);
   else
@@ -110,7 +110,8 @@ SemanticMap UrbanMapper::fuse(const KeyframePoses& T_map_cam, const Eigen::Vecto
 void add_keyframes(UrbanMapper& mapper, const Map& map, const UrbanMapperOptions& options,
                    const std::function<Frame(const Keyframe&)>& frame_of,
                    const std::function<void(std::size_t, std::size_t)>& progress) {
-  const auto chosen = keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_rotation_deg));
+  const auto chosen =
+      keyframes_apart(map, options.min_step_m, deg_to_rad(options.min_rotation_deg));
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const KeyframeId id = chosen[i]->id;
     mapper.add(id, frame_of(*chosen[i]), camera_pose(map, id));

@@ -39,7 +39,8 @@ class UrbanMapper {
                                  const Eigen::Vector3d& down = Eigen::Vector3d::Zero()) const;
 
  private:
-  void drop_seen_through(KeyframeSemantics& observation, const Image& depth_m, const SE3& T_map_cam);
+  void drop_seen_through(KeyframeSemantics& observation, const Image& depth_m,
+                         const SE3& T_map_cam);
   UrbanMapperOptions options_;
   Calibration calibration_;
   SceneModel urban_, surfaces_;

@@ -85,9 +85,8 @@ TrackedFrame FeatureTracker::track(const Frame& frame, const LocalMap& map,
 }
 
 /// What a frame that few points pose sees of Manhattan frames.
-std::optional<ManhattanCue::RotationEstimate> FeatureTracker::rotation_from_manhattan(const Frame& frame,
-                                                                const SE3& T_odom_cam, int inliers,
-                                                                const LocalMap& map) const {
+std::optional<ManhattanCue::RotationEstimate> FeatureTracker::rotation_from_manhattan(
+    const Frame& frame, const SE3& T_odom_cam, int inliers, const LocalMap& map) const {
   if (!manhattan() || inliers >= options_.manhattan.few_points) return std::nullopt;
   return manhattan_->heading(frame.image, T_odom_cam.rotation(), map.window(), map.newest());
 }

@@ -51,8 +51,10 @@ class FeatureTracker : public FrameTracker {
   void start_selection(int landmarks);
 
  private:
-  std::optional<ManhattanCue::RotationEstimate> rotation_from_manhattan(const Frame& frame, const SE3& T_odom_cam,
-                                                  int inliers, const LocalMap& map) const;
+  std::optional<ManhattanCue::RotationEstimate> rotation_from_manhattan(const Frame& frame,
+                                                                        const SE3& T_odom_cam,
+                                                                        int inliers,
+                                                                        const LocalMap& map) const;
   bool keyframe_due(const SE3& T_odom_cam, int inliers, const LocalMap& map) const;
   void observe_planes(const Frame& frame, LocalMap& map);
 

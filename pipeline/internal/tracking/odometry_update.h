@@ -16,7 +16,8 @@ namespace placegraph {
 struct NewKeyframe {
   KeyframeId id;
   Frame frame;
-  std::shared_ptr<const SurfaceLabels> labels = nullptr;  ///< of its surfaces, where they are labelled
+  std::shared_ptr<const SurfaceLabels> labels =
+      nullptr;  ///< of its surfaces, where they are labelled
 };
 
 /// A monocular camera has only rotated since an earlier frame.

@@ -26,7 +26,8 @@ void expect_certified_optimum(const PoseGraph& graph) {
   const PoseGraphReport found = optimize_from(graph, PoseGraphInitialization::kAuto);
   EXPECT_TRUE(found.outcome) << found.outcome.reason;
   const PoseGraphReport certified = optimize_from(graph, PoseGraphInitialization::kCertified);
-  EXPECT_LT(found.chi2_final, certified.chi2_final * (1 + 1e-6)) << to_string(found.initialization_used);
+  EXPECT_LT(found.chi2_final, certified.chi2_final * (1 + 1e-6))
+      << to_string(found.initialization_used);
   const ChordalIsotropicCertificate certificate =
       certify_chordal_isotropic(pack<Group>(found.graph), RotationError::kLog);
   EXPECT_TRUE(certificate.certified) << certificate.relative_gap;

@@ -40,7 +40,8 @@ std::string ring(int n, int first = 0, const std::vector<std::pair<int, int>>& f
     out << "VERTEX_SE2 " << first + i << " " << radius * std::sin(i * rotation) << " "
         << radius * (1 - std::cos(i * rotation)) << " " << i * rotation << "\n";
   for (int i = 0; i < n; ++i) {
-    out << "EDGE_SE2 " << first + i << " " << first + (i + 1) % n << " 1 0 " << rotation << information;
+    out << "EDGE_SE2 " << first + i << " " << first + (i + 1) % n << " 1 0 " << rotation
+        << information;
     out << "EDGE_SE2 " << first + i << " " << first + (i + 2) % n << " " << 1 + std::cos(rotation)
         << " " << std::sin(rotation) << " " << 2 * rotation << information;
   }

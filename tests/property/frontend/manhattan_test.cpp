@@ -43,8 +43,8 @@ TEST(Manhattan, CovarianceOfATrackedFrameIsThatOfItsError) {
   for (int k = 0; k < kScenes; ++k) {
     const SO3 R = test::random_rotation(std::numbers::pi, random);
     const auto segments = test::manhattan_segments(camera, R, 30, 30, 0.3, random);
-    const auto frame =
-        track_manhattan_frame(segments, camera, R * test::random_rotation(0.05, random), 0.03, {}, {});
+    const auto frame = track_manhattan_frame(segments, camera,
+                                             R * test::random_rotation(0.05, random), 0.03, {}, {});
     ASSERT_TRUE(frame.outcome) << frame.outcome.reason;
     const Eigen::Vector3d e = (frame.R_cam_manhattan.inverse() * R).log();
     sum += e.dot(frame.information * e) / 3;

@@ -15,8 +15,8 @@ namespace {
 using namespace test;
 
 /// Corners of a marker of 0.2 m with noise of this deviation, as a detector would tell them.
-MarkerObservation observation_of(const PlacedMarker& placed, const SE3& T_world_cam, double sigma_px,
-                           Random& random) {
+MarkerObservation observation_of(const PlacedMarker& placed, const SE3& T_world_cam,
+                                 double sigma_px, Random& random) {
   const Camera camera = MarkerScene::usual_camera();
   MarkerObservation observation;
   observation.id = placed.id;
@@ -63,7 +63,8 @@ TEST(MarkerFilterProperty, ChoosesTheMirroredPoseInNoViewAndDecidesMostNearOnes)
     const SE3 rival = both.poses[1].T_cam_marker.inverse();
     // From right above both are one within the noise: an answer between them chooses neither.
     constexpr double kRefuted = 22.5;  // 99.9 % of chi^2 with six degrees of freedom
-    const bool truth_refuted = error.dot(answer.observation.covariance.ldlt().solve(error)) > kRefuted;
+    const bool truth_refuted =
+        error.dot(answer.observation.covariance.ldlt().solve(error)) > kRefuted;
     wrong += truth_refuted && angle_rad(found, rival) < angle_rad(found, truth);
   }
   std::cout << "decided " << decided << " of " << kViews << ", near ones " << near_decided << " of "

@@ -77,7 +77,8 @@ TEST(PlaneTracker, SaysThatTheTemplateIsGoneAndFindsItAgainElsewhere) {
       const PlaneTrack track = tracker.track(
           disturbed(board.picture(there ? std::optional<Matrix3d>(H) : std::nullopt), 2, random));
       if (!there) {
-        EXPECT_FALSE(track.outcome) << "frame " << frame << ", likeness " << track.robust_similarity;
+        EXPECT_FALSE(track.outcome)
+            << "frame " << frame << ", likeness " << track.robust_similarity;
         continue;
       }
       EXPECT_TRUE(track.outcome || frame >= kGone) << track.outcome.reason;

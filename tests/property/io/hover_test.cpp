@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using synthetic::Glyph;
 using synthetic::FlightSetting;
+using synthetic::Glyph;
 
 SyntheticWorld hover(std::uint64_t seed, double duration_s) {
   SyntheticOptions options;

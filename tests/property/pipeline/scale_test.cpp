@@ -11,7 +11,8 @@ namespace {
 
 using namespace test;
 
-// GroundPlaneScale -------------------------------------------------------------------------------------
+// GroundPlaneScale
+// -------------------------------------------------------------------------------------
 
 /// Two pictures of a road from 1.2 to 2 m above it, a step of random length apart.
 struct Road {
@@ -79,7 +80,8 @@ TEST(GroundScaleLaws, ExchangedViewsTellTheSameLength) {
   }
 }
 
-// FloorLineScale --------------------------------------------------------------------------------------
+// FloorLineScale
+// --------------------------------------------------------------------------------------
 
 /// Lines of a corridor in units of `unit` metres, as a camera at `T_odom_cam` sees them that stands
 /// at `T_corridor_cam` [m], placed with an error of their tangents.

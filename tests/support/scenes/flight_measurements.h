@@ -18,7 +18,7 @@ struct FlightMeasurementsOptions {
 class FlightMeasurementsSource {
  public:
   FlightMeasurementsSource(const synthetic::Tour& tour, const FlightMeasurementsOptions& options,
-                    std::uint64_t seed)
+                           std::uint64_t seed)
       : setting_(*tour.hover), camera_(tour.camera), options_(options), random_(seed, 71) {}
 
   /// Flow is that since the image that was looked at before.
@@ -96,9 +96,9 @@ class FlightMeasurementsSource {
 /// looked for, t seconds after the first image; `dropped(i)` which images never come.
 template <class Visible>
 std::vector<FlightFrame> fly_without_images(const synthetic::Tour& tour, FlightOptions options,
-                                           const FlightMeasurementsOptions& observations, std::uint64_t seed,
-                                           const Visible& visible,
-                                           const std::function<bool(std::size_t)>& dropped = {}) {
+                                            const FlightMeasurementsOptions& observations,
+                                            std::uint64_t seed, const Visible& visible,
+                                            const std::function<bool(std::size_t)>& dropped = {}) {
   const synthetic::FlightSetting& setting = *tour.hover;
   const ImuNoise& noise = setting.flight.imu.noise;
   options.filter.gyro_noise = noise.gyro;

@@ -28,7 +28,8 @@ inline PlanesWorld make_planes_world(int planes, int per_plane, int outliers, do
   for (int k = 0; k < planes; ++k) {
     const double rotation = (k % 2 == 0 ? 1 : -1) * random.uniform(0.4, 0.5);
     const Eigen::Vector3d normal =
-        Eigen::Vector3d(std::sin(rotation), random.uniform(-0.1, 0.1), std::cos(rotation)).normalized();
+        Eigen::Vector3d(std::sin(rotation), random.uniform(-0.1, 0.1), std::cos(rotation))
+            .normalized();
     world.planes_ref.push_back({normal, random.uniform(4, 6)});
     const double width = static_cast<double>(camera.width) / planes;
     for (int placed = 0; placed < per_plane;) {

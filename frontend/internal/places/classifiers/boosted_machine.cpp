@@ -118,8 +118,8 @@ double vote(const Ensemble& ensemble, const Eigen::Ref<const Eigen::VectorXd>& o
 }
 
 std::vector<Ensemble> boost_all(const Eigen::MatrixXd& opinions,
-                                const std::vector<Eigen::Index>& views, const PlaceTrainingSet& training_set,
-                                int rounds) {
+                                const std::vector<Eigen::Index>& views,
+                                const PlaceTrainingSet& training_set, int rounds) {
   std::vector<Ensemble> ensembles;
   for (int place = 0; place < training_set.places; ++place)
     ensembles.push_back(boost(opinions, views, training_set, place, rounds));

@@ -67,8 +67,8 @@ Eigen::VectorXd kernel_of(const std::array<Eigen::VectorXd, kClassifierCues>& di
 }
 
 Eigen::MatrixXd targets_of(const PlaceTrainingSet& training_set) {
-  Eigen::MatrixXd targets =
-      Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(training_set.labels.size()), training_set.places, -1);
+  Eigen::MatrixXd targets = Eigen::MatrixXd::Constant(
+      static_cast<Eigen::Index>(training_set.labels.size()), training_set.places, -1);
   for (std::size_t i = 0; i < training_set.labels.size(); ++i)
     targets(static_cast<Eigen::Index>(i), training_set.labels[i]) = 1;
   return targets;
@@ -86,7 +86,8 @@ Eigen::MatrixXd solve_kernel(Eigen::MatrixXd kernel, const Eigen::MatrixXd& targ
   return kernel.ldlt().solve(targets);
 }
 
-Eigen::MatrixXd left_out_outputs(const PlaceTrainingSet& training_set, const Eigen::MatrixXd& kernel,
+Eigen::MatrixXd left_out_outputs(const PlaceTrainingSet& training_set,
+                                 const Eigen::MatrixXd& kernel,
                                  const PlaceClassifierOptions& options) {
   const Eigen::MatrixXd targets = targets_of(training_set);
   Eigen::MatrixXd outputs = Eigen::MatrixXd::Zero(targets.rows(), targets.cols());
@@ -99,13 +100,15 @@ Eigen::MatrixXd left_out_outputs(const PlaceTrainingSet& training_set, const Eig
   return outputs;
 }
 
-PerCue best_kernel_weights(const PlaceTrainingSet& training_set, const PlaceClassifierOptions& options) {
+PerCue best_kernel_weights(const PlaceTrainingSet& training_set,
+                           const PlaceClassifierOptions& options) {
   const Eigen::MatrixXd targets = targets_of(training_set);
   double least = std::numeric_limits<double>::infinity();
   PerCue best{};
   for (const PerCue& weights : weights_to_try(training_set)) {
     const double error =
-        (left_out_outputs(training_set, kernel_of(training_set, weights), options) - targets).squaredNorm();
+        (left_out_outputs(training_set, kernel_of(training_set, weights), options) - targets)
+            .squaredNorm();
     if (error >= least) continue;
     least = error;
     best = weights;

@@ -22,10 +22,12 @@ FoldSplit split_fold(const PlaceTrainingSet& training_set, int fold);
 Eigen::MatrixXd solve_kernel(Eigen::MatrixXd kernel, const Eigen::MatrixXd& targets, double ridge);
 
 /// What least-squares machines trained without a fold say of it.
-Eigen::MatrixXd left_out_outputs(const PlaceTrainingSet& training_set, const Eigen::MatrixXd& kernel,
+Eigen::MatrixXd left_out_outputs(const PlaceTrainingSet& training_set,
+                                 const Eigen::MatrixXd& kernel,
                                  const PlaceClassifierOptions& options);
 
 /// The weights of {0, 1/2, 1} per cue with the least squared error on left out folds.
-PerCue best_kernel_weights(const PlaceTrainingSet& training_set, const PlaceClassifierOptions& options);
+PerCue best_kernel_weights(const PlaceTrainingSet& training_set,
+                           const PlaceClassifierOptions& options);
 
 }  // namespace placegraph

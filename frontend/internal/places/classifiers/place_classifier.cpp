@@ -106,8 +106,8 @@ PlaceClassifier PlaceClassifier::train(std::vector<PlaceCueVectors> views,
   result.weights_ = trained.weights;
   result.machine_ = std::move(trained.machine);
   for (int place = 0; place < training_set.places; ++place)
-    result.scaling_.push_back(
-        fit_platt_scaling(trained.left_out.col(place), targets_of(training_set).col(place).array() > 0));
+    result.scaling_.push_back(fit_platt_scaling(trained.left_out.col(place),
+                                                targets_of(training_set).col(place).array() > 0));
   int right = 0;
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::VectorXd probabilities = result.calibrated(trained.left_out.row(i));

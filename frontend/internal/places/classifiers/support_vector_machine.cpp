@@ -69,7 +69,9 @@ class SupportVectors final : public PlaceMachine {
  public:
   SupportVectors(const PlaceTrainingSet& training_set, const Eigen::MatrixXd& kernel,
                  const std::vector<Eigen::Index>& views, double cost, const PerCue& weights)
-      : weights_(weights), coefficients_(kernel.rows(), training_set.places), constants_(training_set.places) {
+      : weights_(weights),
+        coefficients_(kernel.rows(), training_set.places),
+        constants_(training_set.places) {
     for (int place = 0; place < training_set.places; ++place) {
       const Decision decision = train_one(kernel, views, training_set, place, cost);
       coefficients_.col(place) = decision.coefficients;
@@ -90,8 +92,8 @@ class SupportVectors final : public PlaceMachine {
   Eigen::VectorXd constants_;
 };
 
-Eigen::MatrixXd left_out(const PlaceTrainingSet& training_set, const Eigen::MatrixXd& kernel, double cost,
-                         const PerCue& weights, int folds) {
+Eigen::MatrixXd left_out(const PlaceTrainingSet& training_set, const Eigen::MatrixXd& kernel,
+                         double cost, const PerCue& weights, int folds) {
   Eigen::MatrixXd outputs = Eigen::MatrixXd::Zero(kernel.rows(), training_set.places);
   for (int fold = 0; fold < folds; ++fold) {
     const auto [in, out] = split_fold(training_set, fold);
@@ -124,7 +126,8 @@ TrainedPlaceMachine train_support_vectors(const PlaceTrainingSet& training_set,
     result.left_out = std::move(outputs);
   }
   const FoldSplit all = split_fold(training_set, -1);
-  result.machine = std::make_shared<SupportVectors>(training_set, kernel, all.in, best, result.weights);
+  result.machine =
+      std::make_shared<SupportVectors>(training_set, kernel, all.in, best, result.weights);
   return result;
 }
 

@@ -7,7 +7,8 @@ namespace placegraph::synthetic {
 
 void walk_through(const FloorPlan& plan, const IndoorWalk& walk, std::uint32_t seed, Tour& tour) {
   constexpr double kStep_m = 0.05;
-  const std::vector<Eigen::Vector2d> path = smooth_path(walk.corners, kStep_m, walk.rotation_window_m);
+  const std::vector<Eigen::Vector2d> path =
+      smooth_path(walk.corners, kStep_m, walk.rotation_window_m);
   const SpeedLimits limits{walk.speed_mps, 0.5, 0.5};
   const std::vector<double> positions = drive_positions(path, kStep_m, limits, 0.1);
   for (std::size_t i = 0; i < positions.size(); ++i) {

@@ -13,9 +13,9 @@
 
 namespace placegraph {
 
-using synthetic::SimulatedFlight;
 using synthetic::FlightSetting;
 using synthetic::SequenceFolder;
+using synthetic::SimulatedFlight;
 
 namespace {
 
@@ -26,8 +26,8 @@ std::string camera_yaml(const Camera& camera, const SE3& T_body_cam) {
          fmt::format(
              "rate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n"
              "intrinsics: [{}, {}, {}, {}]\ndistortion_model: none\ndistortion_coefficients: []\n",
-             SimulatedFlight::kImageHz, camera.width, camera.height, camera.fx, camera.fy, camera.cx,
-             camera.cy);
+             SimulatedFlight::kImageHz, camera.width, camera.height, camera.fx, camera.fy,
+             camera.cx, camera.cy);
 }
 
 std::string flight_yaml(const SyntheticWorld& world) {

@@ -187,7 +187,8 @@ LandmarkGraph pose_with_a_point() {
   graph.poses.nodes = {{NodeId(0), SE3(), false}};
   graph.priors.push_back({NodeId(0), SE3(), test::isotropic<SE3>(100)});
   graph.points.push_back({NodeId(7), {3, 0, 0}});
-  graph.observations.push_back({NodeId(0), NodeId(7), {2, 0, 0}, 100 * Eigen::Matrix3d::Identity()});
+  graph.observations.push_back(
+      {NodeId(0), NodeId(7), {2, 0, 0}, 100 * Eigen::Matrix3d::Identity()});
   return graph;
 }
 

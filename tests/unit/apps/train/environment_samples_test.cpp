@@ -23,7 +23,8 @@ class EnvironmentSamples : public testing::Test {
     test::write_drawn_set(folder);
     const TrainSceneArguments training = test::drawn_set_training(folder, "surfaces.pgscene");
     train_scene(training, SceneModel::Kind::kSurfaces);
-    eye = new SurfaceLabeller(std::make_shared<const SceneModel>(read_scene_model(training.out)), {});
+    eye =
+        new SurfaceLabeller(std::make_shared<const SceneModel>(read_scene_model(training.out)), {});
   }
   static void TearDownTestSuite() { delete eye; }
   /// A picture of a set of which such a share is buildings.

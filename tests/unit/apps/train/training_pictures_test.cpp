@@ -77,7 +77,8 @@ TEST_F(SceneTrainingSet, ABlockIsSoManyPicturesOfOneDrive) {
 TEST_F(SceneTrainingSet, NamesTheFileThatCannotBeRead) {
   folder.write("set/train/images/one_2.png", "no image");
   const auto training_set = training_pictures(set, set.train, model, options);
-  EXPECT_THAT(message_of([&] { make_examples(training_set, model, options); }), HasSubstr("one_2.png"));
+  EXPECT_THAT(message_of([&] { make_examples(training_set, model, options); }),
+              HasSubstr("one_2.png"));
 }
 
 }  // namespace

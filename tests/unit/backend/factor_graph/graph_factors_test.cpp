@@ -237,8 +237,9 @@ TEST(NonHolonomicFactor, IsZeroOnAnArcOfTheRearAxle) {
   const Eigen::Vector3d axle_cam = -T_axle_cam.translation();
   const NonHolonomicFactor factor(Eigen::Vector3d::UnitX(), axle_cam, 0.02);
   const double rotation_rad = 0.4, radius_m = 8;
-  const SE3 step(SO3::exp({0, rotation_rad, 0}), Eigen::Vector3d(radius_m * (1 - std::cos(rotation_rad)), 0,
-                                                             radius_m * std::sin(rotation_rad)));
+  const SE3 step(SO3::exp({0, rotation_rad, 0}),
+                 Eigen::Vector3d(radius_m * (1 - std::cos(rotation_rad)), 0,
+                                 radius_m * std::sin(rotation_rad)));
   const SE3 T_cam_next = T_axle_cam.inverse() * step * T_axle_cam;
   EXPECT_NEAR(evaluate(factor, {kT_world_a, kT_world_a * T_cam_next})[0], 0, 1e-12);
   // Slipping 4 cm sideways in a straight step counts as two sigmas.

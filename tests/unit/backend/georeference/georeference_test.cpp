@@ -70,10 +70,11 @@ GeoreferenceInput exact_drive(const std::vector<SE3>& T_enu_cam) {
 double largest_error(const GeoreferenceResult& result, const std::vector<SE3>& T_enu_cam) {
   double largest = 0;
   for (std::size_t i = 0; i < result.graph.nodes.size(); ++i)
-    largest = std::max(largest,
-                       (rigid_part(result.graph.nodes[i].T_world_node).translation() -
-                        T_enu_cam[static_cast<std::size_t>(result.graph.nodes[i].id.value())].translation())
-                           .norm());
+    largest = std::max(
+        largest,
+        (rigid_part(result.graph.nodes[i].T_world_node).translation() -
+         T_enu_cam[static_cast<std::size_t>(result.graph.nodes[i].id.value())].translation())
+            .norm());
   return largest;
 }
 
@@ -123,7 +124,8 @@ TEST(Georeference, RotationsAPlanarMapAboutTheVertical) {
     in.visits.push_back({id * kStep_ns, NodeId(id)});
     const Eigen::Vector2d p = T_enu_map * T_map_node.translation();
     in.fixes.push_back(fix_at(id * kStep_ns, {p.x(), p.y(), 7.0 * static_cast<double>(id % 2)}));
-    if (id > 0) in.graph.constraints.emplace_back(edge_between(NodeId(id - 1), NodeId(id), step, 3));
+    if (id > 0)
+      in.graph.constraints.emplace_back(edge_between(NodeId(id - 1), NodeId(id), step, 3));
     T_map_node = T_map_node * step;
   }
   const GeoreferenceResult result = georeference(in, {});

@@ -54,8 +54,10 @@ TEST(MapDelay, TakesEveryNodeAndEdgeToWhereTheMotionIsLater) {
   }
   for (const Constraint& constraint : map.constraints) {
     const auto& edge = std::get<RelativePoseConstraint>(constraint);
-    const SE3 T_from_to = std::get<SE3>(map.nodes[static_cast<std::size_t>(edge.from.value())].T_world_node).inverse() *
-                          std::get<SE3>(map.nodes[static_cast<std::size_t>(edge.to.value())].T_world_node);
+    const SE3 T_from_to =
+        std::get<SE3>(map.nodes[static_cast<std::size_t>(edge.from.value())].T_world_node)
+            .inverse() *
+        std::get<SE3>(map.nodes[static_cast<std::size_t>(edge.to.value())].T_world_node);
     EXPECT_LT((std::get<SE3>(edge.T_from_to).inverse() * T_from_to).log().norm(), 1e-9);
   }
 }

@@ -196,10 +196,10 @@ TYPED_TEST(IncrementalOptimizerOf, ARevisedConstraintIsAsIfItHadBeenMeasuredSo) 
   GraphChange change;
   for (int c = 0; c < optimizer.constraints(); c += 7) {
     auto measured = std::get<RelativePoseConstraint>(optimizer.constraint(c));
-    measured.T_from_to =
-        other
-            .measure(static_cast<int>(measured.from.value()) - 10, static_cast<int>(measured.to.value()) - 10, 0.03)
-            .T_from_to;
+    measured.T_from_to = other
+                             .measure(static_cast<int>(measured.from.value()) - 10,
+                                      static_cast<int>(measured.to.value()) - 10, 0.03)
+                             .T_from_to;
     measured.information *= 4;
     change.revised.push_back({c, measured});
   }
@@ -232,7 +232,8 @@ TYPED_TEST(IncrementalOptimizerOf, RelativeCovarianceIsThatOfTheWholeGraph) {
   optimizer.finish();
   const PoseMarginals marginals(optimizer.graph());
   const Information expected = marginals.relative_covariance(NodeId(15), NodeId(40));
-  EXPECT_LT((optimizer.relative_covariance(NodeId(15), NodeId(40)) - expected).norm(), 1e-3 * expected.norm());
+  EXPECT_LT((optimizer.relative_covariance(NodeId(15), NodeId(40)) - expected).norm(),
+            1e-3 * expected.norm());
 }
 
 TEST(IncrementalOptimizer, RefusesWhatDoesNotFitAndChangesNothing) {

@@ -90,7 +90,7 @@ TEST(InertialFactors, DerivativesAreThoseOfFiniteDifferences) {
 
 /// Flow from which a turn was taken out that is wrong by `wrong`.
 FlowMeasurement with_rotation(const SwayingBody& flight, double from, double to,
-                       const Eigen::Vector3d& wrong, Random& random) {
+                              const Eigen::Vector3d& wrong, Random& random) {
   FlowMeasurement flow = flight.flow(from, to, random);
   Eigen::Matrix3d J;
   J << 0.1, 1.1, 0, -0.9, 0, 0.2, 0.05, 0, 0.1;

@@ -208,9 +208,9 @@ TYPED_TEST(CertificateOf, AutoKeepsAGoodFile) {
   const Walk<TypeParam> walk(40, 0.02);
   PackedGraph<TypeParam> graph = pack<TypeParam>(walk.graph);
   LocalSolver<TypeParam> first({}), second({});
-  const double lowest =
-      solve_from_initialization(graph, PoseGraphInitialization::kChordal, RotationError::kLog, first)
-          .solution.cost_final;
+  const double lowest = solve_from_initialization(graph, PoseGraphInitialization::kChordal,
+                                                  RotationError::kLog, first)
+                            .solution.cost_final;
   const InitializedSolution again =
       solve_from_initialization(graph, PoseGraphInitialization::kAuto, RotationError::kLog, second);
   EXPECT_EQ(again.used, PoseGraphInitialization::kFile);
@@ -221,11 +221,13 @@ TEST(PoseGraphInitialization, EveryStartEndsInTheSameMinimumOfAnEasyGraph) {
   const Walk<SE3> walk(40, 0.02);
   double lowest = 0;
   for (const PoseGraphInitialization start :
-       {PoseGraphInitialization::kAuto, PoseGraphInitialization::kFile, PoseGraphInitialization::kOdometry,
-        PoseGraphInitialization::kChordal, PoseGraphInitialization::kCertified}) {
+       {PoseGraphInitialization::kAuto, PoseGraphInitialization::kFile,
+        PoseGraphInitialization::kOdometry, PoseGraphInitialization::kChordal,
+        PoseGraphInitialization::kCertified}) {
     PackedGraph<SE3> graph = pack<SE3>(walk.graph);
     LocalSolver<SE3> solver({});
-    const InitializedSolution found = solve_from_initialization(graph, start, RotationError::kLog, solver);
+    const InitializedSolution found =
+        solve_from_initialization(graph, start, RotationError::kLog, solver);
     if (lowest == 0) lowest = found.solution.cost_final;
     EXPECT_NEAR(found.solution.cost_final, lowest, 1e-6 * lowest) << to_string(start);
     if (start != PoseGraphInitialization::kAuto) {

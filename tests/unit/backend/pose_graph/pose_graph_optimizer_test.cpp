@@ -149,7 +149,8 @@ TYPED_TEST(PoseGraphOptimizerOf, ANodeThatIsOnlyPartlyDeterminedStaysFinite) {
   auto leaf = constraint<Group>(21, 90, walk.truth[1]);
   leaf.information(0, 0) = 0;
   Random random(4);
-  walk.graph.nodes.push_back({NodeId(90), walk.truth[11] * random_element<Group>(random, 1, 0.3), false});
+  walk.graph.nodes.push_back(
+      {NodeId(90), walk.truth[11] * random_element<Group>(random, 1, 0.3), false});
   const double before = optimize_pose_graph(walk.graph, tight()).chi2_final;
   walk.graph.constraints.emplace_back(leaf);
   for (const RotationError convention : {RotationError::kLog, RotationError::kQuaternion}) {

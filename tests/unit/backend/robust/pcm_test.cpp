@@ -26,8 +26,12 @@ PoseGraph line(int n) {
 }
 
 void add_loop(PoseGraph& graph, int from, int to, const SE2& T_from_to) {
-  graph.constraints.emplace_back(RelativePoseConstraint{
-      NodeId(from), NodeId(to), T_from_to, Information::Identity(3, 3) * 100.0, ConstraintSource::kLoop, {}});
+  graph.constraints.emplace_back(RelativePoseConstraint{NodeId(from),
+                                                        NodeId(to),
+                                                        T_from_to,
+                                                        Information::Identity(3, 3) * 100.0,
+                                                        ConstraintSource::kLoop,
+                                                        {}});
 }
 
 TEST(OdometryChain, AddsUpMotionAndVarianceAlongALine) {

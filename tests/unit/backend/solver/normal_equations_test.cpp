@@ -26,9 +26,9 @@ class Observations : public testing::Test {
     information << 4, 1, 0.5, 1, 3, -0.2, 0.5, -0.2, 2;
     if (kDim == 2) information.row(2).setZero(), information.col(2).setZero();
     graph.observations = {{0, 2, {2, 1, 1}, information},
-                    {0, 3, {-1, 1, 1}, 2 * information},
-                    {1, 3, {-2, 2, 0}, information},
-                    {1, 4, {0, -3, 0}, information}};
+                          {0, 3, {-1, 1, 1}, 2 * information},
+                          {1, 3, {-2, 2, 0}, information},
+                          {1, 4, {0, -3, 0}, information}};
     return graph;
   }
 };

@@ -107,8 +107,10 @@ TYPED_TEST(PoseMarginalsOf, CarryRelativePosesThroughTheJacobianOfTheirError) {
     J.middleCols(j * dof, dof) = at.J_to;
     return Eigen::MatrixXd(J * dense * J.transpose());
   };
-  EXPECT_LT((marginals.relative_covariance(NodeId(13), NodeId(20)) - expected(3, 10)).norm(), 1e-9 * dense.norm());
-  EXPECT_LT((marginals.relative_covariance(NodeId(10), NodeId(15)) - expected(0, 5)).norm(), 1e-9 * dense.norm());
+  EXPECT_LT((marginals.relative_covariance(NodeId(13), NodeId(20)) - expected(3, 10)).norm(),
+            1e-9 * dense.norm());
+  EXPECT_LT((marginals.relative_covariance(NodeId(10), NodeId(15)) - expected(0, 5)).norm(),
+            1e-9 * dense.norm());
   for (std::size_t k = 0; k < graph.constraints.size(); ++k) {
     const auto& edge = std::get<RelativePoseConstraint>(graph.constraints[k]);
     const Eigen::MatrixXd covariance =

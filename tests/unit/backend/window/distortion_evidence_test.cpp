@@ -63,7 +63,9 @@ SlidingWindow look_about(double k1, bool depth, int views) {
   return window;
 }
 
-double found(const DistortionEvidence& evidence) { return -evidence.gradient / evidence.information; }
+double found(const DistortionEvidence& evidence) {
+  return -evidence.gradient / evidence.information;
+}
 
 TEST(DistortionEvidence, TellsTheDistortionThatTheImagesHave) {
   for (const bool depth : {false, true})

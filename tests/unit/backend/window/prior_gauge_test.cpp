@@ -104,7 +104,8 @@ TEST(PriorGauge, RelativeToItsFirstKeyframeNoLongerResistsCommonMotions) {
                            prior.keyframe_columns(1) * T_second_first.adjoint() -
                            prior.plane_columns(0) * J_plane * T_first.adjoint();
   common.J.middleCols<3>(3) +=
-      prior.manhattan_columns(0) * (prior.R_map_manhattan_lin[0].inverse() * T_first.rotation()).matrix();
+      prior.manhattan_columns(0) *
+      (prior.R_map_manhattan_lin[0].inverse() * T_first.rotation()).matrix();
   const auto [H, b] = without(common, 0, 6);
   hold_first(prior);
   EXPECT_EQ(prior.keyframes, test::ids<KeyframeId>({4}));

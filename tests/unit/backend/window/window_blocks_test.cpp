@@ -38,8 +38,9 @@ TEST(WindowBlocks, HoldTheEstimatesInTheOrderOfKindsAndIds) {
             Eigen::Vector3d(-1, 0, 7));
   EXPECT_EQ((Eigen::Vector3d(Eigen::Map<Eigen::Vector3d>(blocks.point(1)))),
             Eigen::Vector3d(1, 2, 9));
-  EXPECT_LT(VariableBlock<Line3>::load(blocks.line(1)).minus(state.lines.at(LineId(8)).line_map).norm(),
-            1e-12);
+  EXPECT_LT(
+      VariableBlock<Line3>::load(blocks.line(1)).minus(state.lines.at(LineId(8)).line_map).norm(),
+      1e-12);
 }
 
 TEST(WindowBlocks, LieInOneArrayWhoseAddressesDecideTheOrderOfElimination) {
@@ -48,8 +49,10 @@ TEST(WindowBlocks, LieInOneArrayWhoseAddressesDecideTheOrderOfElimination) {
   for (int k = 0; k < 3; ++k)
     EXPECT_EQ(blocks.at(keyframe_variable(KeyframeId(k))) + 7,
               blocks.at(keyframe_variable(KeyframeId(k + 1))));
-  EXPECT_EQ(blocks.at(keyframe_variable(KeyframeId(3))) + 7, blocks.at(manhattan_variable(ManhattanFrameId(3))));
-  EXPECT_EQ(blocks.at(manhattan_variable(ManhattanFrameId(3))) + 4, blocks.at(manhattan_variable(FactorScene::kManhattanFrame)));
+  EXPECT_EQ(blocks.at(keyframe_variable(KeyframeId(3))) + 7,
+            blocks.at(manhattan_variable(ManhattanFrameId(3))));
+  EXPECT_EQ(blocks.at(manhattan_variable(ManhattanFrameId(3))) + 4,
+            blocks.at(manhattan_variable(FactorScene::kManhattanFrame)));
   EXPECT_EQ(blocks.at(manhattan_variable(FactorScene::kManhattanFrame)) + 4, blocks.line(0));
   EXPECT_EQ(blocks.line(1) + 5, blocks.at(plane_variable(FactorScene::kPlane)));
 }

@@ -46,7 +46,7 @@ void add_observations(SlidingWindow& window, const FactorScene& scene) {
     add_plane_observation(window,
                           {KeyframeId(id), FactorScene::kPlane, transform_to(T, scene.plane), I});
     add_manhattan_observation(window, {KeyframeId(id), FactorScene::kManhattanFrame,
-                                   T.rotation().inverse() * scene.R_map_manhattan, I});
+                                       T.rotation().inverse() * scene.R_map_manhattan, I});
   }
 }
 
@@ -220,7 +220,8 @@ TEST(WindowFactor, BetweenPlanesAloneHoldsNoneOfThemAndLeavesWithThem) {
   window.add_plane(PlaneId(11), wall);
   add_plane_observation(window, {KeyframeId(0), FactorScene::kPlane,
                                  transform_to(scene.T_map_cam[0], scene.plane), I});
-  add_plane_observation(window, {KeyframeId(2), PlaneId(11), transform_to(scene.T_map_cam[2], wall), I});
+  add_plane_observation(window,
+                        {KeyframeId(2), PlaneId(11), transform_to(scene.T_map_cam[2], wall), I});
   window.add({std::make_shared<PlaneOrthogonalFactor>(0.01),
               {plane_variable(FactorScene::kPlane), plane_variable(PlaneId(11))}});
   const Eigen::Matrix3d before = *plane_covariance(window, PlaneId(11), KeyframeId(3));
@@ -228,7 +229,8 @@ TEST(WindowFactor, BetweenPlanesAloneHoldsNoneOfThemAndLeavesWithThem) {
   EXPECT_EQ(window.planes(), std::vector{PlaneId(11)});
   for (const WindowFactor& factor : window.factors())
     EXPECT_FALSE(touches(factor, plane_variable(FactorScene::kPlane)));
-  EXPECT_LT((*plane_covariance(window, PlaneId(11), KeyframeId(3)) - before).norm(), 1e-6 * before.norm())
+  EXPECT_LT((*plane_covariance(window, PlaneId(11), KeyframeId(3)) - before).norm(),
+            1e-6 * before.norm())
       << "what it says of the plane that stays is in the prior";
 }
 

@@ -252,12 +252,17 @@ TEST(WindowLandmarks, RefuseWhatTheirContractExcludes) {
   EXPECT_THROW(window.add_line(LineId(2), Line3()), ArgumentError);
   EXPECT_THROW(window.add_plane(PlaneId(3), Plane3()), ArgumentError);
   EXPECT_THROW(window.remove_line(LineId(7)), ArgumentError);
-  EXPECT_THROW(window.add_line_observation({KeyframeId(6), LineId(2), {1, 2}, {3, 4}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(7), {1, 2}, {3, 4}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(2), {1, nan}, {3, 4}, 1}), ArgumentError);
-  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(2), {1, 2}, {3, 4}, 0}), ArgumentError);
+  EXPECT_THROW(window.add_line_observation({KeyframeId(6), LineId(2), {1, 2}, {3, 4}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(7), {1, 2}, {3, 4}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(2), {1, nan}, {3, 4}, 1}),
+               ArgumentError);
+  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(2), {1, 2}, {3, 4}, 0}),
+               ArgumentError);
   window.add_line_observation({KeyframeId(5), LineId(2), {1, 2}, {3, 4}, 1});
-  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(2), {1, 2}, {3, 4}, 1}), ArgumentError);
+  EXPECT_THROW(window.add_line_observation({KeyframeId(5), LineId(2), {1, 2}, {3, 4}, 1}),
+               ArgumentError);
   EXPECT_THROW(add_height(window, {KeyframeId(5), PlaneId(7), 1.65, 0.1}), ArgumentError);
   EXPECT_THROW(add_height(window, {KeyframeId(6), PlaneId(3), 1.65, 0.1}), ArgumentError);
   EXPECT_THROW(add_height(window, {KeyframeId(5), PlaneId(3), -1.65, 0.1}), ArgumentError);

@@ -33,8 +33,8 @@ struct Observations {
 };
 
 /// As drive_window, every keyframe seeing a world with noise of its own.
-SlidingWindow drive(const WindowWorld& manhattan_frame, WindowDrive options, const Observations& observations,
-                    double noise) {
+SlidingWindow drive(const WindowWorld& manhattan_frame, WindowDrive options,
+                    const Observations& observations, double noise) {
   Random random(31);
   SlidingWindow window(options.options, manhattan_frame.camera);
   for (std::size_t k = 0; k < manhattan_frame.T_map_cam.size(); ++k) {
@@ -47,7 +47,8 @@ SlidingWindow drive(const WindowWorld& manhattan_frame, WindowDrive options, con
     window.add_keyframe(KeyframeId(id), T_map_cam);
     add_view(window, manhattan_frame, KeyframeId(id), 1, random);
     if (k == 0) {
-      window.add_manhattan_frame(ManhattanFrameId(7), kR_map_manhattan * SO3::exp({0.02, 0.01, -0.01}));
+      window.add_manhattan_frame(ManhattanFrameId(7),
+                                 kR_map_manhattan * SO3::exp({0.02, 0.01, -0.01}));
       window.keep(manhattan_variable(ManhattanFrameId(7)), observations.kept);
     }
     if (k == 1 && observations.held) window.hold_manhattan_frame(ManhattanFrameId(7));
@@ -55,9 +56,10 @@ SlidingWindow drive(const WindowWorld& manhattan_frame, WindowDrive options, con
     for (int i = 0; i < 3; ++i) error[i] = noise * observations.sigma_rad * random.normal();
     if (id <= observations.last)
       add_manhattan_observation(
-          window, {KeyframeId(id), ManhattanFrameId(7),
-                   manhattan_frame.T_map_cam[k].rotation().inverse() * kR_map_manhattan * SO3::exp(error),
-                   Eigen::Matrix3d::Identity() / (observations.sigma_rad * observations.sigma_rad)});
+          window,
+          {KeyframeId(id), ManhattanFrameId(7),
+           manhattan_frame.T_map_cam[k].rotation().inverse() * kR_map_manhattan * SO3::exp(error),
+           Eigen::Matrix3d::Identity() / (observations.sigma_rad * observations.sigma_rad)});
     if (k > 0) {
       const WindowSummary summary = window.optimize();
       EXPECT_TRUE(summary.outcome) << summary.outcome.reason;
@@ -73,7 +75,9 @@ TEST(WindowWorlds, AreFoundWhereTheirObservationsSay) {
   options.noise_px = 0;
   const WindowWorld manhattan_frame = make_window_world(options, random);
   const SlidingWindow window = drive(manhattan_frame, WindowDrive::exact(20), {}, 0);
-  EXPECT_LT((window.manhattan_frame(ManhattanFrameId(7))->inverse() * kR_map_manhattan).log().norm(), 1e-6);
+  EXPECT_LT(
+      (window.manhattan_frame(ManhattanFrameId(7))->inverse() * kR_map_manhattan).log().norm(),
+      1e-6);
   EXPECT_LT(distance_m(window.pose(KeyframeId(11)), manhattan_frame.T_map_cam[11]), 1e-5);
 }
 
@@ -91,7 +95,11 @@ TEST(WindowWorlds, LeaveTheSamePosesInThePriorAsInTheBatch) {
     EXPECT_LT(distance_m(window.pose(id), batch.pose(id)), 1e-5);
     EXPECT_LT(angle_rad(window.pose(id), batch.pose(id)), 1e-6);
   }
-  EXPECT_LT((window.manhattan_frame(ManhattanFrameId(7))->inverse() * *batch.manhattan_frame(ManhattanFrameId(7))).log().norm(), 1e-6);
+  EXPECT_LT((window.manhattan_frame(ManhattanFrameId(7))->inverse() *
+             *batch.manhattan_frame(ManhattanFrameId(7)))
+                .log()
+                .norm(),
+            1e-6);
   const Matrix6d a = relative_information(window, KeyframeId(7), KeyframeId(9)),
                  b = relative_information(batch, KeyframeId(7), KeyframeId(9));
   EXPECT_LT((a - b).norm(), 0.02 * b.norm());
@@ -106,8 +114,10 @@ TEST(WindowWorlds, AreKnownFromAHeldKeyframeAsItsObservationIs) {
   window.add_manhattan_frame(ManhattanFrameId(3), kR_map_manhattan);
   EXPECT_FALSE(manhattan_covariance(window, ManhattanFrameId(3), KeyframeId(0)));
   const Eigen::Vector3d information(1e4, 4e4, 9e4);
-  add_manhattan_observation(window, {KeyframeId(0), ManhattanFrameId(3), kR_map_manhattan, information.asDiagonal()});
-  const Eigen::Matrix3d covariance = *manhattan_covariance(window, ManhattanFrameId(3), KeyframeId(0));
+  add_manhattan_observation(
+      window, {KeyframeId(0), ManhattanFrameId(3), kR_map_manhattan, information.asDiagonal()});
+  const Eigen::Matrix3d covariance =
+      *manhattan_covariance(window, ManhattanFrameId(3), KeyframeId(0));
   EXPECT_LT((covariance.diagonal() - information.cwiseInverse()).norm(), 1e-10);
   EXPECT_NEAR(covariance(0, 1), 0, 1e-12);
 }
@@ -117,14 +127,16 @@ TEST(WindowWorlds, LeaveWithTheLastKeyframeThatSawThemUnlessTheyAreKept) {
   const WindowWorld manhattan_frame = make_window_world(stereo_world(), random);
   Observations observations;
   observations.last = 3;
-  EXPECT_TRUE(drive(manhattan_frame, WindowDrive::exact(5), observations, 1).manhattan_frames().empty());
+  EXPECT_TRUE(
+      drive(manhattan_frame, WindowDrive::exact(5), observations, 1).manhattan_frames().empty());
   observations.kept = true;
   SlidingWindow window = drive(manhattan_frame, WindowDrive::exact(5), observations, 1);
   EXPECT_EQ(window.manhattan_frames(), std::vector{ManhattanFrameId(7)});
   // Unseen for a while it is known less well than a keyframe that sees it knows it.
   const Eigen::Matrix3d unseen = *manhattan_covariance(window, ManhattanFrameId(7), KeyframeId(11));
   const SlidingWindow seen = drive(manhattan_frame, WindowDrive::exact(5), {}, 1);
-  EXPECT_GT(unseen.trace(), manhattan_covariance(seen, ManhattanFrameId(7), KeyframeId(11))->trace());
+  EXPECT_GT(unseen.trace(),
+            manhattan_covariance(seen, ManhattanFrameId(7), KeyframeId(11))->trace());
   EXPECT_LT(std::sqrt(unseen.trace()), 0.03);
 }
 
@@ -145,7 +157,8 @@ TEST(WindowWorlds, HoldingOneMovesTheWindowAsAWholeOnly) {
       EXPECT_LT(distance_m(T_held_free * free.pose(id), held.pose(id)), 1e-4) << "keyframe " << id;
     // From the second keyframe on it was not moved.
     const SO3 R_map_manhattan = kR_map_manhattan * SO3::exp({0.02, 0.01, -0.01});
-    EXPECT_LT((held.manhattan_frame(ManhattanFrameId(7))->inverse() * R_map_manhattan).log().norm(), 1e-9);
+    EXPECT_LT((held.manhattan_frame(ManhattanFrameId(7))->inverse() * R_map_manhattan).log().norm(),
+              1e-9);
   }
 }
 
@@ -181,10 +194,15 @@ TEST(WindowWorlds, FaultyOnesAreRefused) {
   window.add_manhattan_frame(ManhattanFrameId(1), SO3());
   EXPECT_THROW(window.add_manhattan_frame(ManhattanFrameId(1), SO3()), ArgumentError);
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  EXPECT_THROW(add_manhattan_observation(window, {KeyframeId(5), ManhattanFrameId(1), SO3(), I}), ArgumentError);
-  EXPECT_THROW(add_manhattan_observation(window, {KeyframeId(0), ManhattanFrameId(2), SO3(), I}), ArgumentError);
-  EXPECT_THROW(add_manhattan_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), -I}), ArgumentError);
-  EXPECT_THROW(add_manhattan_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), 0 * I}), ArgumentError);
+  EXPECT_THROW(add_manhattan_observation(window, {KeyframeId(5), ManhattanFrameId(1), SO3(), I}),
+               ArgumentError);
+  EXPECT_THROW(add_manhattan_observation(window, {KeyframeId(0), ManhattanFrameId(2), SO3(), I}),
+               ArgumentError);
+  EXPECT_THROW(add_manhattan_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), -I}),
+               ArgumentError);
+  EXPECT_THROW(
+      add_manhattan_observation(window, {KeyframeId(0), ManhattanFrameId(1), SO3(), 0 * I}),
+      ArgumentError);
   EXPECT_THROW(window.keep(manhattan_variable(ManhattanFrameId(2))), ArgumentError);
   EXPECT_THROW(window.hold_manhattan_frame(ManhattanFrameId(2)), ArgumentError);
   EXPECT_FALSE(window.manhattan_frame(ManhattanFrameId(2)));

@@ -80,7 +80,8 @@ TEST(WindowMarginalization, HoldsTheScaleOfAMonoDriveThroughThePrior) {
   EXPECT_NEAR(scale, 1, 0.02);
   for (std::int64_t id = 9; id < 12; ++id) EXPECT_NEAR(length_m(7, id), scale, 1e-6);
   // Position of the first keyframe, fixed and gone: the path still starts there.
-  EXPECT_LT((window.pose(KeyframeId(11)).translation() - scale * manhattan_frame.T_map_cam[11].translation())
+  EXPECT_LT((window.pose(KeyframeId(11)).translation() -
+             scale * manhattan_frame.T_map_cam[11].translation())
                 .norm(),
             1e-5);
 }
@@ -98,7 +99,8 @@ TEST(WindowMarginalization, TakesTheOldestAndWhatOnlyItAndOthersButTheNewestSaw)
   fill_window(window, manhattan_frame, random, 0, 0, 0);
   // Landmark 0 (keyframes 0 to 2) is seen by the newest too: it stays, without its oldest view.
   const Eigen::Vector3d p_cam = manhattan_frame.T_map_cam[4].inverse() * manhattan_frame.points[0];
-  window.add_observation({KeyframeId(4), LandmarkId(0), *manhattan_frame.camera.project(p_cam), 1, {}, 1});
+  window.add_observation(
+      {KeyframeId(4), LandmarkId(0), *manhattan_frame.camera.project(p_cam), 1, {}, 1});
   EXPECT_EQ(window.marginalize(), test::ids<KeyframeId>({0}));
   EXPECT_EQ(window.keyframes(), test::ids<KeyframeId>({1, 2, 3, 4}));
   EXPECT_EQ(window.observations(LandmarkId(0)).size(), 3u);
@@ -113,8 +115,10 @@ TEST(WindowMarginalization, TheInformationOfADriveIsNotMoreThanThatOfItsBatch) {
   WindowWorldOptions options = stereo_world(0.5);
   options.views_per_landmark = 6;  // longer than the window: observations are dropped
   const WindowWorld manhattan_frame = make_window_world(options, random);
-  const Matrix6d window = relative_information(drive(manhattan_frame, 4, 9), KeyframeId(9), KeyframeId(11));
-  const Matrix6d batch = relative_information(drive(manhattan_frame, 100, 9), KeyframeId(9), KeyframeId(11));
+  const Matrix6d window =
+      relative_information(drive(manhattan_frame, 4, 9), KeyframeId(9), KeyframeId(11));
+  const Matrix6d batch =
+      relative_information(drive(manhattan_frame, 100, 9), KeyframeId(9), KeyframeId(11));
   // Largest generalized eigenvalue <= 1, but for the difference of the linearization points.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> eigen(window, batch);
   EXPECT_LT(eigen.eigenvalues()[5], 1.05);
@@ -130,7 +134,8 @@ TEST(WindowMarginalization, HoldsTheOldestKeyframeWhereThePriorIsEmpty) {
     const WindowWorld manhattan_frame = make_window_world(options, random);
     const SlidingWindow window = drive(manhattan_frame, 4, 15, 0.2);
     ASSERT_EQ(window.keyframes().front(), KeyframeId(2));
-    EXPECT_LT(distance_m(window.pose(KeyframeId(5)), manhattan_frame.T_map_cam[5]), stereo ? 1e-6 : 0.1);
+    EXPECT_LT(distance_m(window.pose(KeyframeId(5)), manhattan_frame.T_map_cam[5]),
+              stereo ? 1e-6 : 0.1);
     // Optimizing again moves nothing: gauge and scale are held.
     SlidingWindow again = drive(manhattan_frame, 4, 15, 0.2);
     ASSERT_TRUE(again.optimize().outcome);
@@ -181,8 +186,8 @@ TEST(WindowHoldOldest, LeavesTheOldestKeyframeWhereItIs) {
   const SE3 before = window.pose(window.keyframes().front());
   const KeyframeId oldest = window.keyframes().front(), last = window.keyframes().back(),
                    next = ++KeyframeId(last);
-  window.add_keyframe(next,
-                      window.pose(last) * (manhattan_frame.T_map_cam[10].inverse() * manhattan_frame.T_map_cam[11]));
+  window.add_keyframe(next, window.pose(last) * (manhattan_frame.T_map_cam[10].inverse() *
+                                                 manhattan_frame.T_map_cam[11]));
   test::add_view(window, manhattan_frame, next, 1, random);
   ASSERT_TRUE(window.optimize().outcome);
   EXPECT_EQ(distance_m(window.pose(oldest), before), 0);

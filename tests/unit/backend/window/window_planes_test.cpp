@@ -105,10 +105,10 @@ TEST(WindowPlanes, AreKnownFromAKeyframeWhicheverKeyframeIsHeld) {
   const Eigen::Matrix3d covariance = *plane_covariance(window, PlaneId(3), KeyframeId(1));
   EXPECT_LT((covariance - expected).norm(), 1e-6 * expected.norm());
   // And the first, held, knows it as it measured it.
-  EXPECT_LT(
-      (*plane_covariance(window, PlaneId(3), KeyframeId(0)) * information - Eigen::Matrix3d::Identity())
-          .norm(),
-      1e-6);
+  EXPECT_LT((*plane_covariance(window, PlaneId(3), KeyframeId(0)) * information -
+             Eigen::Matrix3d::Identity())
+                .norm(),
+            1e-6);
 }
 
 TEST(WindowPlanes, LeaveWithTheLastKeyframeThatMeasuredThemUnlessTheyAreKept) {
@@ -129,8 +129,7 @@ TEST(WindowPlanes, LeaveWithTheLastKeyframeThatMeasuredThemUnlessTheyAreKept) {
       }
       window.marginalize();
     }
-    EXPECT_EQ(window.planes(),
-              kept ? std::vector{PlaneId(kPlane)} : std::vector<PlaneId>());
+    EXPECT_EQ(window.planes(), kept ? std::vector{PlaneId(kPlane)} : std::vector<PlaneId>());
     if (!kept) continue;
     // Unseen for a while it is known less well than a keyframe that measures it knows it.
     const SlidingWindow seen = drive_window(world, WindowDrive::exact(5), 3);
@@ -171,7 +170,8 @@ TEST(WindowPlanes, AnOutlierIsSeenInItsResidualAndGoesAlone) {
   wrong.plane_cam = wrong.plane_cam.plus({0.2, -0.1, 0.1});
   SlidingWindow window = drive_window(spoiled, drive, 7);
   EXPECT_GT(residual_sigmas(window, window_factor(wrong))->norm(), 10);
-  const std::vector<WindowVariable> between{keyframe_variable(keyframe), plane_variable(PlaneId(kPlane))};
+  const std::vector<WindowVariable> between{keyframe_variable(keyframe),
+                                            plane_variable(PlaneId(kPlane))};
   for (const WindowFactor& seen : plane_observations(window)) {
     if (seen.variables != between) continue;
     window.remove(seen);
@@ -211,7 +211,8 @@ TEST(WindowPlanes, MeasureTheUnitOfLength) {
   window.add_plane(PlaneId(1), Plane3(Eigen::Vector3d::UnitZ(), 3));
   window.rescale(2);
   EXPECT_NEAR(std::abs(window.plane(PlaneId(1))->distance()), 6, 1e-12);
-  add_plane_observation(window, {KeyframeId(0), PlaneId(1), *window.plane(PlaneId(1)), Eigen::Matrix3d::Identity()});
+  add_plane_observation(
+      window, {KeyframeId(0), PlaneId(1), *window.plane(PlaneId(1)), Eigen::Matrix3d::Identity()});
   EXPECT_THROW(window.rescale(2), ArgumentError);
 }
 
@@ -220,16 +221,21 @@ TEST(WindowPlanes, FaultyOnesAreRefused) {
   window.add_keyframe(KeyframeId(0), SE3());
   window.add_plane(PlaneId(1), Plane3());
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(5), PlaneId(1), Plane3(), I}), ArgumentError);
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(2), Plane3(), I}), ArgumentError);
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), -I}), ArgumentError);
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), 0 * I}), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(5), PlaneId(1), Plane3(), I}),
+               ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(2), Plane3(), I}),
+               ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), -I}),
+               ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), 0 * I}),
+               ArgumentError);
   add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), I});
-  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), I}), ArgumentError);
+  EXPECT_THROW(add_plane_observation(window, {KeyframeId(0), PlaneId(1), Plane3(), I}),
+               ArgumentError);
   EXPECT_THROW(window.keep(plane_variable(PlaneId(2))), ArgumentError);
   EXPECT_THROW(window.remove_plane(PlaneId(2)), ArgumentError);
-  EXPECT_FALSE(
-      residual_sigmas(window, window_factor(PlaneObservation{KeyframeId(0), PlaneId(2), Plane3(), I})));
+  EXPECT_FALSE(residual_sigmas(
+      window, window_factor(PlaneObservation{KeyframeId(0), PlaneId(2), Plane3(), I})));
 }
 
 }  // namespace

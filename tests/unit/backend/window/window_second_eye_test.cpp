@@ -86,8 +86,9 @@ TEST(SlidingWindowLines, OfStereoStayMetricWhenTheyAreMarginalized) {
   Random random = test::seeded_random(52);
   Drive drive = make_drive(6, random);
   // The last keyframe no longer sees half of the lines: they leave with the oldest.
-  std::erase_if(drive.observations,
-                [](const LineObservation& o) { return o.line.value() % 2 && o.keyframe == KeyframeId(5); });
+  std::erase_if(drive.observations, [](const LineObservation& o) {
+    return o.line.value() % 2 && o.keyframe == KeyframeId(5);
+  });
   SlidingWindow window = stretched(drive, 1.05, {.max_keyframes = 4});
   ASSERT_TRUE(window.optimize().outcome);
   EXPECT_EQ(window.marginalize().size(), 2u);

@@ -90,7 +90,8 @@ TEST(PlaneNormal, IsOpenWithoutViewsOrAfterATurn) {
   EXPECT_FALSE(estimator.add(Matrix3d::Identity()));
   for (int i = 1; i <= 3; ++i) {
     const SE3 rotation(SO3::exp(0.05 * i * Vector3d(0.5, 1, 0.2)), Vector3d::Zero());
-    EXPECT_TRUE(estimator.add(homography_from_plane(calibration(), rotation, {Vector3d::UnitZ(), 1})));
+    EXPECT_TRUE(
+        estimator.add(homography_from_plane(calibration(), rotation, {Vector3d::UnitZ(), 1})));
   }
   EXPECT_EQ(estimator.estimate().outcome.code, Code::kDegenerate);
 }
@@ -183,9 +184,9 @@ TEST(NullDistribution, KnowsATextureThatRepeats) {
   EXPECT_LT(unique.bound(2), 0.7);
   EXPECT_EQ(unique.trials, 3);
   EXPECT_GT(of(often).rival, 0.9);
-  EXPECT_THROW(
-      std::ignore = null_distribution(once, corners, PlanarTemplate(once, corners, 2, 3000), esm, 1),
-      ArgumentError);
+  EXPECT_THROW(std::ignore =
+                   null_distribution(once, corners, PlanarTemplate(once, corners, 2, 3000), esm, 1),
+               ArgumentError);
 }
 
 }  // namespace

@@ -32,9 +32,9 @@ Image look(const std::vector<Eigen::Vector4d>& planes, const Observation& observ
     for (int x = 0; x < c.width; ++x) {
       const test::Seen seen = test::see_planes({(x - c.cx) / c.fx, (y - c.cy) / c.fy, 1}, planes);
       if (!(seen.depth > 0) || !std::isfinite(seen.depth)) continue;
-      depth.at<float>(y, x) =
-          static_cast<float>(1 / (1 / seen.depth + static_cast<double>(noise.at<float>(
-                                                       y / observation.block_px, x / observation.block_px))));
+      depth.at<float>(y, x) = static_cast<float>(
+          1 / (1 / seen.depth + static_cast<double>(noise.at<float>(y / observation.block_px,
+                                                                    x / observation.block_px))));
     }
   return depth;
 }

@@ -13,7 +13,7 @@ const Camera kCamera = pinhole(640, 480, 500);
 const SE3 kSecond = pose({0, -0.05, 0}, {1, 0, 0}), kThird = pose({0, -0.1, 0.1}, {1.5, 0.4, 0.3});
 
 std::vector<PointMeasurement> observations_of(const Eigen::Vector3d& point_ref,
-                                   const std::vector<SE3>& T_ref_cam) {
+                                              const std::vector<SE3>& T_ref_cam) {
   std::vector<PointMeasurement> observations;
   for (const SE3& T : T_ref_cam)
     observations.push_back({T, *kCamera.project(T.inverse() * point_ref)});
@@ -69,7 +69,8 @@ TEST(Triangulation, RefusesLittleParallax) {
 
 TEST(Triangulation, RefusesAPointBehindTheCameras) {
   // Rays that diverge meet behind both cameras.
-  std::vector<PointMeasurement> observations = observations_of({0.5, 0, 5}, {SE3(), pose({0, 0, 0}, {1, 0, 0})});
+  std::vector<PointMeasurement> observations =
+      observations_of({0.5, 0, 5}, {SE3(), pose({0, 0, 0}, {1, 0, 0})});
   std::swap(observations[0].px, observations[1].px);
   EXPECT_EQ(triangulate(kCamera, observations, 0.01, 1).outcome.code, Code::kDegenerate);
 }

@@ -57,7 +57,8 @@ TEST(VentralMotion, ErrsAsItsCovarianceSaysFromFlowAndTurn) {
     const SO3 is_within_gate =
         T_1_2.rotation() *
         SO3::exp(rotation_sigma * Vector3d(random.normal(), random.normal(), random.normal()));
-    const KnownRotation turn{is_within_gate, rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity()};
+    const KnownRotation turn{is_within_gate,
+                             rotation_sigma * rotation_sigma * Eigen::Matrix3d::Identity()};
     const auto flow =
         derotate(kCamera, plane_flow(Vector3d::UnitZ(), 1.5, T_1_2, kPixelNoise, 100 + run), turn);
     const VentralMotion motion = ventral_motion(flow, Vector3d::UnitZ(), turn.covariance);
@@ -113,7 +114,8 @@ TEST(AffineFlow, DivergesWithTheShareOfTheDistanceLeftBehind) {
 }
 
 /// Flow beside a plane whose believed turn errs as `rotation_sigma` says.
-std::vector<DerotatedFlow> misturned(const SE3& T_1_2, double rotation_sigma, int run, Random& random) {
+std::vector<DerotatedFlow> misturned(const SE3& T_1_2, double rotation_sigma, int run,
+                                     Random& random) {
   const SO3 is_within_gate =
       T_1_2.rotation() *
       SO3::exp(rotation_sigma * Vector3d(random.normal(), random.normal(), random.normal()));
@@ -154,7 +156,8 @@ TEST(LateralBalance, ErrsAsItsSigmaSaysFromFlowAndTurn) {
   double sum2 = 0;
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
-    const LateralBalance balance = lateral_balance(misturned(T_1_2, rotation_sigma, run, random), turn);
+    const LateralBalance balance =
+        lateral_balance(misturned(T_1_2, rotation_sigma, run, random), turn);
     ASSERT_TRUE(balance.outcome);
     const double error = balance.balance - exact.balance;
     sum2 += error * error / (balance.sigma * balance.sigma);

@@ -67,8 +67,8 @@ TEST(FitField, LeavesAForestThatIsRightAlone) {
 
 TEST(FitField, SmoothsAwayTheErrorsOfAForest) {
   const SceneModel model = TrainingSet({stripes({0, 0, 0, 0, 0, 0}), stripes({1, 1, 1, 1, 1, 1})},
-                                  {0.1F, 0.1F, 0.6F, 0.1F, 0.1F, 0.1F,  //
-                                   0.9F, 0.9F, 0.9F, 0.4F, 0.9F, 0.9F})
+                                       {0.1F, 0.1F, 0.6F, 0.1F, 0.1F, 0.1F,  //
+                                        0.9F, 0.9F, 0.9F, 0.4F, 0.9F, 0.9F})
                                .fitted();
   EXPECT_GT(model.smoothness + model.relation_weight, 0);
 }
@@ -77,10 +77,10 @@ TEST(FitField, CountsOverlapNotOnlyPixels) {
   // One stripe of the rare class is right; smoothing it away would cost one stripe of eighteen, and
   // win two others.
   const SceneModel model = TrainingSet({stripes({0, 0, 0, 1, 0, 0}), stripes({0, 0, 0, 0, 0, 0}),
-                                   stripes({0, 0, 0, 0, 0, 0})},
-                                  {0.1F, 0.1F, 0.1F, 0.6F, 0.1F, 0.1F,  //
-                                   0.1F, 0.1F, 0.6F, 0.1F, 0.1F, 0.1F,  //
-                                   0.1F, 0.1F, 0.1F, 0.6F, 0.1F, 0.1F})
+                                        stripes({0, 0, 0, 0, 0, 0})},
+                                       {0.1F, 0.1F, 0.1F, 0.6F, 0.1F, 0.1F,  //
+                                        0.1F, 0.1F, 0.6F, 0.1F, 0.1F, 0.1F,  //
+                                        0.1F, 0.1F, 0.1F, 0.6F, 0.1F, 0.1F})
                                .fitted();
   EXPECT_EQ(model.smoothness, 0);
   EXPECT_EQ(model.relation_weight, 0);
@@ -89,14 +89,15 @@ TEST(FitField, CountsOverlapNotOnlyPixels) {
 TEST(FitField, SharpensWhatIsTooDoubtfulAndSoftensWhatIsTooSure) {
   const std::vector<SceneExample> examples(2, stripes({0, 0, 0, 1, 1, 1}));
   const float low = 0.3F, high = 0.7F;  // always right
-  EXPECT_EQ(TrainingSet(examples, {low, low, low, high, high, high, low, low, low, high, high, high})
-                .fitted()
-                .sharpness,
-            2);
+  EXPECT_EQ(
+      TrainingSet(examples, {low, low, low, high, high, high, low, low, low, high, high, high})
+          .fitted()
+          .sharpness,
+      2);
   // Right nine times of twelve, surer than that; stripes that differ in colour do not mend it.
   const float no = 0.04F, yes = 0.96F;
   const SceneModel sure = TrainingSet({stripes({0, 1, 0, 1, 0, 1}), stripes({0, 1, 0, 1, 0, 1})},
-                                 {no, yes, yes, yes, no, yes, no, no, no, yes, yes, yes})
+                                      {no, yes, yes, yes, no, yes, no, no, no, yes, yes, yes})
                               .fitted();
   EXPECT_LT(sure.sharpness, 1);
 }

@@ -100,7 +100,7 @@ TEST(SceneTrainingSet, ContextIsWhatTheFirstForestSaysAround) {
     for (int i = 0; i < 3; ++i)
       for (int d = 0; d < context_dimension(kClasses); ++d)
         EXPECT_EQ(training_set.rows.columns[static_cast<std::size_t>(kSuperpixelFeatures + d)]
-                                     [3 * e + static_cast<std::size_t>(i)],
+                                           [3 * e + static_cast<std::size_t>(i)],
                   expected.row(i)[d]);
   }
 }

@@ -44,7 +44,8 @@ TEST(ForestTraining, LearnsABorderThatNoSingleByteShows) {
   ASSERT_FALSE(trained.forest.problem());
   int right = 0, right_unseen = 0;
   for (std::size_t i = 0; i < training_set.label.size(); ++i) {
-    const std::array<std::uint8_t, 2> row = {training_set.columns[0][i], training_set.columns[1][i]};
+    const std::array<std::uint8_t, 2> row = {training_set.columns[0][i],
+                                             training_set.columns[1][i]};
     std::array<float, 2> shares;
     trained.forest.predict(row.data(), shares.data());
     EXPECT_NEAR(shares[0] + shares[1], 1, 1e-5);

@@ -13,7 +13,7 @@ using Code = Outcome::Code;
 const SE3 kTruth = pose({0.05, -0.1, 0.03}, {0.4, -0.2, 0.5});
 
 std::vector<SeenLine> observations(const LineScene& scene, const SE3& T_ref_cam, double noise_px,
-                                Random& random) {
+                                   Random& random) {
   std::vector<SeenLine> lines;
   for (std::size_t i = 0; i < scene.from.size(); ++i)
     if (const auto seen = scene.seen(i, T_ref_cam, noise_px, random))

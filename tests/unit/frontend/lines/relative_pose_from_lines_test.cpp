@@ -171,7 +171,7 @@ TEST(TranslationFromTwoViews, IsNeverTold) {
 
 /// Lines on a floor 1.4 m below, seen from two places.
 std::vector<PlaneLineObservation> floor_lines(const std::vector<double>& headings, const SE3& T_12,
-                                           double sigma, Random& random) {
+                                              double sigma, Random& random) {
   std::vector<PlaneLineObservation> lines;
   for (const double heading : headings) {
     const Eigen::Vector3d p(random.uniform(-2, 2), 1.4, random.uniform(3, 6));

@@ -39,7 +39,8 @@ TEST(VanishingDirectionTracker, NamesTheDirectionsInViewAndTheirTracks) {
     EXPECT_LT(cluster.sigma_rad, 0.02);
     for (const LineId id : cluster.tracks) {
       const auto i = static_cast<std::size_t>(id.value());
-      EXPECT_GT(std::abs((scene.to[i] - scene.from[i]).normalized().dot(cluster.d_ref)), 0.99) << id;
+      EXPECT_GT(std::abs((scene.to[i] - scene.from[i]).normalized().dot(cluster.d_ref)), 0.99)
+          << id;
     }
   }
 }

@@ -31,7 +31,8 @@ SquareCorners truth(const MarkerScene& scene, int marker, const SE3& T_world_cam
 
 double worst_px(const MarkerObservation& observation, const SquareCorners& corners) {
   double worst = 0;
-  for (int k = 0; k < 4; ++k) worst = std::max(worst, (observation.corners_px[k] - corners[k]).norm());
+  for (int k = 0; k < 4; ++k)
+    worst = std::max(worst, (observation.corners_px[k] - corners[k]).norm());
   return worst;
 }
 

@@ -55,7 +55,8 @@ TEST(MarkerFilter, KnowsThePoseWhereTheMarkerIsNear) {
   Random random = seeded_random(1);
   const MarkerLayout layout = layout_of(1);
   const SE3 T_world_cam = looking_at_origin(0.6, 0.5, 0.2, 0.4);
-  const MarkerPoseEstimate answer = filter_for(layout).observe(view_from(layout, T_world_cam, 1, random));
+  const MarkerPoseEstimate answer =
+      filter_for(layout).observe(view_from(layout, T_world_cam, 1, random));
   ASSERT_TRUE(answer.outcome) << answer.outcome.reason;
   const SE3 truth = T_world_cam * kBodyCam.inverse();
   const Vector6d error = (answer.observation.T_world_body.inverse() * truth).log();

@@ -16,7 +16,8 @@ const Camera kCamera = MarkerScene::usual_camera();
 constexpr double kSide_m = 0.2;
 
 /// What an exact detector with deviation `sigma_px` would say; noise by `random` if given.
-MarkerObservation observation_from(const SE3& T_cam_marker, double sigma_px, Random* random = nullptr) {
+MarkerObservation observation_from(const SE3& T_cam_marker, double sigma_px,
+                                   Random* random = nullptr) {
   MarkerObservation observation;
   PlacedMarker marker;
   marker.side_m = kSide_m;
@@ -49,7 +50,8 @@ TEST(MarkerPose, CovarianceIsThatOfManyTrials) {
   double sum = 0;
   constexpr int kTrials = 200;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const auto found = estimate_marker_poses(observation_from(truth, 0.1, &random), kSide_m, kCamera);
+    const auto found =
+        estimate_marker_poses(observation_from(truth, 0.1, &random), kSide_m, kCamera);
     ASSERT_TRUE(found.outcome);
     const Vector6d error = (found.poses[0].T_cam_marker.inverse() * truth).log();
     sum += error.dot(found.poses[0].covariance.ldlt().solve(error)) / 6;

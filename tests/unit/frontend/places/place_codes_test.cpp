@@ -233,7 +233,8 @@ TEST(CodeDatabase, FindsThePlaceSeenFromBesideByEveryCode) {
   const WordTree binary = words_of(true), real = words_of(false);
   for (const PlaceCode code :
        {PlaceCode::kBow, PlaceCode::kBowFloat, PlaceCode::kLlc, PlaceCode::kLandmarks}) {
-    const auto memory = make_code_database(code, small(), code == PlaceCode::kBow ? binary : real, 1);
+    const auto memory =
+        make_code_database(code, small(), code == PlaceCode::kBow ? binary : real, 1);
     for (int place = 0; place < 3; ++place)
       EXPECT_TRUE(memory->look_up_and_add(picture(place), {}).empty());
     const auto list = memory->look_up_and_add(picture(1, 6), ViewRange{0, 2});
@@ -256,8 +257,10 @@ TEST(CodeDatabase, AnswersNothingForABlankImage) {
 
 TEST(CodeDatabase, RefusesAVocabularyOfAnotherKind) {
   EXPECT_THROW((void)make_code_database(PlaceCode::kLlc, small(), {}, 1), ArgumentError);
-  EXPECT_THROW((void)make_code_database(PlaceCode::kLlc, small(), words_of(true), 1), ArgumentError);
-  EXPECT_THROW((void)make_code_database(PlaceCode::kBow, small(), words_of(false), 1), ArgumentError);
+  EXPECT_THROW((void)make_code_database(PlaceCode::kLlc, small(), words_of(true), 1),
+               ArgumentError);
+  EXPECT_THROW((void)make_code_database(PlaceCode::kBow, small(), words_of(false), 1),
+               ArgumentError);
 }
 
 }  // namespace

@@ -71,7 +71,8 @@ TEST(RecognitionProbability, ProbabilitiesAreHonestWhereTheModelHolds) {
 }
 
 TEST(RecognitionProbability, AnswersThatFollowEachOtherShareTheirOdds) {
-  const RecognitionProbability odds({{0, 0.1, false}, {0, 0.1, false}}, {{0, 1, true}, {0, 1, true}});
+  const RecognitionProbability odds({{0, 0.1, false}, {0, 0.1, false}},
+                                    {{0, 1, true}, {0, 1, true}});
   const ViewEstimate sure{5, 0.9, true}, unsure{5, 0.1, true};
   const double alone = odds.probabilities({unsure}, kNext, 3).front();
   const auto together = odds.probabilities({sure, unsure, sure}, kNext, 3);

@@ -89,7 +89,7 @@ TEST(HomographyThrough, RefusesThreeInALineAndTurnedTriangles) {
                           {{0, 0}, {10, 10}, {20, 20}, {0, 30}}};
   EXPECT_FALSE(homography_through(line, {0, 1, 2, 3}));
   const PointMatches rotated{{{0, 0}, {10, 0}, {10, 10}, {0, 10}},
-                            {{0, 0}, {-10, 0}, {-10, 10}, {0, 10}}};
+                             {{0, 0}, {-10, 0}, {-10, 10}, {0, 10}}};
   EXPECT_FALSE(homography_through(rotated, {0, 1, 2, 3}));
   const PointMatches once{{{0, 0}, {0, 0}, {10, 10}, {0, 10}}, {{0, 0}, {0, 0}, {10, 10}, {0, 10}}};
   EXPECT_FALSE(homography_through(once, {0, 1, 2, 3}));

@@ -71,8 +71,8 @@ TEST(EdgeRefiner, CovarianceIsHonestUnderNoise) {
     const Vector2d m = edge->line.normal().dot(n) > 0 ? edge->line.normal() : -edge->line.normal();
     const double rotation = std::atan2(n.x() * m.y() - n.y() * m.x(), n.dot(m));
     const double shift = n.dot(edge->line.anchor - middle);
-    squared +=
-        rotation * rotation / edge->line.covariance(0, 0) + shift * shift / edge->line.covariance(1, 1);
+    squared += rotation * rotation / edge->line.covariance(0, 0) +
+               shift * shift / edge->line.covariance(1, 1);
   }
   const double per_degree_of_freedom = squared / (2 * kTrials);
   // Known to 4 %; some 1.5 as it is, deviations are 1.2 times too small.

@@ -59,12 +59,15 @@ TEST(SegmentProfile, SameStripsAreSimilarWhateverGainAndBias) {
   Image other;
   image.convertTo(other, -1, 0.7, 20);
   const LineProfile frame{{20, 40}, {60, 45}, {-0.12, 0.99}};
-  const auto same = compare_strips(LineProfileImage(image), frame, LineProfileImage(other), frame, 8);
+  const auto same =
+      compare_strips(LineProfileImage(image), frame, LineProfileImage(other), frame, 8);
   EXPECT_GT(same.both, 0.999);
   EXPECT_GT(same.left, 0.999);
   EXPECT_GT(same.right, 0.999);
   const LineProfile reversed{frame.to, frame.from, -frame.across};
-  EXPECT_LT(compare_strips(LineProfileImage(image), frame, LineProfileImage(other), reversed, 8).both, 0.7);
+  EXPECT_LT(
+      compare_strips(LineProfileImage(image), frame, LineProfileImage(other), reversed, 8).both,
+      0.7);
 }
 
 TEST(SegmentProfile, OneSideOutsideTheImageLeavesTheOther) {

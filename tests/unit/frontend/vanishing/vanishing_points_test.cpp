@@ -48,8 +48,8 @@ TEST(VanishingEvidence, VarianceIsThatOfTheEndsAndOfTheScene) {
   // 175 px from the middle: the middle's own shift of 0.5 / sqrt(2) px is seen as an angle, too
   const Eigen::Vector3d near = camera.unproject({300, 200})->normalized();
   const double shift = 0.5 / std::sqrt(2.0) / 175;
-  EXPECT_NEAR(evidence.error(0, near).variance, rotation * rotation + parallel * parallel + shift * shift,
-              1e-10);
+  EXPECT_NEAR(evidence.error(0, near).variance,
+              rotation * rotation + parallel * parallel + shift * shift, 1e-10);
 }
 
 TEST(VanishingEvidence, JacobianIsThatOfFiniteDifferences) {

@@ -54,7 +54,8 @@ TEST(MeasuredMotion, IsSeenFromAnotherFrameOfTheBody) {
   const SE3 rotation = pose({0, 0, std::numbers::pi / 2}, {0, 0, 0});
   Matrix6d covariance = Matrix6d::Zero();
   covariance(5, 5) = 0.01;
-  const MeasuredMotion motion = MeasuredMotion({{0, 10, rotation, covariance}}).seen_from(T_cam_body);
+  const MeasuredMotion motion =
+      MeasuredMotion({{0, 10, rotation, covariance}}).seen_from(T_cam_body);
   const auto seen = motion.between(0, 10);
   ASSERT_TRUE(seen);
   // The body is at (0, 2) in the camera, so the camera swings from (0, -2) to (2, 0) about it.

@@ -10,8 +10,8 @@ namespace {
 const std::vector<std::string> kClasses = {"Road", "Building", "Tree"};
 
 /// `count` points at one spot that are of the classes as `shares` say.
-KeyframeSemantics observation_of(const Eigen::Vector3f& at, const std::vector<float>& shares, int count = 8,
-                       float height_m = 0) {
+KeyframeSemantics observation_of(const Eigen::Vector3f& at, const std::vector<float>& shares,
+                                 int count = 8, float height_m = 0) {
   KeyframeSemantics observation;
   observation.shares = shares;
   for (int i = 0; i < count; ++i) observation.points.push_back({at, 0, height_m, 0});
@@ -83,7 +83,8 @@ TEST(SemanticGrid, PlacesPointsByThePoseAndTheTurnOfThePlan) {
   Eigen::Matrix3d R;
   R << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   SemanticGrid grid(exact(), kClasses, SO3::from_matrix(R));
-  grid.add(observation_of({0.25F, 0, 5}, {1, 0, 0}, 4, 0.2F), SE3(SO3(), Eigen::Vector3d(1, 2.25, -0.1)));
+  grid.add(observation_of({0.25F, 0, 5}, {1, 0, 0}, 4, 0.2F),
+           SE3(SO3(), Eigen::Vector3d(1, 2.25, -0.1)));
   const SemanticCell cell = grid.map().cells.at(0);
   EXPECT_NEAR((cell.mean - Eigen::Vector3f(1.25F, -4.9F, 2.25F)).norm(), 0, 1e-5);
   EXPECT_EQ(cell.at, Eigen::Vector3i(2, -10, 4));

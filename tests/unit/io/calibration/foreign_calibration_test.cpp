@@ -149,8 +149,8 @@ TEST(ForeignCalibration, TakesTheRotationOfOpenCVAsMatrixOrVector) {
       "K1: [262, 0, 159, 0, 263, 119, 0, 0, 1]\nD1: [-0.1, 0, 0, 0, 0]\n"
       "K2: [260, 0, 158, 0, 261, 118, 0, 0, 1]\nD2: [-0.2, 0, 0, 0, 0]\n";
   for (const char* R : {"R: [0, -1, 0, 1, 0, 0, 0, 0, 1]\n", "R: [0, 0, 1.5707963267948966]\n"}) {
-    const auto read =
-        read_foreign_calibration(folder.write("c.yaml", kitti_cameras + R + "T: [-0.1, 0, 0]\n"), true);
+    const auto read = read_foreign_calibration(
+        folder.write("c.yaml", kitti_cameras + R + "T: [-0.1, 0, 0]\n"), true);
     ASSERT_TRUE(read && read->right);
     EXPECT_EQ(read->raw.camera.coefficients[0], -0.1);
     EXPECT_EQ(read->right->raw.camera.coefficients[0], -0.2);

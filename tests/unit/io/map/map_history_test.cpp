@@ -34,8 +34,8 @@ StoredMap map_with_history() {
     keyframe.link->scale = random.uniform(0.5, 2);
   }
   for (PlaceHistory::Segment& segment : history.segments)
-    segment.S_place_segment =
-        Sim3(segment.S_place_segment.rotation(), segment.S_place_segment.translation(), random.uniform(0.5, 2));
+    segment.S_place_segment = Sim3(segment.S_place_segment.rotation(),
+                                   segment.S_place_segment.translation(), random.uniform(0.5, 2));
   const KeyframeId last = stored.map.keyframes.back().id;
   history.loops.front().scale_match_query = 1.25;
   history.loops.push_back(

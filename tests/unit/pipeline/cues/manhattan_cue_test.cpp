@@ -123,7 +123,8 @@ TEST(ManhattanCue, AFrameIsTurnedToWhereItsEdgesPoint) {
   for (const Eigen::Vector3d& off : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.005, -0.01, 0)}) {
     const auto heading = walk.heading(4, truth * SO3::exp(off));
     ASSERT_TRUE(heading);
-    const SO3 R_odom_cam = *walk.window.manhattan_frame(heading->manhattan_frame) * heading->R_cam_frame.inverse();
+    const SO3 R_odom_cam =
+        *walk.window.manhattan_frame(heading->manhattan_frame) * heading->R_cam_frame.inverse();
     EXPECT_LT((R_odom_cam.inverse() * truth).log().norm(), deg_to_rad(0.3));
     // A deviation between a hundredth of a degree and one degree about each axis.
     const Eigen::Vector3d sigma = heading->information.inverse().diagonal().cwiseSqrt();
@@ -206,8 +207,8 @@ TEST(WithHeading, ThePositionFollowsTheRotation) {
   sum[0] = 1, sum[4] = 2;
   information += 100 * sum * sum.transpose();
   const SE3 T = with_heading(rotated.T_odom_cam, information, rotated.heading, rotated.window);
-  const Eigen::Vector3d moved =
-      rotated.T_odom_cam.rotation().inverse() * (T.translation() - rotated.T_odom_cam.translation());
+  const Eigen::Vector3d moved = rotated.T_odom_cam.rotation().inverse() *
+                                (T.translation() - rotated.T_odom_cam.translation());
   EXPECT_NEAR(moved.x(), -0.02, 1e-4);
 }
 

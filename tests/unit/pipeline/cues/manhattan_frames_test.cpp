@@ -47,7 +47,9 @@ struct Drive {
     return options;
   }
   explicit Drive(const ManhattanFrameOptions& options)
-      : manhattan_frame(make()), window(window_options(), manhattan_frame.camera), manhattan_frames(options) {}
+      : manhattan_frame(make()),
+        window(window_options(), manhattan_frame.camera),
+        manhattan_frames(options) {}
 
   /// The next keyframe, which sees directions turned from the first world by `turn`.
   std::optional<ManhattanFrameId> see(const std::optional<SO3>& turn) {
@@ -61,7 +63,8 @@ struct Drive {
           KeyframeId(id),
           T_map_cam.rotation().inverse() * kR_map_manhattan * *turn * axes(static_cast<int>(id)),
           Eigen::Matrix3d::Identity() * std::pow(0.1 * kRadPerDeg, 2), window);
-    if (window.manhattan_frame(ManhattanFrameId(1))) R_map_first = *window.manhattan_frame(ManhattanFrameId(1));
+    if (window.manhattan_frame(ManhattanFrameId(1)))
+      R_map_first = *window.manhattan_frame(ManhattanFrameId(1));
     if (id > 0) {
       EXPECT_TRUE(window.optimize().outcome);
     }
@@ -78,10 +81,13 @@ TEST(ManhattanFrames, BeginWhereViewsAgreeWhicheverAxesTheyNameFirst) {
   EXPECT_EQ(drive.see(SO3()), ManhattanFrameId(1));
   // It begins where the views have it: within what the poses of the window are off by.
   ASSERT_TRUE(drive.R_map_first);
-  EXPECT_LT((kR_map_manhattan.inverse() * nearest_axes(*drive.R_map_first, kR_map_manhattan)).log().norm(),
+  EXPECT_LT((kR_map_manhattan.inverse() * nearest_axes(*drive.R_map_first, kR_map_manhattan))
+                .log()
+                .norm(),
             0.1 * kRadPerDeg);
   for (int k = 3; k < 8; ++k) EXPECT_EQ(drive.see(SO3()), ManhattanFrameId(1));
-  EXPECT_EQ(drive.window.manhattan_frames(), (std::vector{ManhattanFrames::kMapAxes, ManhattanFrameId(1)}));
+  EXPECT_EQ(drive.window.manhattan_frames(),
+            (std::vector{ManhattanFrames::kMapAxes, ManhattanFrameId(1)}));
   // Along the axes of the world, named as the first of the views named them.
   const SO3 turn = kR_map_manhattan.inverse() * *drive.window.manhattan_frame(ManhattanFrameId(1));
   EXPECT_LT((turn.matrix() - turn.matrix().array().round().matrix()).norm(), 1e-6);

@@ -227,7 +227,8 @@ TEST(FlightEstimator, SaysWhereTheFilterRefusesALatePose) {
     Scene::feel(estimator, image);
     return estimator.add(observations);
   };
-  for (int image = 0; image < 4; ++image) ASSERT_TRUE(add(image, scene.observations(image)).markers);
+  for (int image = 0; image < 4; ++image)
+    ASSERT_TRUE(add(image, scene.observations(image)).markers);
   // An image shows the markers as if the body were 30 cm beside: its pose comes with the second
   // image after it.
   FlightMeasurements wrong = scene.observations(4);

@@ -203,7 +203,8 @@ TEST(FloorFlow, TellsHowAWrongRotationChangesTheMeasurement) {
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d wrong = 1e-5 * Vector3d::Unit(axis);
     const KnownRotation rotation{step.rotation.R_1_2 * SO3::exp(wrong), Matrix3d::Zero()};
-    const FlowMeasurement found = *flow.measure(step.flow, step.a, step.b.stamp_ns, rotation).observation;
+    const FlowMeasurement found =
+        *flow.measure(step.flow, step.a, step.b.stamp_ns, rotation).observation;
     const Vector3d change = found.over_distance - exact.over_distance;
     EXPECT_LT((change - *exact.J_rotation * wrong).norm(), 0.05 * wrong.norm()) << axis;
   }

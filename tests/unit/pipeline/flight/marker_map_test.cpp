@@ -114,8 +114,9 @@ TEST(MarkerMap, IsAsUncertainAsTheOdometryBetweenMarkersThatNoFrameShowsTogether
   std::vector<MarkerFrame> frames;
   for (const std::size_t i : {5, 6, 20, 21}) {
     MarkerFrame frame = walk.frames[i];
-    std::erase_if(frame.markers,
-                  [&](const MarkerObservation& observation) { return observation.id != (i < 10 ? 4 : 9); });
+    std::erase_if(frame.markers, [&](const MarkerObservation& observation) {
+      return observation.id != (i < 10 ? 4 : 9);
+    });
     ASSERT_EQ(frame.markers.size(), 1u) << i;
     frame.T_odom_cam = walk.T_world_cam[i];
     const double sigma_m = i == 20 ? 0.1 : 1e-3;

@@ -162,7 +162,8 @@ TEST(PlaceConstraints, BetweenPlacesTheCovariancesOfTheirPartsAreAdded) {
   of_segment(2, 2) = 0.5;  // along the part's z, which is the place's x
   line.partition.merge(PlaceId(1), PlaceId(2),
                        of_segment);  // the place of part 4 is the younger one: in its frame
-  ASSERT_LT((line.partition.segments().at(KeyframeId(4)).covariance - of_segment).norm(), kRounding);
+  ASSERT_LT((line.partition.segments().at(KeyframeId(4)).covariance - of_segment).norm(),
+            kRounding);
   PlaceEdge edge;
   edge.from_segment = KeyframeId(0);
   edge.to_segment = KeyframeId(4);

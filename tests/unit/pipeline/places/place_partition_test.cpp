@@ -83,7 +83,8 @@ TEST(PlacePartition, SeparatingUndoesAMergerWhereThePlacesStandNow) {
   EXPECT_LT(difference(row.S_map(0), S_map_0), kRounding);
   EXPECT_LT(difference(row.S_map(3), S_map_3), kRounding);
   EXPECT_LT(difference(place.S_map_place, row.S_map(2)), kRounding);
-  EXPECT_LT(difference(row.partition.segments().at(KeyframeId(2)).S_place_segment, Sim3()), kRounding);
+  EXPECT_LT(difference(row.partition.segments().at(KeyframeId(2)).S_place_segment, Sim3()),
+            kRounding);
   EXPECT_EQ(row.partition.segments().at(KeyframeId(2)).covariance.norm(), 0);
   EXPECT_TRUE(row.partition.were_separated(PlaceId(0), PlaceId(3)));
   EXPECT_TRUE(row.partition.were_separated(PlaceId(3), PlaceId(0)));

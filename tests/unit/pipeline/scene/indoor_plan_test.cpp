@@ -81,7 +81,8 @@ TEST(IndoorPlan, WallsLookToTheSideTheyAreSeenFrom) {
   map.keyframes = {keyframe};
   WallPiece piece;
   piece.axis = 0, piece.sign = 1, piece.offset_m = 2, piece.from_m = 1, piece.to_m = 4;
-  piece.low_m = 0.1, piece.high_m = 2.4, piece.sigma_m = 0.02, piece.count = 321, piece.observation = 1;
+  piece.low_m = 0.1, piece.high_m = 2.4, piece.sigma_m = 0.02, piece.count = 321,
+  piece.observation = 1;
   WallPiece back = piece;
   back.sign = -1;
   const auto walls = plan_walls({piece, back}, level_frame(), observations, map);

@@ -37,7 +37,8 @@ TEST(SimulatedFlight, IsWhatItsInertialSensorFelt) {
 }
 
 TEST(SimulatedFlight, RepeatsItselfForOneSeedOnly) {
-  const SimulatedFlight a = simulate_flight(exact(2)), b = simulate_flight(exact(2)), c = simulate_flight(exact(2, 4));
+  const SimulatedFlight a = simulate_flight(exact(2)), b = simulate_flight(exact(2)),
+                        c = simulate_flight(exact(2, 4));
   EXPECT_EQ(a.imu.samples.back().gyro_rad_s, b.imu.samples.back().gyro_rad_s);
   EXPECT_NE(a.imu.samples.back().gyro_rad_s, c.imu.samples.back().gyro_rad_s);
   // A longer flight begins as the shorter one.
