@@ -33,10 +33,4 @@ std::string ExampleFormatter::make_option_opts(const CLI::Option* option) const 
   return text + by_name(needs, option->get_needs()) + by_name(excludes, option->get_excludes());
 }
 
-std::string help_command(const CLI::App& app) {
-  std::string command = app.get_name();
-  for (const CLI::App* sub : app.get_subcommands()) command += " " + sub->get_name();
-  return command + " --help";
-}
-
 }  // namespace placegraph::apps

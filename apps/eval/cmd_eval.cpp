@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/eval/eval.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -18,56 +19,55 @@ void run(const EvalArguments& arguments, bool json) {
 
 }  // namespace
 
-void add_eval_command(CLI::App& app) {
+void add_eval_trajectory_command(CLI::App& eval_group) {
   auto arguments = std::make_shared<EvalArguments>();
   auto json = std::make_shared<bool>(false);
   EvalArguments& a = *arguments;
-  CLI::App* command = app.add_subcommand(
-      "eval", "Judge estimated trajectories against ground truth (KITTI, TUM or EuRoC form)");
-  command->footer("placegraph eval poses.txt trajectory_optimized.kitti --align se3 --plot e.png");
+  CLI::App* command = eval_group.add_subcommand(
+      "trajectory", "Evaluate trajectories against ground truth (KITTI, TUM or EuRoC format)");
+  command->footer("placegraph eval trajectory poses.txt trajectory_optimized.kitti --align se3 --plot e.png");
   command
-      ->add_option("GT", a.truth,
-                   "true trajectory, a KITTI sequence's folder, or a folder of "
-                   "trajectories")
+      ->add_option("TRUTH", a.truth,
+                   "true trajectory, the folder of a sequence, or a folder of trajectories")
       ->required()
       ->check(CLI::ExistingPath);
   command
-      ->add_option("EST", a.estimates,
-                   "estimates to compare, or one folder, whose files are paired with GT's by name")
+      ->add_option("ESTIMATE", a.estimates,
+                   "estimated trajectories, or one folder whose files are paired with TRUTH's by name")
       ->required()
       ->check(CLI::ExistingPath);
-  command->add_option("--align", a.align, "what is fitted first: none, origin, se3, sim3 or scale")
+  command->add_option("--align", a.align, "transformation fitted before the errors are computed")
       ->check(CLI::IsMember(eval_alignments()))
       ->capture_default_str();
   command
-      ->add_option("--lengths", a.options.segments.lengths_m, "segment lengths [m], as 100,200,300")
+      ->add_option("--lengths", a.options.segments.lengths_m, "lengths of the segments [m], as 100,200,300")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--step", a.options.segments.step, "frames between segment starts")
+  command->add_option("--step", a.options.segments.step, "frames between the starts of segments")
       ->capture_default_str();
   command
       ->add_option("--associate", a.associate,
-                   "how lines are paired: auto (by time if both have times), index or time")
+                   "how poses are paired: by index or by time; auto: by time if both have times")
       ->check(CLI::IsMember(eval_associations()))
       ->capture_default_str();
   command
       ->add_option("--max-difference", a.options.time.max_difference_s,
-                   "largest difference of paired stamps [s]")
+                   "largest time difference of paired poses [s]")
       ->capture_default_str();
-  command->add_option("--offset", a.options.time.offset_s, "added to the estimate's stamps [s]")
+  command->add_option("--offset", a.options.time.offset_s, "time added to the stamps of the estimate [s]")
       ->capture_default_str();
   command
       ->add_option("--times", a.times,
-                   "times of KITTI files: one file for all, or two: ground truth's, estimate's")
+                   kTimesText)
       ->delimiter(',')
       ->expected(1)
       ->take_all()
       ->check(CLI::ExistingFile);
-  command->add_flag("--json", *json, "print JSON");
-  command->add_option("--csv", a.csv, "write figures and every segment's errors as CSV");
-  command->add_option("--latex", a.latex, "write a LaTeX table");
-  command->add_option("--plot", a.plot, "draw top view and error over distance (.png or .svg)");
-  command->add_flag("--force", a.force, "overwrite files");
+  command->add_flag("--json", *json, kJsonText);
+  command->add_option("--csv", a.csv, "write the details as CSV");
+  command->add_option("--latex", a.latex, "write the figures as a LaTeX table");
+  command->add_option("--plot", a.plot, kPlotText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] { run(*arguments, *json); });
 }
 

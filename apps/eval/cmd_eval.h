@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph eval GT EST...`: figures of estimated trajectories against ground truth.
-void add_eval_command(CLI::App& app);
+void add_eval_trajectory_command(CLI::App& eval_group);
 
 }  // namespace placegraph::apps

@@ -4,26 +4,27 @@
 #include <memory>
 
 #include "apps/eval/eval_edges.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_eval_edges_command(CLI::App& app) {
+void add_eval_edges_command(CLI::App& eval_group) {
   auto arguments = std::make_shared<EvalEdgesArguments>();
   auto json = std::make_shared<bool>(false);
   EvalEdgesArguments& a = *arguments;
-  CLI::App* command = app.add_subcommand(
-      "eval-edges", "Judge whether the edges of a run's place graph know what they claim");
-  command->footer("placegraph eval-edges town/poses.txt out/town");
+  CLI::App* command = eval_group.add_subcommand(
+      "edges", "Compare the errors of a place graph's edges with their stated covariances");
+  command->footer("placegraph eval edges town/poses.txt out/town");
   command
-      ->add_option("GT", a.truth,
+      ->add_option("TRUTH", a.truth,
                    "true poses of every frame of the sequence (or its folder with poses.txt)")
       ->required()
       ->check(CLI::ExistingPath);
-  command->add_option("RUN", a.run, "folder that placegraph run has written")
+  command->add_option("RUN", a.run, "folder written by `placegraph run`")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_flag("--json", *json, "print JSON");
+  command->add_flag("--json", *json, kJsonText);
   command->callback([arguments, json] {
     const EvalEdgesResult result = eval_edges(*arguments);
     print(*json ? to_json(result) : to_text(result));

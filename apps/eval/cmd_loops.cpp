@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/eval/loops.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -16,14 +17,14 @@ const std::map<std::string, LoopFileFormat> kFormats = {{"scores", LoopFileForma
 
 }  // namespace
 
-void add_loops_command(CLI::App& app) {
+void add_eval_loops_command(CLI::App& eval_group) {
   auto arguments = std::make_shared<LoopsArguments>();
   auto json = std::make_shared<bool>(false);
   LoopsArguments& a = *arguments;
-  CLI::App* command = app.add_subcommand(
-      "loops", "Judge what place recognizers found: precision, recall, the curve between them");
-  command->footer("placegraph loops --predictions found.txt --format scores --gt gt.txt --json");
-  command->add_option("--predictions", a.predictions, "what a system found; several are compared")
+  CLI::App* command = eval_group.add_subcommand(
+      "loops", "Evaluate loop closures: precision, recall and the curve of both");
+  command->footer("placegraph eval loops --predictions found.txt --format scores --truth gt.txt --json");
+  command->add_option("--predictions", a.predictions, "predictions of a system; several are compared")
       ->required()
       ->check(CLI::ExistingFile);
   command
@@ -33,31 +34,31 @@ void add_loops_command(CLI::App& app) {
                    "or one each")
       ->transform(CLI::CheckedTransformer(kFormats))
       ->default_str("scores");
-  command->add_option("--names", a.names, "of the systems, else the names of their files");
+  command->add_option("--names", a.names, "names of the systems; default: the names of their files");
   command
-      ->add_option("--gt", a.gt,
-                   "ground truth: lines `q first last matches...`, lines `q matches...`, or a "
+      ->add_option("--truth", a.truth,
+                   "true matches: lines `q first last matches...`, lines `q matches...`, or a "
                    "matrix of 0 and 1")
       ->check(CLI::ExistingFile);
   command->add_option("--poses", a.poses, "ground truth: one true pose per image")
       ->check(CLI::ExistingFile);
-  command->add_option("--radius", a.revisit.same.radius_m, "with --poses: largest distance [m]")
+  command->add_option("--radius", a.revisit.same.radius_m, "with --poses: largest distance of the same place [m]")
       ->capture_default_str();
-  command->add_option("--heading", a.revisit.same.heading_deg, "with --poses: largest angle [deg]")
+  command->add_option("--heading", a.revisit.same.heading_deg, "with --poses: largest angle between views of the same place [deg]")
       ->capture_default_str();
   command
       ->add_option("--min-age", a.min_age,
-                   "images by which a candidate must be older, hit or miss; 300, but 0 where the "
-                   "truth names the candidates")
+                   "smallest age of a candidate, in images; default: 300, or 0 if the truth names "
+                   "the candidates")
       ->check(CLI::Range(0, 1'000'000'000));
   command
-      ->add_option("--tolerance", a.tolerance, "images by which a candidate may miss a true match")
+      ->add_option("--tolerance", a.tolerance, "largest distance from a true match, in images")
       ->check(CLI::Range(0, 1'000'000))
       ->capture_default_str();
-  command->add_flag("--json", *json, "print JSON");
-  command->add_option("--log", a.log, "write every query's verdict as CSV");
-  command->add_option("--plot", a.plot, "draw precision over recall (.png or .svg)");
-  command->add_flag("--force", a.force, "overwrite files");
+  command->add_flag("--json", *json, kJsonText);
+  command->add_option("--csv", a.csv, "write the details as CSV");
+  command->add_option("--plot", a.plot, kPlotText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {
     const LoopsResult result = loops(*arguments);
     print(*json ? to_json(result) : to_text(result));

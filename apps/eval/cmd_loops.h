@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph loops`: what place recognizers found, judged against ground truth.
-void add_loops_command(CLI::App& app);
+void add_eval_loops_command(CLI::App& eval_group);
 
 }  // namespace placegraph::apps

@@ -32,7 +32,7 @@ Protocol protocol_of(const LoopsArguments& arguments) {
     protocol.text = fmt::format("poses within {:g} m and {:g} deg", revisit.same.radius_m,
                                 revisit.same.heading_deg);
   } else {
-    LoopTruthFile file = read_loop_truth(arguments.gt);
+    LoopTruthFile file = read_loop_truth(arguments.truth);
     const bool ranges = file.format == LoopTruthFormat::kRanges;
     protocol.text = ranges ? "matches and candidates listed per query" : "matches listed per query";
     if (file.format == LoopTruthFormat::kMatrix) protocol.text = "matrix of matches";
@@ -155,7 +155,7 @@ std::string to_log(const std::vector<LoopJudgement>& judgements) {
 
 void write_outputs(const LoopsArguments& arguments, const std::vector<LoopJudgement>& judgements,
                    const std::string& protocol) {
-  if (!arguments.log.empty()) write_file(arguments.log, to_log(judgements));
+  if (!arguments.csv.empty()) write_file(arguments.csv, to_log(judgements));
   if (arguments.plot.empty()) return;
   PrecisionRecallPlot plot;
   plot.title = protocol;
@@ -165,12 +165,12 @@ void write_outputs(const LoopsArguments& arguments, const std::vector<LoopJudgem
 }
 
 void check(const LoopsArguments& arguments) {
-  for (const std::string& path : {arguments.log, arguments.plot})
+  for (const std::string& path : {arguments.csv, arguments.plot})
     if (!path.empty()) require_free(path, arguments.force);
   require_plot_name(arguments.plot);
   const std::size_t systems = arguments.predictions.size();
   require(systems > 0, "--predictions: none are given");
-  require(arguments.gt.empty() != arguments.poses.empty(), "one of --gt and --poses is needed");
+  require(arguments.truth.empty() != arguments.poses.empty(), "one of --truth and --poses is needed");
   require(arguments.formats.size() == 1 || arguments.formats.size() == systems,
           "--format: one for all, or one for each of --predictions");
   require(arguments.names.empty() || arguments.names.size() == systems,

@@ -14,12 +14,12 @@ struct LoopsArguments {
   std::vector<std::string> predictions;  ///< files of what systems found
   std::vector<std::string> names;        ///< of the systems; empty: the names of their files
   std::vector<LoopFileFormat> formats = {LoopFileFormat::kScores};  ///< one for all, or one each
-  std::string gt;              ///< ground truth: matches of every query; or
+  std::string truth;              ///< ground truth: matches of every query; or
   std::string poses;           ///< ground truth: one true pose per image
   RevisitOptions revisit;      ///< with `poses`; its age is the next member's
   std::optional<int> min_age;  ///< images by which a candidate must be older
   int tolerance = 0;           ///< images by which a candidate may miss a true match
-  std::string log, plot;       ///< files to write; empty: none
+  std::string csv, plot;       ///< files to write; empty: none
   bool force = false;          ///< overwrite them
 };
 

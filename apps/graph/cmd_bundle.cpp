@@ -4,30 +4,31 @@
 #include <memory>
 
 #include "apps/graph/bundle.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_bundle_command(CLI::App& app) {
+void add_bundle_command(CLI::App& graph) {
   auto arguments = std::make_shared<BundleArguments>();
   auto json = std::make_shared<bool>(false);
   BundleArguments& a = *arguments;
   CLI::App* command =
-      app.add_subcommand("bundle", "Bundle adjustment of a problem in the form of BAL");
-  command->footer("placegraph bundle problem-49-7776-pre.txt -o adjusted.txt --json");
+      graph.add_subcommand("bundle", "Bundle adjustment of a problem in BAL format");
+  command->footer("placegraph graph bundle problem-49-7776-pre.txt -o adjusted.txt --json");
   command->add_option("IN", a.in, "problem to read")->required()->check(CLI::ExistingFile);
-  command->add_option("-o,--out", a.out, "problem to write, adjusted");
-  command->add_option("--kernel", a.kernel, "robust kernel on the reprojection errors")
+  command->add_option("-o,--out", a.out, "file for the adjusted problem");
+  command->add_option("--kernel", a.kernel, "robust kernel of the reprojection errors")
       ->check(CLI::IsMember(robust_kernel_names()))
       ->capture_default_str();
-  command->add_option("--kernel-width", a.options.kernel.width, "its width [px]")
+  command->add_option("--kernel-width", a.options.kernel.width, "width of the robust kernel [px]")
       ->check(CLI::Range(0.01, 1e6))
       ->capture_default_str();
-  command->add_option("--iterations", a.options.max_iterations, "at most")
+  command->add_option("--iterations", a.options.max_iterations, "largest number of iterations")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  command->add_flag("--json", *json, "print JSON");
-  command->add_flag("--force", a.force, "overwrite OUT");
+  command->add_flag("--json", *json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {
     const BundleResult result = bundle(*arguments);
     print(*json ? to_json(result) : to_text(result));

@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph bundle IN.txt [-o OUT.txt]`: full bundle adjustment of a problem in BAL's form.
-void add_bundle_command(CLI::App& app);
+void add_bundle_command(CLI::App& graph);
 
 }  // namespace placegraph::apps

@@ -4,17 +4,18 @@
 #include <memory>
 
 #include "apps/graph/convert.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_convert_command(CLI::App& app) {
+void add_convert_command(CLI::App& graph) {
   auto arguments = std::make_shared<ConvertArguments>();
   ConvertArguments& a = *arguments;
-  CLI::App* command = app.add_subcommand("convert",
+  CLI::App* command = graph.add_subcommand("convert",
                                          "Convert trajectories between KITTI, TUM and EuRoC form; "
                                          "pose graphs to g2o's, or to their poses");
-  command->footer("placegraph convert poses.txt poses.tum --times times.txt");
+  command->footer("placegraph graph convert poses.txt poses.tum --times times.txt");
   command->add_option("IN", a.in, "file to read; what it is, is seen from its content")
       ->required()
       ->check(CLI::ExistingFile);
@@ -22,7 +23,7 @@ void add_convert_command(CLI::App& app) {
       ->required();
   command->add_option("--to", a.to, "form of OUT, whatever its extension")
       ->check(CLI::IsMember({"kitti", "tum", "euroc", "g2o"}));
-  command->add_option("--times", a.times, "times of a KITTI trajectory, one [s] a line")
+  command->add_option("--times", a.times, kTimesText)
       ->check(CLI::ExistingFile);
   command->add_flag("--rigid", a.rigid,
                     "similarities become poses in space, for programs that know no scale");
@@ -33,7 +34,7 @@ void add_convert_command(CLI::App& app) {
                    "leave out the frames that this trajectory of as many frames has no pose for, "
                    "too: so that a ground truth keeps its lines beside an estimate's")
       ->check(CLI::ExistingFile);
-  command->add_flag("--force", a.force, "overwrite OUT");
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(convert(*arguments))); });
 }
 

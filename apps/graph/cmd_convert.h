@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph convert IN OUT`: trajectories between KITTI, TUM and EuRoC form, g2o normalized.
-void add_convert_command(CLI::App& app);
+void add_convert_command(CLI::App& graph);
 
 }  // namespace placegraph::apps

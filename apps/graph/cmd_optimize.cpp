@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/graph/optimize.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -27,16 +28,16 @@ void run(const OptimizeCommand& command) {
 
 }  // namespace
 
-void add_optimize_command(CLI::App& app) {
+void add_optimize_command(CLI::App& graph) {
   auto optimize_command = std::make_shared<OptimizeCommand>();
   OptimizeArguments& a = optimize_command->arguments;
   CLI::App* command =
-      app.add_subcommand("optimize", "Optimize a pose graph in the form of g2o, TORO or iSAM");
-  command->footer("placegraph optimize sphere.g2o -o optimized.g2o --cost g2o --plot sphere.png");
+      graph.add_subcommand("optimize", "Optimize a pose graph in g2o, TORO or iSAM format");
+  command->footer("placegraph graph optimize sphere.g2o -o optimized.g2o --cost g2o --plot sphere.png");
   command->add_option("IN", a.in, "graph to read: 2D, 3D or similarities")
       ->required()
       ->check(CLI::ExistingFile);
-  command->add_option("-o,--out", a.out, "graph to write, in g2o's form")->required();
+  command->add_option("-o,--out", a.out, "file for the optimized graph, in g2o format")->required();
   command
       ->add_option("--cost", a.cost,
                    "rotation error that is minimized: log, or g2o (vector part of the quaternion)")
@@ -45,13 +46,13 @@ void add_optimize_command(CLI::App& app) {
   command->add_option("--engine", a.engine, "solver: native, or ceres (a second opinion)")
       ->check(CLI::IsMember(pose_graph_option("engine").choices))
       ->capture_default_str();
-  command->add_option("--start", a.start, "where the descent begins; auto goes as far as it must")
+  command->add_option("--initialization", a.start, "initial poses; auto computes better ones if they are needed")
       ->check(CLI::IsMember(pose_graph_option("start").choices))
       ->capture_default_str();
-  command->add_option("--robust", a.robust, "what is done against false loops")
+  command->add_option("--robust", a.robust, "method against false loops")
       ->check(CLI::IsMember(pose_graph_option("robust.method").choices))
       ->capture_default_str();
-  command->add_option("--iterations", a.task.options.max_iterations, "of a descent at most")
+  command->add_option("--iterations", a.task.options.max_iterations, "largest number of iterations")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command->add_flag("--certify", a.task.certify,
@@ -60,11 +61,11 @@ void add_optimize_command(CLI::App& app) {
                     "let the graph grow pose by pose, as it would on a robot");
   command->add_flag("--components", a.task.split,
                     "optimize the parts of a graph that falls apart, each for itself");
-  command->add_flag("--drop-rejected", a.drop_rejected, "write OUT without rejected constraints");
-  command->add_option("--plot", a.plot, "draw the poses before and after (.png or .svg)");
-  command->add_flag("--json", optimize_command->json, "print JSON");
-  command->add_flag("--quiet", optimize_command->quiet, "no progress on stderr");
-  command->add_flag("--force", a.force, "overwrite OUT and the plot");
+  command->add_flag("--drop-rejected", a.drop_rejected, "leave rejected constraints out of OUT");
+  command->add_option("--plot", a.plot, kPlotText);
+  command->add_flag("--json", optimize_command->json, kJsonText);
+  command->add_flag("--quiet", optimize_command->quiet, "print warnings and errors only");
+  command->add_flag("--force", a.force, kForceText);
   command->callback([optimize_command] { run(*optimize_command); });
 }
 

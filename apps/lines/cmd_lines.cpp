@@ -5,35 +5,35 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "apps/lines/cmd_lines_track.h"
 #include "apps/lines/lines_detect.h"
 #include "apps/lines/lines_match.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 namespace {
 
-void add_detect(CLI::App& lines) {
+void add_detect(CLI::App& image) {
   auto arguments = std::make_shared<LinesDetectArguments>();
-  CLI::App* command = lines.add_subcommand("detect", "Find the straight edges of an image");
-  command->footer("placegraph lines detect image.png -o segments.txt");
+  CLI::App* command = image.add_subcommand("lines", "Detect the straight edges of an image");
+  command->footer("placegraph image lines image.png -o segments.txt");
   command->add_option("IMAGE", arguments->image, "image")->required();
   command
       ->add_option("-o,--out", arguments->out,
                    "file to write, u1 v1 u2 v2 a line, the brighter side on the right")
       ->required();
-  command->add_option("--min-length", arguments->options.min_length_px, "of a segment [px]")
+  command->add_option("--min-length", arguments->options.min_length_px, "shortest segment [px]")
       ->capture_default_str();
-  command->add_flag("--force", arguments->force, "overwrite OUT");
+  command->add_flag("--force", arguments->force, kForceText);
   command->callback([arguments] { print(to_text(lines_detect(*arguments))); });
 }
 
-void add_match(CLI::App& lines) {
+void add_match(CLI::App& image) {
   auto arguments = std::make_shared<LinesMatchArguments>();
   LinesMatchArguments& a = *arguments;
-  CLI::App* command = lines.add_subcommand(
-      "match", "Find the same straight edges in two images, however far apart");
-  command->footer("placegraph lines match a.png b.png -o matches.txt");
+  CLI::App* command = image.add_subcommand(
+      "match-lines", "Match the straight edges of two images of any baseline");
+  command->footer("placegraph image match-lines a.png b.png -o matches.txt");
   auto* images = command->add_option("IMAGES", a.images, "two images")->required()->expected(2);
   command
       ->add_option("-o,--out", a.out,
@@ -43,8 +43,8 @@ void add_match(CLI::App& lines) {
   // Positions alone do not tell: a mere reflection of a facade explains half of its edges, too.
   const auto take_segments = [&a, images](const std::vector<std::string>& files) {
     require(images->count() > 0,
-            "--segments: needs the two images as well, `lines match A.png B.png --segments A.txt "
-            "B.txt`: segments are told apart by what surrounds them");
+            "--segments: needs the two images as well, `image match-lines A.png B.png --segments A.txt "
+            "B.txt`: the images are needed to compare the surroundings of the segments");
     a.segments = files;
   };
   auto* given = command->add_option_function<std::vector<std::string>>(
@@ -55,24 +55,20 @@ void add_match(CLI::App& lines) {
       ->type_size(2)
       ->expected(1)
       ->excludes(given);
-  command->add_option("--min-length", a.detector.min_length_px, "of a detected segment [px]")
+  command->add_option("--min-length", a.detector.min_length_px, "shortest segment [px]")
       ->capture_default_str()
       ->excludes(given);
-  command->add_option("--min-score", a.matcher.min_score, "of a match, from 0 to 1")
+  command->add_option("--min-score", a.matcher.min_score, "smallest score of a match, from 0 to 1")
       ->capture_default_str();
-  command->add_flag("--force", a.force, "overwrite the outputs");
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(lines_match(*arguments))); });
 }
 
 }  // namespace
 
-void add_lines_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("lines", "Straight edges of images: find, match, follow");
-  command->footer("placegraph lines match a.png b.png -o matches.txt");
-  command->require_subcommand(1);
-  add_detect(*command);
-  add_match(*command);
-  add_lines_track_command(*command);
+void add_lines_commands(CLI::App& image) {
+  add_detect(image);
+  add_match(image);
 }
 
 }  // namespace placegraph::apps

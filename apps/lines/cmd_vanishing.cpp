@@ -5,29 +5,30 @@
 
 #include "apps/lines/vanishing.h"
 #include "apps/support/calib_option.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_vanishing_command(CLI::App& app) {
+void add_vanishing_command(CLI::App& image) {
   auto arguments = std::make_shared<VanishingArguments>();
   auto json = std::make_shared<bool>(false);
   VanishingArguments& a = *arguments;
-  CLI::App* command = app.add_subcommand(
-      "vanishing", "Find in which directions the straight edges of an image point");
-  command->footer("placegraph vanishing segments.txt --calib K.txt --json");
+  CLI::App* command = image.add_subcommand(
+      "vanishing", "Find the vanishing points of the straight edges of an image");
+  command->footer("placegraph image vanishing segments.txt --calib K.txt --json");
   command->add_option("LINES", a.in, "lines of u1 v1 u2 v2 [px]; further columns are not read")
       ->required()
       ->check(CLI::ExistingFile);
   add_calib_option(*command, a.calib, kCalibFile)->required();
   command
       ->add_option("--noise", a.options.points.noise.end_px,
-                   "of the ends of segments, about; it is estimated [px]")
+                   "approximate noise of the measurements [px]")
       ->capture_default_str();
-  command->add_option("--max-points", a.options.points.max_points, "vanishing points looked for")
+  command->add_option("--max-points", a.options.points.max_points, "largest number of vanishing points")
       ->capture_default_str();
-  command->add_option("--seed", a.seed, "of the random samples")->capture_default_str();
-  command->add_flag("--json", *json, "print JSON");
+  command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
+  command->add_flag("--json", *json, kJsonText);
   command->callback([arguments, json] {
     const VanishingResult result = vanishing(*arguments);
     print(*json ? to_json(result) : to_text(result));

@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph explain`: what a map knows of one frame.
-void add_explain_command(CLI::App& app);
+void add_explain_command(CLI::App& map);
 
 }  // namespace placegraph::apps

@@ -4,42 +4,43 @@
 #include <memory>
 
 #include "apps/map/georeference.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_georeference_command(CLI::App& app) {
+void add_georeference_command(CLI::App& map) {
   auto arguments = std::make_shared<GeoreferenceArguments>();
   auto json = std::make_shared<bool>(false);
   GeoreferenceArguments& a = *arguments;
-  CLI::App* command = app.add_subcommand("georeference", "Put a map onto the earth by GPS");
+  CLI::App* command = map.add_subcommand("georeference", "Place a map on the earth by GPS");
   command->footer(
-      "placegraph georeference out/run --gps 2011_09_26_drive_0095_sync --out out/earth");
+      "placegraph map georeference out/run --gps 2011_09_26_drive_0095_sync --out out/earth");
   command
       ->add_option("GRAPH", a.graph,
-                   "output folder of `placegraph run`, or a .g2o graph with --times")
+                   "folder written by `placegraph run`, or a .g2o graph with --times")
       ->required()
       ->check(CLI::ExistingPath);
   command
       ->add_option("--gps", a.gps,
                    "OXTS: folder of KITTI raw, or oxts.txt beside its times_oxts.txt")
       ->required();
-  command->add_option("--out", a.out, "folder for the results")->required();
+  command->add_option("-o,--out", a.out, "folder for the results")->required();
   command->add_option("--times", a.times,
-                      "times of a .g2o graph's nodes: line i (from 0) of node i [s]");
+                      kTimesText);
   command->add_option("--lever-arm", a.lever_arm,
                       "antenna in the nodes' frame, x,y,z [m] (camera: right, down, forward), or "
                       "estimate; default 0,0,0");
   command->add_option(
       "--origin", a.origin,
-      "of the east-north-up frame: latitude,longitude,height [deg, m]; default: the "
-      "median of the fixes");
+      "origin of the east-north-up frame: latitude,longitude,height [deg, m]; "
+      "default: the median of the fixes");
   command->add_option("--clock-offset", a.clock_offset,
-                      "seconds to add to the times of the fixes, or estimate; default 0");
-  command->add_option("--set", a.settings, "one option, key=value; may be repeated")
+                      "time added to the stamps of the fixes [s], or `estimate`; default 0");
+  command->add_option("--set", a.settings, kSetText)
       ->allow_extra_args(false);
-  command->add_flag("--json", *json, "print georeference.json");
-  command->add_flag("--force", a.force, "write into a folder that is not empty");
+  command->add_flag("--json", *json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {
     const GeoreferenceReport report = georeference(*arguments);
     print(*json ? to_json(report) : to_text(report));

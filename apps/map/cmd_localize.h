@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph localize`: new images placed in a saved map.
-void add_localize_command(CLI::App& app);
+void add_localize_command(CLI::App& map);
 
 }  // namespace placegraph::apps

@@ -4,18 +4,19 @@
 #include <memory>
 
 #include "apps/map/route.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_route_command(CLI::App& app) {
+void add_route_command(CLI::App& map) {
   auto arguments = std::make_shared<RouteArguments>();
   RouteArguments& a = *arguments;
   CLI::App* command =
-      app.add_subcommand("route", "The shortest way over the places of a map, or the way back");
+      map.add_subcommand("route", "Find the shortest path between two places of a map, and the path back.");
   command->footer(
-      "placegraph route out/town --from 0 --to 40 --backtrack --out way.json --plot way.png");
-  command->add_option("MAP", a.map, "folder that placegraph run has written, or a map.db")
+      "placegraph map route out/town --from 0 --to 40 --backtrack --out path.json --plot path.png");
+  command->add_option("MAP", a.map, kMapText)
       ->required()
       ->check(CLI::ExistingPath);
   const auto place_option = [&](const char* name, PlaceId& place, const char* what) {
@@ -24,15 +25,15 @@ void add_route_command(CLI::App& app) {
             name, [&place](std::int64_t number) { place = PlaceId(number); }, what)
         ->required();
   };
-  place_option("--from", a.from, "place the way begins at");
-  place_option("--to", a.to, "place it leads to");
+  place_option("--from", a.from, "first place of the path");
+  place_option("--to", a.to, "last place of the path");
   command->add_flag("--backtrack", a.backtrack,
-                    "then print the way back: the same places from the last to the first");
-  command->add_option("--out", a.out,
-                      "write the way as JSON: relative poses from place to place, the frame whose "
-                      "view to expect at each");
-  command->add_option("--plot", a.plot, "draw the places and the way (.png or .svg)");
-  command->add_flag("--force", a.force, "overwrite files");
+                    "also print the path back, from the last place to the first");
+  command->add_option("-o,--out", a.out,
+                      "JSON file for the path: relative poses between places, and the frame to "
+                      "compare with at each");
+  command->add_option("--plot", a.plot, kPlotText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments] { print(to_text(route(*arguments))); });
 }
 

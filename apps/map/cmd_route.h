@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph route MAP --from A --to B [--backtrack]`: the shortest way over a run's places.
-void add_route_command(CLI::App& app);
+void add_route_command(CLI::App& map);
 
 }  // namespace placegraph::apps

@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph match DIR --out FILE [--sequence]`: which older image shows the place of each.
-void add_match_command(CLI::App& app);
+void add_match_command(CLI::App& places);
 
 }  // namespace placegraph::apps

@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph places classify DIR --out FILE`: labelled places, learned and told.
-void add_places_command(CLI::App& app);
+void add_classify_command(CLI::App& places);
 
 }  // namespace placegraph::apps

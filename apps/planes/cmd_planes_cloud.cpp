@@ -5,11 +5,15 @@
 
 #include "apps/planes/planes_cloud.h"
 #include "apps/support/calib_option.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_cloud_planes(CLI::App& planes) {
+void add_planes_command(CLI::App& image) {
+  CLI::App& planes = *image.add_subcommand("planes", "Find planes in a point cloud or depth image");
+  planes.footer(
+      "placegraph image planes depth.png --calib K.txt --depth-scale 0.001 --out planes.png");
   auto arguments = std::make_shared<PlanesCloudArguments>();
   auto json = std::make_shared<bool>(false);
   PlanesCloudArguments& a = *arguments;
@@ -17,44 +21,44 @@ void add_cloud_planes(CLI::App& planes) {
       .add_option("CLOUD", a.in,
                   "16-bit depth PNG, PLY (ascii, binary little endian), KITTI's .bin, or text with "
                   "x y z a line")
+      ->required()
       ->check(CLI::ExistingFile);
   planes.add_option("-o,--out", a.out,
                     "plane of each pixel as 8-bit PNG, or of each point a line: 0 none, 1 the "
                     "largest");
   CLI::Option* cuboids = planes.add_option(
       "--cuboids", a.cuboids,
-      "write boxes and rooms that planes at right angles make, as JSON; the cloud must have been "
-      "taken from the origin");
+      "JSON file for boxes and rooms of orthogonal planes; the cloud must have been taken from "
+      "the origin");
   planes
       .add_option("--off-right-angle", a.cuboid_options.max_off_right_deg,
-                  "of two of their faces, at most [deg]")
+                  "largest deviation of two faces from a right angle [deg]")
       ->needs(cuboids)
       ->capture_default_str();
   add_calib_option(planes, a.calib, std::string("camera of a depth image: ") + kCalibFile);
   planes
       .add_option("--depth-scale", a.depth_scale,
-                  "metres a step of a depth image; from 1 up: steps a metre")
+                  "metres per step of a depth image; from 1 up: steps per metre")
       ->capture_default_str();
-  planes.add_option("--method", a.method, "how planes are found")
+  planes.add_option("--method", a.method, "algorithm")
       ->check(CLI::IsMember(cloud_planes_method_names()))
       ->capture_default_str();
-  planes.add_option("--flatness", a.options.flatness, "what a plane may bend, share of the depth")
+  planes.add_option("--flatness", a.options.flatness, "largest deviation from a plane, as a share of the depth")
       ->capture_default_str();
-  planes.add_option("--min-points", a.options.min_points, "a plane with fewer is none")
+  planes.add_option("--min-points", a.options.min_points, "smallest number of points of a plane")
       ->capture_default_str();
-  planes.add_option("--model", a.model, "planarity as `train planarity` wrote it")
+  planes.add_option("--model", a.model, "model written by `train planarity`")
       ->check(CLI::ExistingFile);
-  planes.add_option("--seed", a.options.seed, "of the random samples")->capture_default_str();
-  planes.add_option("--gt", a.truth, "true labels, PNG or a line a point: judge what is found")
+  planes.add_option("--seed", a.options.seed, kSeedText)->capture_default_str();
+  planes.add_option("--truth", a.truth, "true labels, PNG or one per line: evaluate the result")
       ->check(CLI::ExistingFile);
-  planes.add_option("--gt-min-points", a.check.min_points, "true planes with fewer do not count")
+  planes.add_option("--truth-min-points", a.check.min_points, "smallest number of points of a true plane")
       ->capture_default_str();
-  planes.add_option("--gt-same", a.same, "14=5: true label 14 counts as 5");
-  planes.add_option("--gt-none", a.none, "true labels that are no plane");
-  planes.add_flag("--json", *json, "print JSON");
-  planes.add_flag("--force", a.force, "overwrite outputs");
-  planes.callback([arguments, json, &planes] {
-    if (!planes.get_subcommands().empty()) return;
+  planes.add_option("--truth-same", a.same, "true labels to merge, as 14=5");
+  planes.add_option("--truth-none", a.none, "true labels that are not planes");
+  planes.add_flag("--json", *json, kJsonText);
+  planes.add_flag("--force", a.force, kForceText);
+  planes.callback([arguments, json] {
     const PlanesCloudResult result = planes_cloud(*arguments);
     print(*json ? to_json(result) : to_text(result));
   });

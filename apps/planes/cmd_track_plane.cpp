@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "apps/planes/track_plane.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -39,12 +40,12 @@ void add_choice(CLI::App& command, const std::string& name, Enum& value,
 
 }  // namespace
 
-void add_track_plane_command(CLI::App& app) {
+void add_track_plane_command(CLI::App& track) {
   auto track_command = std::make_shared<TrackPlaneCommand>();
   TrackPlaneArguments& a = track_command->arguments;
-  CLI::App* command = app.add_subcommand("track-plane", "Follow a planar region of an image");
+  CLI::App* command = track.add_subcommand("plane", "Track a planar region of an image");
   command->footer(
-      "placegraph track-plane sequence --template 100,80,300,80,300,220,100,220 --out track.txt");
+      "placegraph track plane sequence --template 100,80,300,80,300,220,100,220 --out track.txt");
   command->add_option("DIR", a.in, "a sequence, or a folder of images")
       ->required()
       ->check(CLI::ExistingPath);
@@ -56,7 +57,7 @@ void add_track_plane_command(CLI::App& app) {
       ->check(CLI::ExistingFile);
   command
       ->add_option("-o,--out", a.out,
-                   "a line a frame: number, tracked or lost, x1 y1 ... x4 y4 [px], similarity")
+                   "file: number, tracked or lost, x1 y1 ... x4 y4 [px], similarity per frame")
       ->required();
   CLI::Option* calibration =
       command
@@ -64,20 +65,21 @@ void add_track_plane_command(CLI::App& app) {
                        "also the motion before the plane, with the sequence's own camera or that "
                        "of a file: a line fx fy cx cy width height [px], or a calibration.yaml")
           ->expected(0, 1);
-  add_choice(*command, "--model", a.options.model, plane_model_names(), "how it may move");
+  add_choice(*command, "--motion-model", a.options.model, plane_model_names(),
+             "motion model of the region");
   add_choice(*command, "--similarity", a.options.align.gradient.similarity, similarity_names(),
-             "what is made great");
+             "similarity to maximize");
   add_choice(*command, "--optimizer", a.options.align.optimizer, align_optimizer_names(),
-             "how it is found from frame to frame");
+             "optimizer of the search from frame to frame");
   command->add_option("--normal", a.normal,
-                      "nx,ny,nz: the plane's, in the camera of the template, where it is known");
+                      "normal of the plane in the first camera, x,y,z");
   command->add_option("--trajectory", a.trajectory,
                       "poses of the camera in units of the plane's distance; .tum or KITTI's form");
-  command->add_option("--draw", a.draw, "folder for the frames with the region's outline");
-  command->add_option("--seed", a.options.align.swarm.seed, "of the searches")
+  command->add_option("--draw", a.draw, "draw the input with the result");
+  command->add_option("--seed", a.options.align.swarm.seed, kSeedText)
       ->capture_default_str();
-  command->add_flag("--json", track_command->json, "print JSON");
-  command->add_flag("--force", a.force, "overwrite outputs");
+  command->add_flag("--json", track_command->json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([track_command, calibration] {
     if (calibration->count() > 0) track_command->arguments.calib = track_command->calib;
     run_track_plane(*track_command);

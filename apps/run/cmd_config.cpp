@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/run/config.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -16,15 +17,15 @@ void add_config_command(CLI::App& app) {
       app.add_subcommand("config", "List every option of run, or write them as YAML");
   command->footer("placegraph config --dump > my.yaml");
   command->add_option("--config", a.config, "YAML file to start from instead of the defaults");
-  command->add_option("--set", a.settings, "one option, key=value; may be repeated")
+  command->add_option("--set", a.settings, kSetText)
       ->allow_extra_args(false);
   auto* dump = command->add_flag("--dump", *yaml, "as YAML that --config takes back");
   command->add_flag("--markdown", *markdown, "as docs/options.md")->excludes(dump);
-  command->add_option("--of", arguments->of, "whose options: run or hover")
-      ->check(CLI::IsMember({"run", "hover"}))
+  command->add_option("--of", arguments->of, "whose options: run or flight")
+      ->check(CLI::IsMember({"run", "flight"}))
       ->capture_default_str();
-  command->add_option("--out", a.out, "write to a file instead of stdout");
-  command->add_flag("--force", a.force, "overwrite it");
+  command->add_option("-o,--out", a.out, "write to a file instead of stdout");
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, yaml, markdown] {
     if (*yaml) arguments->form = ConfigForm::kYaml;
     if (*markdown) arguments->form = ConfigForm::kMarkdown;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/run/inspect.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -26,11 +27,11 @@ void add_inspect_command(CLI::App& app) {
   auto arguments = std::make_shared<InspectArguments>();
   auto json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand(
-      "inspect", "Say what a folder or video is taken for, and what run would use of it.");
+      "inspect", "Show how a folder or video is read, and what `run` would use.");
   command->footer("placegraph inspect kitti/sequences/00");
   command->add_option("PATH", arguments->path, "folder or video; see docs/datasets.md")->required();
-  command->add_flag("--read", arguments->read_all, "read every image and count those that fail");
-  command->add_flag("--json", *json, "print all of it as JSON, with every gap");
+  command->add_flag("--read", arguments->read_all, "read every image and count the unreadable ones");
+  command->add_flag("--json", *json, kJsonText);
   command->callback([arguments, json] { inspect_and_print(*arguments, *json); });
 }
 

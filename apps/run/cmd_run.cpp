@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "apps/run/run.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -37,7 +38,7 @@ void add_run_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("run", "Images in, trajectory and place graph out.");
   command->footer("placegraph run kitti/sequences/00 --camera-height 1.65 --out out/kitti00");
   command->add_option("SEQUENCE", arguments->sequence, "folder or video; see docs/datasets.md");
-  command->add_option("--out", arguments->out, "folder for the results");
+  command->add_option("-o,--out", arguments->out, "folder for the results");
   command->add_option("--resume", arguments->resume,
                       "go on with the run in this folder that was broken off, as it was begun");
   command->add_option("--sensor", arguments->sensor, "what to run it as; default: the best it has")
@@ -58,13 +59,13 @@ void add_run_command(CLI::App& app) {
   command->add_option("--odometry", arguments->odometry,
                       "motion by other sensors (wheels, laser, inertial); see docs/odometry.md");
   command->add_option("--config", arguments->config, "YAML file with options (configs/)");
-  command->add_option("--set", arguments->settings, "one option, key=value; may be repeated")
+  command->add_option("--set", arguments->settings, kSetText)
       ->allow_extra_args(false);
   command->add_flag("--no-loops", arguments->no_loops, "do not look for revisits");
-  command->add_option("--seed", arguments->seed, "of every random stream");
-  command->add_option("--threads", arguments->threads, "the result does not depend on it");
-  command->add_flag("--json", run_command->json, "print result.json");
-  command->add_flag("--force", arguments->force, "write into a folder that is not empty");
+  command->add_option("--seed", arguments->seed, kSeedText);
+  command->add_option("--threads", arguments->threads, kThreadsText);
+  command->add_flag("--json", run_command->json, kJsonText);
+  command->add_flag("--force", arguments->force, kForceText);
   command->add_option("--draw", arguments->draw,
                       "folder for every frame drawn with tracks, residuals and ground");
   command->add_flag("--profile", run_command->profile, "print the CPU time of every stage");

@@ -48,10 +48,10 @@ std::string text_of(const ConfigArguments& arguments) {
 
 std::string config(const ConfigArguments& arguments) {
   if (!arguments.out.empty()) require_free(arguments.out, arguments.force);
-  require(arguments.of == "run" || arguments.of == "hover",
-          "--of: '" + arguments.of + "' is none of run, hover");
+  require(arguments.of == "run" || arguments.of == "flight",
+          "--of: '" + arguments.of + "' is none of run, flight");
   std::string text =
-      arguments.of == "hover" ? text_of<FlightOptions>(arguments) : text_of<RunOptions>(arguments);
+      arguments.of == "flight" ? text_of<FlightOptions>(arguments) : text_of<RunOptions>(arguments);
   if (!arguments.out.empty()) write_file(arguments.out, text);
   return text;
 }

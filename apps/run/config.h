@@ -7,7 +7,7 @@ namespace placegraph::apps {
 enum class ConfigForm { kList, kYaml, kMarkdown };
 
 struct ConfigArguments {
-  std::string of = "run";             ///< whose options: run or hover
+  std::string of = "run";             ///< whose options: run or flight
   std::string config;                 ///< YAML file to start from; empty: the defaults
   std::vector<std::string> settings;  ///< "key=value"
   ConfigForm form = ConfigForm::kList;

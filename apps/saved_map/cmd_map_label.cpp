@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/saved_map/map_label.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -13,22 +14,22 @@ void add_map_label_command(CLI::App& map) {
   auto json = std::make_shared<bool>(false);
   MapLabelArguments& a = *arguments;
   CLI::App* command = map.add_subcommand(
-      "label", "Labels the places of a saved map by a classifier learned from labelled images.");
+      "label", "Label the places of a saved map by a classifier trained on labelled images.");
   command->footer("placegraph map label out/office rooms --names rooms/names.txt");
-  command->add_option("MAP", a.map, "map.db, or the folder of placegraph run with it")->required();
+  command->add_option("MAP", a.map, kMapText)->required();
   command
       ->add_option("ROOMS", a.house, "a folder with images and labels.txt (`image label` a line)")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("--range", a.range, "first and last image to learn from")->expected(2);
+  command->add_option("--range", a.range, kRangeText)->expected(2);
   command->add_option("--names", a.names, "one name a line, the first of label 0")
       ->check(CLI::ExistingFile);
   command
       ->add_option("--min-probability", a.options.min_probability,
-                   "a place's views must say so on average")
+                   "smallest mean probability of a label")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_flag("--json", *json, "for machines");
+  command->add_flag("--json", *json, kJsonText);
   command->callback([arguments, json] {
     const MapLabelResult result = map_label(*arguments);
     print(*json ? to_json(result) : to_text(result));

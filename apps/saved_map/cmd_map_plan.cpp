@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/saved_map/map_plan.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
@@ -12,14 +13,14 @@ void add_map_plan_command(CLI::App& map) {
   auto arguments = std::make_shared<MapPlanArguments>();
   auto json = std::make_shared<bool>(false);
   MapPlanArguments& a = *arguments;
-  CLI::App* command = map.add_subcommand("plan", "Draws the floor plan of an indoor map.");
+  CLI::App* command = map.add_subcommand("plan", "Draw the floor plan of an indoor map.");
   command->footer("placegraph map plan out/office --out out/office-plan");
-  command->add_option("MAP", a.map, "map.db, or the folder of placegraph run with it")->required();
-  command->add_option("--out", a.out, "folder for floor_plan.json, .svg and .png")->required();
-  command->add_option("--set", a.settings, "one option of the plan, key=value; may be repeated")
+  command->add_option("MAP", a.map, kMapText)->required();
+  command->add_option("-o,--out", a.out, "folder for floor_plan.json, .svg and .png")->required();
+  command->add_option("--set", a.settings, kSetText)
       ->allow_extra_args(false);
-  command->add_flag("--json", *json, "for machines");
-  command->add_flag("--force", a.force, "write into a folder that is not empty");
+  command->add_flag("--json", *json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {
     const MapPlanResult result = map_plan(*arguments);
     print(*json ? to_json(result) : to_text(result));

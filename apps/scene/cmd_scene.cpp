@@ -10,15 +10,11 @@
 
 namespace placegraph::apps {
 
-void add_scene_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("scene", "What a picture shows: surfaces and classes");
-  command->footer("placegraph scene label camvid/val --out labels");
-  command->require_subcommand(1);
-  add_scene_check_command(*command);
-  add_scene_label_command(*command);
-  add_scene_orientation_command(*command);
-  add_scene_popup_command(*command);
-  add_scene_surfaces_command(*command);
+void add_scene_commands(CLI::App& image) {
+  add_image_orientation_command(image);
+  add_image_surfaces_command(image);
+  add_image_labels_command(image);
+  add_image_popup_command(image);
 }
 
 }  // namespace placegraph::apps

@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph scene WHAT`: what a picture shows.
-void add_scene_command(CLI::App& app);
+void add_scene_commands(CLI::App& image);
 
 }  // namespace placegraph::apps

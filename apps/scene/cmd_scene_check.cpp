@@ -4,13 +4,14 @@
 #include <memory>
 
 #include "apps/scene/scene_check.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_scene_check_command(CLI::App& scene) {
-  CLI::App* command = scene.add_subcommand("check", "Judge label images by those that people made");
-  command->footer("placegraph scene check labels camvid/val");
+void add_eval_labels_command(CLI::App& eval_group) {
+  CLI::App* command = eval_group.add_subcommand("labels", "Evaluate label images against annotated ones");
+  command->footer("placegraph eval labels labels camvid/val");
   auto arguments = std::make_shared<SceneCheckArguments>();
   auto json = std::make_shared<bool>(false);
   SceneCheckArguments& a = *arguments;
@@ -27,9 +28,9 @@ void add_scene_check_command(CLI::App& scene) {
       ->add_option("--classes", a.classes,
                    "CLASSES.txt by which LABELS are numbered, where it is not that of DATA")
       ->check(CLI::ExistingFile);
-  command->add_flag("--surfaces", a.surfaces, "LABELS are surfaces");
-  command->add_flag("--confusion", a.confusion, "pixels of each class by what they are called");
-  command->add_flag("--json", *json, "a report for machines");
+  command->add_flag("--surfaces", a.surfaces, "LABELS are classes of surfaces");
+  command->add_flag("--confusion", a.confusion, "print the confusion matrix of pixels");
+  command->add_flag("--json", *json, kJsonText);
   command->callback([arguments, json] {
     const SceneCheckResult result = scene_check(*arguments);
     print(*json ? to_json(result) : to_text(result));

@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph scene check LABELS DATA`: label images against those that people made.
-void add_scene_check_command(CLI::App& scene);
+void add_eval_labels_command(CLI::App& eval_group);
 
 }  // namespace placegraph::apps

@@ -9,15 +9,15 @@
 
 namespace placegraph::apps {
 
-void add_scene_label_command(CLI::App& scene) {
+void add_image_labels_command(CLI::App& image) {
   CLI::App* command =
-      scene.add_subcommand("label", "What each pixel of a street is: road, building, car, ...");
-  command->footer("placegraph scene label camvid/val --out labels");
+      image.add_subcommand("labels", "Classify the pixels of a street: road, building, car, ...");
+  command->footer("placegraph image labels camvid/val --out labels");
   auto arguments = std::make_shared<ScenePictureArguments>();
   auto json = std::make_shared<bool>(false);
   add_scene_picture_options(*command, *arguments, *json);
   command->add_option("--surfaces-model", arguments->surfaces_model,
-                      "the model of surfaces that is asked too");
+                      "model of surfaces to use instead of the installed one");
   command->callback([arguments, json] {
     const ScenePictureResult result = scene_label(*arguments);
     print(*json ? to_json(result) : to_text(result));

@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph scene label INPUT --out DIR`: what each pixel of a street is.
-void add_scene_label_command(CLI::App& scene);
+void add_image_labels_command(CLI::App& image);
 
 }  // namespace placegraph::apps

@@ -5,32 +5,33 @@
 
 #include "apps/scene/scene_orientation.h"
 #include "apps/support/calib_option.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 
 namespace placegraph::apps {
 
-void add_scene_orientation_command(CLI::App& scene) {
+void add_image_orientation_command(CLI::App& image) {
   auto arguments = std::make_shared<SceneOrientationArguments>();
   auto json = std::make_shared<bool>(false);
   SceneOrientationArguments& a = *arguments;
-  CLI::App* command = scene.add_subcommand(
+  CLI::App* command = image.add_subcommand(
       "orientation", "How the surface behind each pixel is turned, from straight edges");
   command->footer(
-      "placegraph scene orientation image.png --calib K.txt --out map.png --draw map_drawn.png");
+      "placegraph image orientation image.png --calib K.txt --out map.png --draw map_drawn.png");
   command->add_option("IMAGE", a.in, "an image, or a sequence: then --out and --draw are folders")
       ->required()
       ->check(CLI::ExistingPath);
   add_calib_option(*command, a.camera, kCalibFile);
-  command->add_option("--out", a.out, "8-bit PNG: 0 none, else 1 + axis of the surface's normal");
-  command->add_option("--draw", a.drawing, "PNG of the surfaces and edges in their axes' colours");
-  command->add_option("--every", a.every, "of a sequence, every n-th image")->capture_default_str();
-  command->add_option("--min-confidence", a.options.min_confidence, "of a pixel that is told")
+  command->add_option("-o,--out", a.out, "8-bit PNG: 0 none, else 1 + axis of the surface's normal");
+  command->add_option("--draw", a.drawing, "draw the input with the result");
+  command->add_option("--every", a.every, "use every n-th image")->capture_default_str();
+  command->add_option("--min-confidence", a.options.min_confidence, "smallest confidence of a labelled pixel")
       ->capture_default_str();
-  command->add_option("--min-margin", a.options.min_margin, "of the best against the second")
+  command->add_option("--min-margin", a.options.min_margin, "smallest margin of the best orientation over the second")
       ->capture_default_str();
-  command->add_option("--seed", a.seed, "of the random samples")->capture_default_str();
-  command->add_flag("--json", *json, "print JSON");
-  command->add_flag("--force", a.force, "replace what is there");
+  command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
+  command->add_flag("--json", *json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {
     const SceneOrientationResult result = scene_orientation(*arguments);
     print(*json ? to_json(result) : to_text(result));

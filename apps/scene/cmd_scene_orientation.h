@@ -6,6 +6,6 @@ class App;
 
 namespace placegraph::apps {
 
-void add_scene_orientation_command(CLI::App& scene);
+void add_image_orientation_command(CLI::App& image);
 
 }  // namespace placegraph::apps

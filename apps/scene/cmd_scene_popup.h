@@ -5,6 +5,6 @@ namespace placegraph::apps {
 
 /// `placegraph scene popup IMAGE --out FILE.ply`: a picture folded up into space, and things put
 /// into it.
-void add_scene_popup_command(CLI::App& scene);
+void add_image_popup_command(CLI::App& image);
 
 }  // namespace placegraph::apps

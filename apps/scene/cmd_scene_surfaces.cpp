@@ -9,10 +9,10 @@
 
 namespace placegraph::apps {
 
-void add_scene_surfaces_command(CLI::App& scene) {
-  CLI::App* command = scene.add_subcommand(
+void add_image_surfaces_command(CLI::App& image) {
+  CLI::App* command = image.add_subcommand(
       "surfaces", "Sky 0, ground 1, vertical 2 or object 3: each pixel of a picture");
-  command->footer("placegraph scene surfaces camvid/val --out surfaces");
+  command->footer("placegraph image surfaces camvid/val --out surfaces");
   auto arguments = std::make_shared<ScenePictureArguments>();
   auto json = std::make_shared<bool>(false);
   add_scene_picture_options(*command, *arguments, *json);

@@ -8,8 +8,7 @@ namespace placegraph::apps {
 inline constexpr const char* kCalibFile =
     "one line fx fy cx cy width height [px], or a calibration.yaml";
 
-/// Adds `--calib FILE`; `former`, a name that it had, is taken still and left out of the help.
-CLI::Option* add_calib_option(CLI::App& command, std::string& path, const std::string& doc,
-                              const std::string& former = "");
+/// Adds `--calib FILE`.
+CLI::Option* add_calib_option(CLI::App& command, std::string& path, const std::string& doc);
 
 }  // namespace placegraph::apps

@@ -38,6 +38,9 @@ void write_file(const std::string& path, const std::string& content);
 /// The text on stdout, as it is: what a command says of its result.
 void print(const std::string& text);
 
+/// The text as one line on stderr: what happened, or which spelling is new.
+void note(const std::string& message);
+
 /// "warning: ..." as one line on stderr.
 void warn(const std::string& message);
 

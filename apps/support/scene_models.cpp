@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/support/shipped_files.h"
+
 namespace placegraph::apps {
 namespace fs = std::filesystem;
 
@@ -25,11 +27,7 @@ std::string scene_model_path(SceneModel::Kind kind, const std::string& given) {
   if (const char* folder = std::getenv("PLACEGRAPH_MODELS")) {
     folders.emplace_back(folder);
   } else {
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (!error)
-      folders.push_back(program.parent_path().parent_path() / "share" / "placegraph" / "models");
-    folders.emplace_back(PLACEGRAPH_SOURCE_MODELS);
+    for (const std::string& folder : shipped_folders("models")) folders.emplace_back(folder);
   }
   for (const fs::path& folder : folders)
     if (const fs::path path = folder / (name + ".pgscene"); fs::exists(path)) return path.string();

@@ -9,14 +9,11 @@
 
 namespace placegraph::apps {
 
-void add_train_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("train", "Learn the models that come with the program");
-  command->footer("placegraph train urban camvid --out urban.pgscene");
-  command->require_subcommand(1);
-  add_train_surfaces_command(*command);
-  add_train_urban_command(*command);
-  add_train_planarity_command(*command);
-  add_train_environment_command(*command);
+void add_train_commands(CLI::App& train) {
+  add_train_surfaces_command(train);
+  add_train_urban_command(train);
+  add_train_planarity_command(train);
+  add_train_environment_command(train);
 }
 
 }  // namespace placegraph::apps

@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph train WHAT DATA --out MODEL`: models learned from labelled data.
-void add_train_command(CLI::App& app);
+void add_train_commands(CLI::App& train);
 
 }  // namespace placegraph::apps

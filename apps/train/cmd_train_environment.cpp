@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 #include "apps/train/train_environment.h"
 
@@ -16,23 +17,23 @@ void add_train_environment_command(CLI::App& train_command) {
       "environment",
       "What kind of surroundings a view shows: frontend/internal/scene/environment.txt");
   command->footer("placegraph train environment camvid --out environment.txt");
-  command->add_option("DATA", a.data, "labelled pictures of streets and roads to learn from too");
-  command->add_option("--out", a.out, "write the model")->required();
-  command->add_option("--seeds", a.seeds, "of the rendered worlds to learn from")
+  command->add_option("DATA", a.data, "labelled images of streets and roads, also used for training");
+  command->add_option("-o,--out", a.out, "file for the model")->required();
+  command->add_option("--seeds", a.seeds, "seeds of the rendered worlds of the training set")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--left-out", a.left_out, "of those that judge")
+  command->add_option("--left-out", a.left_out, "seeds of the rendered worlds of the test set")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--frames", a.frames, "of each world")
+  command->add_option("--frames", a.frames, "number of frames rendered of each world")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command->add_option("--penalty", a.penalty, "on the weights")
+  command->add_option("--penalty", a.penalty, "penalty on the weights")
       ->check(CLI::Range(0.0, 10.0))
       ->capture_default_str();
-  command->add_option("--model", a.model, "of surfaces, in place of the one that came along");
-  command->add_flag("--json", *json, "print JSON");
-  command->add_flag("--force", a.force, "overwrite outputs");
+  command->add_option("--model", a.model, kModelText);
+  command->add_flag("--json", *json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {
     const TrainEnvironmentResult result = train_environment(*arguments);
     print(*json ? to_json(result) : to_text(result));

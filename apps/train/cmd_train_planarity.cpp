@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 #include "apps/train/train_planarity.h"
 
@@ -17,11 +18,11 @@ void add_train_planarity_command(CLI::App& train_command) {
   CLI::App* command = train_command.add_subcommand(
       "planarity", "Which segments of a point cloud are planes: for `planes --model`");
   command->footer("placegraph train planarity --out planarity.txt --clouds 300");
-  command->add_option("--out", a.out, "write the model")->required();
-  command->add_option("--worlds", a.worlds, "rendered worlds to learn from")
+  command->add_option("-o,--out", a.out, "file for the model")->required();
+  command->add_option("--worlds", a.worlds, "rendered worlds of the training set")
       ->check(CLI::IsMember(SyntheticWorld::worlds()))
       ->capture_default_str();
-  command->add_option("--frames", a.frames, "of each world")
+  command->add_option("--frames", a.frames, "number of frames rendered of each world")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
   command
@@ -30,12 +31,12 @@ void add_train_planarity_command(CLI::App& train_command) {
                    "judged")
       ->check(CLI::Range(10, 100000))
       ->capture_default_str();
-  command->add_option("--rounds", a.rounds, "stumps")
+  command->add_option("--rounds", a.rounds, "number of decision stumps")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command->add_option("--seed", a.seed, "of clouds and worlds")->capture_default_str();
-  command->add_flag("--json", *json, "print JSON");
-  command->add_flag("--force", a.force, "overwrite outputs");
+  command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
+  command->add_flag("--json", *json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json] {
     const TrainPlanarityResult result = train_planarity(*arguments);
     print(*json ? to_json(result) : to_text(result));

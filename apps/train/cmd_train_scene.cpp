@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 #include "apps/support/scene_models.h"
 #include "apps/train/train_scene.h"
@@ -14,17 +15,17 @@ namespace {
 /// How the forests are learned.
 void add_forest_options(CLI::App& command, SceneTrainingOptions& training) {
   command
-      .add_option("--variants", training.variants, "of each picture, as another day might show it")
+      .add_option("--variants", training.variants, "variants of each image in other light")
       ->capture_default_str();
-  command.add_option("--trees", training.forest.trees, "of each forest")->capture_default_str();
-  command.add_option("--min-leaf", training.forest.min_leaf, "superpixels a leaf holds at least")
+  command.add_option("--trees", training.forest.trees, "number of trees of each forest")->capture_default_str();
+  command.add_option("--min-leaf", training.forest.min_leaf, "smallest number of superpixels in a leaf")
       ->capture_default_str();
-  command.add_option("--tries", training.forest.tries, "features looked at for a split")
+  command.add_option("--tries", training.forest.tries, "number of features tried for a split")
       ->capture_default_str();
   command
-      .add_option("--share-rows", training.forest.share_rows, "of the superpixels, taken by a tree")
+      .add_option("--share-rows", training.forest.share_rows, "share of the superpixels used for each tree")
       ->capture_default_str();
-  command.add_option("--class-power", training.class_power, "rare classes weigh as share^-power")
+  command.add_option("--class-power", training.class_power, "classes are weighted by share^-power")
       ->capture_default_str();
 }
 
@@ -44,7 +45,7 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
           "folder with CLASSES.txt and train/ of images/ and labels/, val/ beside it judges")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command->add_option("--out", a.out, "write the model, and its card beside it")->required();
+  command->add_option("-o,--out", a.out, "file for the model; its card is written beside it")->required();
   command->add_option("--holdout", a.holdout,
                       "a sequence (names up to the first '_') that judges instead of teaching");
   command->add_option("--update", a.update,
@@ -56,20 +57,20 @@ void add_train_scene_command(CLI::App& train_command, SceneModel::Kind kind, con
                    "known exactly; those of even seeds have traffic and bad light")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--rendered-frames", a.options.rendered_frames, "views of each")
+  command->add_option("--rendered-frames", a.options.rendered_frames, "number of views of each rendered world")
       ->check(CLI::Range(1, 10000))
       ->capture_default_str();
-  command->add_option("--every", a.options.every, "learn from every n-th photograph only")
+  command->add_option("--every", a.options.every, "use every n-th image")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--seed", a.options.training.forest.seed, "of what is drawn")
+  command->add_option("--seed", a.options.training.forest.seed, kSeedText)
       ->capture_default_str();
-  command->add_option("--threads", a.options.threads, "do not change the result")
+  command->add_option("--threads", a.options.threads, kThreadsText)
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
-  command->add_flag("--ablation", a.ablation, "judge each part of the model too");
-  command->add_flag("--json", *json, "a report for machines");
-  command->add_flag("--force", a.force, "overwrite files");
+  command->add_flag("--ablation", a.ablation, "also evaluate each part of the model");
+  command->add_flag("--json", *json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([arguments, json, kind] {
     const LogSink sink = [](LogLevel, const std::string& message) {
       std::fprintf(stderr, "%s\n", message.c_str());

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 #include "apps/views/flow.h"
 
@@ -25,47 +26,47 @@ void run_flow(const FlowCommand& command) {
 
 }  // namespace
 
-void add_flow_command(CLI::App& app) {
+void add_flow_command(CLI::App& image) {
   auto flow_command = std::make_shared<FlowCommand>();
   FlowArguments& a = flow_command->arguments;
-  CLI::App* command = app.add_subcommand("flow", "Optical flow between two images");
-  command->footer("placegraph flow a.png b.png --method horn-schunck --out f.flo --draw f.png");
+  CLI::App* command = image.add_subcommand("flow", "Estimate the optical flow between two images");
+  command->footer("placegraph image flow a.png b.png --method horn-schunck --out f.flo --draw f.png");
   command->add_option("FROM", a.from, "first image")->required();
   command->add_option("TO", a.to, "second image")->required();
-  command->add_option("--method", a.method, "how displacements are found")
+  command->add_option("--method", a.method, "algorithm")
       ->check(CLI::IsMember(flow_method_names()))
       ->capture_default_str();
   command->add_option("-o,--out", a.out, "file to write: .flo (Middlebury) or .png (KITTI)");
-  command->add_option("--draw", a.drawing, "picture of it (PNG)");
+  command->add_option("--draw", a.drawing, "draw the input with the result");
   command->add_option("--truth", a.truth, "true flow to compare with: .flo or .png");
-  command->add_option("--set", a.settings, "an option of the method, key=value; may be repeated")
+  command->add_option("--set", a.settings, kSetText)
       ->type_size(1)
       ->allow_extra_args(false);
-  auto* cues = command->add_flag("--cues", a.cues,
-                                 "also what the flow tells at once: divergence, speed over "
-                                 "distance, time to contact, balance; see docs/flow.md");
+  auto* cues = command->add_flag("--flow-cues", a.cues,
+                                 "also print divergence, speed over distance, time to contact "
+                                 "and balance; see docs/flow.md");
   add_calib_option(*command, a.calib, kCalibFile)->needs(cues);
-  command->add_option("--dt", a.dt_s, "time between the images [s]; without, images are counted")
+  command->add_option("--dt", a.dt_s, "time between the images [s]; default: 1 per image")
       ->check(CLI::PositiveNumber)
       ->needs(cues);
   const auto three = [&](const char* name, std::vector<double>& values, const char* what) {
     return command->add_option(name, values, what)->expected(3)->delimiter(',')->needs(cues);
   };
   auto* gyro = three("--gyro", a.gyro,
-                     "how the camera turns [rad/s], its own axes: that is taken out of the flow");
-  three("--turn", a.turn, "the same as a rotation vector from image to image [rad]")
+                     "angular velocity of the camera in its axes; its flow is subtracted [rad/s]");
+  three("--rotation", a.turn, "rotation vector of the camera between the images [rad]")
       ->excludes(gyro);
   command
-      ->add_option("--turn-sigma", a.rotation_sigma,
-                   "of either, from image to image, an axis [rad]")
+      ->add_option("--rotation-sigma", a.rotation_sigma,
+                   "standard deviation of the rotation about each axis [rad]")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  three("--normal", a.normal, "to the plane that is approached or passed, in the first camera");
-  command->add_option("--cell", a.cell_px, "one vector in a square of so many pixels a side")
+  three("--normal", a.normal, "normal of the plane in the first camera, x,y,z");
+  command->add_option("--cell", a.cell_px, "side of the square with one vector [px]")
       ->check(CLI::Range(4, 512))
       ->capture_default_str();
-  command->add_flag("--json", flow_command->json, "print JSON");
-  command->add_flag("--force", a.force, "overwrite OUT and the drawing");
+  command->add_flag("--json", flow_command->json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([flow_command] { run_flow(*flow_command); });
 }
 

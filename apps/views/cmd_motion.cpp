@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "apps/support/calib_option.h"
+#include "apps/support/option_texts.h"
 #include "apps/support/output.h"
 #include "apps/views/motion.h"
 
@@ -17,7 +18,7 @@ struct MotionCommand {
 
 void run_motion(const MotionCommand& command) {
   const MotionResult result = motion(command.arguments);
-  // Its evidence is told all the same, to those who read JSON.
+  // The JSON has the evidence even if there is no answer.
   if (command.json) print(to_json(result));
   if (result.no_answer) throw NoAnswer(*result.no_answer);
   if (!command.json) print(to_text(result));
@@ -25,12 +26,12 @@ void run_motion(const MotionCommand& command) {
 
 }  // namespace
 
-void add_motion_command(CLI::App& app) {
+void add_motion_command(CLI::App& image) {
   auto motion_command = std::make_shared<MotionCommand>();
   MotionArguments& a = motion_command->arguments;
   CLI::App* command =
-      app.add_subcommand("motion", "How a camera moved between two views of matched points");
-  command->footer("placegraph motion matches.txt --calib K.txt --json");
+      image.add_subcommand("motion", "Estimate the motion between two views from matched points");
+  command->footer("placegraph image motion matches.txt --calib K.txt --json");
   command
       ->add_option("MATCHES", a.in,
                    "lines of xA yA xB yB [px]; of X Y Z x y for 3d2d, of xA yA zA xB yB zB for "
@@ -39,8 +40,8 @@ void add_motion_command(CLI::App& app) {
       ->check(CLI::ExistingFile);
   add_calib_option(*command, a.calib, std::string("camera of both views: ") + kCalibFile);
   command
-      ->add_option("--model", a.model,
-                   "what explains the views: auto chooses among essential, homography and "
+      ->add_option("--method", a.model,
+                   "algorithm: auto chooses among essential, homography and "
                    "rotation; gravity: three points and both verticals; circular: a car; 3d2d, "
                    "3d3d: points of known place in one view or both")
       ->check(CLI::IsMember(motion_model_names()))
@@ -48,14 +49,14 @@ void add_motion_command(CLI::App& app) {
   command->add_option("--gravity", a.options.gravity,
                       "x,y,z[,x,y,z]: downwards in the first camera [and in the second]; needed by "
                       "gravity; levels the camera of a car");
-  command->add_option("--threshold", a.options.threshold_px, "inliers lie within this [px]");
-  command->add_option("--min-inliers", a.options.min_inliers, "fewer allow no answer");
-  command->add_option("--noise", a.options.noise_m, "of each coordinate, for 3d3d [m]")
+  command->add_option("--threshold", a.options.threshold_px, "largest error of an inlier [px]");
+  command->add_option("--min-inliers", a.options.min_inliers, "smallest number of inliers");
+  command->add_option("--point-noise", a.options.noise_m, "standard deviation of each coordinate of a point, for 3d3d [m]")
       ->capture_default_str();
-  command->add_option("--seed", a.seed, "of the random samples")->capture_default_str();
+  command->add_option("--seed", a.seed, kSeedText)->capture_default_str();
   command->add_option("-o,--out", a.out, "JSON file");
-  command->add_flag("--json", motion_command->json, "print JSON");
-  command->add_flag("--force", a.force, "overwrite OUT");
+  command->add_flag("--json", motion_command->json, kJsonText);
+  command->add_flag("--force", a.force, kForceText);
   command->callback([motion_command] { run_motion(*motion_command); });
 }
 

@@ -4,6 +4,6 @@
 namespace placegraph::apps {
 
 /// `placegraph motion MATCHES.txt --calib K.txt`: the relative pose of two views.
-void add_motion_command(CLI::App& app);
+void add_motion_command(CLI::App& image);
 
 }  // namespace placegraph::apps

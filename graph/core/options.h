@@ -2,7 +2,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
@@ -11,6 +13,13 @@ namespace [[gnu::visibility("default")]] placegraph {
 struct Range {
   double min = -std::numeric_limits<double>::infinity();  ///< smallest value allowed
   double max = std::numeric_limits<double>::infinity();   ///< largest value allowed
+};
+
+/// Who an option is for.
+enum class OptionLevel {
+  kBasic,     ///< everybody: what most runs set
+  kAdvanced,  ///< those who adapt the system to other data; the default
+  kInternal   ///< developers: constants of an algorithm
 };
 
 /// Visits the fields of an options struct.
@@ -23,10 +32,22 @@ struct Range {
 ///       field("window_px", o.window_px, "side of the square window", {5, 63});
 ///       field.choice("metric", o.metric, {"ssd", "zncc"}, "similarity");   // enum class, 0-based
 ///       field.group("ransac", o.ransac, "outlier rejection");              // nested options
+///       field.basic()("enabled", o.enabled, "whether points are tracked"); // for everybody
+///       field.formerly("sigma")("sigma_px", o.sigma_px, "noise [px]");     // had another key
 ///     }
 class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
+
+  /// Marks the next field, or all fields of the next group, as OptionLevel::kBasic.
+  OptionVisitor& basic() { return mark(OptionLevel::kBasic); }
+  /// Marks the next field, or all fields of the next group, as OptionLevel::kInternal.
+  OptionVisitor& internal() { return mark(OptionLevel::kInternal); }
+  /// Names the key that the next field or group had in earlier versions; files may still use it.
+  OptionVisitor& formerly(const char* key) {
+    marks_.former_key = key;
+    return *this;
+  }
 
   /// A switch: YAML's true or false.
   virtual void operator()(const char* key, bool& value, const char* doc) = 0;
@@ -69,6 +90,14 @@ class OptionVisitor {
   }
 
  protected:
+  /// What `basic`, `internal` and `formerly` say about the next field or group.
+  struct Marks {
+    std::optional<OptionLevel> level;  ///< nothing: that of the group around it
+    const char* former_key = nullptr;  ///< null: it always had its key
+  };
+  /// The marks of the present field or group; the next one begins without marks.
+  Marks take_marks() { return std::exchange(marks_, {}); }
+
   virtual void choice_index(const char* key, int& index, const std::vector<std::string>& names,
                             const char* doc) = 0;
   virtual void begin_group(const char* key, const char* doc) = 0;
@@ -77,6 +106,14 @@ class OptionVisitor {
   /// place of their fields.
   virtual bool checks() const { return false; }
   virtual void check_group(const std::function<void()>& check) { check(); }
+
+ private:
+  OptionVisitor& mark(OptionLevel level) {
+    marks_.level = level;
+    return *this;
+  }
+
+  Marks marks_;
 };
 
 /// One field of an options struct, or the head of a group, with its full path.
@@ -87,6 +124,8 @@ struct OptionEntry {
   std::string type;   ///< bool | int | uint | double | string | list | choice | group
   Range range;        ///< of an int, a double or the elements of a list
   std::vector<std::string> choices;  ///< the names that a choice may have, else empty
+  OptionLevel level = OptionLevel::kAdvanced;  ///< who it is for; of a group: its fields
+  std::string former_path;  ///< the path that it had in earlier versions; empty: the same
 };
 
 namespace internal {
@@ -116,7 +155,8 @@ class OptionCollector : public OptionVisitor {
   void add(const char* key, std::string value, const char* doc, const char* type, Range range = {},
            std::vector<std::string> choices = {});
   void check_range(const char* key, double value, Range range) const;
-  std::vector<std::string> prefix_;
+  std::vector<std::string> prefix_, former_prefix_;
+  std::vector<OptionLevel> levels_ = {OptionLevel::kAdvanced};  // of the groups around
   bool check_;
 };
 }  // namespace internal

@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/graph/core/log.h>
 #include <placegraph/graph/core/options.h>
 
 #include <memory>
@@ -16,8 +17,8 @@ class OptionsFile {
   OptionsFile(const std::string& path, const std::string& text);
   ~OptionsFile();
   OptionVisitor& visitor();
-  /// Throws FileError for the first key that nobody asked for.
-  void finish();
+  /// Throws FileError for the first key that nobody asked for; names old spellings to `log`.
+  void finish(const LogSink& log);
 
  private:
   class Reader;
@@ -31,7 +32,7 @@ class OptionAssignment {
   ~OptionAssignment();
   OptionVisitor& visitor();
   /// Throws ArgumentError if nobody asked for the key, with those of `known` that look like it.
-  void finish(const std::vector<OptionEntry>& known);
+  void finish(const std::vector<OptionEntry>& known, const LogSink& log);
 
  private:
   class Setter;
@@ -44,13 +45,14 @@ class OptionAssignment {
 ///
 /// Throws FileError for an unknown or duplicate key, a wrong type, NaN, or a value out of range, as
 /// in "configs/kitti.yaml:12: frontend.flow.level: unknown key"; `options` is untouched then.
+/// Each former spelling of a key is named to `log` with its present one, as a warning.
 /// Relations between fields are not checked: call `options.check()` once everything is set.
 template <class Options>
-void read_options(const std::string& path, Options& options) {
+void read_options(const std::string& path, Options& options, const LogSink& log = {}) {
   internal::OptionsFile file(path);
   Options changed = options;
   visit(file.visitor(), changed);
-  file.finish();
+  file.finish(log);
   options = changed;
 }
 
@@ -58,11 +60,12 @@ void read_options(const std::string& path, Options& options) {
 ///
 /// `path` is the file that holds the text, for messages; otherwise as read_options.
 template <class Options>
-void read_options_text(const std::string& path, const std::string& text, Options& options) {
+void read_options_text(const std::string& path, const std::string& text, Options& options,
+                       const LogSink& log = {}) {
   internal::OptionsFile file(path, text);
   Options changed = options;
   visit(file.visitor(), changed);
-  file.finish();
+  file.finish(log);
   options = changed;
 }
 
@@ -71,11 +74,11 @@ void read_options_text(const std::string& path, const std::string& text, Options
 /// Throws ArgumentError for an unknown key, a wrong type or a value out of range, as in
 /// "--set a.b.c=value: unknown key; similar: a.b.d"; `options` is untouched then.
 template <class Options>
-void set_option(Options& options, const std::string& assignment) {
+void set_option(Options& options, const std::string& assignment, const LogSink& log = {}) {
   internal::OptionAssignment setter(assignment);
   Options changed = options;
   visit(setter.visitor(), changed);
-  setter.finish(list_options(options));
+  setter.finish(list_options(options), log);
   options = changed;
 }
 

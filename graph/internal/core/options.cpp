@@ -94,10 +94,17 @@ void OptionCollector::choice_index(const char* key, int& index,
 
 void OptionCollector::begin_group(const char* key, const char* doc) {
   add(key, "", doc, "group");
+  levels_.push_back(entries.back().level);
+  const std::string former = entries.back().former_path;
   prefix_.push_back(key);
+  former_prefix_.push_back(former.empty() ? key : former.substr(former.rfind('.') + 1));
 }
 
-void OptionCollector::end_group() { prefix_.pop_back(); }
+void OptionCollector::end_group() {
+  levels_.pop_back();
+  prefix_.pop_back();
+  former_prefix_.pop_back();
+}
 
 void OptionCollector::check_group(const std::function<void()>& check) {
   try {
@@ -109,7 +116,12 @@ void OptionCollector::check_group(const std::function<void()>& check) {
 
 void OptionCollector::add(const char* key, std::string value, const char* doc, const char* type,
                           Range range, std::vector<std::string> choices) {
-  entries.push_back({join(prefix_, key), std::move(value), doc, type, range, std::move(choices)});
+  const Marks marks = take_marks();
+  const std::string path = join(prefix_, key);
+  const std::string former =
+      join(former_prefix_, marks.former_key != nullptr ? marks.former_key : key);
+  entries.push_back({path, std::move(value), doc, type, range, std::move(choices),
+                     marks.level.value_or(levels_.back()), former == path ? "" : former});
 }
 
 void OptionCollector::check_range(const char* key, double value, Range range) const {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/internal/core/spelling.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/internal/config/yaml_document.h>
 #include <placegraph/io/internal/files/text_file.h>
@@ -117,7 +118,14 @@ class AssigningVisitor : public OptionVisitor {
     take(key, [&](const YAML::Node& node, const Fail& fail) { assign(node, value, range, fail); });
   }
 
+  /// Lines about old spellings that were used.
+  std::vector<std::string> notes;
+
  protected:
+  void note_spelling(const std::string& place, const std::string& former, const std::string& path) {
+    notes.push_back(fmt::format("{}'{}' is an old spelling of '{}'", place, former, path));
+  }
+
   using Assign = std::function<void(const YAML::Node&, const Fail&)>;
   /// Calls `assign` with the value of `key`, if there is one.
   virtual void take(const char* key, const Assign& assign) = 0;
@@ -145,12 +153,11 @@ class OptionsFile::Reader : public AssigningVisitor {
  private:
   struct Level {
     YAML::Node map;
-    std::set<std::string> known;
+    std::vector<std::string> known, former;  ///< keys that are asked for
   };
 
   void take(const char* key, const Assign& assign) override {
-    levels_.back().known.insert(key);
-    const YAML::Node value = find(key);
+    const YAML::Node value = find(key, take_marks().former_key);
     if (!value.IsDefined()) return;
     const std::string path = joined(prefix_, key);
     assign(value, [this, &path](const YAML::Node& node, const std::string& message) {
@@ -158,14 +165,28 @@ class OptionsFile::Reader : public AssigningVisitor {
     });
   }
 
-  YAML::Node find(const char* key) const {
+  /// The value of a key, which may have its former spelling; both at once are an error.
+  YAML::Node find(const char* key, const char* former) {
+    levels_.back().known.emplace_back(key);
+    const YAML::Node present = value_of(key);
+    if (former == nullptr) return present;
+    levels_.back().former.emplace_back(former);
+    const YAML::Node old = value_of(former);
+    if (!old.IsDefined()) return present;
+    const std::string spelled = joined(prefix_, former), path = joined(prefix_, key);
+    if (present.IsDefined())
+      document_.fail(old, spelled + ": is an old spelling of " + path + ", which is also there");
+    note_spelling(fmt::format("{}:{}: ", document_.path(), yaml_line(old)), spelled, path);
+    return old;
+  }
+
+  YAML::Node value_of(const char* key) const {
     const YAML::Node& map = levels_.back().map;
     return map.IsMap() ? map[key] : YAML::Node(YAML::NodeType::Undefined);
   }
 
   void begin_group(const char* key, const char*) override {
-    levels_.back().known.insert(key);
-    const YAML::Node value = find(key);
+    const YAML::Node value = find(key, take_marks().former_key);
     prefix_.emplace_back(key);
     enter(value.IsDefined() ? value : YAML::Node());
   }
@@ -189,18 +210,19 @@ class OptionsFile::Reader : public AssigningVisitor {
         document_.fail(entry.first, joined(prefix_, key) + ": duplicate key");
       }
     }
-    levels_.push_back({node, {}});
+    levels_.push_back({node, {}, {}});
   }
 
   /// Keeps the unknown key that stands first in the file; thrown at the end, after wrong values.
   void leave() {
     for (const auto& entry : levels_.back().map) {
       const std::string& key = entry.first.Scalar();
-      if (levels_.back().known.contains(key)) continue;
+      const Level& level = levels_.back();
+      if (std::ranges::count(level.known, key) + std::ranges::count(level.former, key) > 0) continue;
       const int line = yaml_line(entry.first);
       if (unknown_ && unknown_line_ <= line) continue;
       unknown_line_ = line;
-      unknown_.emplace(document_.path(), line, joined(prefix_, key) + ": unknown key");
+      unknown_.emplace(document_.path(), line, joined(prefix_, key) + ": unknown key" + did_you_mean(key, level.known));
     }
     levels_.pop_back();
   }
@@ -217,7 +239,11 @@ OptionsFile::OptionsFile(const std::string& path, const std::string& text)
     : reader_(std::make_unique<Reader>(path, text)) {}
 OptionsFile::~OptionsFile() = default;
 OptionVisitor& OptionsFile::visitor() { return *reader_; }
-void OptionsFile::finish() { reader_->finish(); }
+void OptionsFile::finish(const LogSink& log) {
+  reader_->finish();
+  if (log)
+    for (const std::string& note : reader_->notes) log(LogLevel::kWarning, note);
+}
 
 class OptionAssignment::Setter : public AssigningVisitor {
  public:
@@ -225,6 +251,10 @@ class OptionAssignment::Setter : public AssigningVisitor {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) fail("expected key=value");
     key_ = assignment.substr(0, equals);
+    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
+      end = key_.find('.', begin);
+      words_.push_back(key_.substr(begin, end - begin));
+    }
     try {
       value_ = YAML::Load(assignment.substr(equals + 1));
     } catch (const YAML::Exception& error) {
@@ -247,41 +277,42 @@ class OptionAssignment::Setter : public AssigningVisitor {
   }
 
   void take(const char* key, const Assign& assign) override {
-    if (joined(prefix_, key) != key_) return;
+    if (!is_spelled(key, take_marks().former_key, prefix_.size() + 1)) return;
     assign(value_, [this](const YAML::Node&, const std::string& message) { fail(message); });
     assigned_ = true;
   }
 
   void begin_group(const char* key, const char*) override {
+    const char* former = take_marks().former_key;
+    group_ = group_ || is_spelled(key, former, prefix_.size() + 1);
     prefix_.emplace_back(key);
-    group_ = group_ || joined({prefix_.begin(), prefix_.end() - 1}, key) == key_;
+    former_prefix_.emplace_back(former != nullptr ? former : key);
   }
-  void end_group() override { prefix_.pop_back(); }
-
-  /// Levenshtein's distance.
-  static std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i;
-      for (std::size_t j = 1; j <= b.size(); ++j) {
-        const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
-        diagonal = row[j];
-        row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
-      }
-    }
-    return row[b.size()];
+  void end_group() override {
+    prefix_.pop_back();
+    former_prefix_.pop_back();
   }
 
-  /// Keys spelled alike, or with the same last word under another group; the closest three.
+  /// Whether the key that is set, of `length` words, names `key` in the present group; each word
+  /// may have its former spelling.
+  bool is_spelled(const char* key, const char* former, std::size_t length) {
+    if (words_.size() != length) return false;
+    for (std::size_t i = 0; i < prefix_.size(); ++i)
+      if (words_[i] != prefix_[i] && words_[i] != former_prefix_[i]) return false;
+    if (words_.back() != key && (former == nullptr || words_.back() != former)) return false;
+    const std::string path = joined(prefix_, key);
+    if (path != key_) note_spelling("--set ", key_, path);
+    return true;
+  }
+
+  /// Keys of a similar spelling, or with the same last word in another group; the closest three.
   std::vector<std::string> near_matches(const std::vector<OptionEntry>& known) const {
     const auto last_word = [](const std::string& path) { return path.substr(path.rfind('.') + 1); };
     std::vector<std::pair<std::size_t, std::string>> candidates;
     for (const OptionEntry& entry : known) {
       if (entry.type == "group") continue;
-      const std::size_t whole = distance(entry.path, key_);
-      const std::size_t word = distance(last_word(entry.path), last_word(key_));
+      const std::size_t whole = edit_distance(entry.path, key_);
+      const std::size_t word = edit_distance(last_word(entry.path), last_word(key_));
       const std::size_t score = std::min(whole, word + 1);
       if (score <= 3) candidates.emplace_back(score, entry.path);
     }
@@ -294,8 +325,9 @@ class OptionAssignment::Setter : public AssigningVisitor {
   }
 
   std::string assignment_, key_;
+  std::vector<std::string> words_;  ///< of the key, between its dots
   YAML::Node value_;
-  std::vector<std::string> prefix_;
+  std::vector<std::string> prefix_, former_prefix_;
   bool assigned_ = false, group_ = false;
 };
 
@@ -303,7 +335,11 @@ OptionAssignment::OptionAssignment(const std::string& assignment)
     : setter_(std::make_unique<Setter>(assignment)) {}
 OptionAssignment::~OptionAssignment() = default;
 OptionVisitor& OptionAssignment::visitor() { return *setter_; }
-void OptionAssignment::finish(const std::vector<OptionEntry>& known) { setter_->finish(known); }
+void OptionAssignment::finish(const std::vector<OptionEntry>& known, const LogSink& log) {
+  setter_->finish(known);
+  if (log)
+    for (const std::string& note : setter_->notes) log(LogLevel::kWarning, note);
+}
 
 }  // namespace internal
 

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 class LoopsCommand : public testing::Test {
  protected:
   LoopsCommand() {
-    arguments.gt = folder.write("gt.txt", "10 0 5 1\n11 0 5 2\n12 0 5 3\n");
+    arguments.truth = folder.write("gt.txt", "10 0 5 1\n11 0 5 2\n12 0 5 3\n");
     arguments.predictions = {folder.write("found.txt", "10 1 0.9\n11 5 0.8\n")};
   }
   void expect_refused(const std::string& message) {
@@ -66,13 +66,13 @@ TEST_F(LoopsCommand, LeavesOutCandidatesThatAreTooYoung) {
 TEST_F(LoopsCommand, ComparesSystemsByTheirNames) {
   arguments.predictions.push_back(folder.write("other.txt", "12 3 0.5\n"));
   arguments.names = {"one", "two"};
-  arguments.log = folder / "log.csv";
+  arguments.csv = folder / "log.csv";
   const LoopsResult result = loops(arguments);
   const json report = json::parse(to_json(result));
   EXPECT_EQ(report["systems"][0]["name"], "one");
   EXPECT_EQ(report["systems"][1]["name"], "two");
   EXPECT_EQ(report["systems"][1]["hits"], 1);
-  const std::string log = test::read_file(arguments.log);
+  const std::string log = test::read_file(arguments.csv);
   EXPECT_THAT(log, HasSubstr("one,10,1,hit,1,0.9,"));
   EXPECT_THAT(log, HasSubstr("two,12,1,hit,3,0.5,"));
 }
@@ -81,7 +81,7 @@ TEST_F(LoopsCommand, JudgesByPoses) {
   std::string poses;  // there and back again: image 9 - k stands where image k does
   for (int i = 0; i < 10; ++i)
     poses += "1 0 0 " + std::to_string(20 * (i < 5 ? i : 9 - i)) + " 0 1 0 0 0 0 1 0\n";
-  arguments.gt.clear();
+  arguments.truth.clear();
   arguments.poses = folder.write("poses.txt", poses);
   arguments.predictions = {folder.write("found.txt", "9 0 0.9\n8 1 0.8\n7 1 0.7\n")};
   arguments.min_age = 2;
@@ -105,8 +105,8 @@ TEST_F(LoopsCommand, TellsWhetherProbabilitiesHold) {
 
 TEST_F(LoopsCommand, RefusesArgumentsThatMeanNothing) {
   const LoopsArguments asked = arguments;
-  arguments.gt.clear();
-  expect_refused("one of --gt and --poses is needed");
+  arguments.truth.clear();
+  expect_refused("one of --truth and --poses is needed");
   arguments = asked;
   arguments.names = {"one", "two"};
   expect_refused("--names: one for each of --predictions");

@@ -46,13 +46,13 @@ TEST(ConfigCommand, ListsEveryOptionOnALine) {
 
 TEST(ConfigCommand, KnowsTheOptionsOfHover) {
   ConfigArguments arguments;
-  arguments.of = "hover";
+  arguments.of = "flight";
   arguments.form = ConfigForm::kMarkdown;
-  EXPECT_THAT(config(arguments), testing::StartsWith("# Options of `placegraph hover`\n"));
+  EXPECT_THAT(config(arguments), testing::StartsWith("# Options of `placegraph flight`\n"));
   EXPECT_THAT(config(arguments), HasSubstr("marker_delay_s"));  // run has no such option
   arguments.of = "walk";
   EXPECT_THAT(message_of<ArgumentError>([&] { config(arguments); }),
-              HasSubstr("--of: 'walk' is none of run, hover"));
+              HasSubstr("--of: 'walk' is none of run, flight"));
 }
 
 TEST(ConfigCommand, KeepsAFileThatIsThereUnlessItIsForced) {

@@ -1,4 +1,4 @@
-#include "apps/run/hover.h"
+#include "apps/run/fly.h"
 
 #include <fmt/format.h>
 #include <placegraph/io/internal/measurements/marker_layout_file.h>
@@ -43,7 +43,7 @@ Flown fly(const FlightArguments& arguments, const Flight& flight) {
   Flown flown;
   const Stopwatch watch;
   {
-    Progress progress("hovering " + body.images->name(),
+    Progress progress("flight " + body.images->name(),
                       static_cast<std::int64_t>(body.images->size()));
     flown.run =
         run_flight(*body.images, flight.imu, body.T_body_cam, flight.layout, flight.options,
@@ -91,7 +91,7 @@ void write_results(const std::string& folder, const Flown& flown, const MarkerLa
 
 }  // namespace
 
-FlightResult hover(const FlightArguments& arguments) {
+FlightResult fly(const FlightArguments& arguments) {
   require_free_folder(arguments.out, arguments.force);
   const Flight flight = open_flight(arguments);
   const OutputFolder folder(arguments.out);

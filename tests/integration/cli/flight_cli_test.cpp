@@ -18,7 +18,7 @@ class FlightCli : public CliTest {
   static void SetUpTestSuite() {
     rendered() = std::make_unique<TemporaryFolder>();
     const CommandResult result =
-        run_placegraph("synth hover --out flight --duration 4 --seed 6", rendered()->path());
+        run_placegraph("synth sequence hover --out flight --duration 4 --seed 6", rendered()->path());
     ASSERT_EQ(result.code, 0) << result.err;
   }
   static void TearDownTestSuite() { rendered().reset(); }
@@ -38,7 +38,7 @@ class FlightCli : public CliTest {
 };
 
 TEST_F(FlightCli, KnowsWhereItIsToCentimetres) {
-  const CommandResult ran = run("hover " + flight() + " --out out --profile");
+  const CommandResult ran = run("flight run " + flight() + " --out out --profile");
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("81 of 81 frames answered"));
   EXPECT_THAT(ran.out, HasSubstr("detect markers"));
@@ -57,36 +57,36 @@ TEST_F(FlightCli, KnowsWhereItIsToCentimetres) {
 }
 
 TEST_F(FlightCli, RepeatsItselfToTheBit) {
-  ASSERT_EQ(run("hover " + flight() + " --out a").code, 0);
-  ASSERT_EQ(run("hover " + flight() + " --out b").code, 0);
+  ASSERT_EQ(run("flight run " + flight() + " --out a").code, 0);
+  ASSERT_EQ(run("flight run " + flight() + " --out b").code, 0);
   EXPECT_EQ(read_file(dir / "a/states.csv"), read_file(dir / "b/states.csv"));
 }
 
 TEST_F(FlightCli, GoesOnWithoutMarkersFromWhatItKnew) {
-  ASSERT_EQ(run("hover " + flight() + " --out until --markers-until 1").code, 0);
+  ASSERT_EQ(run("flight run " + flight() + " --out until --markers-until 1").code, 0);
   const json until = result("until");
   EXPECT_LE(until["frames_with_markers"].get<int>(), 20);
   EXPECT_EQ(until["answered"], 81);
   EXPECT_LT(until["error"]["end_error_m"].get<double>(), 0.05);
-  ASSERT_EQ(run("hover " + flight() + " --out blind --blind 1:2 --blind 2.5:3").code, 0);
+  ASSERT_EQ(run("flight run " + flight() + " --out blind --blind 1:2 --blind 2.5:3").code, 0);
   EXPECT_EQ(result("blind")["outages_s"].size(), 1U);
-  ASSERT_EQ(run("hover " + flight() + " --out truth --no-markers --start-from-truth").code, 0);
+  ASSERT_EQ(run("flight run " + flight() + " --out truth --no-markers --start-from-truth").code, 0);
   EXPECT_EQ(result("truth")["frames_with_markers"], 0);
   EXPECT_LT(result("truth")["error"]["end_error_m"].get<double>(), 0.05);
 }
 
 TEST_F(FlightCli, SmoothsTheSameMeasurements) {
-  ASSERT_EQ(run("hover " + flight() + " --out smooth --smooth").code, 0);
+  ASSERT_EQ(run("flight run " + flight() + " --out smooth --smooth").code, 0);
   const json smoother = result("smooth")["smoother"];
   EXPECT_EQ(smoother["compared"], 81);  // from the first image on
   EXPECT_LT(smoother["position_rmse_m"].get<double>(), 0.02);
   EXPECT_GT(smoother["filter_over_smoother"].get<double>(), 0.5);
   EXPECT_TRUE(fs::exists(dir / "smooth/smoothed.csv"));
-  expect_usage_error("hover " + flight() + " --out x --smooth --predict-ahead-ms 50", "--smooth");
+  expect_usage_error("flight run " + flight() + " --out x --smooth --predict-ahead-ms 50", "--smooth");
 }
 
 TEST_F(FlightCli, TellsWhereItWillBe) {
-  ASSERT_EQ(run("hover " + flight() + " --out ahead --predict-ahead-ms 100").code, 0);
+  ASSERT_EQ(run("flight run " + flight() + " --out ahead --predict-ahead-ms 100").code, 0);
   const json ahead = result("ahead");
   EXPECT_LT(ahead["error"]["position_rmse_m"].get<double>(), 0.03);
   EXPECT_EQ(ahead["error"]["compared"], 79);  // the truth ends before the last two
@@ -106,7 +106,7 @@ TEST_F(FlightCli, MapsMarkersWhosePlaceIsNotKnown) {
       partly.unplaced_sides_m[marker.id] = marker.side_m;
   }
   write_marker_layout(dir / "partly.yaml", partly);
-  const std::string command = "hover " + flight() + " --markers partly.yaml --map-markers ";
+  const std::string command = "flight run " + flight() + " --markers partly.yaml --map-markers ";
   const CommandResult ran =
       run(command + "--out out --true-markers " + flight() + "/markers.yaml --json");
   ASSERT_EQ(ran.code, 0) << ran.err;
@@ -118,28 +118,28 @@ TEST_F(FlightCli, MapsMarkersWhosePlaceIsNotKnown) {
   const MarkerLayout mapped = read_marker_layout(dir / "out/markers.yaml");
   EXPECT_EQ(mapped.markers.size() + mapped.unplaced_sides_m.size(), truth.markers.size());
   EXPECT_EQ(mapped.markers.size(), partly.markers.size() + map["markers"].size());
-  ASSERT_EQ(run("hover " + flight() + " --out again --markers out/markers.yaml").code, 0);
+  ASSERT_EQ(run("flight run " + flight() + " --out again --markers out/markers.yaml").code, 0);
   EXPECT_LT(result("again")["error"]["position_rmse_m"].get<double>(), 0.02);
-  expect_usage_error("hover " + flight() + " --out x --map-markers",
+  expect_usage_error("flight run " + flight() + " --out x --map-markers",
                      "gives every marker its place");
   expect_usage_error(command + "--out x --predict-ahead-ms 50", "--map-markers");
 }
 
 TEST_F(FlightCli, SaysNothingWithoutAStart) {
-  const CommandResult ran = run("hover " + flight() + " --out out --no-markers");
+  const CommandResult ran = run("flight run " + flight() + " --out out --no-markers");
   EXPECT_EQ(ran.code, 1);
   EXPECT_THAT(ran.err, HasSubstr("no image could be told a state"));
   EXPECT_EQ(result("out")["answered"], 0);
 }
 
 TEST_F(FlightCli, RefusesBrokenFlightsWithFileAndLine) {
-  expect_usage_error("hover " + dir.path() + " --out out", "EuRoC's layout");
+  expect_usage_error("flight run " + dir.path() + " --out out", "EuRoC's layout");
   const std::string at = copy();
   const auto with = [&](const std::string& file, const std::string& text,
                         const std::string& message) {
     const std::string before = read_file(at + "/" + file);
     dir.write("copy/" + file, text);
-    expect_usage_error("hover " + at + " --out out", message);
+    expect_usage_error("flight run " + at + " --out out", message);
     dir.write("copy/" + file, before);
   };
   with("mav0/imu0/data.csv", "1,2,3\n", "imu0/data.csv:1: expected");
@@ -150,12 +150,12 @@ TEST_F(FlightCli, RefusesBrokenFlightsWithFileAndLine) {
        "mine");
   with("mav0/state_groundtruth_estimate0/data.csv", "7,1,2\n", "data.csv:1: has positions alone");
   fs::remove(at + "/mav0/imu0/sensor.yaml");
-  expect_usage_error("hover " + at + " --out out", "imu0/sensor.yaml");
+  expect_usage_error("flight run " + at + " --out out", "imu0/sensor.yaml");
   EXPECT_FALSE(fs::exists(dir / "out"));
 }
 
 TEST_F(FlightCli, RefusesOptionsThatMakeNoSense) {
-  const std::string command = "hover " + flight() + " --out out ";
+  const std::string command = "flight run " + flight() + " --out out ";
   expect_usage_error(command + "--blind 3", "FROM:TO");
   expect_usage_error(command + "--blind 3:2", "FROM:TO");
   expect_usage_error(command + "--blind 3000:3001", "begins after the flight");
@@ -169,7 +169,7 @@ TEST_F(FlightCli, RefusesOptionsThatMakeNoSense) {
 
 TEST_F(FlightCli, WorldsOfOtherKindsHaveNoFlight) {
   expect_usage_error("synth town-loop --out town --duration 5", "duration_s");
-  expect_usage_error("synth hover --out town --stereo", "has one eye");
+  expect_usage_error("synth sequence hover --out town --stereo", "has one eye");
 }
 
 }  // namespace

@@ -13,9 +13,9 @@ struct FlightResult {
   std::optional<std::string> no_answer;  ///< no image has a state, or no marker a place: why
 };
 
-/// `placegraph hover`: where a flying robot was; writes the results into their folder. Progress
+/// `placegraph flight run`: estimates the states of a flying robot and writes the results into their folder. Progress
 /// goes to stderr. Throws ArgumentError, FileError.
-FlightResult hover(const FlightArguments& arguments);
+FlightResult fly(const FlightArguments& arguments);
 
 /// What was found in a few lines.
 std::string to_text(const FlightResult& result);

@@ -1,4 +1,4 @@
-#include "apps/run/hover.h"
+#include "apps/run/fly.h"
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
@@ -41,7 +41,7 @@ class FlightCommand : public testing::Test {
 test::TemporaryFolder* FlightCommand::made = nullptr;
 
 TEST_F(FlightCommand, KnowsWhereItIsToCentimetresAndWritesIt) {
-  const FlightResult result = hover(arguments);
+  const FlightResult result = fly(arguments);
   EXPECT_FALSE(result.no_answer);
   EXPECT_EQ(result.summary["frames"], 21);
   EXPECT_EQ(result.summary["answered"], 21);
@@ -56,18 +56,18 @@ TEST_F(FlightCommand, KnowsWhereItIsToCentimetresAndWritesIt) {
 
 TEST_F(FlightCommand, SmoothsIfAskedAndIsAsSureThen) {
   arguments.smooth = true;
-  const json summary = hover(arguments).summary;
+  const json summary = fly(arguments).summary;
   EXPECT_TRUE(fs::exists(folder / "out/smoothed.csv"));
   EXPECT_LT(summary["smoother"]["position_rmse_m"].get<double>(), 0.03);
   arguments.smooth = false;
   arguments.force = true;
-  hover(arguments);
+  fly(arguments);
   EXPECT_FALSE(fs::exists(folder / "out/smoothed.csv"));  // of the run before
 }
 
 TEST_F(FlightCommand, HasNoAnswerWithoutMarkersToBeginWith) {
   arguments.no_markers = true;
-  const FlightResult result = hover(arguments);
+  const FlightResult result = fly(arguments);
   ASSERT_TRUE(result.no_answer);
   EXPECT_THAT(*result.no_answer, HasSubstr("flight: no image could be told a state ("));
   EXPECT_EQ(result.summary["answered"], 0);
@@ -77,13 +77,13 @@ TEST_F(FlightCommand, HasNoAnswerWithoutMarkersToBeginWith) {
 
 TEST_F(FlightCommand, NamesWhatIsMissingAndMakesNoFolder) {
   arguments.markers = folder / "none.yaml";
-  EXPECT_THAT(message_of([&] { hover(arguments); }), HasSubstr("none.yaml"));
+  EXPECT_THAT(message_of([&] { fly(arguments); }), HasSubstr("none.yaml"));
   arguments.markers.clear();
   arguments.settings = {"filter.no=1"};
-  EXPECT_THAT(message_of<ArgumentError>([&] { hover(arguments); }), HasSubstr("filter.no"));
+  EXPECT_THAT(message_of<ArgumentError>([&] { fly(arguments); }), HasSubstr("filter.no"));
   EXPECT_FALSE(fs::exists(arguments.out));
   folder.write("out/mine.txt", "mine");
-  EXPECT_THAT(message_of<ArgumentError>([&] { hover(arguments); }),
+  EXPECT_THAT(message_of<ArgumentError>([&] { fly(arguments); }),
               HasSubstr("out: is not empty; --force writes into it"));
 }
 

@@ -1,0 +1,193 @@
+#include "apps/command_line.h"
+
+#include <placegraph/graph/internal/core/spelling.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "apps/eval/cmd_eval.h"
+#include "apps/eval/cmd_eval_edges.h"
+#include "apps/eval/cmd_loops.h"
+#include "apps/graph/cmd_bundle.h"
+#include "apps/graph/cmd_convert.h"
+#include "apps/graph/cmd_optimize.h"
+#include "apps/help.h"
+#include "apps/lines/cmd_lines.h"
+#include "apps/lines/cmd_lines_track.h"
+#include "apps/lines/cmd_vanishing.h"
+#include "apps/map/cmd_explain.h"
+#include "apps/map/cmd_georeference.h"
+#include "apps/map/cmd_localize.h"
+#include "apps/map/cmd_route.h"
+#include "apps/places/cmd_match.h"
+#include "apps/places/cmd_places.h"
+#include "apps/places/cmd_vocabulary.h"
+#include "apps/planes/cmd_planes.h"
+#include "apps/planes/cmd_planes_cloud.h"
+#include "apps/planes/cmd_track_plane.h"
+#include "apps/run/cmd_config.h"
+#include "apps/run/cmd_flight.h"
+#include "apps/run/cmd_inspect.h"
+#include "apps/run/cmd_run.h"
+#include "apps/saved_map/cmd_map.h"
+#include "apps/scene/cmd_scene.h"
+#include "apps/scene/cmd_scene_check.h"
+#include "apps/shell/cmd_shell.h"
+#include "apps/synth/cmd_synth.h"
+#include "apps/synth/cmd_synth_graph.h"
+#include "apps/train/cmd_train.h"
+#include "apps/views/cmd_flow.h"
+#include "apps/views/cmd_markers.h"
+#include "apps/views/cmd_motion.h"
+
+namespace placegraph::apps {
+namespace {
+
+CLI::App& add_group(CLI::App& app, const std::string& name, const std::string& what,
+                    const std::string& example) {
+  CLI::App* group = app.add_subcommand(name, what);
+  group->footer("placegraph " + name + " " + example);
+  group->require_subcommand(1);
+  return *group;
+}
+
+void add_map_group(CLI::App& app) {
+  CLI::App& map = add_group(app, "map", "Saved maps", "info out/town");
+  add_map_commands(map);
+  add_localize_command(map);
+  add_explain_command(map);
+  add_route_command(map);
+  add_georeference_command(map);
+}
+
+void add_graph_group(CLI::App& app) {
+  CLI::App& graph =
+      add_group(app, "graph", "Pose graphs and bundles", "optimize sphere.g2o -o optimized.g2o");
+  add_optimize_command(graph);
+  add_bundle_command(graph);
+  add_convert_command(graph);
+}
+
+void add_eval_group(CLI::App& app) {
+  CLI::App& group = add_group(app, "eval", "Evaluation against ground truth",
+                              "trajectory poses.txt trajectory_optimized.kitti --align se3");
+  add_eval_trajectory_command(group);
+  add_eval_edges_command(group);
+  add_eval_loops_command(group);
+  add_eval_labels_command(group);
+}
+
+void add_places_group(CLI::App& app) {
+  CLI::App& places =
+      add_group(app, "places", "Place recognition", "match places/corridor --out found.txt");
+  add_match_command(places);
+  add_classify_command(places);
+  add_vocabulary_command(places);
+}
+
+void add_image_group(CLI::App& app) {
+  CLI::App& image = add_group(app, "image", "Measurements in one or two images",
+                              "flow a.png b.png --out f.flo --draw f.png");
+  add_flow_command(image);
+  add_motion_command(image);
+  add_lines_commands(image);
+  add_vanishing_command(image);
+  add_planes_command(image);
+  add_two_view_planes_command(image);
+  add_markers_command(image);
+  add_scene_commands(image);
+}
+
+void add_track_group(CLI::App& app) {
+  CLI::App& track =
+      add_group(app, "track", "Tracks through a sequence", "lines SEQUENCE -o tracks.txt");
+  add_lines_track_command(track);
+  add_track_plane_command(track);
+}
+
+void add_synth_group(CLI::App& app) {
+  CLI::App& group = add_group(app, "synth", "Synthetic sequences and graphs",
+                              "sequence town-loop --out out/town-loop");
+  add_synth_sequence_command(group);
+  add_synth_graph_command(group);
+}
+
+void add_train_group(CLI::App& app) {
+  CLI::App& train = add_group(app, "train", "Training of the models that come with the program",
+                              "urban camvid --out urban.pgscene");
+  add_train_commands(train);
+  add_train_vocabulary_command(train);
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : commands_of(command)) names.push_back(sub->get_name());
+  return names;
+}
+
+}  // namespace
+
+std::unique_ptr<CLI::App> make_command_line() {
+  auto app = std::make_unique<CLI::App>("Visual SLAM: trajectories, places and pose graphs.",
+                                        "placegraph");
+  app->formatter(std::make_shared<ExampleFormatter>());
+  app->footer("placegraph run kitti/sequences/00 --out out/00");
+  app->set_version_flag("--version", "placegraph " PLACEGRAPH_VERSION);
+  app->require_subcommand(1);
+  add_run_command(*app);
+  add_inspect_command(*app);
+  add_config_command(*app);
+  add_map_group(*app);
+  add_eval_group(*app);
+  add_graph_group(*app);
+  add_places_group(*app);
+  add_image_group(*app);
+  add_track_group(*app);
+  CLI::App& flight =
+      add_group(*app, "flight", "State estimation of flying robots", "run out/flight --out out/states");
+  add_flight_command(flight);
+  add_synth_group(*app);
+  add_train_group(*app);
+  add_shell_commands(*app);
+  return app;
+}
+
+std::vector<const CLI::App*> commands_of(const CLI::App& command) {
+  return command.get_subcommands([](const CLI::App* sub) { return !sub->get_group().empty(); });
+}
+
+const CLI::App& parsed_command(const CLI::App& app) {
+  const CLI::App* command = &app;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+  return *command;
+}
+
+std::string full_name(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent == nullptr ? command.get_name() : full_name(*parent) + " " + command.get_name();
+}
+
+std::string unknown_words(const CLI::App& app) {
+  const CLI::App& command = parsed_command(app);
+  const std::vector<std::string> words = app.remaining(true);
+  if (words.empty()) return {};
+  const auto is_flag = [](const std::string& word) { return word.starts_with("-"); };
+  if (!commands_of(command).empty() && !is_flag(words.front()))
+    return "no command '" + words.front() + "'" +
+           did_you_mean(words.front(), command_names(command));
+  const auto flag = std::ranges::find_if(words, is_flag);
+  if (flag != words.end()) {
+    const std::string name = flag->substr(0, flag->find('='));
+    return "no option '" + name + "'" + did_you_mean(name, option_names(command));
+  }
+  return "unexpected '" + words.front() + "'";
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,39 @@
+#include "apps/shell/cmd_shell.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+
+#include "apps/shell/completion.h"
+#include "apps/shell/man_pages.h"
+#include "apps/support/output.h"
+
+namespace placegraph::apps {
+namespace {
+
+void write_man_pages(const CLI::App& app, const std::string& folder) {
+  const OutputFolder made(folder);
+  for (const ManPage& page : man_pages(app))
+    write_file((std::filesystem::path(folder) / page.name).string(), page.text);
+}
+
+}  // namespace
+
+void add_shell_commands(CLI::App& app) {
+  auto shell = std::make_shared<std::string>();
+  CLI::App* completion =
+      app.add_subcommand("completion", "Print the completion script of a shell");
+  completion->footer("placegraph completion bash > ~/.local/share/bash-completion/completions/placegraph");
+  completion->add_option("SHELL", *shell, "shell")
+      ->required()
+      ->check(CLI::IsMember(completion_shells()));
+  completion->callback([&app, shell] { print(completion_script(app, *shell)); });
+
+  auto folder = std::make_shared<std::string>();
+  CLI::App* man = app.add_subcommand("man", "Write the manual pages");
+  man->footer("placegraph man share/man/man1");
+  man->add_option("FOLDER", *folder, "folder for one page per command")->required();
+  man->callback([&app, folder] { write_man_pages(app, *folder); });
+}
+
+}  // namespace placegraph::apps

@@ -1,0 +1,24 @@
+#pragma once
+
+namespace placegraph::apps {
+
+// Flags that many commands share mean the same in all of them: one text each.
+inline constexpr const char* kJsonText = "print the result as JSON";
+inline constexpr const char* kForceText = "overwrite existing outputs";
+inline constexpr const char* kSeedText = "seed of the random numbers";
+inline constexpr const char* kSetText = "set one option, key=value; may be repeated";
+inline constexpr const char* kThreadsText = "number of threads; the result does not depend on it";
+inline constexpr const char* kMapText = "map.db, or a folder written by `placegraph run`";
+inline constexpr const char* kRangeText = "first and last image to use, counted from 0";
+inline constexpr const char* kSequenceText =
+    "the images are consecutive: use the evidence of neighbouring images";
+inline constexpr const char* kSensorText = "sensor to assume; auto takes the best that is recorded";
+inline constexpr const char* kTimesText = "file of times, one per line [s]";
+inline constexpr const char* kPlotText = "draw the result as .png or .svg";
+inline constexpr const char* kConfigText =
+    "YAML file of options, or the name of an installed one; see `placegraph config`";
+inline constexpr const char* kModelText = "model to use instead of the installed one";
+inline constexpr const char* kCameraHeightText = "height of the camera above the ground [m]";
+inline constexpr const char* kProfileText = "print the CPU time of every stage";
+
+}  // namespace placegraph::apps
