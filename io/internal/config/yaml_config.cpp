@@ -15,7 +15,7 @@ namespace placegraph {
 namespace internal {
 namespace {
 
-/// Throws an error about the present key; `node` tells the line.
+/// Throws an error about the present key; the line is that of `node`.
 using Fail = std::function<void(const YAML::Node& node, const std::string& message)>;
 
 std::string joined(const std::vector<std::string>& prefix, std::string_view key) {
@@ -35,7 +35,7 @@ void require_range(double value, Range range, const YAML::Node& node, const Fail
   fail(node, fmt::format("{} lies outside [{}, {}]", seen(node), range.min, range.max));
 }
 
-/// A plain scalar; quoted ones are texts, whatever they spell.
+/// Whether a node is a plain scalar; quoted ones are always texts.
 bool is_plain(const YAML::Node& node) { return node.IsScalar() && node.Tag() != "!"; }
 
 template <class Integer>
@@ -95,7 +95,8 @@ void assign_choice(const YAML::Node& node, int& index, const std::vector<std::st
 
 }  // namespace
 
-/// The visitor's seven doors lead into one: find the value of a key, then assign it.
+/// Base of the visitors that assign values: all seven overloads find the value of a key and assign
+/// it.
 class AssigningVisitor : public OptionVisitor {
  public:
   void operator()(const char* key, bool& value, const char*) override {
@@ -192,7 +193,7 @@ class OptionsFile::Reader : public AssigningVisitor {
     levels_.push_back({node, {}});
   }
 
-  /// Keeps the unknown key that stands first in the file; thrown at the end, after wrong values.
+  /// Records the first unknown key of the file; it is thrown at the end, after wrong values.
   void leave() {
     for (const auto& entry : levels_.back().map) {
       const std::string& key = entry.first.Scalar();
@@ -228,7 +229,7 @@ class OptionAssignment::Setter : public AssigningVisitor {
     try {
       value_ = YAML::Load(assignment.substr(equals + 1));
     } catch (const YAML::Exception& error) {
-      fail("the value is no YAML: " + error.msg);
+      fail("the value is not YAML: " + error.msg);
     }
   }
 
@@ -258,7 +259,7 @@ class OptionAssignment::Setter : public AssigningVisitor {
   }
   void end_group() override { prefix_.pop_back(); }
 
-  /// Levenshtein's distance.
+  /// Levenshtein distance of two texts.
   static std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -274,7 +275,8 @@ class OptionAssignment::Setter : public AssigningVisitor {
     return row[b.size()];
   }
 
-  /// Keys spelled alike, or with the same last word under another group; the closest three.
+  /// Keys with a similar spelling, or with the same last word under another group; the closest
+  /// three.
   std::vector<std::string> near_matches(const std::vector<OptionEntry>& known) const {
     const auto last_word = [](const std::string& path) { return path.substr(path.rfind('.') + 1); };
     std::vector<std::pair<std::size_t, std::string>> candidates;
